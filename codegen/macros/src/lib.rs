@@ -1,0 +1,1 @@
+//! The `robot!` macro: a shim over `stiffarm-codegen`.

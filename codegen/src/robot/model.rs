@@ -1,0 +1,191 @@
+//! What a robot file or an inline table says: one model for both, in SI units.
+
+use num_rational::Ratio;
+
+use crate::number::Number;
+
+/// A serial arm as its Denavit-Hartenberg table describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    /// The arm's name, as its maker or paper writes it.
+    pub name: String,
+    /// Which of the two Denavit-Hartenberg conventions the rows follow.
+    pub convention: Convention,
+    /// Gravity in base axes, m/s².
+    pub gravity: [Value; 3],
+    /// The rows of the table, base to tip.
+    pub joints: Vec<Joint>,
+    /// The fixed transform from the last frame to the tool; the identity if the file has none.
+    pub tool: Tool,
+    /// Measured points other than the tool origin.
+    pub markers: Vec<Marker>,
+}
+
+/// How one row of the table becomes a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
+    Standard,
+    /// Khalil and Craig: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
+    Modified,
+}
+
+/// Whether a joint turns or slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// `q` adds to `theta`.
+    Revolute,
+    /// `q` adds to `d`.
+    Prismatic,
+}
+
+/// One row of the table, with what hangs on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The row's label (`a2`); `joint 2` where the table gives none.
+    pub name: String,
+    /// Revolute or prismatic.
+    pub motion: Motion,
+    /// For a revolute joint the offset added to `q`, rad.
+    pub theta: Angle,
+    /// For a prismatic joint the offset added to `q`, m.
+    pub d: Value,
+    /// The common normal's length, m.
+    pub a: Value,
+    /// The twist, rad.
+    pub alpha: Angle,
+    /// N·m/rad, or N/m for a prismatic joint; `None` is rigid.
+    pub stiffness: Option<Value>,
+    /// Mass of the link that this joint moves, kg; `None` is weightless.
+    pub mass: Option<Value>,
+    /// Its centre of mass in the row's own frame, m.
+    pub com: [Value; 3],
+    /// Joint limits, rad or m.
+    pub limits: Option<[f64; 2]>,
+    /// Where the row's numbers come from.
+    pub source: Option<String>,
+    /// The link as a beam from the previous frame's origin to this one's.
+    pub beam: Option<Beam>,
+}
+
+/// A prismatic elastic beam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// E, Pa.
+    pub youngs_modulus: Value,
+    /// G, Pa.
+    pub shear_modulus: Value,
+    /// The cross-section's constants.
+    pub section: Section,
+    /// kg/m³; `None` is weightless.
+    pub density: Option<Value>,
+    /// Timoshenko's shear coefficient κ; `None` neglects shear (Euler-Bernoulli).
+    pub shear_coefficient: Option<Value>,
+}
+
+/// A cross-section: area and second moments. The beam's x runs along the chord between the two
+/// frame origins; z is the part of the previous joint's axis that is perpendicular to the chord (the
+/// plane in which that joint swings the link is then the x-y plane, bent about z).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// A, m².
+    pub area: Value,
+    /// Second moment about the beam's y axis, m⁴.
+    pub iy: Value,
+    /// Second moment about the beam's z axis, m⁴.
+    pub iz: Value,
+    /// Torsion constant, m⁴.
+    pub j: Value,
+}
+
+/// A fixed transform: translation, then rotation, in the last frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// Origin of the tool in the last frame, m.
+    pub translation: [Value; 3],
+    /// Rotation vector (axis × angle).
+    pub rotation: [Angle; 3],
+}
+
+/// A measured point on the tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marker {
+    /// The name that measurement files use.
+    pub name: String,
+    /// In the tool frame, m; `None` is unknown.
+    pub translation: Option<[Value; 3]>,
+}
+
+/// A number in SI units, or a parameter that stays symbolic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// Known when the code is generated.
+    Number(Number),
+    /// A field of the generated `Parameters`.
+    Symbol(String),
+}
+
+/// An angle: an exact multiple of π, a number of radians, or a symbolic parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Angle {
+    /// `r·π`, exactly.
+    Pi(Ratio<i64>),
+    /// Radians that are no simple multiple of π.
+    Radians(Number),
+    /// A field of the generated `Parameters`.
+    Symbol(String),
+}
+
+impl Value {
+    /// Zero.
+    pub const ZERO: Value = Value::Number(Number::ZERO);
+
+    /// Whether the value is known to be exactly zero.
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Value::Number(n) if n.is_zero())
+    }
+
+    /// The number, unless the value is symbolic.
+    pub fn number(&self) -> Option<Number> {
+        match self {
+            Value::Number(n) => Some(*n),
+            Value::Symbol(_) => None,
+        }
+    }
+}
+
+impl Angle {
+    /// Zero.
+    pub const ZERO: Angle = Angle::Pi(Ratio::new_raw(0, 1));
+
+    /// Whether the angle is known to be exactly zero.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Angle::Pi(r) => *r.numer() == 0,
+            Angle::Radians(n) => n.is_zero(),
+            Angle::Symbol(_) => false,
+        }
+    }
+
+    /// The angle in radians, unless it is symbolic.
+    pub fn radians(&self) -> Option<f64> {
+        match self {
+            Angle::Pi(r) => Some(*r.numer() as f64 * core::f64::consts::PI / *r.denom() as f64),
+            Angle::Radians(n) => Some(n.to_f64()),
+            Angle::Symbol(_) => None,
+        }
+    }
+}
+
+impl Default for Tool {
+    fn default() -> Self {
+        Tool { translation: [const { Value::ZERO }; 3], rotation: [const { Angle::ZERO }; 3] }
+    }
+}
+
+impl Robot {
+    /// Number of joints.
+    pub fn dof(&self) -> usize {
+        self.joints.len()
+    }
+}
