@@ -1,0 +1,95 @@
+//! The table of an arm.
+
+use std::string::String;
+use std::vec::Vec;
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::Motion;
+
+/// How one row of the table becomes a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: Denavit and Hartenberg as in Paul and in Lin et al.
+    Standard,
+    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
+    Modified,
+}
+
+/// A serial arm: its Denavit-Hartenberg table and what hangs on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arm {
+    /// The arm's name.
+    pub name: String,
+    /// Which of the two conventions the rows follow.
+    pub convention: Convention,
+    /// The rows of the table, base to tip.
+    pub joints: Vec<Joint>,
+    /// Tool frame in the last frame.
+    pub tool: Isometry3<f64>,
+    /// The rotation vector (axis × angle, rad, in the last frame) that [`Arm::tool`] was made from.
+    /// Only [`Arm::parameter_jacobian`] reads it: of the vectors of one rotation it says which.
+    pub tool_rotation_vector: Vector3<f64>,
+    /// Gravity in base axes, m/s².
+    pub gravity: Vector3<f64>,
+}
+
+/// One row of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Revolute or prismatic.
+    pub motion: Motion,
+    /// Turn about z, rad; the offset added to `q` if the joint is revolute.
+    pub theta: f64,
+    /// Displacement along z, m; the offset added to `q` if the joint is prismatic.
+    pub d: f64,
+    /// Displacement along x, m.
+    pub a: f64,
+    /// Turn about x, rad.
+    pub alpha: f64,
+    /// 1/k of the joint's spring, rad/(N·m), or m/N if it is prismatic; 0 is rigid.
+    pub compliance: f64,
+    /// Mass of the link that this joint moves, kg.
+    pub mass: f64,
+    /// Its centre of mass in the row's own frame, m.
+    pub com: Vector3<f64>,
+    /// Joint limits, rad or m. Nothing here depends on them.
+    pub limits: Option<[f64; 2]>,
+    /// The link as an elastic beam; without one it is rigid, and weightless but for its mass.
+    pub beam: Option<Beam>,
+}
+
+/// A straight elastic beam from the origin of frame i−1 to the origin of frame i.
+///
+/// Its x axis is that chord. Its z axis is the part of z of frame i−1 perpendicular to the chord;
+/// where the chord is parallel to that axis, its y axis is x of frame i (standard) or of frame i−1
+/// (modified), and z = x × y.
+///
+/// The beam is an Euler-Bernoulli one, and a Timoshenko one where it has a shear coefficient. On a
+/// prismatic joint its length follows the joint; such a beam counts as weightless.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// E, Pa.
+    pub youngs_modulus: f64,
+    /// G, Pa.
+    pub shear_modulus: f64,
+    /// A, m².
+    pub area: f64,
+    /// Second moment of area about the beam's y axis, m⁴.
+    pub iy: f64,
+    /// Second moment of area about the beam's z axis, m⁴.
+    pub iz: f64,
+    /// Torsion constant, m⁴.
+    pub j: f64,
+    /// kg/m³; 0 is weightless.
+    pub density: f64,
+    /// Timoshenko's κ; `None` leaves shear out.
+    pub shear_coefficient: Option<f64>,
+}
+
+impl Arm {
+    /// Number of joints.
+    pub fn dof(&self) -> usize {
+        self.joints.len()
+    }
+}

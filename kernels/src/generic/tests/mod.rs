@@ -1,0 +1,10 @@
+//! The definitions against differences, closed forms, printed tables and independent methods.
+
+mod cantilever;
+mod differences;
+mod dumas2011;
+mod equilibrium;
+mod evaluate;
+mod lin1991;
+mod support;
+mod virtual_work;

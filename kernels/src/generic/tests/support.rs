@@ -1,0 +1,148 @@
+//! Random arms and central differences.
+
+use std::string::ToString;
+use std::vec::Vec;
+
+use nalgebra::{Isometry3, Vector3, Vector6};
+
+use crate::Motion;
+use crate::generic::{Arm, Beam, Convention, Joint};
+
+/// Knuth's 64-bit linear congruential generator: the same arms in every run.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random(seed);
+        random.unit();
+        random
+    }
+
+    /// Evenly between 0 and 1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Evenly between `low` and `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.unit() < probability
+    }
+
+    pub fn vector(&mut self, size: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.between(-size, size))
+    }
+
+    /// 100 N and 30 N·m or less along each axis.
+    pub fn wrench(&mut self) -> Vector6<f64> {
+        let (f, m) = (self.vector(100.0), self.vector(30.0));
+        Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+    }
+
+    pub fn posture(&mut self, arm: &Arm) -> Vec<f64> {
+        arm.joints.iter().map(|_| self.between(-3.0, 3.0)).collect()
+    }
+
+    /// A beam whose two bending stiffnesses, torsion, axial and shear flexibility all differ.
+    pub fn beam(&mut self, weightless: bool) -> Beam {
+        Beam {
+            youngs_modulus: self.between(60e9, 210e9),
+            shear_modulus: self.between(25e9, 80e9),
+            area: self.between(1e-3, 3e-3),
+            iy: self.between(1e-6, 5e-6),
+            iz: self.between(1e-6, 5e-6),
+            j: self.between(1e-6, 5e-6),
+            density: if weightless { 0.0 } else { self.between(2000.0, 8000.0) },
+            shear_coefficient: self.chance(0.5).then_some(0.5),
+        }
+    }
+
+    fn joint(&mut self) -> Joint {
+        let motion = if self.chance(0.3) { Motion::Prismatic } else { Motion::Revolute };
+        let right_angles = self.between(-2.0, 2.0).round();
+        Joint {
+            motion,
+            theta: self.between(-3.0, 3.0),
+            d: if self.chance(0.4) { 0.0 } else { self.between(-1.0, 1.0) },
+            a: if self.chance(0.4) { 0.0 } else { self.between(-1.0, 1.0) },
+            alpha: if self.chance(0.6) {
+                right_angles * core::f64::consts::FRAC_PI_2
+            } else {
+                self.between(-3.0, 3.0)
+            },
+            compliance: if self.chance(0.2) { 0.0 } else { self.between(1e-7, 1e-6) },
+            mass: if self.chance(0.3) { 0.0 } else { self.between(1.0, 50.0) },
+            com: self.vector(0.3),
+            limits: None,
+            beam: self.chance(0.7).then(|| self.beam(motion == Motion::Prismatic)),
+        }
+    }
+
+    /// One to seven joints of both kinds, with masses, beams and a turned tool.
+    pub fn arm(&mut self) -> Arm {
+        let count = self.between(1.0, 7.999) as usize;
+        let rotation = self.vector(1.5);
+        Arm {
+            name: "random".to_string(),
+            convention: if self.chance(0.5) { Convention::Standard } else { Convention::Modified },
+            joints: (0..count).map(|_| self.joint()).collect(),
+            tool: Isometry3::new(self.vector(0.5), rotation),
+            tool_rotation_vector: rotation,
+            gravity: self.vector(9.0),
+        }
+    }
+}
+
+/// A random arm, posture and wrench for each of many seeds.
+pub fn cases() -> impl Iterator<Item = (Arm, Vec<f64>, Vector6<f64>)> {
+    (0..200).map(|seed| {
+        let mut random = Random::new(seed);
+        let arm = random.arm();
+        let q = random.posture(&arm);
+        let w = random.wrench();
+        (arm, q, w)
+    })
+}
+
+/// No point of the arm is farther from a joint's axis than this (and at least 1, so that it bounds
+/// rotations too).
+pub fn reach(arm: &Arm, q: &[f64]) -> f64 {
+    let rows = arm.joints.iter().zip(q);
+    let lengths = rows.map(|(joint, q)| joint.a.abs() + joint.d.abs() + q.abs() + joint.com.norm());
+    1.0 + lengths.sum::<f64>() + arm.tool.translation.vector.norm()
+}
+
+/// The step of a central difference that balances its two errors, the cube root of ε.
+pub const STEP: f64 = 6e-6;
+
+/// What a central difference may be off, for a function whose values and derivatives do not exceed
+/// `scale`: truncation is STEP²/6 = 6e-12 of it and one rounding ε/STEP = 4e-11; some tens of
+/// roundings on the way make 1e-9.
+pub fn difference_tolerance(scale: f64) -> f64 {
+    1e-9 * scale
+}
+
+/// The central difference of `f` as entry `i` of `x` changes.
+pub fn central<T>(x: &[f64], i: usize, f: impl Fn(&[f64]) -> T) -> T
+where
+    T: core::ops::Sub<Output = T> + core::ops::Div<f64, Output = T>,
+{
+    let at = |step: f64| {
+        let mut moved = x.to_vec();
+        moved[i] += step;
+        f(&moved)
+    };
+    (at(STEP) - at(-STEP)) / (2.0 * STEP)
+}
+
+/// Twist per unit between the poses half a step before and after: translation and rotation vector.
+pub fn twist_between(before: &Isometry3<f64>, after: &Isometry3<f64>) -> Vector6<f64> {
+    let translation = after.translation.vector - before.translation.vector;
+    let rotation = (after.rotation * before.rotation.inverse()).scaled_axis();
+    let (t, r) = (translation / (2.0 * STEP), rotation / (2.0 * STEP));
+    Vector6::new(t.x, t.y, t.z, r.x, r.y, r.z)
+}
