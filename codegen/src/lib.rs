@@ -1,7 +1,18 @@
 //! From a Denavit-Hartenberg table to an expression graph to code.
 //!
 //! Data flows one way: [`robot`] (the table, read and validated) → [`derive`] (the kinematic
-//! recursion, written into the graph of [`expr`]) → [`emit`] (one graph, many printers).
+//! recursion, written into the graph of [`expr`]) → [`emit`] (one graph, many printers). The macro
+//! ([`expand`]), the command `stiffarm generate` and build scripts ([`generate_to_out_dir`]) all write
+//! what [`emit::rust`] returns.
+#![forbid(unsafe_code)]
 
+pub mod derive;
+pub mod emit;
+mod expand;
+pub mod expr;
 pub mod number;
+mod out_dir;
 pub mod robot;
+
+pub use expand::expand;
+pub use out_dir::{BuildError, generate_to_out_dir};

@@ -86,12 +86,12 @@ impl Number {
         if self.is_negative() { -self } else { self }
     }
 
-    /// `1/self`, or `None` for zero.
+    /// `1/self`, or `None` where that is not finite.
     pub fn recip(self) -> Option<Self> {
         match self {
             _ if self.is_zero() => None,
             Number::Exact(r) => Some(Number::Exact(r.recip())),
-            Number::Rounded(x) => Some(Number::rounded(1.0 / x)),
+            Number::Rounded(x) => Some(1.0 / x).filter(|r| r.is_finite()).map(Number::rounded),
         }
     }
 

@@ -1,1 +1,20 @@
-//! The sim-to-real gap.
+//! The sim-to-real gap of a robot arm: what was measured against what the model says, where the
+//! difference comes from, and how far it shrinks when that is put into the model.
+//!
+//! [`robot::arm`] makes a robot file's model into an arm that is simulated ([`simulate`]);
+//! [`measurement`] reads what was measured; [`gap`] is the difference; [`effects`] are what may
+//! explain it; [`diagnose`] finds out which does, on poses that no fit has seen.
+//!
+//! This crate returns data and structured errors; it prints nothing.
+
+pub mod diagnose;
+pub mod effects;
+#[cfg(test)]
+mod fixture;
+pub mod gap;
+pub mod measurement;
+pub mod robot;
+pub mod simulate;
+
+pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose};
+pub use measurement::{Measurements, ReadError};

@@ -13,6 +13,26 @@ pub struct Pose<S> {
     pub position: [S; 3],
 }
 
+impl<S: Copy> Pose<S> {
+    /// The pose as the first three rows of its homogeneous matrix: columns x, y, z, origin.
+    pub fn columns(self) -> [[S; 3]; 4] {
+        let [x, y, z] = self.rotation;
+        [x, y, z, self.position]
+    }
+}
+
+/// Copies `values` into `out`.
+///
+/// # Errors
+/// [`Error::Length`] if the two differ in length.
+pub fn fill<S: Copy>(out: &mut [S], values: &[S]) -> Result<(), Error> {
+    if out.len() != values.len() {
+        return Err(Error::Length);
+    }
+    out.copy_from_slice(values);
+    Ok(())
+}
+
 /// Operations of a kernel beyond its sines and cosines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ops {

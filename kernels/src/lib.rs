@@ -12,6 +12,6 @@ mod kernel;
 mod scalar;
 mod solve;
 
-pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Output, Pose};
+pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, fill};
 pub use scalar::Scalar;
 pub use solve::{Unstable, solve};

@@ -1,5 +1,32 @@
 //! The table: units, exact angles, TOML and token parsing, validation, into one [`Robot`].
+//!
+//! A robot file ([`Robot::from_toml`]) and the macro's inline table ([`parse_tokens`]) are read
+//! into one draft whose cells know their places, cell by cell with the same words and the same
+//! grammar, and one validator makes the [`Robot`]: the same mistake has the same message in both.
 
+mod angle;
+mod decimal;
+mod diagnostic;
+mod dimension;
+mod draft;
+#[cfg(test)]
+mod fuzz;
+mod lexeme;
 mod model;
+mod names;
+mod pi;
+mod problem;
+mod quantity;
+mod section;
+mod suggest;
+mod symbols;
+mod tokens;
+mod toml;
+mod units;
+mod validate;
 
+pub use diagnostic::{FileError, Located, Warning};
+pub use dimension::Dimension;
 pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+pub use symbols::Symbol;
+pub use tokens::{Invocation, Rejected, Source, SpannedError, parse_tokens};

@@ -84,8 +84,8 @@ pub struct Beam {
 }
 
 /// A cross-section: area and second moments. The beam's x runs along the chord between the two
-/// frame origins; z is the part of the previous joint's axis that is perpendicular to the chord (the
-/// plane in which that joint swings the link is then the x-y plane, bent about z).
+/// frame origins; z is the part of the previous joint's axis that is perpendicular to the chord
+/// (the plane in which that joint swings the link is then the x-y plane, bent about z).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// A, m².

@@ -1,0 +1,77 @@
+//! Poses: of the tool and of every frame of the chain.
+
+use super::chain::{Chain, ROW, Step};
+use super::lever::{From, Levers};
+use crate::expr::{Expr, Vec3};
+
+/// Tool pose, base axes: columns x, y, z, origin.
+pub(super) fn pose(chain: &mut Chain) -> Vec<Expr> {
+    let axes = chain.tool_axes();
+    let levers = Levers::to_tool(chain);
+    let origin = levers.from(&mut chain.g, From::Boundary(0), None);
+    columns(chain, axes, origin, "n", "o", "a", "p")
+}
+
+/// Poses of frames 1 to n, base axes, 3×4 each, side by side.
+pub(super) fn frames(chain: &mut Chain) -> Vec<Expr> {
+    let mut out = Vec::new();
+    for (row, origin) in path(chain).into_iter().enumerate() {
+        let axes = chain.axes(ROW * (row + 1));
+        let i = row + 1;
+        out.extend(columns(
+            chain,
+            axes,
+            origin,
+            &format!("x{i}"),
+            &format!("y{i}"),
+            &format!("z{i}_"),
+            &format!("p{i}"),
+        ));
+    }
+    out
+}
+
+/// Origins of frames 1 to n from the base, summed outwards so that each is the last one continued.
+fn path(chain: &mut Chain) -> Vec<Vec3> {
+    let mut origin = [Expr::ZERO; 3];
+    let mut origins = Vec::new();
+    for row in 0..chain.dof() {
+        let (z_step, x_step) = super::lever::row_slides(chain, row);
+        for s in [z_step.min(x_step), z_step.max(x_step)] {
+            let (length, axis) = slide(chain, s);
+            let part = chain.g.scale3(length, axis);
+            origin = chain.g.add3(origin, part);
+        }
+        origins.push(origin);
+    }
+    origins
+}
+
+/// Length and axis of a slide.
+pub(super) fn slide(chain: &mut Chain, s: usize) -> (Expr, Vec3) {
+    match chain.steps()[s] {
+        Step::SlideZ(length) => (length, chain.z(s)),
+        Step::SlideX(length) => (length, chain.axes(s)[0]),
+        _ => (Expr::ZERO, [Expr::ZERO; 3]),
+    }
+}
+
+fn columns(
+    chain: &mut Chain,
+    axes: [Vec3; 3],
+    origin: Vec3,
+    x: &str,
+    y: &str,
+    z: &str,
+    p: &str,
+) -> Vec<Expr> {
+    let [ax, ay, az] = axes;
+    [(ax, x), (ay, y), (az, z), (origin, p)]
+        .into_iter()
+        .flat_map(|(v, name)| {
+            let v = chain.to_base(v);
+            chain.name3(v, name);
+            v
+        })
+        .collect()
+}

@@ -1,0 +1,157 @@
+//! Levers: vectors between points of the chain, as sums of its slides from the tip inwards.
+
+use super::chain::{Chain, ROW, Step};
+use crate::expr::{Expr, Graph, Vec3, parallel3};
+
+/// One slide: `length · axis` in the working frame.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    /// Place along the chain: `2s + 1` for step `s`, `2s` for something fixed before step `s`.
+    at: usize,
+    length: Expr,
+    axis: Vec3,
+}
+
+/// Slides in the order in which they are summed.
+///
+/// A moment about a joint's axis does not feel what is parallel to it, so such slides are left out of
+/// a joint's lever. They are sorted behind the slides inside their run of parallel joints: then the
+/// levers of all joints of the run are prefixes of one sum, and are shared.
+#[derive(Clone, Debug)]
+pub(super) struct Levers {
+    segments: Vec<Segment>,
+}
+
+/// A point from which a lever is taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum From {
+    /// The frame before a step.
+    Boundary(usize),
+    /// The frame in which a step takes place, the step itself included.
+    Step(usize),
+}
+
+impl From {
+    fn place(self) -> usize {
+        match self {
+            From::Boundary(s) => 2 * s,
+            From::Step(s) => 2 * s + 1,
+        }
+    }
+}
+
+impl Levers {
+    /// The slides of the chain up to the tool origin.
+    pub fn to_tool(chain: &mut Chain) -> Levers {
+        let mut segments = slides(chain, |_, _, length| length);
+        let end = chain.steps().len();
+        let axes = chain.axes(end);
+        let offsets = chain.robot.tool.translation.clone();
+        for (offset, axis) in offsets.iter().zip(axes) {
+            let length = chain.value(offset);
+            segments.push(Segment { at: 2 * end, length, axis });
+        }
+        Levers::sorted(chain, segments)
+    }
+
+    /// First moments of mass: each slide weighted by the mass beyond it, and the masses' own offsets.
+    pub fn of_mass(chain: &mut Chain) -> Levers {
+        let points = super::gravity::masses(chain);
+        let mut segments = slides(chain, |g, s, length| {
+            let mass = points.iter().fold(Expr::ZERO, |sum, point| {
+                let share = point.share_beyond(g, s);
+                g.add(sum, share)
+            });
+            g.mul(mass, length)
+        });
+        for point in points {
+            let axes = chain.axes(point.boundary);
+            for (offset, axis) in point.com.into_iter().zip(axes) {
+                let length = chain.g.mul(point.mass, offset);
+                segments.push(Segment { at: 2 * point.boundary, length, axis });
+            }
+        }
+        Levers::sorted(chain, segments)
+    }
+
+    fn sorted(chain: &Chain, mut segments: Vec<Segment>) -> Levers {
+        segments.retain(|segment| !segment.length.is_zero());
+        let joints: Vec<(usize, Vec3)> =
+            (0..chain.dof()).map(|j| (2 * chain.joint_step(j) + 1, chain.joint_axis(j))).collect();
+        let reach = |segment: &Segment| {
+            let inner = joints.iter().rev().skip_while(|(at, _)| *at > segment.at);
+            let run = inner.take_while(|(_, axis)| parallel3(*axis, segment.axis));
+            run.last().map_or(segment.at, |(at, _)| *at)
+        };
+        segments.sort_by_key(|s| core::cmp::Reverse((reach(s), s.at)));
+        Levers { segments }
+    }
+
+    /// The sum of all slides beyond `from`, without those along `except`.
+    pub fn from(&self, g: &mut Graph, from: From, except: Option<Vec3>) -> Vec3 {
+        self.extended(g, from, &[], except)
+    }
+
+    /// The same, continued inwards by further slides.
+    pub fn extended(
+        &self,
+        g: &mut Graph,
+        from: From,
+        inwards: &[(Expr, Vec3)],
+        except: Option<Vec3>,
+    ) -> Vec3 {
+        let outer = self.segments.iter().filter(|s| s.at >= from.place());
+        let slides = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
+        let mut sum = [Expr::ZERO; 3];
+        let mut pending: Option<(Expr, Vec3)> = None;
+        for (length, axis) in slides {
+            if length.is_zero() || except.is_some_and(|z| parallel3(z, axis)) {
+                continue;
+            }
+            // Neighbours along one axis are added as lengths before they are turned.
+            pending = match pending {
+                Some((before, along)) if parallel3(along, axis) => {
+                    let sign = if along == axis { length } else { -length };
+                    Some((g.add(before, sign), along))
+                }
+                Some(done) => {
+                    sum = accumulate(g, sum, done);
+                    Some((length, axis))
+                }
+                None => Some((length, axis)),
+            };
+        }
+        pending.map_or(sum, |last| accumulate(g, sum, last))
+    }
+}
+
+fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {
+    let part = g.scale3(length, axis);
+    g.add3(sum, part)
+}
+
+/// The slides of the chain, each length as `weigh` makes it of the step and the plain length.
+fn slides(
+    chain: &mut Chain,
+    mut weigh: impl FnMut(&mut Graph, usize, Expr) -> Expr,
+) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    for s in 0..chain.steps().len() {
+        let (length, axis) = match chain.steps()[s] {
+            Step::SlideZ(length) => (length, chain.z(s)),
+            Step::SlideX(length) => (length, chain.axes(s)[0]),
+            _ => continue,
+        };
+        let length = weigh(&mut chain.g, s, length);
+        segments.push(Segment { at: 2 * s + 1, length, axis });
+    }
+    segments
+}
+
+/// The two slides of a row: (step of the slide along z, step of the slide along x).
+pub(super) fn row_slides(chain: &Chain, row: usize) -> (usize, usize) {
+    let first = ROW * row;
+    let z = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideZ(_)));
+    let x = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideX(_)));
+    (z.unwrap_or(first), x.unwrap_or(first))
+}

@@ -1,0 +1,221 @@
+//! The LaTeX printer: a document to lay beside a paper's appendix.
+
+use std::fmt::Write as _;
+
+use super::constants::Constants;
+use super::expression::{Printer, Style};
+use super::plan::{Plan, Target};
+use crate::derive::{Output, Program, derive};
+use crate::expr::{Binding, Expr, Node, Symbol};
+use crate::number::Number;
+use crate::robot::Robot;
+
+/// A document with the closed form of each of `outputs`: what is shared first, then every entry that
+/// is not structurally zero. Rows and columns count from 1, as on paper.
+pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
+    let mut text = String::from(
+        "\\documentclass{article}\n\\usepackage[a4paper,margin=20mm]{geometry}\n\
+         \\usepackage{amsmath}\n\\allowdisplaybreaks\n\\setlength{\\parindent}{0pt}\n\
+         \\begin{document}\n",
+    );
+    let _ = writeln!(text, "\\section*{{{}}}", escaped(&robot.name));
+    text.push_str("$s_{23}=\\sin(q_2+q_3)$, $c_{23}=\\cos(q_2+q_3)$, and so on.\n");
+    for output in outputs {
+        text.push_str(&section(&derive(robot, &[*output])));
+    }
+    text.push_str("\\end{document}\n");
+    text
+}
+
+fn section(program: &Program) -> String {
+    let plan = Plan::new(program, &mut Constants::written_in_place());
+    let printer = Printer { plan: &plan, style: &Latex };
+    let output = program.blocks[0].output;
+    let title = output.name().replace('_', " ");
+    let mut out = format!("\\subsection*{{{title}}}\nWorked out in {}.\n", program.frame());
+    for angle in plan.angles.iter().filter(|a| has_offset(program, a.sum)) {
+        let name = &angle.suffix;
+        let sum = angle_text(program, angle.sum);
+        let _ = writeln!(out, "$s_{{{name}}}=\\sin({sum})$, $c_{{{name}}}=\\cos({sum})$.");
+    }
+    let mut lines = Vec::new();
+    for step in &plan.schedule.steps {
+        match step {
+            Binding::Let(node) => {
+                let name = Latex.name(plan.name(*node).unwrap_or_default());
+                lines.push(format!("{name} &= {}", printer.definition(*node)));
+            }
+            Binding::Item(item) => match plan.targets[*item] {
+                Target::Entry { block, entry } => {
+                    let e = program.blocks[block].entries[entry];
+                    let place = place(output, program.dof, entry);
+                    lines.push(format!("{place} &= {}", printer.print(e)));
+                }
+                Target::Solve(k) => lines.extend(system(&printer, program, k)),
+            },
+        }
+    }
+    if lines.is_empty() {
+        out.push_str("All entries are zero.\n");
+        return out;
+    }
+    let _ = writeln!(out, "\\begin{{align*}}\n{}\n\\end{{align*}}", lines.join(" \\\\\n"));
+    out
+}
+
+/// `(K_θ − K_C) δq = τ`, entry by entry.
+fn system(printer: &Printer, program: &Program, k: usize) -> Vec<String> {
+    let solve = &program.solves[k];
+    let n = solve.right.len();
+    let mut lines = Vec::new();
+    for (at, e) in solve.matrix.iter().enumerate().filter(|(_, e)| !e.is_zero()) {
+        let (row, column) = (at % n + 1, at / n + 1);
+        lines.push(format!("(K_\\theta-K_C)_{{{row}{column}}} &= {}", printer.print(*e)));
+    }
+    for (row, e) in solve.right.iter().enumerate() {
+        lines.push(format!("\\tau_{{{}}} &= {}", row + 1, printer.print(*e)));
+    }
+    lines.push("\\delta q &= (K_\\theta-K_C)^{-1}\\,\\tau".to_string());
+    lines
+}
+
+/// An entry in the papers' notation.
+fn place(output: Output, n: usize, entry: usize) -> String {
+    let (rows, columns) = output.shape(n);
+    let (row, column) = (entry % rows, entry / rows);
+    let axis = ["x", "y", "z"];
+    let pose = |column: usize, frame: &str| {
+        format!("{}^{{{frame}}}_{{{}}}", ["x", "y", "z", "p"][column], axis[row.min(2)])
+    };
+    let symbol = match output {
+        Output::Pose => return format!("{}_{{{}}}", ["n", "o", "a", "p"][column], axis[row]),
+        Output::Frames => return pose(column % 4, &(column / 4 + 1).to_string()),
+        Output::Jacobian => "J",
+        Output::JacobianTool => "{}^{T}\\!J",
+        Output::ComplementaryStiffness => "K_{C}",
+        Output::JointTorque => "\\tau",
+        Output::GravityTorque => "\\tau_{g}",
+        Output::GravityStiffness => "K_{G}",
+        Output::Compliance => "C",
+        Output::DeflectionFirstOrder | Output::Deflection | Output::DeflectionWithGravity => {
+            "\\delta d"
+        }
+        Output::ParameterJacobian => "J_{p}",
+        Output::StiffnessRegressor => "B",
+    };
+    let comma = if n > 9 || columns > 9 { "," } else { "" };
+    match output.is_vector() {
+        true => format!("[{symbol}]_{{{}}}", row + 1),
+        false => format!("[{symbol}]_{{{}{comma}{}}}", row + 1, column + 1),
+    }
+}
+
+fn has_offset(program: &Program, sum: Expr) -> bool {
+    match program.graph.node(sum) {
+        Node::Add(a, b) => has_offset(program, a) || has_offset(program, b),
+        Node::Symbol(s) => !matches!(program.graph.symbol_of(s), Symbol::Joint(_)),
+        _ => true,
+    }
+}
+
+fn angle_text(program: &Program, e: Expr) -> String {
+    let g = &program.graph;
+    let sign = if e.is_negative() { "-" } else { "" };
+    match g.node(e) {
+        Node::Number(n) => format!("{sign}{}", Latex.number(n)),
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => format!("{sign}q_{{{}}}", joint + 1),
+            Symbol::Parameter(name) => format!("{sign}{}", Latex.name(name)),
+            _ => String::new(),
+        },
+        Node::Add(a, b) => {
+            let flip = e.is_negative();
+            let (a, b) = (a.signed(flip), b.signed(flip));
+            let right = angle_text(program, b);
+            let plus = if right.starts_with('-') { "" } else { "+" };
+            format!("{}{plus}{right}", angle_text(program, a))
+        }
+        _ => String::new(),
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
+            '\\' | '~' | '^' => " ".to_string(),
+            c => c.to_string(),
+        })
+        .collect()
+}
+
+struct Latex;
+
+impl Style for Latex {
+    fn number(&self, n: Number) -> String {
+        let text = n.to_string();
+        match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{mantissa}\\cdot 10^{{{exponent}}}"),
+            None => text.strip_suffix(".0").map_or(text.clone(), str::to_string),
+        }
+    }
+
+    /// `s23` as `s_{23}`, `z3x` as `z_{3x}`, `kc_31` as `kc_{31}`.
+    fn name(&self, name: &str) -> String {
+        let name = name.strip_prefix("constants.").unwrap_or(name);
+        let split = name.find(|c: char| c.is_ascii_digit() || c == '_').unwrap_or(name.len());
+        let axis = name.len() == 2 && "fmnoap".contains(&name[..1]);
+        let (letters, rest) = name.split_at(if axis { 1 } else { split });
+        let letters = match letters.len() {
+            0 | 1 => letters.to_string(),
+            _ => format!("\\mathit{{{letters}}}"),
+        };
+        match rest.trim_start_matches('_') {
+            "" => letters,
+            rest => format!("{letters}_{{{}}}", rest.replace('_', ",")),
+        }
+    }
+
+    fn product(&self, a: &str, b: &str) -> String {
+        format!("{a}\\,{b}")
+    }
+
+    fn bracket(&self, inner: &str) -> String {
+        format!("\\left({inner}\\right)")
+    }
+
+    fn recip(&self, a: &str) -> String {
+        format!("\\frac{{1}}{{{a}}}")
+    }
+
+    fn sqrt(&self, a: &str) -> String {
+        format!("\\sqrt{{{a}}}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_get_the_papers_indices() {
+        for (plain, set) in [
+            ("s23", "s_{23}"),
+            ("z3x", "z_{3x}"),
+            ("fx", "f_{x}"),
+            ("kc_31", "\\mathit{kc}_{31}"),
+            ("constants.L1", "L_{1}"),
+            ("t12", "t_{12}"),
+        ] {
+            assert_eq!(Latex.name(plain), set);
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_on_paper() {
+        assert_eq!(Latex.number(Number::ratio(7, 20)), "0.35");
+        assert_eq!(Latex.number(Number::integer(2)), "2");
+        let small = Number::from_decimal("1.5e-7").unwrap();
+        assert_eq!(Latex.number(small), "1.5\\cdot 10^{-7}");
+    }
+}

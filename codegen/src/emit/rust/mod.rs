@@ -1,0 +1,52 @@
+//! The Rust printer: one module of const-size functions per robot.
+//!
+//! The text is made once and is the same for the macro, the command and the build script: the macro
+//! parses it, the others write it down.
+
+mod body;
+mod function;
+mod interface;
+mod lines;
+mod posture;
+mod shapes;
+mod table;
+
+use super::constants::Constants;
+use crate::derive::{Output, derive};
+use crate::robot::Robot;
+
+/// How the generated module finds its runtime.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RustOptions {
+    /// Path of the kernels crate in the user's code.
+    pub kernels: String,
+}
+
+impl Default for RustOptions {
+    fn default() -> Self {
+        RustOptions { kernels: "::stiffarm::kernels".to_string() }
+    }
+}
+
+/// The items of a robot's module, ready to stand in a file of its own or between the braces of a
+/// `mod`. The same table always gives the same bytes.
+pub fn rust(robot: &Robot, options: &RustOptions) -> String {
+    let mut constants = Constants::default();
+    let symbolic = !robot.symbols().is_empty();
+    let mut functions = String::new();
+    for output in Output::EACH {
+        let program = derive(robot, &[output]);
+        let function = function::Function::single(&program, output, symbolic);
+        functions.push_str(&function.text(robot, options, &mut constants));
+    }
+    let all = derive(robot, &Output::ALL);
+    functions.push_str(&function::Function::all(&all, symbolic).text(robot, options, &mut constants));
+
+    let mut text = table::header(robot, options);
+    if symbolic {
+        text.push_str(&table::parameters(robot, &constants));
+    }
+    text.push_str(&functions);
+    text.push_str(&interface::interface(symbolic));
+    text
+}

@@ -1,0 +1,50 @@
+//! Numeric evaluation: the graph read as a program for doubles.
+
+use super::graph::{Expr, Graph, Node, Symbol};
+
+impl Graph {
+    /// The values of `outputs` with each symbol replaced by what `value` says. The trigonometry is the
+    /// standard library's, so that an evaluation shares nothing with the kernels that it checks.
+    pub fn evaluate(&self, outputs: &[Expr], value: impl Fn(&Symbol) -> f64) -> Vec<f64> {
+        let last = outputs.iter().map(|e| e.node()).max().unwrap_or(0);
+        let mut values: Vec<f64> = Vec::with_capacity(last + 1);
+        let signed = |values: &[f64], e: Expr| {
+            let x = values[e.node()];
+            if e.is_negative() { -x } else { x }
+        };
+        for node in &self.nodes()[..=last] {
+            let of = |e| signed(&values, e);
+            let x = match *node {
+                Node::Number(n) => n.to_f64(),
+                Node::Symbol(s) => value(self.symbol_of(s)),
+                Node::Add(a, b) => of(a) + of(b),
+                Node::Mul(a, b) => of(a) * of(b),
+                Node::Recip(a) => 1.0 / of(a),
+                Node::Sqrt(a) => of(a).sqrt(),
+                Node::Sin(a) => of(a).sin(),
+                Node::Cos(a) => of(a).cos(),
+            };
+            values.push(x);
+        }
+        outputs.iter().map(|e| signed(&values, *e)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Number;
+
+    #[test]
+    fn evaluates_every_kind_of_node() {
+        let mut g = Graph::new();
+        let x = g.symbol(Symbol::Joint(0));
+        let half = g.number(Number::ratio(1, 2));
+        let sum = g.sub(half, x);
+        let (s, c) = (g.sin(x), g.cos(x));
+        let outputs = [sum, g.mul(-s, c), g.recip(x), g.sqrt(x)];
+        let values = g.evaluate(&outputs, |_| 2.0);
+        let expected = [-1.5, -(2f64.sin() * 2f64.cos()), 0.5, 2f64.sqrt()];
+        assert_eq!(values, expected);
+    }
+}

@@ -1,0 +1,221 @@
+//! The arena: nodes are stored once, handles carry a sign.
+
+use std::collections::HashMap;
+
+use crate::number::Number;
+
+/// A handle to a node, with a sign: negation costs nothing and is never a node of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Expr(u32);
+
+impl Expr {
+    /// The structural zero; node 0 of every graph.
+    pub const ZERO: Expr = Expr(0);
+    /// One; node 1 of every graph.
+    pub const ONE: Expr = Expr(2);
+
+    pub(super) fn new(node: usize, negative: bool) -> Expr {
+        Expr((node as u32) << 1 | u32::from(negative))
+    }
+
+    /// The handle of a node, unsigned.
+    pub fn of_node(node: usize) -> Expr {
+        Expr::new(node, false)
+    }
+
+    /// Index of the node in the arena.
+    pub fn node(self) -> usize {
+        (self.0 >> 1) as usize
+    }
+
+    /// Whether the handle negates its node.
+    pub fn is_negative(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The same node without the sign.
+    pub fn abs(self) -> Expr {
+        Expr(self.0 & !1)
+    }
+
+    /// Whether the expression is structurally zero.
+    pub fn is_zero(self) -> bool {
+        self == Expr::ZERO
+    }
+
+    /// `-self` if `negative`, else `self`. Zero has no sign.
+    pub fn signed(self, negative: bool) -> Expr {
+        if self.is_zero() { self } else { Expr(self.0 ^ u32::from(negative)) }
+    }
+}
+
+impl core::ops::Neg for Expr {
+    type Output = Expr;
+    fn neg(self) -> Expr {
+        self.signed(true)
+    }
+}
+
+/// What a symbol stands for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Symbol {
+    /// `q_i`, rad or m; joints count from 0 here.
+    Joint(usize),
+    /// Component 0..6 of the wrench.
+    Wrench(usize),
+    /// A parameter of the table that stays symbolic.
+    Parameter(String),
+    /// An unknown of a deflection's linear system.
+    Deflection {
+        /// The joint, from 0.
+        joint: usize,
+        /// Whether the links' weights are part of the load.
+        weights: bool,
+    },
+}
+
+/// A node of the graph. Operands are handles of earlier nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A constant, never negative (the handle carries the sign).
+    Number(Number),
+    /// Index into the graph's symbols.
+    Symbol(u32),
+    /// `a + b` or `a - b`: `a` unsigned and of the lower index.
+    Add(Expr, Expr),
+    /// `a · b`, both unsigned, `a` of the lower index.
+    Mul(Expr, Expr),
+    /// `1/a`.
+    Recip(Expr),
+    /// `√a`.
+    Sqrt(Expr),
+    /// `sin a`, `a` unsigned.
+    Sin(Expr),
+    /// `cos a`, `a` unsigned.
+    Cos(Expr),
+}
+
+impl Node {
+    /// The operands, if any.
+    pub fn operands(self) -> impl DoubleEndedIterator<Item = Expr> {
+        let (a, b) = match self {
+            Node::Number(_) | Node::Symbol(_) => (None, None),
+            Node::Recip(a) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => (Some(a), None),
+            Node::Add(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
+        };
+        a.into_iter().chain(b)
+    }
+}
+
+/// The arena. Expressions are made by the constructors in `fold`, which keep every node canonical.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    index: HashMap<Node, u32>,
+    symbols: Vec<Symbol>,
+    names: HashMap<usize, String>,
+}
+
+impl Graph {
+    /// A graph that holds 0 and 1.
+    pub fn new() -> Self {
+        let mut graph = Graph::default();
+        graph.intern(Node::Number(Number::ZERO));
+        graph.intern(Node::Number(Number::ONE));
+        graph
+    }
+
+    /// All nodes, operands before their uses.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The node behind a handle.
+    pub fn node(&self, e: Expr) -> Node {
+        self.nodes[e.node()]
+    }
+
+    /// What symbol number `index` of a [`Node::Symbol`] stands for.
+    pub fn symbol_of(&self, index: u32) -> &Symbol {
+        &self.symbols[index as usize]
+    }
+
+    /// The expression of a symbol.
+    pub fn symbol(&mut self, symbol: Symbol) -> Expr {
+        let known = self.symbols.iter().position(|s| *s == symbol);
+        let index = known.unwrap_or_else(|| {
+            self.symbols.push(symbol);
+            self.symbols.len() - 1
+        });
+        self.intern(Node::Symbol(index as u32))
+    }
+
+    /// The value of a constant, sign included.
+    pub fn number_of(&self, e: Expr) -> Option<Number> {
+        match self.node(e) {
+            Node::Number(n) => Some(if e.is_negative() { -n } else { n }),
+            _ => None,
+        }
+    }
+
+    /// Gives a computed node a name of the field's notation (`z3x`, `kc_31`). The first name stays; a
+    /// leaf, and a node that is the negative of what the name means, get none.
+    pub fn name(&mut self, e: Expr, name: impl FnOnce() -> String) {
+        let leaf = matches!(self.node(e), Node::Number(_) | Node::Symbol(_));
+        if !leaf && !e.is_negative() {
+            self.names.entry(e.node()).or_insert_with(name);
+        }
+    }
+
+    /// The name given to a node.
+    pub fn name_of(&self, node: usize) -> Option<&str> {
+        self.names.get(&node).map(String::as_str)
+    }
+
+    pub(super) fn intern(&mut self, node: Node) -> Expr {
+        let next = self.nodes.len() as u32;
+        let at = *self.index.entry(node).or_insert(next);
+        if at == next {
+            self.nodes.push(node);
+        }
+        Expr::new(at as usize, false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_nodes_are_one_node() {
+        let mut g = Graph::new();
+        let q = g.symbol(Symbol::Joint(0));
+        assert_eq!(q, g.symbol(Symbol::Joint(0)));
+        assert_ne!(q, g.symbol(Symbol::Joint(1)));
+        assert_eq!(g.number(Number::ZERO), Expr::ZERO);
+        assert_eq!(g.number(Number::ONE), Expr::ONE);
+    }
+
+    #[test]
+    fn signs_live_in_handles() {
+        let mut g = Graph::new();
+        let q = g.symbol(Symbol::Joint(0));
+        assert_eq!(-(-q), q);
+        assert_eq!((-q).node(), q.node());
+        assert_eq!(-Expr::ZERO, Expr::ZERO);
+    }
+
+    #[test]
+    fn names_go_to_computed_nodes_of_the_right_sign() {
+        let mut g = Graph::new();
+        let (a, b) = (g.symbol(Symbol::Joint(0)), g.symbol(Symbol::Joint(1)));
+        let sum = g.add(a, b);
+        g.name(-sum, || "minus".into());
+        assert_eq!(g.name_of(sum.node()), None);
+        g.name(sum, || "first".into());
+        g.name(sum, || "second".into());
+        assert_eq!(g.name_of(sum.node()), Some("first"));
+        g.name(a, || "leaf".into());
+        assert_eq!(g.name_of(a.node()), None);
+    }
+}

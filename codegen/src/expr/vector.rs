@@ -1,0 +1,69 @@
+//! Three-component vectors of expressions.
+
+use super::graph::{Expr, Graph};
+
+/// Components along the axes of one frame.
+pub type Vec3 = [Expr; 3];
+
+impl Graph {
+    /// `a + b`.
+    pub fn add3(&mut self, a: Vec3, b: Vec3) -> Vec3 {
+        core::array::from_fn(|k| self.add(a[k], b[k]))
+    }
+
+    /// `factor · v`.
+    pub fn scale3(&mut self, factor: Expr, v: Vec3) -> Vec3 {
+        v.map(|c| self.mul(factor, c))
+    }
+
+    /// `a·x + b·y`.
+    pub fn combine3(&mut self, a: Expr, x: Vec3, b: Expr, y: Vec3) -> Vec3 {
+        let (ax, by) = (self.scale3(a, x), self.scale3(b, y));
+        self.add3(ax, by)
+    }
+
+    /// `a · b`.
+    pub fn dot3(&mut self, a: Vec3, b: Vec3) -> Expr {
+        (0..3).fold(Expr::ZERO, |sum, k| {
+            let product = self.mul(a[k], b[k]);
+            self.add(sum, product)
+        })
+    }
+
+    /// `a × b`.
+    pub fn cross3(&mut self, a: Vec3, b: Vec3) -> Vec3 {
+        core::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (first, second) = (self.mul(a[i], b[j]), self.mul(a[j], b[i]));
+            self.sub(first, second)
+        })
+    }
+}
+
+/// `-v`.
+pub(crate) fn negate3(v: Vec3) -> Vec3 {
+    v.map(|c| -c)
+}
+
+/// Whether two axes are the same line, known by their expressions being equal up to one sign.
+pub(crate) fn parallel3(a: Vec3, b: Vec3) -> bool {
+    a == b || a == negate3(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::graph::Symbol;
+    use super::*;
+
+    #[test]
+    fn the_cross_product_is_anticommutative_and_sparse() {
+        let mut g = Graph::new();
+        let v: Vec3 = core::array::from_fn(|k| g.symbol(Symbol::Wrench(k)));
+        let z = [Expr::ZERO, Expr::ZERO, Expr::ONE];
+        assert_eq!(g.cross3(z, v), [-v[1], v[0], Expr::ZERO]);
+        assert_eq!(negate3(g.cross3(v, z)), g.cross3(z, v));
+        assert_eq!(g.cross3(v, v), [Expr::ZERO; 3]);
+        assert_eq!(g.dot3(z, v), v[2]);
+        assert!(parallel3(v, negate3(v)) && !parallel3(v, z));
+    }
+}

@@ -1,0 +1,133 @@
+//! A table as read: every cell with its place, so that the one validator can point at it.
+
+use super::dimension::Dimension;
+use super::model::{Angle, Convention, Motion, Value};
+use super::symbols::Symbolic;
+
+/// What a cell holds, and where. A cell that could not be read has no value and has already been
+/// reported: it must not cause a second error.
+#[derive(Clone, Debug)]
+pub(crate) struct Cell<T, L> {
+    /// The content; `None` if its mistake has been reported.
+    pub value: Option<T>,
+    /// Where it stands.
+    pub at: L,
+}
+
+/// Three cells.
+pub(crate) type Vector<T, L> = [Cell<T, L>; 3];
+
+/// A whole table.
+#[derive(Clone, Debug)]
+pub(crate) struct Draft<L> {
+    pub name: Option<Cell<String, L>>,
+    pub convention: Option<Cell<Convention, L>>,
+    pub gravity: Option<Vector<Value, L>>,
+    pub joints: Vec<DraftJoint<L>>,
+    pub translation: Option<Vector<Value, L>>,
+    pub rotation: Option<Vector<Angle, L>>,
+    pub markers: Vec<DraftMarker<L>>,
+}
+
+/// One row.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftJoint<L> {
+    pub at: L,
+    pub name: Option<Cell<String, L>>,
+    pub motion: Cell<Motion, L>,
+    pub theta: Option<Cell<Angle, L>>,
+    pub d: Option<Cell<Value, L>>,
+    pub a: Option<Cell<Value, L>>,
+    pub alpha: Option<Cell<Angle, L>>,
+    pub stiffness: Option<Cell<Value, L>>,
+    pub mass: Option<Cell<Value, L>>,
+    /// The place of the whole vector, and its entries.
+    pub com: Option<(L, Vector<Value, L>)>,
+    pub limits: Option<Cell<[f64; 2], L>>,
+    pub source: Option<Cell<String, L>>,
+    pub beam: Option<DraftBeam<L>>,
+}
+
+/// A link as a beam.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftBeam<L> {
+    pub at: L,
+    pub youngs_modulus: Cell<Value, L>,
+    pub shear_modulus: Cell<Value, L>,
+    /// Area, iy, iz, j.
+    pub section: [Cell<Value, L>; 4],
+    pub density: Option<Cell<Value, L>>,
+    pub shear_coefficient: Option<Cell<Value, L>>,
+}
+
+/// A measured point.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftMarker<L> {
+    pub name: Cell<String, L>,
+    pub translation: Option<Vector<Value, L>>,
+}
+
+impl<T, L> Cell<T, L> {
+    /// A cell that was read.
+    pub fn new(value: T, at: L) -> Self {
+        Cell { value: Some(value), at }
+    }
+
+    /// A cell whose mistake has been reported.
+    pub fn broken(at: L) -> Self {
+        Cell { value: None, at }
+    }
+}
+
+/// Three cells of one mistake that has been reported.
+pub(crate) fn broken<T, L: Clone, const N: usize>(at: &L) -> [Cell<T, L>; N] {
+    core::array::from_fn(|_| Cell::broken(at.clone()))
+}
+
+/// What is called for a parameter: its name, dimension and place.
+pub(crate) type Visit<'v, 'a, L> = &'v mut dyn FnMut(&'a str, Dimension, &'a L);
+
+/// Visits the parameter that a cell may hold.
+fn visit_cell<'a, T: Symbolic + 'a, L: 'a>(
+    visit: Visit<'_, 'a, L>,
+    dimension: Dimension,
+    cells: impl IntoIterator<Item = &'a Cell<T, L>>,
+) {
+    for cell in cells {
+        if let Some(name) = cell.value.as_ref().and_then(Symbolic::symbol) {
+            visit(name, dimension, &cell.at);
+        }
+    }
+}
+
+impl<L> DraftJoint<L> {
+    fn each_symbol<'a>(&'a self, visit: Visit<'_, 'a, L>) {
+        visit_cell(visit, Dimension::Angle, &self.theta);
+        visit_cell(visit, Dimension::Length, &self.d);
+        visit_cell(visit, Dimension::Length, &self.a);
+        visit_cell(visit, Dimension::Angle, &self.alpha);
+        let stiffness = Dimension::stiffness(self.motion.value.unwrap_or(Motion::Revolute));
+        visit_cell(visit, stiffness, &self.stiffness);
+        visit_cell(visit, Dimension::Mass, &self.mass);
+        visit_cell(visit, Dimension::Length, self.com.iter().flat_map(|(_, com)| com));
+        if let Some(beam) = &self.beam {
+            visit_cell(visit, Dimension::Pressure, [&beam.youngs_modulus, &beam.shear_modulus]);
+            let [area, moments @ ..] = &beam.section;
+            visit_cell(visit, Dimension::Area, [area]);
+            visit_cell(visit, Dimension::SecondMoment, moments);
+            visit_cell(visit, Dimension::Density, &beam.density);
+            visit_cell(visit, Dimension::Ratio, &beam.shear_coefficient);
+        }
+    }
+}
+
+impl<L> Draft<L> {
+    /// Every use of a parameter, in the order of [`super::Robot::symbols`].
+    pub fn each_symbol<'a>(&'a self, visit: Visit<'_, 'a, L>) {
+        visit_cell(visit, Dimension::Acceleration, self.gravity.iter().flatten());
+        for joint in &self.joints {
+            joint.each_symbol(visit);
+        }
+        visit_cell(visit, Dimension::Length, self.translation.iter().flatten());
+    }
+}

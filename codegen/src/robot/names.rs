@@ -1,0 +1,126 @@
+//! The names in a table: joints, markers and symbolic parameters.
+
+use std::collections::HashMap;
+
+use super::dimension::Dimension;
+use super::draft::Draft;
+use super::problem::{Place, Problem, Report};
+
+/// Names that a parameter cannot have because the generated code means something else by them.
+const RESERVED: [(&str, &str); 3] = [
+    ("q", "`q` is the joint variable: it stands in theta or d, nowhere else"),
+    ("w", "`w` is the wrench in the generated code"),
+    ("pi", "`pi` is the number π"),
+];
+
+/// Checks that names are unique where they must be, and that parameters can be fields of a struct.
+pub(crate) fn check<L: Place>(draft: &Draft<L>, report: &mut Report<L>) {
+    let joints = draft.joints.iter().filter_map(|j| j.name.as_ref());
+    unique("joint", joints.filter_map(|c| Some((c.value.as_deref()?, &c.at))), report);
+    let markers = draft.markers.iter();
+    unique("marker", markers.filter_map(|m| Some((m.name.value.as_deref()?, &m.name.at))), report);
+    let mut seen: HashMap<&str, Dimension> = HashMap::new();
+    draft.each_symbol(&mut |name, dimension, at| match seen.get(name) {
+        None => {
+            seen.insert(name, dimension);
+            if let Some((message, help)) = refused(name) {
+                report.error(Problem::new(at.clone(), message).help(help));
+            }
+        }
+        Some(first) if *first != dimension => {
+            let message =
+                format!("`{name}` is {first} where it first stands, and {dimension} here");
+            let help = "one parameter is one quantity: use two names";
+            report.error(Problem::new(at.clone(), message).help(help));
+        }
+        Some(_) => {}
+    });
+}
+
+fn unique<'a, L: Place + 'a>(
+    what: &str,
+    names: impl Iterator<Item = (&'a str, &'a L)>,
+    report: &mut Report<L>,
+) {
+    let mut seen: Vec<&str> = Vec::new();
+    for (name, at) in names {
+        if name.trim().is_empty() {
+            report.error(Problem::new(at.clone(), format!("a {what} without a name")));
+        } else if seen.contains(&name) {
+            report.error(Problem::new(at.clone(), format!("two {what}s are called `{name}`")));
+        }
+        seen.push(name);
+    }
+}
+
+/// Why a name cannot be a parameter's, and what to do.
+fn refused(name: &str) -> Option<(String, &'static str)> {
+    let help = "choose another name";
+    if let Some((_, message)) = RESERVED.iter().find(|(reserved, _)| *reserved == name) {
+        return Some(((*message).to_owned(), help));
+    }
+    let plain = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !plain {
+        let help = "a name is a letter, then letters, digits and `_`, without accents";
+        return Some((format!("`{name}` cannot be a parameter's name"), help));
+    }
+    // Rust itself decides what its keywords are.
+    let keyword = syn::parse_str::<syn::Ident>(name).is_err();
+    keyword.then(|| (format!("`{name}` is a keyword of Rust"), help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Robot;
+
+    fn messages(lines: &str) -> Vec<String> {
+        let text = format!(
+            "name = \"x\"\nconvention = \"modified\"\n[[joint]]\ntype = \"revolute\"\n{lines}\n"
+        );
+        match Robot::from_toml(&text, "x.toml") {
+            Ok(_) => Vec::new(),
+            Err(error) => error.errors.into_iter().map(|e| e.message).collect(),
+        }
+    }
+
+    #[test]
+    fn a_parameter_is_one_quantity() {
+        assert_eq!(
+            messages("theta = \"x\"\na = \"x\"\nmass = \"x\""),
+            [
+                "`x` is an angle where it first stands, and a length here",
+                "`x` is an angle where it first stands, and a mass here"
+            ]
+        );
+        assert!(messages("d = \"x\"\na = \"x\"\nmass = 1\ncom = [\"x\", 0, 0]").is_empty());
+    }
+
+    #[test]
+    fn a_parameter_can_be_a_field() {
+        assert!(messages("a = \"L1\"\nd = \"d_1\"\ntheta = \"tE\"").is_empty());
+        let refused = |name: &str| messages(&format!("a = \"{name}\""));
+        assert_eq!(
+            refused("q"),
+            ["`q` is the joint variable: it stands in theta or d, nowhere else"]
+        );
+        assert_eq!(refused("w"), ["`w` is the wrench in the generated code"]);
+        assert_eq!(refused("type"), ["`type` is a keyword of Rust"]);
+        assert_eq!(refused("Self"), ["`Self` is a keyword of Rust"]);
+        assert_eq!(refused("_a"), ["`_a` cannot be a parameter's name"]);
+        assert_eq!(refused("länge"), ["`länge` cannot be a parameter's name"]);
+        // One mistake, however often the name is used.
+        assert_eq!(messages("a = \"fn\"\nd = \"fn\""), ["`fn` is a keyword of Rust"]);
+    }
+
+    #[test]
+    fn joints_and_markers_have_names_of_their_own() {
+        assert_eq!(
+            messages(
+                "name = \"a\"\n[[joint]]\ntype = \"revolute\"\nname = \"a\"\n\
+                 [[marker]]\nname = \"m\"\n[[marker]]\nname = \"m\"\n[[marker]]\nname = \"\""
+            ),
+            ["two joints are called `a`", "two markers are called `m`", "a marker without a name"]
+        );
+    }
+}

@@ -1,0 +1,238 @@
+//! The settings before the table: `name: "…"; convention: modified_dh; …`.
+
+use proc_macro2::{Delimiter, Spacing, TokenTree};
+use syn::parse::Parser;
+use syn::{Ident, LitStr, Path};
+
+use super::super::dimension::Dimension;
+use super::super::draft::{Cell, Draft, DraftJoint, DraftMarker, Vector};
+use super::super::model::{Angle, Convention, Value};
+use super::super::problem::{Problem, Report};
+use super::super::suggest::{advice, closest};
+use super::cells::{Raw, known_lengths, rotation, values};
+use super::spot::{Spot, is_sign, is_word};
+
+const KEYS: [&str; 6] = ["name", "convention", "gravity", "tool", "marker", "crate"];
+
+const CONVENTIONS: [(&str, Convention); 4] = [
+    ("standard_dh", Convention::Standard),
+    ("modified_dh", Convention::Modified),
+    // The words of the robot file do as well.
+    ("standard", Convention::Standard),
+    ("modified", Convention::Modified),
+];
+
+/// What the settings say.
+#[derive(Default)]
+pub(super) struct Settings {
+    name: Option<Cell<String, Spot>>,
+    convention: Option<Cell<Convention, Spot>>,
+    gravity: Option<Vector<Value, Spot>>,
+    translation: Option<Vector<Value, Spot>>,
+    rotation: Option<Vector<Angle, Spot>>,
+    markers: Vec<DraftMarker<Spot>>,
+    /// Where the generated code finds the kernels.
+    pub kernels: Option<Path>,
+    /// The settings that were made, with the places of their names.
+    seen: Vec<(&'static str, Spot)>,
+    /// Settings that an unknown one was probably meant to be: these are not also missing.
+    meant: Vec<&'static str>,
+}
+
+/// Reads all settings; the rest is the table.
+pub(super) fn read<'t>(
+    mut tokens: &'t [TokenTree],
+    report: &mut Report<Spot>,
+) -> (Settings, &'t [TokenTree]) {
+    let mut settings = Settings::default();
+    while !tokens.is_empty() && !starts_table(tokens) {
+        let end = (1..tokens.len())
+            .find(|i| {
+                let rest = &tokens[*i..];
+                is_sign(&tokens[*i], ';') || starts_table(rest) || starts_setting(rest)
+            })
+            .unwrap_or(tokens.len());
+        let (setting, rest) = tokens.split_at(end);
+        if !starts_setting(setting) {
+            let message = "a setting such as `convention: modified_dh;`, or the table's header \
+                           `joint | theta | …`, is expected here";
+            report.error(Problem::new(Spot::new(setting[0].span()), message));
+        } else {
+            settings.set(&setting[0], &setting[2..], report);
+            if !rest.first().is_some_and(|token| is_sign(token, ';')) {
+                let last = Spot::new(setting[setting.len() - 1].span());
+                report.error(Problem::new(last, "expected `;` behind this setting"));
+            }
+        }
+        let closed = rest.first().is_some_and(|token| is_sign(token, ';'));
+        tokens = if closed { &rest[1..] } else { rest };
+    }
+    (settings, tokens)
+}
+
+/// `joint …` or `word | …`.
+fn starts_table(tokens: &[TokenTree]) -> bool {
+    match tokens {
+        [TokenTree::Ident(_), next, ..] if is_sign(next, '|') => true,
+        [first, next, ..] => is_word(first, "joint") && !is_sign(next, ':'),
+        [first] => is_word(first, "joint"),
+        [] => false,
+    }
+}
+
+/// `word: …`, not `word::…`.
+fn starts_setting(tokens: &[TokenTree]) -> bool {
+    matches!(tokens, [TokenTree::Ident(_), TokenTree::Punct(colon), ..]
+        if colon.as_char() == ':'
+            && !(colon.spacing() == Spacing::Joint
+                && tokens.get(2).is_some_and(|next| is_sign(next, ':'))))
+}
+
+impl Settings {
+    fn set(&mut self, key: &TokenTree, value: &[TokenTree], report: &mut Report<Spot>) {
+        let (word, at) = (key.to_string(), Spot::new(key.span()));
+        let Some(known) = KEYS.into_iter().find(|known| *known == word) else {
+            self.meant.extend(closest(&word, KEYS));
+            let problem = Problem::new(at, format!("unknown setting `{word}`"));
+            report.error(problem.help(advice(&word, &KEYS)));
+            return;
+        };
+        if known != "marker" && self.seen.iter().any(|(seen, _)| *seen == known) {
+            report.error(Problem::new(at, format!("`{known}` stands here for the second time")));
+            return;
+        }
+        self.seen.push((known, at));
+        let cell = Raw::new(value.to_vec(), at);
+        match known {
+            "name" => self.name = Some(string(&cell, report)),
+            "convention" => self.convention = Some(convention(&cell, report)),
+            "gravity" => self.gravity = Some(values(&cell, Dimension::Acceleration, report)),
+            "tool" => self.tool(&cell, report),
+            "marker" => self.markers.extend(marker(&cell, report)),
+            _ => self.kernels = path(&cell, report),
+        }
+    }
+
+    /// `translation [x, y, z] rotation [rx, ry, rz]`, either part and in either order.
+    fn tool(&mut self, cell: &Raw, report: &mut Report<Spot>) {
+        let expected = "`translation [x, y, z]` or `rotation [rx, ry, rz]` is expected here";
+        if cell.tokens.is_empty() {
+            report.error(Problem::new(cell.at, expected));
+        }
+        let mut rest = cell.tokens.as_slice();
+        while let Some((word, after)) = rest.split_first() {
+            let part = match after.first() {
+                Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Bracket => {
+                    Raw::new(after[..1].to_vec(), cell.at)
+                }
+                _ => return report.error(Problem::new(Spot::new(word.span()), expected)),
+            };
+            if is_word(word, "translation") && self.translation.is_none() {
+                self.translation = Some(values(&part, Dimension::Length, report));
+            } else if is_word(word, "rotation") && self.rotation.is_none() {
+                self.rotation = Some(rotation(&part, report));
+            } else {
+                let problem = Problem::new(Spot::new(word.span()), expected);
+                let parts = ["translation", "rotation"];
+                let help = closest(&word.to_string(), parts);
+                return report.error(match help {
+                    Some(near) if is_word(word, near) => problem.help("each part stands once"),
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    None => problem,
+                });
+            }
+            rest = &after[1..];
+            if let Some((comma, after)) = rest.split_first().filter(|(t, _)| is_sign(t, ',')) {
+                rest = after;
+                if rest.is_empty() {
+                    report.error(Problem::new(Spot::new(comma.span()), expected));
+                }
+            }
+        }
+    }
+
+    /// A file says everything about its robot itself.
+    pub fn refuse_for_a_file(&self, report: &mut Report<Spot>) {
+        for (key, at) in self.seen.iter().filter(|(key, _)| *key != "crate") {
+            let message = format!("`{key}` belongs into the robot file");
+            report.error(Problem::new(*at, message).help("beside a file only `crate` can be set"));
+        }
+    }
+
+    /// The draft of these settings and rows; a missing convention is reported.
+    pub fn into_draft(
+        self,
+        module: &Ident,
+        joints: Vec<DraftJoint<Spot>>,
+        report: &mut Report<Spot>,
+    ) -> Draft<Spot> {
+        let at = Spot::new(module.span());
+        if self.convention.is_none() && !self.meant.contains(&"convention") {
+            let problem = Problem::new(at, "`convention` is missing");
+            let help = "write `convention: standard_dh;` or `convention: modified_dh;`";
+            report.error(problem.help(help));
+        }
+        Draft {
+            name: Some(self.name.unwrap_or_else(|| Cell::new(module.to_string(), at))),
+            convention: self.convention,
+            gravity: self.gravity,
+            joints,
+            translation: self.translation,
+            rotation: self.rotation,
+            markers: self.markers,
+        }
+    }
+}
+
+/// A string in quotes.
+pub(super) fn string(cell: &Raw, report: &mut Report<Spot>) -> Cell<String, Spot> {
+    let tokens = cell.tokens.iter().cloned().collect();
+    let read = syn::parse2::<LitStr>(tokens).map(|text| text.value());
+    let expected = |_| Problem::new(cell.at, "a text in quotes is expected here");
+    Cell { value: report.keep(read.map_err(expected)), at: cell.at }
+}
+
+fn convention(cell: &Raw, report: &mut Report<Spot>) -> Cell<Convention, Spot> {
+    let found: String = cell.tokens.iter().map(ToString::to_string).collect();
+    let choice = CONVENTIONS.iter().find(|(word, _)| *word == found).map(|(_, choice)| *choice);
+    if choice.is_none() {
+        let message = "`standard_dh` or `modified_dh` is expected here";
+        let problem = Problem::new(cell.at, message);
+        report.error(match closest(&found, CONVENTIONS[..2].iter().map(|(word, _)| *word)) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None => problem,
+        });
+    }
+    Cell { value: choice, at: cell.at }
+}
+
+/// `name`, or `name [x, y, z]`.
+fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
+    let expected = || Problem::new(cell.at, "`name` or `name [x, y, z]` is expected here");
+    let (name, rest) = match cell.tokens.split_first() {
+        Some((TokenTree::Ident(name), rest)) => {
+            (Cell::new(name.to_string(), Spot::new(name.span())), rest)
+        }
+        Some((name @ TokenTree::Literal(_), rest)) => {
+            (string(&Raw::new(vec![name.clone()], cell.at), report), rest)
+        }
+        _ => {
+            report.error(expected());
+            return None;
+        }
+    };
+    let translation = match rest {
+        [] => None,
+        _ => Some(known_lengths(&Raw::new(rest.to_vec(), cell.at), report)),
+    };
+    Some(DraftMarker { name, translation })
+}
+
+fn path(cell: &Raw, report: &mut Report<Spot>) -> Option<Path> {
+    let tokens = cell.tokens.iter().cloned().collect();
+    let read = Path::parse_mod_style.parse2(tokens);
+    report.keep(read.map_err(|_| {
+        let message = "the path of the kernels' crate is expected here";
+        Problem::new(cell.at, message).help("for example `crate: ::stiffarm::kernels;`")
+    }))
+}

@@ -1,0 +1,176 @@
+//! The macro's input: `robot! { … }` with an inline table, or with the name of a robot file.
+//!
+//! ```text
+//! /// Documentation of the module.
+//! pub mod kr240;                        // or: pub mod kr240 from "kr240.toml";
+//! name: "KUKA KR 240-2";                // optional; the module's name if absent
+//! convention: modified_dh;              // or standard_dh
+//! gravity: [0, 0, -9.80665];            // optional
+//! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
+//! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
+//! crate: ::stiffarm_kernels;            // optional: where the generated code finds the kernels
+//! joint | theta  | d      | a      | alpha  | stiffness     | mass | com            | limits
+//! a1    | q      | 0      | 0      | 0      | 3.8e6 N*m/rad | 120  | [0.3, 0, 0.1]  | -
+//! a2    | q + t2 | 0      | 350 mm | 90 deg | k2            | m2   | [c2, 0, 0]     | [-2, 2]
+//! ```
+//!
+//! Columns after `joint` may stand in any order. `theta`, `d`, `a`, `alpha` are 0 where a column or
+//! cell (`-`) is absent; `stiffness`, `mass`, `com`, `limits`, `beam`, `source` are then not given.
+//!
+//! A beam's cell is `{ youngs_modulus: 69 GPa, shear_modulus: 26 GPa, section: tube(0.2, 0.18) }`,
+//! with `density` and `shear_coefficient` if wanted. Its section is `tube(outer diameter, inner
+//! diameter)` or `box([b, h], [inner b, inner h])`, the inner part being optional, or
+//! `{ area: …, iy: …, iz: …, j: … }`.
+//!
+//! One row is one line; a line that ends or the next one that begins with `|` continues the row.
+
+mod beam;
+mod cells;
+mod header;
+mod rows;
+mod spot;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use proc_macro2::TokenStream;
+use syn::parse::{ParseStream, Parser};
+use syn::{Attribute, Ident, LitStr, Path, Token, Visibility};
+
+use super::model::Robot;
+use super::problem::{Problem, Report};
+use super::validate::validate;
+pub use spot::SpannedError;
+use spot::{Spot, flatten};
+
+/// What a `robot!` invocation asks for.
+pub struct Invocation {
+    /// Attributes and documentation of the module.
+    pub attrs: Vec<Attribute>,
+    /// The module's visibility.
+    pub vis: Visibility,
+    /// The module's name.
+    pub module: Ident,
+    /// Where the generated code finds the kernels; `None` leaves it to the macro.
+    pub kernels: Option<Path>,
+    /// The robot itself, or where to read it.
+    pub source: Source,
+}
+
+/// Where the robot of an invocation comes from.
+pub enum Source {
+    /// From an inline table, read and validated.
+    Table(Box<Robot>),
+    /// From a robot file, whose name is given.
+    File(LitStr),
+}
+
+/// An invocation that cannot be read: every mistake in it, and as much of its head as was read, so
+/// that the macro can put a stub in the module's place.
+pub struct Rejected {
+    /// Attributes and documentation of the module, as far as they were read.
+    pub attrs: Vec<Attribute>,
+    /// The module's visibility, if it was read.
+    pub vis: Option<Visibility>,
+    /// The module's name, if it was read.
+    pub module: Option<Ident>,
+    /// At least one mistake, in the order of the input.
+    pub errors: Vec<SpannedError>,
+}
+
+impl Rejected {
+    /// All mistakes as `compile_error!` invocations.
+    pub fn to_compile_errors(&self) -> TokenStream {
+        self.errors.iter().map(SpannedError::to_compile_error).collect()
+    }
+}
+
+/// Reads the input of `robot!`. Nothing is read from disk: a [`Source::File`] is only named.
+///
+/// # Errors
+/// Every mistake in the input, each at its tokens. What is a warning in a robot file (a rounded
+/// multiple of π) is an error here.
+pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
+    let mut head = Head::default();
+    let mut report = Report::new();
+    let parsed = (|stream: ParseStream<'_>| head.read(stream)).parse2(input);
+    let rest = report.keep(parsed.map_err(Problem::from));
+    let source = match (&head.module, rest) {
+        (Some(module), Some(rest)) => {
+            body(&mut head.kernels, module, head.file.take(), rest, &mut report)
+        }
+        _ => None,
+    };
+    // A macro cannot warn on stable Rust.
+    report.errors.append(&mut report.warnings);
+    match (source, head) {
+        (Some(source), Head { attrs, vis: Some(vis), module: Some(module), kernels, .. })
+            if report.errors.is_empty() =>
+        {
+            Ok(Invocation { attrs, vis, module, kernels, source })
+        }
+        (_, Head { attrs, vis, module, .. }) => {
+            let mut errors: Vec<_> = report.errors.into_iter().map(SpannedError::from).collect();
+            errors.sort_by_key(|e| (e.span.start().line, e.span.start().column));
+            Err(Box::new(Rejected { attrs, vis, module, errors }))
+        }
+    }
+}
+
+/// What stands before the settings.
+#[derive(Default)]
+struct Head {
+    attrs: Vec<Attribute>,
+    vis: Option<Visibility>,
+    module: Option<Ident>,
+    file: Option<LitStr>,
+    kernels: Option<Path>,
+}
+
+impl Head {
+    /// Reads `mod name;` or `mod name from "file";` and returns what follows.
+    fn read(&mut self, input: ParseStream<'_>) -> syn::Result<TokenStream> {
+        let here = |error: syn::Error, message: &str| syn::Error::new(error.span(), message);
+        self.attrs = input.call(Attribute::parse_outer)?;
+        self.vis = Some(input.parse()?);
+        input
+            .parse::<Token![mod]>()
+            .map_err(|e| here(e, "expected `mod name;` or `mod name from \"robot.toml\";`"))?;
+        self.module = Some(input.parse().map_err(|e| here(e, "expected a name for the module"))?);
+        if !input.peek(Token![;]) {
+            let message = "expected `;`, or `from` and the name of a robot file";
+            let word: Ident = input.parse().map_err(|e| here(e, message))?;
+            if word != "from" {
+                return Err(syn::Error::new(word.span(), message));
+            }
+            let message = "expected the name of a robot file in quotes";
+            self.file = Some(input.parse().map_err(|e| here(e, message))?);
+        }
+        input.parse::<Token![;]>().map_err(|e| here(e, "expected `;`"))?;
+        input.parse()
+    }
+}
+
+fn body(
+    kernels: &mut Option<Path>,
+    module: &Ident,
+    file: Option<LitStr>,
+    rest: TokenStream,
+    report: &mut Report<Spot>,
+) -> Option<Source> {
+    let tokens = flatten(rest);
+    let at = Spot::new(module.span());
+    let (mut settings, tokens) = header::read(&tokens, report);
+    *kernels = settings.kernels.take();
+    if let Some(file) = file {
+        settings.refuse_for_a_file(report);
+        if !tokens.is_empty() {
+            let message = "a table and a robot file: one of them is enough";
+            report.error(Problem::new(Spot::of(tokens, at), message));
+        }
+        return Some(Source::File(file));
+    }
+    let joints = table::read(tokens, at, report);
+    let draft = settings.into_draft(module, joints, report);
+    Some(Source::Table(Box::new(validate(&draft, report))))
+}

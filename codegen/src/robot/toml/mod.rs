@@ -1,0 +1,129 @@
+//! The robot file: TOML, read with the place of every value so that each mistake can be pointed at.
+
+mod beam;
+mod fields;
+mod joint;
+mod reader;
+#[cfg(test)]
+mod tests;
+mod write;
+
+use core::ops::Range;
+
+use ::toml::Spanned;
+use ::toml::de::{DeTable, DeValue, Error};
+
+use super::diagnostic::{FileError, Located, Warning};
+use super::draft::{Draft, DraftMarker};
+use super::model::{Convention, Robot};
+use super::problem::{Problem, Report};
+use super::validate::validate;
+use fields::Fields;
+use reader::Reader;
+
+const KEYS: &[&str] = &["name", "convention", "gravity", "joint", "tool", "marker"];
+
+impl Robot {
+    /// Reads a robot file. `path` is only used in messages.
+    ///
+    /// # Errors
+    /// Every mistake in the file, in the order in which they stand.
+    pub fn from_toml(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        let mut reader = Reader::new(text);
+        let robot = if syntax(text, errors, &mut reader.report) {
+            let draft = draft(&mut reader, &table);
+            Some(validate(&draft, &mut reader.report))
+        } else {
+            None
+        };
+        let report = reader.report;
+        match robot {
+            Some(robot) if report.errors.is_empty() => {
+                Ok((robot, Located::all(path, text, report.warnings)))
+            }
+            _ => Err(FileError::new(path, text, report)),
+        }
+    }
+}
+
+/// Reports what is no TOML; whether the rest can still be read. A value without its quotes and a
+/// key that stands twice leave the rest intact; behind the first other mistake all is guesswork.
+fn syntax(text: &str, errors: Vec<Error>, report: &mut Report<Range<usize>>) -> bool {
+    let mut broken: Option<Problem<Range<usize>>> = None;
+    for error in errors {
+        let at = error.span().unwrap_or(0..0);
+        let found = text.get(at.clone()).unwrap_or_default();
+        let message = error.message();
+        if message.starts_with("string values must be quoted") {
+            let problem = Problem::new(at.clone(), format!("`{found}` stands without quotes"));
+            report.error(problem.help(format!("write \"{found}\"")));
+        } else if message.starts_with("duplicate key") {
+            report.error(Problem::new(at, format!("`{found}` stands here for the second time")));
+        } else if broken.as_ref().is_none_or(|first| at.start < first.at.start) {
+            broken = Some(Problem::new(at, format!("this is no TOML: {message}")));
+        }
+    }
+    let readable = broken.is_none();
+    if let Some(first) = &broken {
+        report.errors.retain(|soft| soft.at.start < first.at.start);
+    }
+    report.errors.extend(broken);
+    readable
+}
+
+fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<usize>> {
+    let fields = Fields::open(reader, root.get_ref(), root.span(), "a robot file", KEYS);
+    let joints = fields.get("joint").map(|value| joint::read_all(reader, value));
+    if joints.is_none() && !fields.misspelt("joint") {
+        let problem = Problem::new(fields.at(), "a robot has at least one joint");
+        reader.report.error(problem.help("write one [[joint]] table per row, base to tip"));
+    }
+    let (translation, rotation) = match fields.get("tool") {
+        Some(value) => tool(reader, value),
+        None => (None, None),
+    };
+    Draft {
+        name: fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v)),
+        convention: fields
+            .required(reader, "convention", "write convention = \"standard\" or \"modified\"")
+            .map(|v| reader.choice(v, &CONVENTIONS)),
+        gravity: fields.get("gravity").map(|v| reader.values(v, super::Dimension::Acceleration)),
+        joints: joints.unwrap_or_default(),
+        translation,
+        rotation,
+        markers: fields.get("marker").map(|v| markers(reader, v)).unwrap_or_default(),
+    }
+}
+
+const CONVENTIONS: [(&str, Convention); 2] =
+    [("standard", Convention::Standard), ("modified", Convention::Modified)];
+
+type Vectors = (
+    Option<super::draft::Vector<super::Value, Range<usize>>>,
+    Option<super::draft::Vector<super::Angle, Range<usize>>>,
+);
+
+fn tool(reader: &mut Reader<'_>, value: &Spanned<DeValue<'_>>) -> Vectors {
+    let keys = &["translation", "rotation"];
+    let Some(fields) = Fields::of(reader, value, "[tool]", keys) else { return (None, None) };
+    let translation = fields.get("translation").map(|v| reader.values(v, super::Dimension::Length));
+    (translation, fields.get("rotation").map(|v| reader.rotation(v)))
+}
+
+fn markers(
+    reader: &mut Reader<'_>,
+    value: &Spanned<DeValue<'_>>,
+) -> Vec<DraftMarker<Range<usize>>> {
+    let mut found = Vec::new();
+    for value in reader.tables(value, "marker") {
+        let keys = &["name", "translation"];
+        let Some(fields) = Fields::of(reader, value, "[[marker]]", keys) else { continue };
+        let translation = fields.get("translation").map(|v| reader.known_lengths(v));
+        let name = fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v));
+        if let Some(name) = name {
+            found.push(DraftMarker { name, translation });
+        }
+    }
+    found
+}

@@ -1,0 +1,157 @@
+//! What is refused, where, and in which words.
+
+use super::*;
+
+#[test]
+fn missing_keys_are_named() {
+    assert_eq!(
+        errors(""),
+        [
+            "1:1 a robot has at least one joint | write one [[joint]] table per row, base to tip",
+            "1:1 `name` is missing in a robot file | write name = \"…\"",
+            "1:1 `convention` is missing in a robot file | \
+             write convention = \"standard\" or \"modified\""
+        ]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}[[joint]]\nd = 1\n")),
+        ["3:1 `type` is missing in [[joint]] | write type = \"revolute\" or \"prismatic\""]
+    );
+    assert_eq!(
+        joint_errors("d = 1\nbeam = {}"),
+        [
+            "6:8 `youngs_modulus` is missing in [joint.beam] | \
+             for example youngs_modulus = \"69 GPa\"",
+            "6:8 `shear_modulus` is missing in [joint.beam] | \
+             for example shear_modulus = \"26 GPa\"",
+            "6:8 `section` is missing in [joint.beam] | write section = { shape = \"tube\", … }, \
+             { shape = \"box\", … } or { area = …, iy = …, iz = …, j = … }"
+        ]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}{JOINT}[[marker]]\n")),
+        ["5:1 `name` is missing in [[marker]] | write name = \"…\""]
+    );
+}
+
+#[test]
+fn unknown_keys_are_one_mistake_each() {
+    assert_eq!(
+        errors(&format!("nmae = \"arm\"\nconvention = \"standard\"\n{JOINT}")),
+        ["1:1 unknown key `nmae` in a robot file | did you mean `name`?"]
+    );
+    assert_eq!(
+        joint_errors("Alpha = 0\ncolour = \"red\""),
+        [
+            "5:1 unknown key `Alpha` in [[joint]] | did you mean `alpha`?",
+            "6:1 unknown key `colour` in [[joint]] | known here: type, name, theta, d, a, alpha, \
+             stiffness, mass, com, limits, source, beam"
+        ]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}[[joints]]\ntype = \"revolute\"\n")),
+        ["3:3 unknown key `joints` in a robot file | did you mean `joint`?"]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}{JOINT}[tool]\ntranslate = [0, 0, 0]\n")),
+        ["6:1 unknown key `translate` in [tool] | did you mean `translation`?"]
+    );
+}
+
+#[test]
+fn wrong_kinds_of_value() {
+    assert_eq!(
+        joint_errors("a = true\nalpha = [1]\nsource = 3\nmass = 0x10\nd = nan\ncom = [1, 2]"),
+        [
+            "5:5 a truth value stands where a length (e.g. `350 mm`) is expected",
+            "6:9 an array stands where an angle (e.g. `90 deg`) is expected",
+            "7:10 a number stands where a string is expected",
+            "8:8 a decimal number is expected here",
+            "9:5 `nan` is not a finite number",
+            "10:7 an array of 2 where [x, y, z] is expected",
+        ]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}joint = 3\ntool = \"x\"\nmarker = 1979-05-27\n")),
+        [
+            "3:9 a number stands where [[joint]] tables are expected | \
+             write [[joint]] with two brackets, once for each",
+            "4:8 a string stands where the table [tool] is expected",
+            "5:10 a date stands where [[marker]] tables are expected | \
+             write [[marker]] with two brackets, once for each"
+        ]
+    );
+    assert_eq!(
+        errors(&format!("name = 1\nconvention = \"Standard\"\n{JOINT}")),
+        [
+            "1:8 a number stands where a string is expected",
+            "2:14 `Standard` stands where one of standard, modified is expected | \
+             did you mean `standard`?"
+        ]
+    );
+    assert_eq!(
+        errors(&format!("{HEAD}[[joint]]\ntype = \"screw\"\nstiffness = \"3 kg\"\n")),
+        ["4:8 `screw` stands where one of revolute, prismatic is expected | \
+             known here: revolute, prismatic"]
+    );
+    assert_eq!(
+        errors(&format!("gravity = 9.81\n{HEAD}{JOINT}beam = 3\nlimits = 1\n")),
+        [
+            "1:11 a number stands where [x, y, z] is expected",
+            "6:8 a number stands where the table [joint.beam] is expected",
+            "7:10 a number stands where [lower, upper] is expected"
+        ]
+    );
+}
+
+#[test]
+fn a_mistake_within_a_string_has_its_own_place() {
+    assert_eq!(
+        joint_errors("a = \"350 furlong\"\nalpha = \"90 degs\"\nd = \"t2 + 1\"\nmass = '3 mm'"),
+        [
+            "5:10 unknown unit `furlong` | \
+             units are written like `mm`, `deg`, `kg/m^3` or `N*m/rad`",
+            "6:13 unknown unit `degs` | did you mean `deg`?",
+            "7:9 `t2 + 1` is a sum: a cell holds one number or one parameter | \
+             work the sum out, or take the constant into the parameter",
+            "8:9 `3 mm` is a length; a mass is expected here (e.g. `120 kg`)",
+        ]
+    );
+    assert_eq!(
+        joint_errors("theta = \"t2 + pi/2\""),
+        ["5:13 `t2 + pi/2` is a sum: a cell holds one number or one parameter | \
+             work the sum out, or take the constant into the parameter"]
+    );
+}
+
+#[test]
+fn what_must_be_a_number() {
+    assert_eq!(
+        joint_errors(
+            "limits = [\"lo\", 1]\n[tool]\nrotation = [0, 0, \"r\"]\n\
+             [[marker]]\nname = \"m\"\ntranslation = [0, 0, \"z\"]"
+        ),
+        [
+            "5:11 `lo` stands where a number is expected | joint limits are numbers",
+            "7:19 `r` stands where a number is expected | the tool's rotation cannot stay symbolic",
+            "10:22 `z` stands where a number is expected | \
+             leave `translation` out where a marker's place is unknown"
+        ]
+    );
+}
+
+#[test]
+fn what_is_no_toml() {
+    assert_eq!(
+        joint_errors("alpha = pi/2\na = 350 kg\na = 1"),
+        [
+            "5:9 `pi/2` stands without quotes | write \"pi/2\"",
+            "6:5 `350 kg` stands without quotes | write \"350 kg\"",
+            "6:5 `350 kg` is a mass; a length is expected here (e.g. `350 mm`)",
+            "7:1 `a` stands here for the second time",
+        ]
+    );
+    let broken = joint_errors("com = [1, 2\nmass = 3");
+    assert_eq!(broken.len(), 1, "{broken:?}");
+    assert!(broken[0].starts_with("6:1 this is no TOML: "), "{broken:?}");
+}

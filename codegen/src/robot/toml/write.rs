@@ -1,0 +1,122 @@
+//! Writes a robot as a robot file that reads back as the same robot.
+
+use core::fmt::Write as _;
+
+use super::super::decimal;
+use super::super::model::{Angle, Beam, Convention, Joint, Motion, Robot, Tool, Value};
+use super::super::pi::spell;
+
+impl Robot {
+    /// The robot as a robot file. Reading it back gives the same robot: parameters by name, exact
+    /// multiples of π as such, every number as the same double.
+    pub fn to_toml(&self) -> String {
+        let mut text = String::new();
+        // Writing into a `String` cannot fail.
+        let _ = write_robot(&mut text, self);
+        text
+    }
+}
+
+fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
+    let convention = match robot.convention {
+        Convention::Standard => "standard",
+        Convention::Modified => "modified",
+    };
+    writeln!(text, "name = {}", quoted(&robot.name))?;
+    writeln!(text, "convention = \"{convention}\"")?;
+    writeln!(text, "gravity = {}", list(robot.gravity.iter().map(value)))?;
+    for (i, joint) in robot.joints.iter().enumerate() {
+        write_joint(text, i, joint)?;
+    }
+    if robot.tool != Tool::default() {
+        writeln!(text, "\n[tool]")?;
+        writeln!(text, "translation = {}", list(robot.tool.translation.iter().map(value)))?;
+        writeln!(text, "rotation = {}", list(robot.tool.rotation.iter().map(angle)))?;
+    }
+    for marker in &robot.markers {
+        writeln!(text, "\n[[marker]]\nname = {}", quoted(&marker.name))?;
+        if let Some(translation) = &marker.translation {
+            writeln!(text, "translation = {}", list(translation.iter().map(value)))?;
+        }
+    }
+    Ok(())
+}
+
+fn write_joint(text: &mut String, index: usize, joint: &Joint) -> core::fmt::Result {
+    let motion = match joint.motion {
+        Motion::Revolute => "revolute",
+        Motion::Prismatic => "prismatic",
+    };
+    writeln!(text, "\n[[joint]]\ntype = \"{motion}\"")?;
+    if joint.name != format!("joint {}", index + 1) {
+        writeln!(text, "name = {}", quoted(&joint.name))?;
+    }
+    writeln!(text, "theta = {}", angle(&joint.theta))?;
+    writeln!(text, "d = {}", value(&joint.d))?;
+    writeln!(text, "a = {}", value(&joint.a))?;
+    writeln!(text, "alpha = {}", angle(&joint.alpha))?;
+    if let Some(stiffness) = &joint.stiffness {
+        writeln!(text, "stiffness = {}", value(stiffness))?;
+    }
+    if let Some(mass) = &joint.mass {
+        writeln!(text, "mass = {}", value(mass))?;
+        writeln!(text, "com = {}", list(joint.com.iter().map(value)))?;
+    }
+    if let Some(limits) = &joint.limits {
+        writeln!(text, "limits = {}", list(limits.iter().map(|x| limit(joint.motion, *x))))?;
+    }
+    if let Some(source) = &joint.source {
+        writeln!(text, "source = {}", quoted(source))?;
+    }
+    joint.beam.as_ref().map_or(Ok(()), |beam| write_beam(text, beam))
+}
+
+fn write_beam(text: &mut String, beam: &Beam) -> core::fmt::Result {
+    writeln!(text, "\n[joint.beam]")?;
+    writeln!(text, "youngs_modulus = {}", value(&beam.youngs_modulus))?;
+    writeln!(text, "shear_modulus = {}", value(&beam.shear_modulus))?;
+    let section = &beam.section;
+    let constants =
+        [("area", &section.area), ("iy", &section.iy), ("iz", &section.iz), ("j", &section.j)];
+    let constants = constants.map(|(key, constant)| format!("{key} = {}", value(constant)));
+    writeln!(text, "section = {{ {} }}", constants.join(", "))?;
+    if let Some(density) = &beam.density {
+        writeln!(text, "density = {}", value(density))?;
+    }
+    if let Some(coefficient) = &beam.shear_coefficient {
+        writeln!(text, "shear_coefficient = {}", value(coefficient))?;
+    }
+    Ok(())
+}
+
+fn list(entries: impl Iterator<Item = String>) -> String {
+    format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+}
+
+fn quoted(text: &str) -> String {
+    ::toml::Value::from(text).to_string()
+}
+
+fn value(value: &Value) -> String {
+    match value {
+        Value::Number(n) => decimal::write(*n),
+        Value::Symbol(name) => quoted(name),
+    }
+}
+
+fn angle(angle: &Angle) -> String {
+    match angle {
+        Angle::Pi(r) if *r.numer() == 0 => "0.0".to_owned(),
+        Angle::Pi(r) => quoted(&spell(*r)),
+        Angle::Radians(n) => decimal::write(*n),
+        Angle::Symbol(name) => quoted(name),
+    }
+}
+
+fn limit(motion: Motion, x: f64) -> String {
+    match (motion, super::super::pi::exact_multiple(x)) {
+        // Written as a multiple only where that reads back as the same double.
+        (Motion::Revolute, Some(r)) if Angle::Pi(r).radians() == Some(x) => angle(&Angle::Pi(r)),
+        _ => format!("{x:?}"),
+    }
+}

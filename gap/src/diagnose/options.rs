@@ -1,0 +1,148 @@
+//! What the caller may choose, and what can stand in the way of a diagnosis.
+
+use crate::effects::{CATALOGUE, Effect};
+use crate::measurement::nearest;
+
+/// Choices of a diagnosis. The same choices on the same data give the same bytes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// The version that the result names.
+    pub version: String,
+    /// Number of folds, 2 to the number of poses; by default one per pose up to 30 poses, else 10.
+    pub folds: Option<usize>,
+    /// Seeds folds, permutations and bootstrap.
+    pub seed: u64,
+    /// Standard deviation of each measured coordinate, m.
+    pub noise_position: Option<f64>,
+    /// Standard deviation of each measured component of a rotation, rad.
+    pub noise_rotation: Option<f64>,
+    /// Identifiers of the effects to be tried; `None` is all.
+    pub effects: Option<Vec<String>>,
+    /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
+    /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
+    pub rivals: Vec<String>,
+}
+
+/// Why there is no diagnosis. Every message that concerns the data names the file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message beside each variant and field says what it is")]
+pub enum DiagnoseError {
+    #[error(
+        "{file}: found readings of {found} joints, expected {expected} as the robot has: read the \
+         file for this robot"
+    )]
+    Joints { file: String, found: usize, expected: usize },
+    #[error("{file}: found no rows, expected at least one measurement")]
+    NoRows { file: String },
+    #[error(
+        "{file}: found {found} poses, expected at least 2: one to fit and one to hold out; \
+         measure at more poses"
+    )]
+    TooFewPoses { file: String, found: usize },
+    #[error(
+        "{file}: found fewer rows than parameters ({rows} rows, {parameters} parameters with those \
+         held out): measure more"
+    )]
+    TooFewRows { file: String, rows: usize, parameters: usize },
+    #[error("found {found} folds, expected 2 to {poses}, the number of poses in {file}")]
+    Folds { file: String, found: usize, poses: usize },
+    #[error(
+        "{file}: line {line}: the robot is not in stable equilibrium under this row's load and its \
+         weight: check the load, its unit and the stiffness"
+    )]
+    Unstable { file: String, line: u64 },
+    #[error(
+        "{file}: line {line}: the load, the place of the tool or the gap is beyond 1e50: check the \
+         row's numbers"
+    )]
+    TooLarge { file: String, line: u64 },
+    #[error(
+        "{file}: line {line}: marker `{marker}` has no translation in the robot file, expected \
+         one: \
+         fitting it is not in this version"
+    )]
+    UnknownOffset { file: String, line: u64, marker: String },
+    #[error(
+        "found the unknown effect `{found}`, expected one of {known}{}",
+        suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
+    )]
+    UnknownEffect { found: String, known: String, suggestion: Option<&'static str> },
+    #[error("found {what} noise {found}, expected a number from 1e-30 to 1e30")]
+    Noise { what: &'static str, found: f64 },
+    #[error(
+        "{file}: found no column that predicts what is measured for the rival `{rival}`, expected \
+         {expected}{}",
+        if known.is_empty() {
+            String::new()
+        } else {
+            format!("; the file has predictions of {known}")
+        }
+    )]
+    NoRival { file: String, rival: String, expected: String, known: String },
+    #[error(
+        "{file}: line {line}, column {number} `{header}`: found `{found}`, expected a number: a \
+         rival predicts every row"
+    )]
+    RivalCell { file: String, line: u64, number: usize, header: String, found: String },
+    #[error(
+        "{file}: column {number} `{header}`: found the unit `{found}`, expected one of {expected}"
+    )]
+    RivalUnit { file: String, number: usize, header: String, found: String, expected: String },
+}
+
+impl Options {
+    /// The effects to be tried.
+    ///
+    /// # Errors
+    /// [`DiagnoseError::UnknownEffect`] for a name that is not in the catalogue.
+    pub(crate) fn effects(&self) -> Result<Vec<&'static dyn Effect>, DiagnoseError> {
+        let Some(names) = &self.effects else { return Ok(CATALOGUE.to_vec()) };
+        for found in names {
+            if !CATALOGUE.iter().any(|e| e.identifier() == found) {
+                let known: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
+                return Err(DiagnoseError::UnknownEffect {
+                    found: found.clone(),
+                    suggestion: nearest(found, known.iter().copied()),
+                    known: known.join(", "),
+                });
+            }
+        }
+        let chosen = CATALOGUE.into_iter().filter(|e| names.iter().any(|n| n == e.identifier()));
+        Ok(chosen.collect())
+    }
+
+    /// Checks what can be checked without data.
+    pub(crate) fn check(&self) -> Result<(), DiagnoseError> {
+        let noises = [("position", self.noise_position), ("rotation", self.noise_rotation)];
+        for (what, noise) in noises {
+            if let Some(found) = noise.filter(|n| !(1e-30..=1e30).contains(n)) {
+                return Err(DiagnoseError::Noise { what, found });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn effects_are_chosen_by_name() {
+        assert_eq!(Options::default().effects().unwrap().len(), CATALOGUE.len());
+        let only = |name: &str| {
+            Options { effects: Some(vec![name.to_owned()]), ..Options::default() }.effects().err()
+        };
+        assert_eq!(only("joint_compliance"), None);
+        let text = only("joint_complience").unwrap().to_string();
+        assert!(text.ends_with("did you mean `joint_compliance`?"), "{text}");
+    }
+
+    #[test]
+    fn noise_is_a_positive_number() {
+        for wrong in [0.0, -1.0, 1e-300, f64::NAN, f64::INFINITY] {
+            let options = Options { noise_rotation: Some(wrong), ..Options::default() };
+            assert!(matches!(options.check(), Err(DiagnoseError::Noise { .. })), "{wrong}");
+        }
+    }
+}

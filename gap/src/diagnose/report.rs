@@ -1,0 +1,181 @@
+//! The diagnosis as it is written: field names and their order are the format's.
+
+use serde::Serialize;
+
+use crate::gap::Statistics;
+
+/// The result of a diagnosis. Serialised, it is the format's JSON; every number is finite.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// The version that made it.
+    pub stiffarm: String,
+    /// The robot's name.
+    pub robot: String,
+    /// Number of rows.
+    pub measurements: usize,
+    /// How measurements were held out.
+    pub held_out: HeldOut,
+    /// The gap before and after, and the noise.
+    pub gap: GapReport,
+    /// Where the gap lies, largest share first.
+    #[serde(rename = "where")]
+    pub places: Vec<Share>,
+    /// What explains it, in the order in which they were added.
+    pub findings: Vec<Finding>,
+    /// What this data could not have shown.
+    pub cannot_see: Vec<CannotSee>,
+    /// What is left.
+    pub unexplained: Unexplained,
+    /// Other models' predictions against this one's; only if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rivals: Option<Vec<Rival>>,
+}
+
+/// How measurements were held out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct HeldOut {
+    /// Number of folds.
+    pub folds: usize,
+    /// What never stands on both sides of a fold.
+    pub grouped_by: &'static str,
+}
+
+/// The gap before and after, and the noise.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GapReport {
+    /// Of the robot file as it is.
+    pub before: Statistics,
+    /// With the findings, each row by fits that have not seen it. Equal to `before` without
+    /// findings.
+    pub after: Statistics,
+    /// Of the measurement.
+    pub noise: NoiseReport,
+}
+
+/// The noise of the measurement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NoiseReport {
+    /// Root mean square of the norm over the measured translations, m.
+    pub position_rms: f64,
+    /// Root mean square of the norm over the measured rotations, rad.
+    pub rotation_rms: f64,
+    /// `repeats`, `option` or `residual`: of the positions, or of the rotations if there are no
+    /// positions.
+    pub from: &'static str,
+}
+
+/// What a place alone explains.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Share {
+    /// The place.
+    pub place: String,
+    /// Part of the mean square of the gap (whitened), held out, that the best single effect at this
+    /// place takes away. Shares overlap: they do not add up to 1.
+    pub share: f64,
+}
+
+/// An effect at a place that explains the gap, or part of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// Identifier of the effect.
+    pub effect: &'static str,
+    /// Where it acts.
+    pub place: String,
+    /// Its size, of the exact model.
+    pub parameters: Vec<ParameterReport>,
+    /// How far the gap shrinks.
+    pub held_out: Shrink,
+    /// The chance that the best of all places tried explains as much of a gap without cause.
+    pub p_value: f64,
+    /// Every other candidate, best first.
+    pub alternatives: Vec<Alternative>,
+    /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
+    /// if all are separable.
+    pub to_separate: Option<String>,
+}
+
+/// One fitted number.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterReport {
+    /// What it is.
+    pub name: &'static str,
+    /// Its value, added to what the robot file has.
+    pub value: f64,
+    /// Of the value.
+    pub unit: &'static str,
+    /// 95 % interval: least squares, the residual's variance, Student's t.
+    pub ci95: [f64; 2],
+}
+
+/// The gap on measurements that no fit has seen: position, m (rotation, rad, if no position is
+/// measured).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shrink {
+    /// Root mean square without the finding.
+    pub before: f64,
+    /// Root mean square with it.
+    pub after: f64,
+    /// 1 − after/before.
+    pub shrink: f64,
+    /// 95 % interval by resampling poses.
+    pub shrink_ci95: [f64; 2],
+}
+
+/// Another explanation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Alternative {
+    /// Identifier of the effect.
+    pub effect: &'static str,
+    /// Where it acts.
+    pub place: String,
+    /// As [`Shrink::after`], with this in place of the finding.
+    pub held_out_after: f64,
+    /// Whether resampling the poses tells the two apart in 95 % of cases.
+    pub separable: bool,
+}
+
+/// What this data could not have shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CannotSee {
+    /// Identifier of the effect.
+    pub effect: &'static str,
+    /// Where.
+    pub place: String,
+    /// What a unit of it does to the measured quantities (rms over rows), relative to the place of
+    /// the same effect at which that is largest.
+    pub visible: f64,
+    /// Why.
+    pub because: &'static str,
+}
+
+/// What is left of the gap.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Unexplained {
+    /// Whether it is more than noise; false where nothing but the residual tells the noise.
+    pub present: bool,
+    /// What is left beyond the noise, m; 0 if not present.
+    pub position_rms: f64,
+    /// Where it lies; this version does not say.
+    #[serde(rename = "where")]
+    pub places: Vec<Share>,
+    /// On what it depends; this version does not say.
+    pub depends_on: Vec<String>,
+}
+
+/// Another model's predictions against this one's held-out ones.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rival {
+    /// The prefix of its columns.
+    pub name: String,
+    /// Root mean square of measured minus its prediction, m (rad if it predicts no position).
+    pub rms: f64,
+    /// The same of this diagnosis' held-out predictions, on the same components.
+    pub held_out_rms: f64,
+    /// Mean over rows of the rival's squared residual minus ours, m² (rad²): positive is in our
+    /// favour.
+    pub mean_square_gain: f64,
+    /// 95 % interval of it by resampling poses.
+    pub ci95: [f64; 2],
+    /// Whether the interval leaves out 0.
+    pub significant: bool,
+}

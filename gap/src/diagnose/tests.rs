@@ -1,0 +1,314 @@
+//! The diagnosis as a whole, on plants with a known cause.
+
+use super::*;
+use crate::fixture::{bent, row, springy, table};
+use crate::measurement::{Kind, Row};
+use crate::simulate::simulate;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
+
+const POSE: Kind = Kind::Pose { orientation: true };
+
+/// Roughly normal, standard deviation 1.
+fn normal(generator: &mut ChaCha8Rng) -> f64 {
+    let uniform = |g: &mut ChaCha8Rng| (g.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    (0..12).map(|_| uniform(generator)).sum::<f64>() - 6.0
+}
+
+/// `poses` poses, each measured twice, of a plant whose joint compliances are raised by `added`,
+/// with noise of `sd` m and rad.
+fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measurements {
+    let mut plant = bent();
+    for (joint, more) in plant.joints.iter_mut().zip(added) {
+        joint.compliance += more;
+    }
+    let mut generator = rng::generator(seed, rng::Stream::Folds);
+    let mut rows = Vec::new();
+    for group in 0..poses {
+        let mut any = |scale: f64| scale * normal(&mut generator);
+        let q = [any(1.0), any(0.7), any(0.7)];
+        let w = Vector6::new(any(300.0), any(300.0), any(300.0) - 500.0, any(20.0), 0.0, any(20.0));
+        for _ in 0..2 {
+            let mut row = Row { group, line: rows.len() as u64 + 2, ..row(&q, w) };
+            let exact = simulate(&plant, &row, POSE).unwrap().reading().vector();
+            row.measured = exact.map(|x| x + sd * normal(&mut generator));
+            rows.push(row);
+        }
+    }
+    table(rows, POSE)
+}
+
+fn found(added: [f64; 3], sd: f64, options: &Options) -> Diagnosis {
+    diagnose(&bent(), &data(20, added, sd, 11), options).unwrap()
+}
+
+fn finite(value: &serde_json::Value) -> bool {
+    match value {
+        // What is no number in JSON is written as null.
+        serde_json::Value::Null => false,
+        serde_json::Value::Array(all) => all.iter().all(finite),
+        serde_json::Value::Object(all) => {
+            all.iter().all(|(key, value)| key == "to_separate" || finite(value))
+        }
+        _ => true,
+    }
+}
+
+#[test]
+fn a_soft_joint_is_found_with_its_size() {
+    let d = found([0.0, 4e-6, 0.0], 2e-5, &Options::default());
+    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
+    assert_eq!(finding.place, "joint 2");
+    let [low, high] = finding.parameters[0].ci95;
+    assert!(low < 4e-6 && 4e-6 < high && high - low < 2e-7, "{low} {high}");
+    assert!(finding.p_value <= 2e-4);
+    assert!(finding.held_out.shrink > 0.9);
+    assert!(finding.alternatives.iter().all(|a| a.separable));
+    assert_eq!(d.gap.noise.from, "repeats");
+    assert!((d.gap.noise.position_rms / (2e-5 * 3.0_f64.sqrt()) - 1.0).abs() < 0.2);
+    assert!((d.gap.noise.rotation_rms / (2e-5 * 3.0_f64.sqrt()) - 1.0).abs() < 0.2);
+    assert!(!d.unexplained.present, "{:?}", d.unexplained);
+    assert_eq!((d.places[0].place.as_str(), d.held_out.folds), ("joint 2", 20));
+}
+
+#[test]
+fn noise_alone_gives_no_finding() {
+    for seed in 0..4 {
+        let data = data(20, [0.0; 3], 2e-5, seed);
+        let d = diagnose(&bent(), &data, &Options::default()).unwrap();
+        assert!(d.findings.is_empty(), "{:?}", d.findings);
+        assert_eq!(d.gap.before, d.gap.after);
+        assert!(!d.unexplained.present);
+    }
+}
+
+#[test]
+fn no_gap_at_all_gives_no_finding() {
+    let d = found([0.0; 3], 0.0, &Options::default());
+    assert!(d.findings.is_empty() && d.places.is_empty() && !d.unexplained.present);
+    assert!(d.gap.after.position_rms < 1e-12);
+}
+
+#[test]
+fn two_soft_joints_leave_something_unexplained() {
+    let d = found([8e-6, 8e-6, 0.0], 2e-5, &Options::default());
+    assert_eq!(d.findings.len(), 1);
+    assert!(d.unexplained.present && d.unexplained.position_rms > 5e-5, "{:?}", d.unexplained);
+}
+
+#[test]
+fn a_joint_stiffer_than_the_file_says_is_found() {
+    let d = found([0.0, 0.0, -4e-6], 1e-5, &Options::default());
+    let value = d.findings[0].parameters[0].value;
+    assert!((value + 4e-6).abs() < 2e-7, "{value}");
+}
+
+#[test]
+fn a_gap_that_asks_for_less_than_rigid_gives_no_finding() {
+    let mut arm = bent();
+    let mut raised = data(20, [4e-6, 0.0, 0.0], 1e-5, 3);
+    for joint in &mut arm.joints {
+        joint.compliance = 0.0;
+    }
+    // The measurement mirrored about the rigid arm: it rises under load.
+    let problem = Problem::new(&arm, &raised).unwrap();
+    let gaps = problem.gaps.clone();
+    for (row, gap) in raised.rows.iter_mut().zip(gaps) {
+        row.measured -= 2.0 * gap;
+    }
+    let d = diagnose(&arm, &raised, &Options::default()).unwrap();
+    assert!(d.findings.is_empty(), "{:?}", d.findings);
+}
+
+#[test]
+fn indistinct_joints_are_inseparable_and_a_measurement_is_proposed() {
+    // One pose of the elbow, nearly: joints 2 and 3 then move the tool much alike in one direction.
+    let mut plant = springy();
+    plant.joints[1].compliance += 5e-6;
+    let components = [false, false, true, false, false, false];
+    let kind = Kind::Displacement { components };
+    let mut generator = rng::generator(2, rng::Stream::Signs);
+    let rows = (0..16)
+        .map(|group| {
+            let t = group as f64;
+            let w = Vector6::new(0.0, 0.0, -300.0 - 40.0 * t, 0.0, 0.0, 0.0);
+            let q = [0.2 * t, 0.3 + 0.001 * t, -0.3];
+            let mut row = Row { group, line: 2 + group as u64, ..row(&q, w) };
+            row.measured = simulate(&plant, &row, kind).unwrap().reading().vector();
+            row.measured[2] += 2e-5 * normal(&mut generator);
+            row
+        })
+        .collect();
+    let d = diagnose(&springy(), &table(rows, kind), &Options::default()).unwrap();
+    let finding = &d.findings[0];
+    assert!(finding.alternatives.iter().any(|a| !a.separable), "{finding:?}");
+    let text = finding.to_separate.as_deref().unwrap();
+    assert!(text.starts_with("measure again, with more load, at the pose of line "), "{text}");
+    assert_eq!(d.cannot_see[0].place, "joint 1");
+}
+
+#[test]
+fn the_users_own_simulator_is_corrected_like_the_arms() {
+    let mut data = data(20, [0.0, 4e-6, 0.0], 2e-5, 11);
+    data.sim_given = [true, true, true, false, false, false];
+    for row in &mut data.rows {
+        row.sim = Some(simulate(&bent(), row, POSE).unwrap().reading().vector());
+    }
+    let own = diagnose(&bent(), &data, &Options::default()).unwrap();
+    let arms = found([0.0, 4e-6, 0.0], 2e-5, &Options::default());
+    let value = |d: &Diagnosis| d.findings[0].parameters[0].value;
+    assert!((value(&own) / value(&arms) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_json_is_the_formats() {
+    let options = Options { version: "0.1.0".to_owned(), ..Options::default() };
+    let d = found([0.0, 4e-6, 0.0], 2e-5, &options);
+    let text = serde_json::to_string(&d).unwrap();
+    let keys = [
+        "stiffarm",
+        "robot",
+        "measurements",
+        "held_out",
+        "folds",
+        "grouped_by",
+        "gap",
+        "before",
+        "position_rms",
+        "position_p95",
+        "position_max",
+        "rotation_rms",
+        "after",
+        "noise",
+        "from",
+        "where",
+        "place",
+        "share",
+        "findings",
+        "effect",
+        "place",
+        "parameters",
+        "name",
+        "value",
+        "unit",
+        "ci95",
+        "held_out",
+        "before",
+        "after",
+        "shrink",
+        "shrink_ci95",
+        "p_value",
+        "alternatives",
+        "effect",
+        "place",
+        "held_out_after",
+        "separable",
+        "to_separate",
+        "cannot_see",
+        "unexplained",
+        "present",
+        "position_rms",
+        "where",
+        "depends_on",
+    ];
+    let mut from = 0;
+    for key in keys {
+        let at = text[from..].find(&format!("\"{key}\":"));
+        from += at.unwrap_or_else(|| panic!("{key} after {} in {text}", &text[..from]));
+    }
+    assert!(!text.contains("rivals"));
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert!(finite(&value), "{text}");
+    assert_eq!(value["findings"][0]["parameters"][0]["unit"], "rad/(N·m)");
+    let unseen = CannotSee { effect: "e", place: "p".into(), visible: 0.5, because: "b" };
+    let want = r#"{"effect":"e","place":"p","visible":0.5,"because":"b"}"#;
+    assert_eq!(serde_json::to_string(&unseen).unwrap(), want);
+}
+
+#[test]
+fn extreme_numbers_give_an_error_or_finite_numbers() {
+    let good = data(2, [0.0, 4e-6, 0.0], 1e-5, 1);
+    for extreme in [1e-160, 1e49, 1e155, f64::MAX] {
+        for what in 0..4 {
+            for arm in [bent(), crate::fixture::rigid()] {
+                let mut data = good.clone();
+                let row = &mut data.rows[2];
+                match what {
+                    0 => row.q[1] = extreme,
+                    1 => row.wrench[2] = extreme,
+                    2 => row.measured[1] = extreme,
+                    _ => row.measured[5] = extreme,
+                }
+                if let Ok(d) = diagnose(&arm, &data, &Options::default()) {
+                    let value = serde_json::to_value(&d).unwrap();
+                    assert!(finite(&value), "{what} {extreme} {value}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let data = data(34, [0.0, 4e-6, 0.0], 2e-5, 11);
+    let text = |seed| {
+        let options = Options { seed, ..Options::default() };
+        let d = diagnose(&bent(), &data, &options).unwrap();
+        assert_eq!(d.held_out.folds, 10);
+        serde_json::to_string(&d).unwrap()
+    };
+    assert_eq!(text(1), text(1));
+    assert_ne!(text(1), text(2));
+}
+
+#[test]
+fn what_stands_in_the_way_is_said() {
+    let good = data(4, [0.0; 3], 1e-5, 1);
+    let error = |data: &Measurements, options: &Options| {
+        diagnose(&bent(), data, options).unwrap_err().to_string()
+    };
+    let mut one = good.clone();
+    one.rows.truncate(1);
+    one.poses = 1;
+    assert_eq!(
+        error(&one, &Options::default()),
+        "test.csv: found 1 poses, expected at least 2: one to fit and one to hold out; measure at \
+         more poses"
+    );
+    let folds = Options { folds: Some(5), ..Options::default() };
+    assert_eq!(
+        error(&good, &folds),
+        "found 5 folds, expected 2 to 4, the number of poses in test.csv"
+    );
+    let rivals = Options { rivals: vec!["ycd".to_owned()], ..Options::default() };
+    assert!(error(&good, &rivals).contains("rival `ycd`, expected `ycd_x` or `ycd_y`"));
+    let effects = Options { effects: Some(vec!["magic".to_owned()]), ..Options::default() };
+    assert_eq!(
+        error(&good, &effects),
+        "found the unknown effect `magic`, expected one of joint_compliance"
+    );
+    let noise = Options { noise_position: Some(-1.0), ..Options::default() };
+    assert_eq!(
+        error(&good, &noise),
+        "found position noise -1, expected a number from 1e-30 to 1e30"
+    );
+}
+
+#[test]
+fn fewer_rows_than_parameters_are_refused() {
+    let (arm, mut data) = (bent(), data(2, [0.0; 3], 1e-5, 1));
+    data.rows = vec![data.rows[0].clone(), data.rows[2].clone()];
+    data.kind = Kind::Displacement { components: [false, false, true, false, false, false] };
+    let problem = Problem::new(&arm, &data).unwrap();
+    let folds = Folds::deal(&data, &Options::default()).unwrap();
+    let (mut candidates, _) = visibility::candidates(&problem, &crate::effects::CATALOGUE);
+    assert!(enough_rows(&problem, &folds, &candidates).is_ok());
+    let twice = candidates[0].parameters[0];
+    candidates[0].parameters.push(twice);
+    let error = enough_rows(&problem, &folds, &candidates).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "test.csv: found fewer rows than parameters (2 rows, 2 parameters with those held out): \
+         measure more"
+    );
+}

@@ -1,0 +1,141 @@
+//! The gap: measured minus simulated, row by row and component by component.
+
+use nalgebra::Vector6;
+use serde::Serialize;
+
+use crate::measurement::{Measurements, Row};
+use crate::simulate::Reading;
+
+/// The simulated reading of a row, with the user's own simulator in place of the arm's where the
+/// file has its columns.
+pub fn predicted(data: &Measurements, row: &Row, simulated: &Reading) -> Reading {
+    let Some(own) = row.sim else { return *simulated };
+    let mut vector = simulated.vector();
+    for k in (0..6).filter(|&k| data.sim_given[k]) {
+        vector[k] = own[k];
+    }
+    Reading::from_vector(&vector)
+}
+
+/// Measured minus predicted, m and rad; 0 where nothing is measured.
+///
+/// The rotation is the rotation vector of `R_measured R_predictedᵀ` in base axes. Where only some
+/// components of a rotation are measured, it is the difference of those.
+pub fn row_gap(data: &Measurements, row: &Row, predicted: &Reading) -> Vector6<f64> {
+    let components = data.kind.components();
+    let mut gap = row.measured - predicted.vector();
+    if components[3..] == [true; 3] {
+        let measured = Reading::from_vector(&row.measured);
+        let turn = (measured.rotation * predicted.rotation.inverse()).scaled_axis();
+        gap.fixed_rows_mut::<3>(3).copy_from(&turn);
+    }
+    for k in (0..6).filter(|&k| !components[k]) {
+        gap[k] = 0.0;
+    }
+    gap
+}
+
+/// Size of a gap over rows. Position is the norm over the measured translations of a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Root mean square over rows, m.
+    pub position_rms: f64,
+    /// 95th percentile over rows, m (linear between ranks).
+    pub position_p95: f64,
+    /// Largest, m.
+    pub position_max: f64,
+    /// Root mean square over rows of the norm over the measured rotations, rad; 0 if none is
+    /// measured.
+    pub rotation_rms: f64,
+}
+
+impl Statistics {
+    /// Of one gap per row.
+    pub fn of(gaps: &[Vector6<f64>]) -> Statistics {
+        let norm = |from: usize| {
+            move |g: &Vector6<f64>| {
+                let part = g.fixed_rows::<3>(from);
+                part.norm()
+            }
+        };
+        let mut positions: Vec<f64> = gaps.iter().map(norm(0)).collect();
+        let rotations: Vec<f64> = gaps.iter().map(norm(3)).collect();
+        positions.sort_by(f64::total_cmp);
+        Statistics {
+            position_rms: rms(&positions),
+            position_p95: percentile(&positions, 0.95),
+            position_max: positions.last().copied().unwrap_or(0.0),
+            rotation_rms: rms(&rotations),
+        }
+    }
+}
+
+/// Root mean square; 0 of nothing.
+pub fn rms(values: &[f64]) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// The `p` quantile (0 to 1) of ascending values, linear between ranks; 0 of nothing.
+pub fn percentile(ascending: &[f64], p: f64) -> f64 {
+    let Some(last) = ascending.len().checked_sub(1) else { return 0.0 };
+    let rank = p.clamp(0.0, 1.0) * last as f64;
+    let below = rank.floor() as usize;
+    let above = (below + 1).min(last);
+    ascending[below] + (ascending[above] - ascending[below]) * (rank - below as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{row, table};
+    use crate::measurement::Kind;
+
+    #[test]
+    fn statistics_of_known_gaps() {
+        let gaps: Vec<_> = (0..=20)
+            .map(|k| Vector6::new(0.0, 3.0 * f64::from(k), 4.0 * f64::from(k), 0.0, 2.0, 0.0))
+            .collect();
+        let s = Statistics::of(&gaps);
+        assert_eq!(s.position_max, 100.0);
+        assert_eq!(s.position_p95, 95.0);
+        assert!((s.position_rms - 5.0 * (2870.0 / 21.0_f64).sqrt()).abs() < 1e-12);
+        assert_eq!(s.rotation_rms, 2.0);
+        assert_eq!(Statistics::of(&[]), Statistics::default());
+    }
+
+    #[test]
+    fn a_rotation_gap_is_a_rotation() {
+        let mut r = row(&[0.0], Vector6::zeros());
+        r.measured = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 3.1);
+        let data = table(vec![r], Kind::Pose { orientation: true });
+        let predicted = Reading::from_vector(&Vector6::new(0.5, 0.0, 0.0, 0.0, 0.0, -3.1));
+        let gap = row_gap(&data, &data.rows[0], &predicted);
+        let want = 6.2 - 2.0 * core::f64::consts::PI;
+        assert!((gap - Vector6::new(0.5, 0.0, 0.0, 0.0, 0.0, want)).norm() < 1e-12, "{gap}");
+    }
+
+    #[test]
+    fn only_what_is_measured_counts() {
+        let mut r = row(&[0.0], Vector6::zeros());
+        r.measured = Vector6::new(0.0, -3.0, 0.0, 0.0, 0.25, 0.0);
+        let components = [false, true, false, false, true, false];
+        let data = table(vec![r], Kind::Displacement { components });
+        let predicted = Reading::from_vector(&Vector6::new(9.0, -1.0, 9.0, 0.1, 0.2, 0.1));
+        let gap = row_gap(&data, &data.rows[0], &predicted);
+        assert!((gap - Vector6::new(0.0, -2.0, 0.0, 0.0, 0.05, 0.0)).norm() < 1e-12, "{gap}");
+    }
+
+    #[test]
+    fn the_users_own_simulator_comes_first_where_it_is_given() {
+        let mut r = row(&[0.0], Vector6::zeros());
+        r.sim = Some(Vector6::new(0.0, 7.0, 0.0, 0.0, 0.0, 0.0));
+        let mut data = table(vec![r], Kind::Pose { orientation: false });
+        data.sim_given[1] = true;
+        let arm = Reading::from_vector(&Vector6::new(1.0, 2.0, 3.0, 0.0, 0.0, 0.0));
+        let reading = predicted(&data, &data.rows[0], &arm);
+        assert_eq!(reading.position, nalgebra::Vector3::new(1.0, 7.0, 3.0));
+    }
+}

@@ -1,0 +1,162 @@
+//! The rows below the header: cells into numbers in SI.
+
+use csv::StringRecord;
+use nalgebra::Vector6;
+
+use super::Row;
+use super::header::Head;
+use super::mistake::{Fault, Mistakes};
+use super::role::{Layout, Role};
+use super::table::Record;
+use super::unit::{Unit, nearest};
+
+/// A number as the cell has it, before its unit; `expected` is what the message asks for.
+pub(crate) fn number(cell: &str, expected: &str) -> Result<f64, Fault> {
+    let (found, expected) = (cell.to_owned(), expected.to_owned());
+    if cell.is_empty() {
+        return Err(Fault::EmptyCell { expected });
+    }
+    match cell.parse::<f64>() {
+        Ok(value) if value.is_nan() => Err(Fault::Nan { found, expected }),
+        Ok(value) if value.is_infinite() && cell.contains(['n', 'N']) => {
+            Err(Fault::Infinity { found, expected })
+        }
+        Ok(value) if value.is_infinite() => Err(Fault::TooLarge { found, expected }),
+        Ok(value) => Ok(value),
+        Err(_) if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => {
+            Err(Fault::DecimalComma { found })
+        }
+        Err(_) => Err(Fault::NotANumber { found, expected }),
+    }
+}
+
+fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {
+    let expected =
+        unit.map_or_else(|| "a number".to_owned(), |u| format!("{} in {}", u.dimension, u.name));
+    let value = number(cell, &expected)?;
+    let si = unit.map_or(value, |u| u.to_si(value));
+    let found = cell.to_owned();
+    if si.is_finite() { Ok(si) } else { Err(Fault::TooLarge { found, expected }) }
+}
+
+/// Reads one row; `None` if it has a mistake. Its `group` is filled in later.
+pub(crate) fn row(
+    record: &Record,
+    heads: &[Head],
+    layout: &Layout,
+    mistakes: &mut Mistakes,
+) -> Option<Row> {
+    let (line, cells) = (record.line, &record.cells);
+    if cells.len() != heads.len() {
+        let fault = Fault::Ragged { found: cells.len(), expected: heads.len() };
+        mistakes.add(line, None, fault);
+        return None;
+    }
+    if cells.iter().all(str::is_empty) {
+        mistakes.add(line, None, Fault::EmptyRow);
+        return None;
+    }
+    let mut row = Row::blank(line, layout.motions.len());
+    let mut good = true;
+    for (head, cell) in heads.iter().zip(cells) {
+        if let Err(fault) = fill(&mut row, head, cell, layout) {
+            mistakes.add(line, Some(head.column.clone()), fault);
+            good = false;
+        }
+    }
+    good.then_some(row)
+}
+
+fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), Fault> {
+    let value = || quantity(cell, head.unit);
+    match head.role {
+        None | Some(Role::Extra) => {}
+        Some(Role::Reading(joint)) => row.q[joint] = value()?,
+        Some(Role::Wrench(k)) => row.wrench[k] = value()?,
+        Some(Role::Temperature) => row.temperature = Some(value()?),
+        Some(Role::Time) => row.time = Some(value()?),
+        Some(Role::Direction(joint)) => {
+            let joints = row.q.len();
+            row.direction.get_or_insert_with(|| vec![0; joints])[joint] = direction(cell)?;
+        }
+        Some(Role::Pose) => row.pose = Some(name(cell, "the id of a pose")?),
+        Some(Role::Marker) => {
+            let found = name(cell, "the name of a marker")?;
+            let names = || layout.markers.iter().map(|m| m.name.as_str());
+            let Some(marker) = layout.markers.iter().find(|m| m.name == found) else {
+                let suggestion = nearest(&found, names()).map(str::to_owned);
+                let known = names().map(|n| format!("`{n}`")).collect();
+                return Err(Fault::UnknownMarker { found, known, suggestion });
+            };
+            row.offset = marker.translation;
+            row.marker = Some(found);
+        }
+        Some(Role::Measured(_, k)) => row.measured[k] = value()?,
+        Some(Role::Sim(_, k)) => row.sim.get_or_insert_with(Vector6::zeros)[k] = value()?,
+    }
+    Ok(())
+}
+
+fn direction(cell: &str) -> Result<i8, Fault> {
+    match number(cell, "-1, 0 or 1")? {
+        -1.0 => Ok(-1),
+        0.0 => Ok(0),
+        1.0 => Ok(1),
+        _ => Err(Fault::Direction { found: cell.to_owned() }),
+    }
+}
+
+fn name(cell: &str, expected: &str) -> Result<String, Fault> {
+    if cell.is_empty() {
+        return Err(Fault::EmptyCell { expected: expected.to_owned() });
+    }
+    Ok(cell.to_owned())
+}
+
+/// The first cell of a row that can be no header: every cell is empty or a number, one at least a
+/// number.
+pub(crate) fn only_numbers(cells: &StringRecord) -> Option<String> {
+    let numeric = |c: &str| c.parse::<f64>().is_ok();
+    let all = cells.iter().all(|c| c.is_empty() || numeric(c));
+    cells.iter().find(|c| numeric(c)).filter(|_| all).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_plain_and_finite() {
+        for (cell, value) in [("1.5", 1.5), ("-2e-3", -2e-3), ("+7", 7.0), (".5", 0.5)] {
+            assert_eq!(number(cell, "a"), Ok(value));
+        }
+        let fault = |cell| number(cell, "a").unwrap_err();
+        assert!(matches!(fault(""), Fault::EmptyCell { .. }));
+        for nan in ["NaN", "nan", "-NAN"] {
+            assert!(matches!(fault(nan), Fault::Nan { .. }), "{nan}");
+        }
+        for infinity in ["inf", "-Infinity", "INF"] {
+            assert!(matches!(fault(infinity), Fault::Infinity { .. }), "{infinity}");
+        }
+        assert!(matches!(fault("1e999"), Fault::TooLarge { .. }));
+        assert!(matches!(fault("1,5"), Fault::DecimalComma { .. }));
+        for text in ["abc", "1.5mm", "0x10", "1 2", "1,2,3", "--1", "e"] {
+            assert!(matches!(fault(text), Fault::NotANumber { .. }), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_unit_can_make_a_number_too_large() {
+        let kilo = Unit::named("kN");
+        assert!(matches!(quantity("1e307", kilo), Err(Fault::TooLarge { .. })));
+        assert_eq!(quantity("2", kilo), Ok(2000.0));
+    }
+
+    #[test]
+    fn directions_are_signs() {
+        for (cell, sign) in [("-1", -1), ("0", 0), ("+1", 1), ("1.0", 1)] {
+            assert_eq!(direction(cell), Ok(sign));
+        }
+        assert_eq!(direction("2"), Err(Fault::Direction { found: "2".to_owned() }));
+    }
+}

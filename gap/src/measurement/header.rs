@@ -1,0 +1,224 @@
+//! The header row: what each column is, and whether the columns together make a measurement.
+
+use super::Kind;
+use super::mistake::{Column, Fault, Mistakes};
+use super::role::{Family, Layout, Role, nearest_name};
+use super::table::Record;
+use super::unit::{Unit, nearest_unit};
+
+/// One column of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Head {
+    pub(crate) column: Column,
+    /// The header without its unit.
+    pub(crate) name: String,
+    /// The text in the brackets.
+    pub(crate) unit_text: Option<String>,
+    /// `None` if the name is itself a mistake.
+    pub(crate) role: Option<Role>,
+    /// The unit of its numbers, if they have one.
+    pub(crate) unit: Option<Unit>,
+}
+
+/// Reads the header row. What is wrong with it goes to `mistakes`.
+pub(crate) fn read(record: &Record, layout: &Layout, mistakes: &mut Mistakes) -> Vec<Head> {
+    let mut heads: Vec<Head> = Vec::with_capacity(record.cells.len());
+    for (index, text) in record.cells.iter().enumerate() {
+        let column = Column { number: index + 1, header: text.to_owned() };
+        let mut wrong = |fault| mistakes.add(record.line, Some(column.clone()), fault);
+        let (name, unit_text) = match split(text) {
+            Ok(parts) => parts,
+            Err(fault) => {
+                wrong(fault);
+                (String::new(), None)
+            }
+        };
+        let mut role = None;
+        let mut unit = None;
+        if !name.is_empty() {
+            if let Some(first) = heads.iter().find(|h| h.name == name) {
+                wrong(Fault::Repeated { name: name.clone(), first: first.column.number });
+            } else {
+                match Role::of(&name, layout) {
+                    Ok(known) => role = Some(known),
+                    Err(fault) => wrong(fault),
+                }
+            }
+        }
+        if let Some(known) = role {
+            match unit_of(known, &name, unit_text.as_deref(), layout) {
+                Ok(of) => unit = of,
+                Err(fault) => wrong(fault),
+            }
+        }
+        heads.push(Head { column, name, unit_text, role, unit });
+    }
+    heads
+}
+
+/// `name[unit]` into its parts.
+fn split(text: &str) -> Result<(String, Option<String>), Fault> {
+    let brackets = || Fault::Brackets { found: text.to_owned() };
+    let (name, unit) = match text.split_once('[') {
+        None if text.contains(']') => return Err(brackets()),
+        None => (text, None),
+        Some((name, rest)) => {
+            let unit = rest.strip_suffix(']').ok_or_else(brackets)?.trim();
+            if unit.is_empty() || unit.contains(['[', ']']) {
+                return Err(brackets());
+            }
+            (name.trim(), Some(unit.to_owned()))
+        }
+    };
+    if name.is_empty() {
+        return Err(if unit.is_some() { brackets() } else { Fault::NoName });
+    }
+    Ok((name.to_owned(), unit))
+}
+
+fn unit_of(
+    role: Role,
+    name: &str,
+    found: Option<&str>,
+    layout: &Layout,
+) -> Result<Option<Unit>, Fault> {
+    let Some(expected) = role.dimension(layout) else {
+        return match found {
+            Some(found) if role != Role::Extra => {
+                Err(Fault::UnitOnPlain { name: name.to_owned(), found: found.to_owned() })
+            }
+            _ => Ok(None),
+        };
+    };
+    let Some(found) = found else { return Ok(Some(expected.si())) };
+    match Unit::named(found) {
+        Some(unit) if unit.dimension == expected => Ok(Some(unit)),
+        Some(unit) => {
+            Err(Fault::WrongUnit { found: found.to_owned(), is: unit.dimension, expected })
+        }
+        None => {
+            let suggestion = nearest_unit(found)
+                .filter(|s| Unit::named(s).is_some_and(|u| u.dimension == expected));
+            Err(Fault::UnknownUnit { found: found.to_owned(), expected, suggestion })
+        }
+    }
+}
+
+/// Which components are measured and which are simulated by the user. What is missing or does not
+/// fit goes to `mistakes`; `None` if nothing is measured.
+pub(crate) fn kind(
+    heads: &[Head],
+    line: u64,
+    layout: &Layout,
+    mistakes: &mut Mistakes,
+) -> Option<(Kind, [bool; 6])> {
+    missing_joints(heads, line, layout, mistakes);
+    let find = |role| heads.iter().find(|h| h.role == Some(role));
+    let measured = |family| (0..6).map(move |k| find(Role::Measured(family, k)));
+    let first = |family| measured(family).flatten().min_by_key(|h| h.column.number);
+    let mut wrong = |head: &Head, fault| mistakes.add(line, Some(head.column.clone()), fault);
+    let kind = match (first(Family::Pose), first(Family::Displacement)) {
+        (None, None) => {
+            mistakes.add(line, None, Fault::NothingMeasured);
+            return None;
+        }
+        (Some(pose), Some(displacement)) => {
+            let fault = Fault::TwoKinds {
+                pose: pose.name.clone(),
+                displacement: displacement.name.clone(),
+            };
+            wrong(displacement, fault);
+            return None;
+        }
+        (Some(pose), None) => {
+            let has: Vec<_> = measured(Family::Pose).collect();
+            let missing = absent(&has[..3], Family::Pose, 0);
+            if !missing.is_empty() {
+                wrong(pose, Fault::PositionIncomplete { found: pose.name.clone(), missing });
+            }
+            if let Some((head, missing)) = partial(&has[3..]) {
+                wrong(head, incomplete(head, missing, "rx, ry, rz"));
+            }
+            Kind::Pose { orientation: has[3..].iter().all(Option::is_some) }
+        }
+        (None, Some(_)) => {
+            let mut components = [false; 6];
+            for (flag, head) in components.iter_mut().zip(measured(Family::Displacement)) {
+                *flag = head.is_some();
+            }
+            Kind::Displacement { components }
+        }
+    };
+    let (family, other) = match kind {
+        Kind::Pose { .. } => (Family::Pose, Family::Displacement),
+        Kind::Displacement { .. } => (Family::Displacement, Family::Pose),
+    };
+    for (k, name) in family.names().iter().enumerate() {
+        if let Some(head) = find(Role::Sim(other, k)) {
+            let (is, measures) = match kind {
+                Kind::Pose { .. } => ("a displacement", "a pose"),
+                Kind::Displacement { .. } => ("a pose", "a displacement"),
+            };
+            let (found, expected) = (head.name.clone(), format!("sim_{name}"));
+            wrong(head, Fault::SimOfOtherKind { found, is, measures, expected });
+        }
+    }
+    let sim: Vec<_> = (0..6).map(|k| find(Role::Sim(family, k))).collect();
+    if let (Kind::Pose { .. }, Some((head, missing))) = (&kind, partial(&sim[3..])) {
+        wrong(head, incomplete(head, format!("sim_{missing}"), "sim_rx, sim_ry, sim_rz"));
+    }
+    let mut given = [false; 6];
+    for (flag, head) in given.iter_mut().zip(sim) {
+        *flag = head.is_some();
+    }
+    Some((kind, given))
+}
+
+fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mistakes) {
+    for joint in 0..layout.motions.len() {
+        if heads.iter().any(|h| h.role == Some(Role::Reading(joint))) {
+            continue;
+        }
+        let missing = format!("q{}", joint + 1);
+        let meant = |h: &&Head| {
+            h.role == Some(Role::Extra)
+                && nearest_name(&h.name, layout).as_deref() == Some(missing.as_str())
+        };
+        let suggestion = heads.iter().find(meant).map(|h| h.name.clone());
+        mistakes.add(line, None, Fault::MissingJoint { missing, suggestion });
+    }
+}
+
+fn absent(has: &[Option<&Head>], family: Family, offset: usize) -> String {
+    let names = family.names();
+    let lacking = has.iter().enumerate().filter(|(_, h)| h.is_none());
+    lacking.map(|(k, _)| names[offset + k]).collect::<Vec<_>>().join(", ")
+}
+
+/// Some of the three but not all: the first present, and the names of the absent.
+fn partial<'a>(has: &[Option<&'a Head>]) -> Option<(&'a Head, String)> {
+    let missing = absent(has, Family::Pose, 3);
+    let head = has.iter().copied().flatten().next()?;
+    (!missing.is_empty()).then_some((head, missing))
+}
+
+fn incomplete(head: &Head, missing: String, all: &'static str) -> Fault {
+    Fault::OrientationIncomplete { found: head.name.clone(), missing, all }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splits_names_and_units() {
+        let parts = |t| split(t).map(|(n, u)| (n, u.unwrap_or_default()));
+        assert_eq!(parts("q1[deg]"), Ok(("q1".to_owned(), "deg".to_owned())));
+        assert_eq!(parts("q1 [ deg ]"), Ok(("q1".to_owned(), "deg".to_owned())));
+        assert_eq!(parts("pose"), Ok(("pose".to_owned(), String::new())));
+        assert_eq!(parts(""), Err(Fault::NoName));
+        for bad in ["q1[", "q1]", "q1[]", "[deg]", "q1[deg]x", "q1[[deg]]", "q1[a][b]"] {
+            assert_eq!(parts(bad), Err(Fault::Brackets { found: bad.to_owned() }), "{bad}");
+        }
+    }
+}

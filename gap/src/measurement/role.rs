@@ -1,0 +1,199 @@
+//! What a column of the measurement file means, by its name.
+
+use stiffarm_kernels::Motion;
+
+use super::mistake::Fault;
+use super::unit::{Dimension, nearest};
+
+/// Components of a measured pose, in the order of a twist.
+pub const POSE_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Components of a measured displacement, in the order of a twist.
+pub const DISPLACEMENT_NAMES: [&str; 6] = ["dx", "dy", "dz", "drx", "dry", "drz"];
+
+/// Components of a wrench.
+pub const WRENCH_NAMES: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// Prefix of the columns that hold the user's own simulator.
+pub const SIM_PREFIX: &str = "sim_";
+
+/// What the reader has to know of the robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// One per joint, base to tip: a revolute reading is an angle, a prismatic one a length.
+    pub motions: Vec<Motion>,
+    /// The `[[marker]]` of the robot file.
+    pub markers: Vec<Marker>,
+}
+
+/// A measured point on the tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marker {
+    /// The name that the `marker` column uses.
+    pub name: String,
+    /// In the tool frame, m; `None` is unknown.
+    pub translation: Option<[f64; 3]>,
+}
+
+/// Which of the two kinds of measurement a column belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Family {
+    Pose,
+    Displacement,
+}
+
+/// The meaning of a column; indices count from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    Reading(usize),
+    Wrench(usize),
+    Direction(usize),
+    Temperature,
+    Time,
+    Pose,
+    Marker,
+    Measured(Family, usize),
+    Sim(Family, usize),
+    Extra,
+}
+
+impl Family {
+    pub(crate) const fn names(self) -> [&'static str; 6] {
+        match self {
+            Family::Pose => POSE_NAMES,
+            Family::Displacement => DISPLACEMENT_NAMES,
+        }
+    }
+
+    /// The family and component of `x`, `drz`, ….
+    pub(crate) fn component(name: &str) -> Option<(Family, usize)> {
+        [Family::Pose, Family::Displacement]
+            .into_iter()
+            .find_map(|f| f.names().iter().position(|n| *n == name).map(|k| (f, k)))
+    }
+}
+
+/// Translations come first in a twist, as forces do in a wrench.
+pub(crate) const fn component_dimension(component: usize) -> Dimension {
+    if component < 3 { Dimension::Length } else { Dimension::Angle }
+}
+
+impl Role {
+    /// The role of the column called `name` (without its unit).
+    pub(crate) fn of(name: &str, layout: &Layout) -> Result<Role, Fault> {
+        if let Some(joint) = numbered(name, 'q', layout)? {
+            return Ok(Role::Reading(joint));
+        }
+        if let Some(joint) = numbered(name, 's', layout)? {
+            return Ok(Role::Direction(joint));
+        }
+        if let Some(k) = WRENCH_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::Wrench(k));
+        }
+        if let Some((family, k)) = Family::component(name) {
+            return Ok(Role::Measured(family, k));
+        }
+        if let Some((family, k)) = name.strip_prefix(SIM_PREFIX).and_then(Family::component) {
+            return Ok(Role::Sim(family, k));
+        }
+        Ok(match name {
+            "temperature" => Role::Temperature,
+            "time" => Role::Time,
+            "pose" => Role::Pose,
+            "marker" => Role::Marker,
+            _ => Role::Extra,
+        })
+    }
+
+    /// The quantity that the column holds; `None` for those that carry no unit.
+    pub(crate) fn dimension(self, layout: &Layout) -> Option<Dimension> {
+        match self {
+            Role::Reading(j) => Some(match layout.motions[j] {
+                Motion::Revolute => Dimension::Angle,
+                Motion::Prismatic => Dimension::Length,
+            }),
+            Role::Wrench(k) => Some(if k < 3 { Dimension::Force } else { Dimension::Moment }),
+            Role::Temperature => Some(Dimension::Temperature),
+            Role::Time => Some(Dimension::Time),
+            Role::Measured(_, k) | Role::Sim(_, k) => Some(component_dimension(k)),
+            Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
+        }
+    }
+}
+
+/// `q3` as joint index 2; `None` if the name is not the letter and digits alone.
+fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, Fault> {
+    let Some(digits) = name.strip_prefix(letter) else { return Ok(None) };
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return Ok(None);
+    }
+    let joints = layout.motions.len();
+    let known = digits.parse().ok().filter(|n: &usize| (1..=joints).contains(n));
+    match known.filter(|_| !digits.starts_with('0')) {
+        Some(number) => Ok(Some(number - 1)),
+        None => Err(Fault::UnknownJoint { found: digits.to_owned(), joints }),
+    }
+}
+
+/// The known column that an unknown one may have been meant to be.
+pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
+    let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
+    let fixed = ["temperature", "time", "pose", "marker"].map(str::to_owned);
+    let sim = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).map(|n| format!("{SIM_PREFIX}{n}"));
+    let plain = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).chain(&WRENCH_NAMES);
+    let names: Vec<String> =
+        joints.chain(fixed).chain(sim).chain(plain.map(|n| (*n).to_owned())).collect();
+    // One edit turns any short name into any other; of those only the case can be mistaken.
+    let of_case = names.iter().find(|n| n.eq_ignore_ascii_case(found));
+    let near = || nearest(found, names.iter().map(String::as_str).filter(|n| n.len() > 3));
+    of_case.map(String::as_str).or_else(near).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn layout() -> Layout {
+        Layout { motions: vec![Motion::Revolute, Motion::Prismatic], markers: Vec::new() }
+    }
+
+    #[test]
+    fn names_have_roles() {
+        let role = |name| Role::of(name, &layout()).unwrap();
+        assert_eq!(role("q2"), Role::Reading(1));
+        assert_eq!(role("s1"), Role::Direction(0));
+        assert_eq!(role("mz"), Role::Wrench(5));
+        assert_eq!(role("drx"), Role::Measured(Family::Displacement, 3));
+        assert_eq!(role("sim_rz"), Role::Sim(Family::Pose, 5));
+        for extra in ["Q1", "q", "qa", "q1b", "speed", "sim_q1", "", "ycd_dy"] {
+            assert_eq!(role(extra), Role::Extra, "{extra}");
+        }
+    }
+
+    #[test]
+    fn joints_that_are_not_there_are_mistakes() {
+        for name in ["q0", "q3", "s3", "q01", "q99999999999999999999999"] {
+            let found = name[1..].to_owned();
+            let fault = Fault::UnknownJoint { found, joints: 2 };
+            assert_eq!(Role::of(name, &layout()), Err(fault), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_prismatic_reading_is_a_length() {
+        let layout = layout();
+        assert_eq!(Role::Reading(0).dimension(&layout), Some(Dimension::Angle));
+        assert_eq!(Role::Reading(1).dimension(&layout), Some(Dimension::Length));
+        assert_eq!(Role::Pose.dimension(&layout), None);
+    }
+
+    #[test]
+    fn suggests_what_may_have_been_meant() {
+        let near = |name| nearest_name(name, &layout());
+        assert_eq!(near("temprature").as_deref(), Some("temperature"));
+        assert_eq!(near("Q1").as_deref(), Some("q1"));
+        assert_eq!(near("sim_drq").as_deref(), Some("sim_drx"));
+        assert_eq!(near("w"), None);
+        assert_eq!(near("ycd_dy"), None);
+    }
+}

@@ -1,0 +1,139 @@
+//! From bytes to records, each with the line of the file on which it begins.
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use super::mistake::{Column, Fault};
+
+/// A record and its line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Record {
+    /// From 1.
+    pub(crate) line: u64,
+    /// Cells, trimmed.
+    pub(crate) cells: StringRecord,
+}
+
+/// The first place at which the bytes are no text.
+#[derive(Debug, PartialEq)]
+pub(crate) struct NotText {
+    pub(crate) line: u64,
+    pub(crate) column: Option<Column>,
+    pub(crate) fault: Fault,
+}
+
+/// The records of a file: comment lines and blank lines left out, a byte order mark and either
+/// line ending accepted.
+pub(crate) fn records(bytes: &[u8]) -> Result<Vec<Record>, NotText> {
+    let text = text(bytes)?;
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .trim(Trim::All)
+        .from_reader(text.as_bytes());
+    let mut lines = Lines { text: text.as_bytes(), at: 0, line: 1 };
+    let mut records = Vec::new();
+    let mut cells = StringRecord::new();
+    while reader.read_record(&mut cells).unwrap_or(false) {
+        // The csv crate's position is where it began to read: before comments and blank lines.
+        let from = cells.position().map_or(0, csv::Position::byte);
+        let line = lines.of_record_from(usize::try_from(from).unwrap_or(usize::MAX));
+        let blank = cells.len() == 1 && cells[0].is_empty();
+        if !blank && !cells[0].starts_with('#') {
+            records.push(Record { line, cells: cells.clone() });
+        }
+    }
+    Ok(records)
+}
+
+fn text(bytes: &[u8]) -> Result<&str, NotText> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(NotText { line: 1, column: None, fault: Fault::Utf16 });
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    core::str::from_utf8(bytes).map_err(|e| {
+        let at = e.valid_up_to();
+        let mut lines = Lines { text: bytes, at: 0, line: 1 };
+        lines.advance(at);
+        let start = bytes[..at].iter().rposition(|b| *b == b'\n').map_or(0, |p| p + 1);
+        let number = 1 + bytes[start..at].iter().filter(|b| **b == b',').count();
+        NotText {
+            line: lines.line,
+            column: Some(Column { number, header: String::new() }),
+            fault: Fault::NotUtf8 { byte: bytes[at] },
+        }
+    })
+}
+
+/// Counts line ends (LF, CRLF, or CR alone) up to a growing offset.
+struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+    line: u64,
+}
+
+impl Lines<'_> {
+    fn advance(&mut self, to: usize) {
+        let to = to.min(self.text.len());
+        while self.at < to {
+            let here = self.text[self.at];
+            let crlf = here == b'\r' && self.text.get(self.at + 1) == Some(&b'\n');
+            self.line += u64::from(here == b'\n' || (here == b'\r' && !crlf));
+            self.at += 1;
+        }
+    }
+
+    /// The line of the first record at or after `offset`.
+    fn of_record_from(&mut self, offset: usize) -> u64 {
+        self.advance(offset);
+        loop {
+            match self.text.get(self.at) {
+                Some(b'\n' | b'\r') => self.advance(self.at + 1),
+                Some(b'#') => {
+                    let rest = &self.text[self.at..];
+                    let end = rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
+                    self.advance(self.at + end);
+                }
+                _ => return self.line,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(bytes: &[u8]) -> Vec<(u64, String)> {
+        let records = records(bytes).unwrap();
+        records
+            .into_iter()
+            .map(|r| (r.line, r.cells.iter().collect::<Vec<_>>().join("|")))
+            .collect()
+    }
+
+    fn want(expected: &[(u64, &str)]) -> Vec<(u64, String)> {
+        expected.iter().map(|(l, t)| (*l, (*t).to_owned())).collect()
+    }
+
+    #[test]
+    fn counts_lines_through_comments_and_blanks() {
+        let text = b"# a, b\n\n#c\na,b\n1,2\n\n  \n  # d\n#e\n3, 4 \n#f\n\n5,6";
+        assert_eq!(lines(text), want(&[(4, "a|b"), (5, "1|2"), (10, "3|4"), (13, "5|6")]));
+    }
+
+    #[test]
+    fn accepts_bom_and_crlf_and_quotes() {
+        let text = b"\xef\xbb\xbfa,b\r\n#x\r\n1,\"2\n2\"\r\n\r\n3,4\r\n";
+        assert_eq!(lines(text), want(&[(1, "a|b"), (3, "1|2\n2"), (6, "3|4")]));
+        assert_eq!(lines(b"a,b\r1,2\r"), want(&[(1, "a|b"), (2, "1|2")]));
+    }
+
+    #[test]
+    fn says_where_the_text_ends() {
+        let not_text = records(b"a,b\n1,2\n3,\xe9\n").unwrap_err();
+        assert_eq!((not_text.line, not_text.column.map(|c| c.number)), (3, Some(2)));
+        assert_eq!(not_text.fault, Fault::NotUtf8 { byte: 0xe9 });
+        assert_eq!(records(b"\xff\xfea\0").unwrap_err().fault, Fault::Utf16);
+    }
+}

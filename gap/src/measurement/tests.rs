@@ -1,0 +1,367 @@
+use super::*;
+use stiffarm_kernels::Motion;
+
+/// Two revolute joints, a prismatic one, two markers.
+fn layout() -> Layout {
+    let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
+    Layout {
+        motions: vec![Motion::Revolute, Motion::Revolute, Motion::Prismatic],
+        markers: vec![marker("smr1", Some([0.0, 0.1, 0.02])), marker("smr2", None)],
+    }
+}
+
+fn read(text: &str) -> Result<Measurements, ReadError> {
+    Measurements::from_bytes("run.csv", text.as_bytes(), &layout())
+}
+
+fn good(text: &str) -> Measurements {
+    read(text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn every_column_of_the_format_is_read_in_si() {
+    let data = good(
+        "# a comment, with a comma\n\
+         time[s],q1[deg],q2[mrad],q3[mm],fx[N],fy[kN],fz[lbf],mx[Nm],my[Nmm],mz,s1,s2,s3,\
+         temperature[K],pose,marker,x[m],y[mm],z[um],rx[deg],ry,rz[mrad],sim_x[in],sim_z,note\n\
+         1.5,180,250,20,1,2,3,4,5000,6,-1,0,+1,293.15,A 7,smr1,1,2000,3000000,90,0.5,100,10,9,hi\n",
+    );
+    let row = &data.rows[0];
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
+    assert_eq!((row.line, row.group, data.poses), (3, 0, 1));
+    near(row.q[0], core::f64::consts::PI);
+    near(row.q[1], 0.25);
+    near(row.q[2], 0.02);
+    assert_eq!(row.wrench, Vector6::new(1.0, 2000.0, 3.0 * 4.4482216152605, 4.0, 5.0, 6.0));
+    assert_eq!(row.direction, Some(vec![-1, 0, 1]));
+    near(row.temperature.unwrap(), 20.0);
+    near(row.time.unwrap(), 1.5);
+    assert_eq!((row.pose.as_deref(), row.marker.as_deref()), (Some("A 7"), Some("smr1")));
+    assert_eq!(row.offset, Some([0.0, 0.1, 0.02]));
+    let want = Vector6::new(1.0, 2.0, 3.0, core::f64::consts::FRAC_PI_2, 0.5, 0.1);
+    assert!((row.measured - want).amax() < 1e-12);
+    assert_eq!(row.sim.unwrap(), Vector6::new(0.254, 0.0, 9.0, 0.0, 0.0, 0.0));
+    assert_eq!(data.sim_given, [true, false, true, false, false, false]);
+    assert_eq!(data.kind, Kind::Pose { orientation: true });
+    assert_eq!(data.components(), 6);
+    assert_eq!(
+        (data.extra[0].name.as_str(), &data.extra[0].cells[..]),
+        ("note", &["hi".into()][..])
+    );
+    assert_eq!(data.extra[0].values, None);
+}
+
+#[test]
+fn absent_columns_are_zero_or_none() {
+    let data = good("dz,q3,q2,q1\n-1e-3,3,2,1\n");
+    let row = &data.rows[0];
+    assert_eq!((row.q.as_slice(), row.wrench), (&[1.0, 2.0, 3.0][..], Vector6::zeros()));
+    assert_eq!((&row.direction, row.temperature, row.time, &row.pose), (&None, None, None, &None));
+    assert_eq!((&row.marker, row.offset, row.sim), (&None, Some([0.0; 3]), None));
+    assert_eq!(data.kind.components(), [false, false, true, false, false, false]);
+}
+
+#[test]
+fn a_unitless_number_is_si_and_never_guessed() {
+    assert_eq!(good("q1,q2,q3,dz\n90,0,0,1\n").rows[0].q[0], 90.0);
+}
+
+#[test]
+fn unknown_columns_are_kept_and_reported() {
+    let data = good("q1,q2,q3,dz,ycd_dz[in],temprature[furlong],Q1\n0,0,0,1,-0.5,20,7\n");
+    let [ycd, misspelt, upper] = &data.extra[..] else { panic!("{:?}", data.extra) };
+    assert_eq!((ycd.unit.as_deref(), &ycd.values), (Some("in"), &Some(vec![-0.5])));
+    assert_eq!((ycd.column.number, ycd.suggestion.as_deref()), (5, None));
+    assert_eq!(misspelt.suggestion.as_deref(), Some("temperature"));
+    assert_eq!(upper.suggestion.as_deref(), Some("q1"));
+}
+
+#[test]
+fn a_simulated_component_that_is_not_measured_is_reported() {
+    let data = good("q1,q2,q3,dz,sim_dx,sim_dz\n0,0,0,1,2,3\n");
+    assert_eq!(data.unused, [Column { number: 5, header: "sim_dx".to_owned() }]);
+}
+
+#[test]
+fn bom_crlf_quotes_and_missing_last_line_end() {
+    let data = good("\u{feff}q1,q2,q3,dz,\"a, b\"\r\n0,0,0,1,\"x, y\"\r\n#\r\n1,0,0, 2 ,z");
+    assert_eq!((data.rows.len(), data.rows[1].line, data.rows[1].measured[2]), (2, 4, 2.0));
+    assert_eq!(data.extra[0].cells, ["x, y", "z"]);
+}
+
+/// Each mistake of the format with the whole of its message.
+const MISTAKES: &[(&str, &str, &str)] = &[
+    (
+        "EmptyFile",
+        "# nothing\n",
+        "line 1: found nothing, expected a header row: begin with one such as \
+         `q1[deg],q2[deg],dz[mm]`",
+    ),
+    (
+        "HeaderMissing",
+        "0.1,0.2,0.3,1\n",
+        "line 1: found the number `0.1`, expected a header row: name the columns in the first row, \
+         such as `q1[deg],q2[deg],dz[mm]`",
+    ),
+    (
+        "Separator",
+        "q1;q2;q3;dz\n0,1;0;0;1\n",
+        "line 1: found columns separated by semicolons, expected commas: export with commas",
+    ),
+    (
+        "NoName",
+        "q1,q2,q3,dz,\n0,0,0,1,\n",
+        "line 1, column 5: found no name, expected `name` or `name[unit]`: name the column or \
+         remove \
+         it (a trailing comma makes one)",
+    ),
+    (
+        "Brackets",
+        "q1,q2,q3,dz,t[deg\n0,0,0,1,2\n",
+        "line 1, column 5 `t[deg`: found `t[deg`, expected `name` or `name[unit]`: mend the \
+         brackets",
+    ),
+    (
+        "Repeated",
+        "q1,q2,q3,dz,q1[deg]\n0,0,0,1,2\n",
+        "line 1, column 5 `q1[deg]`: `q1` stands in column 1 already: remove or rename one of the \
+         two",
+    ),
+    (
+        "Repeated",
+        "q1,q2,q3,dz,note,note\n0,0,0,1,2,3\n",
+        "line 1, column 6 `note`: `note` stands in column 5 already: remove or rename one of the \
+         two",
+    ),
+    (
+        "UnknownUnit",
+        "q1[degs],q2,q3,dz\n0,0,0,1\n",
+        "line 1, column 1 `q1[degs]`: found the unknown unit `degs`, expected one of rad, deg, \
+         mrad; \
+         did you mean `deg`?",
+    ),
+    (
+        "UnknownUnit",
+        "q1[furlong],q2,q3,dz\n0,0,0,1\n",
+        "line 1, column 1 `q1[furlong]`: found the unknown unit `furlong`, expected one of rad, \
+         deg, \
+         mrad",
+    ),
+    (
+        "WrongUnit",
+        "q1,q2,q3[deg],dz\n0,0,0,1\n",
+        "line 1, column 3 `q3[deg]`: found `deg`, the unit of an angle, expected a length: write \
+         one \
+         of m, mm, um, in",
+    ),
+    (
+        "UnitOnPlain",
+        "q1,q2,q3,dz,s1[rad]\n0,0,0,1,1\n",
+        "line 1, column 5 `s1[rad]`: found the unit `rad`, expected none: write `s1`",
+    ),
+    (
+        "UnknownJoint",
+        "q1,q2,q3,q4,dz\n0,0,0,0,1\n",
+        "line 1, column 4 `q4`: found joint number 4, expected 1 to 3: joints are numbered from 1 \
+         at \
+         the base, without leading zeros",
+    ),
+    (
+        "MissingJoint",
+        "q1,q3,dz\n0,0,1\n",
+        "line 1: found no column q2, expected a reading of every joint: add it",
+    ),
+    (
+        "MissingJoint",
+        "q1,Q2,q3,dz\n0,0,0,1\n",
+        "line 1: found no column q2, expected a reading of every joint: add it (`Q2` is not it: \
+         names \
+         are case-sensitive and exact)",
+    ),
+    (
+        "NothingMeasured",
+        "q1,q2,q3,fx\n0,0,0,1\n",
+        "line 1: found no measured column, expected `x,y,z` (a position) or any of \
+         `dx dy dz drx dry drz` (a displacement): add what was measured",
+    ),
+    (
+        "TwoKinds",
+        "q1,q2,q3,x,y,z,dz\n0,0,0,1,1,1,1\n",
+        "line 1, column 7 `dz`: found both a measured pose (`x`) and a measured displacement \
+         (`dz`), \
+         expected one kind: split the file in two",
+    ),
+    (
+        "PositionIncomplete",
+        "q1,q2,q3,x\n0,0,0,1\n",
+        "line 1, column 4 `x`: found `x` without y, z, expected all of x, y, z: a measured \
+         position \
+         has three coordinates",
+    ),
+    (
+        "OrientationIncomplete",
+        "q1,q2,q3,x,y,z,rx\n0,0,0,1,1,1,1\n",
+        "line 1, column 7 `rx`: found `rx` without ry, rz, expected all of rx, ry, rz or none: an \
+         orientation is a rotation vector with three components",
+    ),
+    (
+        "OrientationIncomplete",
+        "q1,q2,q3,x,y,z,rx,ry,rz,sim_ry,sim_rz\n0,0,0,1,1,1,1,1,1,1,1\n",
+        "line 1, column 10 `sim_ry`: found `sim_ry` without sim_rx, expected all of sim_rx, \
+         sim_ry, \
+         sim_rz or none: an orientation is a rotation vector with three components",
+    ),
+    (
+        "SimOfOtherKind",
+        "q1,q2,q3,dx,sim_x\n0,0,0,1,1\n",
+        "line 1, column 5 `sim_x`: found `sim_x`, a pose, in a file that measures a displacement, \
+         expected `sim_dx`: predict what is measured",
+    ),
+    (
+        "NoRows",
+        "q1,q2,q3,dz\n# none\n",
+        "line 1: found no rows, expected at least one measurement below the header: add the \
+         measurements",
+    ),
+    (
+        "Ragged",
+        "q1,q2,q3,dz\n0,0,0\n",
+        "line 2: found 3 cells, expected 4 as in the header: add the missing",
+    ),
+    (
+        "Ragged",
+        "q1,q2,q3,dz\n0,5,0,0,1\n",
+        "line 2: found 5 cells, expected 4 as in the header: remove the surplus (a decimal comma \
+         makes one: write 1.5, not 1,5)",
+    ),
+    (
+        "EmptyRow",
+        "q1,q2,q3,dz\n0,0,0,1\n,,,\n",
+        "line 3: found an empty row of commas, expected a measurement: remove the row",
+    ),
+    (
+        "EmptyCell",
+        "q1[deg],q2,q3,dz\n ,0,0,1\n",
+        "line 2, column 1 `q1[deg]`: found an empty cell, expected an angle in deg: fill it in, or \
+         remove the row",
+    ),
+    (
+        "EmptyCell",
+        "q1,q2,q3,dz,pose\n0,0,0,1,\n",
+        "line 2, column 5 `pose`: found an empty cell, expected the id of a pose: fill it in, or \
+         remove the row",
+    ),
+    (
+        "NotANumber",
+        "q1,q2,q3,dz\n0,zero,0,1\n",
+        "line 2, column 2 `q2`: found `zero`, expected an angle in rad: write a plain number",
+    ),
+    (
+        "NotANumber",
+        "q1,q2,q3,dz\n0,0,0,1mm\n",
+        "line 2, column 4 `dz`: found `1mm`, expected a length in m: write a plain number; a unit \
+         belongs in the header, `name[unit]`",
+    ),
+    (
+        "DecimalComma",
+        "q1,q2,q3,dz\n0,\"1,5\",0,1\n",
+        "line 2, column 2 `q2`: found `1,5`, a decimal comma: write 1.5, not 1,5",
+    ),
+    (
+        "Nan",
+        "q1,q2,q3,dz\n0,0,0,NaN\n",
+        "line 2, column 4 `dz`: found `NaN`, not a number, expected a length in m: remove the row \
+         or \
+         measure again",
+    ),
+    (
+        "Infinity",
+        "q1,q2,q3,dz\n0,0,0,-inf\n",
+        "line 2, column 4 `dz`: found `-inf`, infinity, expected a length in m: remove the row or \
+         measure again",
+    ),
+    (
+        "TooLarge",
+        "q1,q2,q3,dz\n0,0,0,1e400\n",
+        "line 2, column 4 `dz`: found `1e400`, too large for a double, expected a length in m: \
+         mend \
+         the exponent",
+    ),
+    (
+        "Direction",
+        "q1,q2,q3,s2,dz\n0,0,0,0.5,1\n",
+        "line 2, column 4 `s2`: found `0.5`, expected -1, 0 or 1: the direction from which the \
+         joint \
+         came to rest",
+    ),
+    (
+        "UnknownMarker",
+        "q1,q2,q3,dz,marker\n0,0,0,1,SMR1\n",
+        "line 2, column 5 `marker`: found the unknown marker `SMR1`, the robot file has `smr1`, \
+         `smr2`; did you mean `smr1`?: name one of them or add it to the robot file",
+    ),
+];
+
+#[test]
+fn every_mistake_has_its_own_message() {
+    for (fault, text, message) in MISTAKES {
+        let error = read(text).expect_err(text);
+        assert_eq!(error.to_string(), format!("run.csv: {message}"), "{text}");
+        let ReadError::Mistakes { mistakes, .. } = error else { panic!("{text}") };
+        let debug = format!("{:?}", mistakes[0].fault);
+        assert!(debug.starts_with(fault), "{debug} for {text}");
+    }
+    let bytes: [(&[u8], &str); 2] = [
+        (
+            b"q1,q2,q3,dz\n0,0,\xb0,1\n",
+            "run.csv: line 2, column 3: found byte 0xb0, expected UTF-8 text: save the file as \
+             UTF-8",
+        ),
+        (
+            b"\xff\xfeq\x001\x00",
+            "run.csv: line 1: found a UTF-16 byte order mark, expected UTF-8 text: save the file \
+             as \
+             UTF-8",
+        ),
+    ];
+    for (bytes, message) in bytes {
+        let error = Measurements::from_bytes("run.csv", bytes, &layout()).unwrap_err();
+        assert_eq!(error.to_string(), message);
+    }
+}
+
+#[test]
+fn a_robot_without_markers_says_so() {
+    let layout = Layout { markers: Vec::new(), ..layout() };
+    let text = b"q1,q2,q3,dz,marker\n0,0,0,1,a\n";
+    let error = Measurements::from_bytes("run.csv", text, &layout).unwrap_err().to_string();
+    assert!(error.contains("marker `a`, the robot file has no [[marker]]: name"), "{error}");
+}
+
+#[test]
+fn all_mistakes_are_reported_in_the_order_of_the_file() {
+    let error = read("q1[kg],q2,q3,dz,q9\n0,x,0,1,0\n1,2\n0,0,nan,,0\n").unwrap_err();
+    let text = error.to_string();
+    let places: Vec<_> =
+        text.lines().map(|l| l.split(": ").nth(1).unwrap_or_default().to_owned()).collect();
+    let want = [
+        "line 1, column 1 `q1[kg]`",
+        "line 1, column 5 `q9`",
+        "line 2, column 2 `q2`",
+        "line 3",
+        "line 4, column 3 `q3`",
+        "line 4, column 4 `dz`",
+    ];
+    assert_eq!(places, want, "{text}");
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let error = Measurements::read(Path::new("no/such.csv"), &layout()).unwrap_err();
+    assert!(matches!(error, ReadError::Open { .. }));
+    let text = error.to_string();
+    assert!(
+        text.starts_with("no/such.csv: ") && text.ends_with("measurement file (CSV)"),
+        "{text}"
+    );
+}

@@ -1,0 +1,192 @@
+//! Derivatives by dual numbers (num-dual) and by central differences.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_dual::{Dual64, DualNum};
+use stiffarm::kernels::{Kernels, Output, Scalar};
+
+use crate::compare::{Draws, relative};
+use crate::zoo;
+
+/// num-dual's number as a scalar of kernels.
+#[derive(Clone, Copy, Debug)]
+struct Dual(Dual64);
+
+impl Add for Dual {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Dual(self.0 + other.0)
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Dual(self.0 - other.0)
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Dual(self.0 * other.0)
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Dual(-self.0)
+    }
+}
+
+impl Scalar for Dual {
+    fn lit(x: f64) -> Self {
+        Dual(Dual64::from(x))
+    }
+    fn recip(self) -> Self {
+        Dual(self.0.recip())
+    }
+    fn sqrt(self) -> Self {
+        Dual(self.0.sqrt())
+    }
+    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
+        (angles.map(|a| Dual(a.0.sin())), angles.map(|a| Dual(a.0.cos())))
+    }
+    fn is_positive(self) -> bool {
+        self.0.re > 0.0
+    }
+}
+
+fn evaluate<S: Scalar>(
+    robot: &dyn Kernels<S>,
+    output: Output,
+    q: &[S],
+    wrench: &[S; 6],
+) -> Vec<S> {
+    let (rows, columns) = output.shape(robot.dof());
+    let mut out = vec![S::lit(0.0); rows * columns];
+    robot.evaluate(output, q, wrench, &mut out).expect("the arm is stable");
+    out
+}
+
+/// ∂output/∂q_i as (dual numbers, central differences).
+fn slopes<R: Kernels<Dual> + Kernels<f64>>(
+    robot: &R,
+    output: Output,
+    (q, wrench): (&[f64], &[f64; 6]),
+    joint: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    let mut dual: Vec<Dual> = q.iter().map(|x| Dual::lit(*x)).collect();
+    dual[joint].0.eps = 1.0;
+    let by_dual = evaluate::<Dual>(robot, output, &dual, &wrench.map(Dual::lit));
+    let step = 1e-5;
+    let moved = |by: f64| {
+        let mut q = q.to_vec();
+        q[joint] += by;
+        evaluate::<f64>(robot, output, &q, wrench)
+    };
+    let differences = moved(step).into_iter().zip(moved(-step)).map(|(a, b)| (a - b) / (2.0 * step));
+    (by_dual.into_iter().map(|d| d.0.eps).collect(), differences.collect())
+}
+
+/// The twist of a pose from its derivative: ω from `R' Rᵀ`.
+fn twist(slope: &[f64], pose: &[f64]) -> Vec<f64> {
+    let skew = |r: usize, c: usize| (0..3).map(|k| slope[3 * k + r] * pose[3 * k + c]).sum::<f64>();
+    vec![slope[9], slope[10], slope[11], skew(2, 1), skew(0, 2), skew(1, 0)]
+}
+
+fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
+    let n = Kernels::<f64>::dof(robot);
+    let mut draws = Draws::new(4);
+    for _ in 0..200 {
+        let q: Vec<f64> = (0..n).map(|_| range * draws.unit() + 0.6).collect();
+        let wrench = draws.wrench();
+        let pose = evaluate::<f64>(robot, Output::Pose, &q, &wrench);
+        let jacobian = evaluate::<f64>(robot, Output::Jacobian, &q, &wrench);
+        let pairs = [
+            (Output::JointTorque, Output::ComplementaryStiffness),
+            (Output::GravityTorque, Output::GravityStiffness),
+        ];
+        for joint in 0..n {
+            let (dual, difference) = slopes(robot, Output::Pose, (&q, &wrench), joint);
+            let column = &jacobian[6 * joint..6 * joint + 6];
+            // Central differences of step 1e-5 err by about 1e-10 of the scale plus 1e-11 of rounding.
+            assert!(relative(&twist(&dual, &pose), column) < 1e-13);
+            assert!(relative(&twist(&difference, &pose), column) < 1e-8);
+            for (value, slope) in pairs {
+                let matrix = evaluate::<f64>(robot, slope, &q, &wrench);
+                let scale = matrix.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+                let (dual, difference) = slopes(robot, value, (&q, &wrench), joint);
+                for (row, expected) in matrix[n * joint..n * joint + n].iter().enumerate() {
+                    assert!((dual[row] - expected).abs() <= 1e-13 * scale);
+                    assert!((difference[row] - expected).abs() <= 1e-7 * scale);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn jacobian_and_stiffness_are_derivatives() {
+    use stiffarm_robots::{iiwa14, kuka_kr240, panda, stanford, ur5};
+    check(&ur5::Robot, 3.0);
+    check(&kuka_kr240::Robot, 3.0);
+    check(&iiwa14::Robot, 3.0);
+    check(&panda::Robot, 3.0);
+    check(&stanford::Robot, 1.0);
+    check(&zoo::oblique::Robot, 3.0);
+    check(&zoo::sliding::Robot, 0.5);
+    check(&zoo::parallel::Robot, 3.0);
+}
+
+#[test]
+fn the_regressor_is_the_derivative_by_joint_compliance() {
+    // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
+    use zoo::symbolic::{Constants, Parameters, deflection_first_order, stiffness_regressor};
+    let mut draws = Draws::new(5);
+    let p = zoo::PARAMETERS;
+    for _ in 0..200 {
+        let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
+        let wrench = draws.wrench();
+        let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
+        let mut dual = dual_parameters(&p);
+        dual.k2.0.eps = 1.0;
+        let constants: Constants<Dual> = Constants::new(&dual);
+        let (q, wrench) = (q.map(Dual::lit), wrench.map(Dual::lit));
+        let slope = deflection_first_order(&constants, &q, &wrench).map(|d| -d.0.eps * p.k2 * p.k2);
+        assert!(relative(&slope, &regressor[1]) < 1e-12);
+    }
+
+    fn dual_parameters(p: &Parameters<f64>) -> Parameters<Dual> {
+        let d = Dual::lit;
+        Parameters {
+            o1: d(p.o1),
+            d1: d(p.d1),
+            a1: d(p.a1),
+            alpha1: d(p.alpha1),
+            k1: d(p.k1),
+            m1: d(p.m1),
+            cx: d(p.cx),
+            cz: d(p.cz),
+            E1: d(p.E1),
+            G1: d(p.G1),
+            A1: d(p.A1),
+            Iy1: d(p.Iy1),
+            Iz1: d(p.Iz1),
+            J1: d(p.J1),
+            rho1: d(p.rho1),
+            a2: d(p.a2),
+            k2: d(p.k2),
+            m2: d(p.m2),
+            cy: d(p.cy),
+            o3: d(p.o3),
+            d3: d(p.d3),
+            k3: d(p.k3),
+            d4: d(p.d4),
+            a4: d(p.a4),
+            k4: d(p.k4),
+            t_z: d(p.t_z),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Generated = textbook = finite difference = dual number.
+//!
+//! The kernels are compared with `kernels::generic`, which shares no code with the generator, on the
+//! arms of `stiffarm-robots`, on a zoo of odd tables written for this test, and (through the graph's
+//! own evaluation) on random tables. The dual numbers are num-dual's.
+
+mod compare;
+mod dual;
+mod known;
+mod random;
+mod zoo;
