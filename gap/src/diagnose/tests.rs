@@ -228,7 +228,7 @@ fn the_json_is_the_formats() {
 #[test]
 fn extreme_numbers_give_an_error_or_finite_numbers() {
     let good = data(2, [0.0, 4e-6, 0.0], 1e-5, 1);
-    for extreme in [1e-160, 1e49, 1e155, f64::MAX] {
+    for extreme in [1e-160, 1e155, f64::MAX] {
         for what in 0..4 {
             for arm in [bent(), crate::fixture::rigid()] {
                 let mut data = good.clone();

@@ -26,7 +26,7 @@ pub(super) fn zero(output: Output, n: usize) -> String {
 
 /// The place of column-major entry `entry`.
 pub(super) fn place(output: Output, n: usize, entry: usize) -> String {
-    let (rows, columns) = output.shape(n);
+    let rows = output.shape(n).0;
     let (column, row) = (entry / rows, entry % rows);
     let pose = |column: usize| match column {
         3 => format!(".position[{row}]"),
