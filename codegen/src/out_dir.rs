@@ -52,6 +52,7 @@ pub fn generate_to_out_dir(
     }
     let name = file.file_stem().unwrap_or(file.as_os_str());
     let target = Path::new(&out).join(name).with_extension("rs");
-    std::fs::write(&target, rust(&robot, options)).map_err(|e| BuildError::Io(target.clone(), e))?;
+    std::fs::write(&target, rust(&robot, options))
+        .map_err(|e| BuildError::Io(target.clone(), e))?;
     Ok(target)
 }

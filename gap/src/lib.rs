@@ -3,7 +3,7 @@
 //!
 //! [`robot::arm`] makes a robot file's model into an arm that is simulated ([`simulate`]);
 //! [`measurement`] reads what was measured; [`gap`] is the difference; [`effects`] are what may
-//! explain it; [`diagnose`] finds out which does, on poses that no fit has seen.
+//! explain it; [`mod@diagnose`] finds out which does, on poses that no fit has seen.
 //!
 //! This crate returns data and structured errors; it prints nothing.
 

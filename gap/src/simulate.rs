@@ -258,6 +258,14 @@ mod tests {
     }
 
     #[test]
+    fn an_arm_without_joints_stands_still() {
+        let mut arm = springy();
+        arm.joints.clear();
+        let state = equilibrium(&arm, &[], &Vector6::repeat(10.0)).unwrap();
+        assert_eq!(state.tool, arm.tool);
+    }
+
+    #[test]
     fn a_marker_turns_with_the_tool() {
         let arm = springy();
         let mut row = crate::fixture::row(&[0.3, -0.7, 0.4], Vector6::zeros());

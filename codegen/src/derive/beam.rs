@@ -27,6 +27,9 @@ pub(super) struct Chord {
     pub end: usize,
 }
 
+/// What the compliances of a beam's springs are called: along its axes, then about them.
+const SPRINGS: [&str; 6] = ["axial", "across_y", "across_z", "torsion", "bend_y", "bend_z"];
+
 /// One of the six springs of a beam.
 pub(super) struct Spring {
     pub compliance: Expr,
@@ -135,6 +138,11 @@ pub(super) fn springs(
 ) -> (Chord, [Spring; 6]) {
     let chord = chord(chain, row);
     let compliances = compliances(chain, beam, chord.length);
+    let i = row + 1;
+    chain.g.name(chord.length, || format!("len{i}"));
+    for (compliance, name) in compliances.into_iter().zip(SPRINGS) {
+        chain.g.name(compliance, || format!("{name}{i}"));
+    }
     let springs = core::array::from_fn(|k| {
         let (axis, turns) = (chord.axes[k % 3], k >= 3);
         let twist = if turns {

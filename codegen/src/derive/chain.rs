@@ -38,7 +38,12 @@ impl<'r> Chain<'r> {
     /// Lays out the arm with the working frame at boundary `cut` (before step `cut`).
     pub fn new(robot: &'r Robot, cut: usize) -> Self {
         let mut g = Graph::new();
-        let steps: Vec<Step> = (0..robot.dof()).flat_map(|row| row_steps(&mut g, robot, row)).collect();
+        // In the order of the table, so that products of parameters look alike in every graph.
+        for symbol in robot.symbols() {
+            g.symbol(Symbol::Parameter(symbol.name));
+        }
+        let steps: Vec<Step> =
+            (0..robot.dof()).flat_map(|row| row_steps(&mut g, robot, row)).collect();
         let identity = Place {
             axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
                 .map(|axis| axis.map(|c| if c == 1 { Expr::ONE } else { Expr::ZERO })),
@@ -177,9 +182,7 @@ impl Place {
     fn after(&self, g: &mut Graph, step: &Step) -> Place {
         match step {
             Step::SlideZ(_) | Step::SlideX(_) => self.clone(),
-            Step::TurnZ(turn) => {
-                Place { axes: self.axes, turn: self.turn.plus(g, turn) }
-            }
+            Step::TurnZ(turn) => Place { axes: self.axes, turn: self.turn.plus(g, turn) },
             Step::TurnX(turn) if turn.is_zero() => self.clone(),
             // Rz(t) Rx(pi) = Rx(pi) Rz(-t): antiparallel axes keep adding up, with the other sign.
             Step::TurnX(turn) if turn.is_half_turn() => {

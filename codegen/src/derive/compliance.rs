@@ -15,13 +15,16 @@ struct Element {
 /// `1/k` of every joint; `None` where the joint is rigid.
 pub(super) fn joint_compliances(chain: &mut Chain) -> Vec<Option<Expr>> {
     let stiffness: Vec<_> = chain.robot.joints.iter().map(|j| j.stiffness.clone()).collect();
-    stiffness
-        .iter()
-        .map(|k| {
-            let k = k.as_ref().map(|k| chain.value(k));
-            k.map(|k| chain.g.recip(k))
-        })
-        .collect()
+    let mut compliances = Vec::new();
+    for (row, k) in stiffness.iter().enumerate() {
+        let k = k.as_ref().map(|k| chain.value(k));
+        let compliance = k.map(|k| chain.g.recip(k));
+        if let Some(compliance) = compliance {
+            chain.g.name(compliance, || format!("compliance{}", row + 1));
+        }
+        compliances.push(compliance);
+    }
+    compliances
 }
 
 /// `Σ c t tᵀ` over joints and the springs of beams; 6×6, base axes, at the tool origin.

@@ -57,9 +57,8 @@ pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option
     let (mut torques, mut unknowns) = (Vec::new(), Vec::new());
     for &j in &compliant {
         let tool = power(chain, twists[j], w);
-        let own = weight.as_ref().map_or(Expr::ZERO, |load| {
-            chain.g.dot3(load.force[j], load.arms[j])
-        });
+        let own =
+            weight.as_ref().map_or(Expr::ZERO, |load| chain.g.dot3(load.force[j], load.arms[j]));
         torques.push(chain.g.add(tool, own));
         let unknown = chain.g.symbol(Symbol::Deflection { joint: j, weights });
         unknowns.push(unknown);

@@ -71,9 +71,10 @@ pub(super) fn gravity(chain: &mut Chain) -> Vec3 {
 /// The mass that moves with everything beyond `from`, distributed weight of beams included.
 pub(super) fn mass_beyond(chain: &mut Chain, boundary: usize) -> Expr {
     let masses = masses(chain);
-    masses.iter().filter(|m| m.boundary >= boundary).fold(Expr::ZERO, |sum, m| {
-        chain.g.add(sum, m.mass)
-    })
+    masses
+        .iter()
+        .filter(|m| m.boundary >= boundary)
+        .fold(Expr::ZERO, |sum, m| chain.g.add(sum, m.mass))
 }
 
 /// The torque of the weights on each joint, positive like Jᵀw.

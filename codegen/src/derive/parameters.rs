@@ -53,10 +53,8 @@ fn rotation_columns(chain: &mut Chain, last: [Vec3; 3]) -> [Vec3; 3] {
         return last;
     }
     let angle = libm::sqrt(square);
-    let (first, second) = (
-        (1.0 - libm::cos(angle)) / square,
-        (angle - libm::sin(angle)) / (square * angle),
-    );
+    let (first, second) =
+        ((1.0 - libm::cos(angle)) / square, (angle - libm::sin(angle)) / (square * angle));
     let matrix = series(vector, first, second);
     matrix.map(|column| {
         let parts: [Vec3; 3] = core::array::from_fn(|k| {

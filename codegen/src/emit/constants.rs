@@ -1,6 +1,7 @@
 //! Constants of a table with symbolic parameters: everything that depends on parameters alone is
 //! worked out once, when the constants are made, so that kernels stay free of divisions.
 
+use super::expression::constant;
 use crate::expr::{Expr, Graph, Node, Symbol};
 
 /// The fields of the generated `Constants`, shared by all functions of a module.
@@ -26,7 +27,7 @@ impl Constants {
     /// Nodes whose value becomes a field where anything else needs it.
     pub fn hoisted(&self, g: &Graph) -> Vec<bool> {
         if !self.in_place {
-            return parameter_only(g);
+            return g.parameter_only();
         }
         let parameter = |node: &Node| match node {
             Node::Symbol(s) => matches!(g.symbol_of(*s), Symbol::Parameter(_)),
@@ -71,26 +72,12 @@ impl Constants {
     }
 }
 
-/// Nodes that depend on parameters, and on nothing that a posture or a load changes.
-fn parameter_only(g: &Graph) -> Vec<bool> {
-    let mut only = Vec::with_capacity(g.nodes().len());
-    for node in g.nodes() {
-        let is = match node {
-            Node::Number(_) => true,
-            Node::Symbol(s) => matches!(g.symbol_of(*s), Symbol::Parameter(_)),
-            computed => computed.operands().all(|o| only[o.node()]),
-        };
-        only.push(is);
-    }
-    only
-}
-
 /// The expression written out over `p`.
 fn text(g: &Graph, e: Expr) -> String {
     let sign = if e.is_negative() { "-" } else { "" };
     let inner = |e| text(g, e);
     match g.node(e) {
-        Node::Number(n) => format!("S::lit({sign}{n})"),
+        Node::Number(n) => format!("S::lit({sign}{})", constant(n)),
         Node::Symbol(s) => match g.symbol_of(s) {
             Symbol::Parameter(name) => format!("{sign}p.{name}"),
             other => format!("{other:?}"),

@@ -11,7 +11,8 @@ use crate::robot::Robot;
 pub fn dot(robot: &Robot, outputs: &[Output]) -> String {
     let program = derive(robot, outputs);
     let g = &program.graph;
-    let mut text = format!("digraph {:?} {{\n  rankdir=BT;\n  node [fontname=\"sans-serif\"];\n", robot.name);
+    let mut text =
+        format!("digraph {:?} {{\n  rankdir=BT;\n  node [fontname=\"sans-serif\"];\n", robot.name);
     let reachable = g.reachable(&program.roots());
     for node in (0..g.nodes().len()).filter(|node| reachable[*node]) {
         let (label, shape) = label(g, node);

@@ -4,6 +4,19 @@ use super::plan::Plan;
 use crate::expr::{Expr, Node};
 use crate::number::Number;
 
+/// A constant in Rust and C. A small one is written as the reciprocal of a large one: compliances are
+/// then recognised as 1/k of the table, and a residue of rounding could not hide among them.
+pub(super) fn constant(n: Number) -> String {
+    let small = n.to_f64().abs() < SMALL && !n.is_zero();
+    match n.recip().filter(|_| small) {
+        Some(inverse) => format!("1.0 / {inverse}"),
+        None => n.to_string(),
+    }
+}
+
+/// Constants below this are written as reciprocals.
+const SMALL: f64 = 1e-5;
+
 /// How a language spells the pieces.
 pub(super) trait Style {
     /// A constant.
@@ -89,7 +102,12 @@ impl Printer<'_> {
         }
     }
 
-    fn function(&self, spell: impl Fn(&dyn Style, &str) -> String, a: Expr, negative: bool) -> Text {
+    fn function(
+        &self,
+        spell: impl Fn(&dyn Style, &str) -> String,
+        a: Expr,
+        negative: bool,
+    ) -> Text {
         let text = spell(self.style, &self.print(a));
         match negative {
             true => Text { text: format!("-{text}"), binds: Binds::Negation },
@@ -99,7 +117,9 @@ impl Printer<'_> {
 
     fn sum(&self, a: Expr, b: Expr, negative: bool) -> Text {
         let text = match (negative, b.is_negative()) {
-            (false, false) if self.is_inline_sum(b) && !self.is_inline_sum(a) => self.plus(b, a, "+"),
+            (false, false) if self.is_inline_sum(b) && !self.is_inline_sum(a) => {
+                self.plus(b, a, "+")
+            }
             (false, false) => self.plus(a, b, "+"),
             (false, true) => self.plus(a, -b, "-"),
             (true, true) => self.plus(-b, a, "-"),
@@ -135,7 +155,8 @@ impl Printer<'_> {
             (b, outer) = (-b, false);
         }
         let (left, right) = (self.signed(a, false), self.signed(b, false));
-        let left = if left.binds == Binds::Sum { self.style.bracket(&left.text) } else { left.text };
+        let left =
+            if left.binds == Binds::Sum { self.style.bracket(&left.text) } else { left.text };
         let right =
             if right.binds != Binds::Atom { self.style.bracket(&right.text) } else { right.text };
         let text = self.style.product(&left, &right);

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::graph::{Expr, Graph, Node};
+use super::graph::{Expr, Graph, Node, Symbol};
 
 /// Operations, each shared node counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,8 +47,23 @@ impl Graph {
         used
     }
 
-    /// Counts what `outputs` cost together. What the angles of sines and cosines are made of (sums of
-    /// joint angles) is not counted: it belongs to the trigonometry.
+    /// Nodes that depend on parameters, and on nothing that a posture or a load changes.
+    pub fn parameter_only(&self) -> Vec<bool> {
+        let mut only = Vec::with_capacity(self.nodes().len());
+        for node in self.nodes() {
+            let is = match node {
+                Node::Number(_) => true,
+                Node::Symbol(s) => matches!(self.symbol_of(*s), Symbol::Parameter(_)),
+                computed => computed.operands().all(|o| only[o.node()]),
+            };
+            only.push(is);
+        }
+        only
+    }
+
+    /// Counts what `outputs` cost together at every evaluation: what depends on parameters alone is
+    /// worked out once and free. What the angles of sines and cosines are made of (sums of joint
+    /// angles) is not counted: it belongs to the trigonometry.
     pub fn count(&self, outputs: &[Expr]) -> OpCount {
         let mut count = OpCount::default();
         let mut angles = HashSet::new();
@@ -56,8 +71,9 @@ impl Graph {
         for e in outputs {
             used[e.node()] = true;
         }
+        let once = self.parameter_only();
         for at in (0..used.len()).rev() {
-            if !used[at] {
+            if !used[at] || once[at] {
                 continue;
             }
             match self.nodes()[at] {
@@ -81,7 +97,6 @@ impl Graph {
 
 #[cfg(test)]
 mod tests {
-    use super::super::graph::Symbol;
     use super::*;
 
     #[test]

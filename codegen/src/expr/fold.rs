@@ -27,10 +27,10 @@ impl Graph {
         if let Some(sum) = self.add_constants(a, b) {
             return sum;
         }
-        let (low, high) = if a.node() < b.node() { (a, b) } else { (b, a) };
-        // The lower operand is stored unsigned; the handle of the sum carries its sign.
-        let flip = low.is_negative();
-        self.intern(Node::Add(low.abs(), high.signed(flip))).signed(flip)
+        let (first, second) = self.ordered(a, b);
+        // The first operand is stored unsigned; the handle of the sum carries its sign.
+        let flip = first.is_negative();
+        self.intern(Node::Add(first.abs(), second.signed(flip))).signed(flip)
     }
 
     /// `a - b`.
@@ -51,11 +51,11 @@ impl Graph {
         if b == Expr::ONE {
             return a.signed(negative);
         }
-        let (low, high) = if a.node() < b.node() { (a, b) } else { (b, a) };
+        let (first, second) = self.ordered(a, b);
         let product = self
-            .mul_constants(low, high)
-            .or_else(|| self.cancel(low, high))
-            .unwrap_or_else(|| self.intern(Node::Mul(low, high)));
+            .mul_constants(first, second)
+            .or_else(|| self.cancel(first, second))
+            .unwrap_or_else(|| self.intern(Node::Mul(first, second)));
         product.signed(negative)
     }
 
@@ -89,6 +89,12 @@ impl Graph {
     /// `cos a`.
     pub fn cos(&mut self, a: Expr) -> Expr {
         if a.is_zero() { Expr::ONE } else { self.intern(Node::Cos(a.abs())) }
+    }
+
+    /// The canonical order of two operands: constants first, then the older node.
+    fn ordered(&self, a: Expr, b: Expr) -> (Expr, Expr) {
+        let key = |e: Expr| (!matches!(self.node(e), Node::Number(_)), e.node());
+        if key(a) < key(b) { (a, b) } else { (b, a) }
     }
 
     /// The sum of two constants, or of a constant and a sum that ends in one.

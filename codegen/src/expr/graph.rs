@@ -81,9 +81,9 @@ pub enum Node {
     Number(Number),
     /// Index into the graph's symbols.
     Symbol(u32),
-    /// `a + b` or `a - b`: `a` unsigned and of the lower index.
+    /// `a + b` or `a - b`: `a` unsigned and first in canonical order (constants, then older nodes).
     Add(Expr, Expr),
-    /// `a · b`, both unsigned, `a` of the lower index.
+    /// `a · b`, both unsigned, `a` first in canonical order.
     Mul(Expr, Expr),
     /// `1/a`.
     Recip(Expr),

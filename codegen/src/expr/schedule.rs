@@ -63,8 +63,10 @@ impl Graph {
             (!is_input(node) && !matches!(self.nodes()[node], Node::Number(_) | Node::Symbol(_)))
                 .then_some(node)
         };
-        let roots: Vec<Vec<usize>> =
-            items.iter().map(|item| item.inputs().iter().copied().filter_map(inner).collect()).collect();
+        let roots: Vec<Vec<usize>> = items
+            .iter()
+            .map(|item| item.inputs().iter().copied().filter_map(inner).collect())
+            .collect();
         let operands: Vec<Vec<usize>> = (0..self.nodes().len())
             .map(|at| match is_input(at) {
                 true => Vec::new(),
@@ -79,10 +81,10 @@ impl Graph {
             inputs.iter().for_each(|node| stored[*node] |= store);
         }
         let wanted = |at: usize| !stored[at] && (self.name_of(at).is_some() || size[at].1);
-        let bound: Vec<bool> = (0..self.nodes().len())
-            .map(|at| uses[at] > 1 || uses[at] == 1 && wanted(at))
-            .collect();
-        let mut order = Order { operands: &operands, size: &size, bound: &bound, seen: vec![], out: vec![] };
+        let bound: Vec<bool> =
+            (0..self.nodes().len()).map(|at| uses[at] > 1 || uses[at] == 1 && wanted(at)).collect();
+        let mut order =
+            Order { operands: &operands, size: &size, bound: &bound, seen: vec![], out: vec![] };
         order.seen = vec![false; self.nodes().len()];
         for (at, inputs) in roots.iter().enumerate() {
             inputs.iter().for_each(|node| order.visit(*node));
@@ -302,7 +304,8 @@ mod tests {
     #[test]
     fn unknowns_of_a_solve_live_across_blocks() {
         let mut g = Graph::new();
-        let (x, u) = (g.symbol(Symbol::Joint(0)), g.symbol(Symbol::Deflection { joint: 0, weights: false }));
+        let (x, u) =
+            (g.symbol(Symbol::Joint(0)), g.symbol(Symbol::Deflection { joint: 0, weights: false }));
         let square = g.mul(x, x);
         let result = g.mul(square, u);
         let items = [
@@ -314,7 +317,9 @@ mod tests {
         let blocks = schedule.blocks(0..schedule.steps.len(), 256, |item| item == 1);
         assert_eq!(blocks.len(), 3);
         assert_eq!(blocks[1].live_out, [u.node()]);
-        assert!(blocks[2].live_in.contains(&u.node()) && blocks[2].live_in.contains(&square.node()));
+        assert!(
+            blocks[2].live_in.contains(&u.node()) && blocks[2].live_in.contains(&square.node())
+        );
     }
 
     #[test]

@@ -140,10 +140,7 @@ fn first_octant(r: Ratio<i64>) -> (Number, Number) {
         (0, _) => (Number::ZERO, Number::ONE),
         (1, 6) => (Number::ratio(1, 2), root(3, 4)),
         (1, 4) => (root(1, 2), root(1, 2)),
-        _ => (
-            Number::rounded(libm::sin(to_radians(r))),
-            Number::rounded(libm::cos(to_radians(r))),
-        ),
+        _ => (Number::rounded(libm::sin(to_radians(r))), Number::rounded(libm::cos(to_radians(r)))),
     }
 }
 

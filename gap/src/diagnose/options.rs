@@ -52,8 +52,9 @@ pub enum DiagnoseError {
     )]
     Unstable { file: String, line: u64 },
     #[error(
-        "{file}: line {line}: the load, the place of the tool or the gap is beyond 1e50: check the \
-         row's numbers"
+        "{file}: line {line}: a reading, the load, the place of the tool or the gap is beyond \
+         1e50: \
+         check the row's numbers"
     )]
     TooLarge { file: String, line: u64 },
     #[error(

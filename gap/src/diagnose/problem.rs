@@ -10,8 +10,8 @@ use crate::gap::{predicted, row_gap};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Reading, Sim, simulate};
 
-/// Loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and added up,
-/// are then finite.
+/// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
+/// added up, are then finite.
 const LARGEST: f64 = 1e50;
 
 /// An arm, its measurements, and the simulation of every row.
@@ -63,7 +63,8 @@ impl<'a> Problem<'a> {
         let gaps: Vec<_> = data.rows.iter().zip(&base).map(|(r, b)| row_gap(data, r, b)).collect();
         for ((row, sim), gap) in data.rows.iter().zip(&sims).zip(&gaps) {
             let tool = sim.loaded.tool.translation.vector;
-            let mut numbers = sim.loaded.torque.iter().chain(tool.iter()).chain(gap.iter());
+            let loads = row.q.iter().chain(sim.loaded.torque.iter());
+            let mut numbers = loads.chain(tool.iter()).chain(gap.iter());
             if !numbers.all(|x| x.abs() < LARGEST) {
                 return Err(DiagnoseError::TooLarge { file: file(), line: row.line });
             }

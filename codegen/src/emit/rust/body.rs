@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::super::expression::{Printer, Style};
+use super::super::expression::{Printer, Style, constant};
 use super::super::plan::{Plan, Target, WRENCH};
 use super::function::Function;
 use super::lines::Lines;
@@ -38,7 +38,9 @@ impl<'a> Body<'a> {
         let small = schedule.lets() <= BLOCK;
         let parts = if small { Vec::new() } else { self.parts(&blocks) };
 
-        out.doc("The kernel: additions and multiplications only, where no load is to be solved for.");
+        out.doc(
+            "The kernel: additions and multiplications only, where no load is to be solved for.",
+        );
         if function.fallible() {
             out.doc("");
             out.doc("# Errors");
@@ -60,7 +62,8 @@ impl<'a> Body<'a> {
             self.destructure(out, &self.plan.inputs_of(read));
         }
         out.code("let zero = S::lit(0.0);");
-        let mutable = if function.program.roots().iter().any(|e| !e.is_zero()) { "mut " } else { "" };
+        let mutable =
+            if function.program.roots().iter().any(|e| !e.is_zero()) { "mut " } else { "" };
         out.code(&format!("let {mutable}out = {};", function.zero()));
         if small {
             self.steps(out, function, everything);
@@ -94,7 +97,8 @@ impl<'a> Body<'a> {
             }
         }
         for part in &mut parts {
-            let (start, end) = (part.blocks[0].steps.start, part.blocks[part.blocks.len() - 1].steps.end);
+            let (start, end) =
+                (part.blocks[0].steps.start, part.blocks[part.blocks.len() - 1].steps.end);
             part.whole = self.plan.schedule.block(start..end);
         }
         parts
@@ -257,7 +261,8 @@ impl<'a> Body<'a> {
                 continue;
             }
             let names = self.arguments(function);
-            let (live_in, live_out) = (self.names(&part.whole.live_in), self.names(&part.whole.live_out));
+            let (live_in, live_out) =
+                (self.names(&part.whole.live_in), self.names(&part.whole.live_out));
             let binding =
                 if live_out.is_empty() { String::new() } else { format!("let [{live_out}] = ") };
             let arguments: Vec<String> =
@@ -305,7 +310,7 @@ struct Rust;
 
 impl Style for Rust {
     fn number(&self, n: Number) -> String {
-        format!("S::lit({n})")
+        format!("S::lit({})", constant(n))
     }
     fn name(&self, name: &str) -> String {
         name.to_string()

@@ -40,7 +40,11 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
         functions.push_str(&function.text(robot, options, &mut constants));
     }
     let all = derive(robot, &Output::ALL);
-    functions.push_str(&function::Function::all(&all, symbolic).text(robot, options, &mut constants));
+    functions.push_str(&function::Function::all(&all, symbolic).text(
+        robot,
+        options,
+        &mut constants,
+    ));
 
     let mut text = table::header(robot, options);
     if symbolic {

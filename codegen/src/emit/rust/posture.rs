@@ -1,5 +1,6 @@
 //! What enters a kernel: the posture as sines, cosines and displacements, and the wrench.
 
+use super::super::expression::constant;
 use super::super::plan::{Angle, Plan};
 use super::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
@@ -59,8 +60,7 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
     out.code("impl<S: Scalar> Posture<S> {");
     out.indent();
     out.doc("All sines and cosines at once.");
-    let constants =
-        if needs_constants(plan) { "constants: &super::Constants<S>, " } else { "" };
+    let constants = if needs_constants(plan) { "constants: &super::Constants<S>, " } else { "" };
     out.code(&format!("pub fn new({constants}q: &[S; {n}]) -> Self {{"));
     out.indent();
     if !plan.angles.is_empty() {
@@ -93,7 +93,7 @@ fn angle_text(plan: &Plan, angle: &Angle) -> String {
             return format!("{sign}{constant}");
         }
         match g.node(e) {
-            Node::Number(n) => format!("S::lit({sign}{n})"),
+            Node::Number(n) => format!("S::lit({sign}{})", constant(n)),
             Node::Symbol(s) => match g.symbol_of(s) {
                 Symbol::Joint(joint) => format!("{sign}q[{joint}]"),
                 _ => String::new(),

@@ -61,14 +61,8 @@ pub(super) fn fallible(output: Output) -> bool {
 /// What the function computes: a sentence, and the formula in the papers' notation.
 pub(super) fn docs(output: Output) -> [&'static str; 2] {
     match output {
-        Output::Pose => [
-            "Pose of the tool in base axes.",
-            "T = A_1 A_2 … A_n T_tool, m.",
-        ],
-        Output::Frames => [
-            "Poses of frames 1 to n in base axes.",
-            "T_i = A_1 A_2 … A_i, m.",
-        ],
+        Output::Pose => ["Pose of the tool in base axes.", "T = A_1 A_2 … A_n T_tool, m."],
+        Output::Frames => ["Poses of frames 1 to n in base axes.", "T_i = A_1 A_2 … A_i, m."],
         Output::Jacobian => [
             "Geometric Jacobian, base axes, at the tool origin; `[j][i]` is row i of column j.",
             "J_j = [z_j × (p − p_j); z_j] of a joint that turns, [z_j; 0] of one that slides: \
@@ -84,10 +78,9 @@ pub(super) fn docs(output: Output) -> [&'static str; 2] {
              `[i][j]` is row j of column i.",
             "(K_C)_ji = ∂(J_j)ᵀ/∂q_i · w (Dumas et al. 2011, eq. 9). Unsymmetric under a moment.",
         ],
-        Output::JointTorque => [
-            "Joint torques of the wrench, N·m (N).",
-            "τ = Jᵀ w (Dumas et al. 2011, eq. 3).",
-        ],
+        Output::JointTorque => {
+            ["Joint torques of the wrench, N·m (N).", "τ = Jᵀ w (Dumas et al. 2011, eq. 3)."]
+        }
         Output::GravityTorque => [
             "Joint torques of the links' weights, N·m (N); positive like Jᵀ w.",
             "τ_g,j = Σ_k m_k g · (z_j × (c_k − p_j)) over the masses beyond joint j.",

@@ -1,0 +1,103 @@
+//! Where results go: standard output, or a file that is never half-written.
+
+use std::fs::{self, File, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::failure::{Failure, reason};
+
+/// Where a result goes: a file, or standard output for `-`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Standard output.
+    Stdout,
+    /// A file.
+    File(PathBuf),
+}
+
+impl std::str::FromStr for Target {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(if text == "-" { Target::Stdout } else { Target::File(PathBuf::from(text)) })
+    }
+}
+
+impl Target {
+    /// Writes the whole text there.
+    ///
+    /// # Errors
+    /// [`Failure`] says where and why; a file is then as it was.
+    pub fn write(&self, text: &str) -> Result<(), Failure> {
+        match self {
+            Target::Stdout => print(text),
+            Target::File(path) => file(path, text.as_bytes())
+                .map_err(|error| Failure::io("write", path, &error)),
+        }
+    }
+}
+
+/// Prints to standard output. A reader that has seen enough (`| head`) is no mistake.
+///
+/// # Errors
+/// [`Failure`] if standard output cannot be written to.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::new(format!("cannot write to standard output: {}", reason(&error))))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes beside the file, then renames. What is no plain file (`/dev/null`, a pipe) is written to.
+fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // Behind a link the file itself is replaced, not the link.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let before = fs::metadata(&path).ok();
+    if let Some(before) = &before {
+        if before.is_dir() {
+            return Err(io::Error::from(ErrorKind::IsADirectory));
+        }
+        if !before.is_file() {
+            return File::options().write(true).open(&path)?.write_all(bytes);
+        }
+        // A file that must not be written to must not be replaced either.
+        File::options().append(true).open(&path)?;
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut beside = beside(folder)?;
+    beside.write_all(bytes)?;
+    if let Some(before) = before {
+        beside.as_file().set_permissions(before.permissions())?;
+    }
+    beside.persist(&path)?;
+    Ok(())
+}
+
+fn beside(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".stiffarm-");
+    // Readable like any new file; by default a temporary one is its owner's alone.
+    let permissions = readable();
+    if let Some(permissions) = permissions {
+        builder.permissions(permissions);
+    }
+    let made = builder.tempfile_in(folder);
+    // The temporary name is nobody's business.
+    made.map_err(|error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error))
+}
+
+#[cfg(unix)]
+fn readable() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt as _;
+    Some(Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn readable() -> Option<Permissions> {
+    None
+}
