@@ -58,7 +58,8 @@ impl<'r> Chain<'r> {
         }
         let mut chain = Chain { g, robot, steps, places, tool: [[Expr::ZERO; 3]; 3] };
         chain.tool = chain.turned_tool();
-        chain.name_axes();
+        // The tool's axes in base axes are Paul's n, o, a; in another frame they are not.
+        chain.name_axes(if cut == 0 { ["n", "o", "a"] } else { ["xt", "yt", "zt"] });
         chain
     }
 
@@ -120,13 +121,13 @@ impl<'r> Chain<'r> {
     }
 
     /// A vector of the working frame in base axes.
-    pub fn to_base(&mut self, v: Vec3) -> Vec3 {
+    pub fn in_base(&mut self, v: Vec3) -> Vec3 {
         let base = self.axes(0);
         base.map(|axis| self.g.dot3(axis, v))
     }
 
     /// A vector given in base axes, in the working frame.
-    pub fn from_base(&mut self, v: Vec3) -> Vec3 {
+    pub fn in_frame(&mut self, v: Vec3) -> Vec3 {
         let base = self.axes(0);
         let parts: [Vec3; 3] = core::array::from_fn(|k| self.g.scale3(v[k], base[k]));
         let sum = self.g.add3(parts[0], parts[1]);
@@ -166,13 +167,12 @@ impl<'r> Chain<'r> {
         })
     }
 
-    fn name_axes(&mut self) {
+    fn name_axes(&mut self, tool: [&str; 3]) {
         for row in 0..self.dof() {
             let z = self.joint_axis(row);
             self.name3(z, &format!("z{}", row + 1));
         }
-        let [x, y, z] = self.tool;
-        for (axis, name) in [(x, "n"), (y, "o"), (z, "a")] {
+        for (axis, name) in self.tool.into_iter().zip(tool) {
             self.name3(axis, name);
         }
     }

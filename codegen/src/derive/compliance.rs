@@ -30,12 +30,12 @@ pub(super) fn joint_compliances(chain: &mut Chain) -> Vec<Option<Expr>> {
 /// `Σ c t tᵀ` over joints and the springs of beams; 6×6, base axes, at the tool origin.
 pub(super) fn compliance(chain: &mut Chain) -> Vec<Expr> {
     let elements = elements(chain);
-    let mut lower = vec![Expr::ZERO; 36];
+    let mut lower = [Expr::ZERO; 36];
     for Element { compliance, twist } in elements {
-        let scaled = twist.map(|component| chain.g.mul(compliance, component));
-        for column in 0..6 {
-            for row in column..6 {
-                let product = chain.g.mul(scaled[column], twist[row]);
+        for (column, component) in twist.into_iter().enumerate() {
+            let scaled = chain.g.mul(compliance, component);
+            for (row, other) in twist.into_iter().enumerate().skip(column) {
+                let product = chain.g.mul(scaled, other);
                 let at = 6 * column + row;
                 lower[at] = chain.g.add(lower[at], product);
             }
@@ -59,7 +59,7 @@ fn elements(chain: &mut Chain) -> Vec<Element> {
         let (_, springs) = beam::springs(chain, &levers, row, &beam);
         for spring in springs {
             let (v, w): Twist = spring.twist;
-            let (v, w) = (chain.to_base(v), chain.to_base(w));
+            let (v, w) = (chain.in_base(v), chain.in_base(w));
             elements.push(Element { compliance: spring.compliance, twist: six(v, w) });
         }
     }

@@ -50,7 +50,9 @@ pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option
             let at = column * chain.dof() + row;
             let total = k_g.as_ref().map_or(k_c[at], |k_g| chain.g.add(k_c[at], k_g[at]));
             let diagonal = if row == column { stiffness[row] } else { None };
-            system.push(chain.g.sub(diagonal.unwrap_or(Expr::ZERO), total));
+            let entry = chain.g.sub(diagonal.unwrap_or(Expr::ZERO), total);
+            chain.g.name(entry, || format!("k_{}{}", row + 1, column + 1));
+            system.push(entry);
         }
     }
     let mut sum = Sum::default();
@@ -59,7 +61,9 @@ pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option
         let tool = power(chain, twists[j], w);
         let own =
             weight.as_ref().map_or(Expr::ZERO, |load| chain.g.dot3(load.force[j], load.arms[j]));
-        torques.push(chain.g.add(tool, own));
+        let torque = chain.g.add(tool, own);
+        chain.g.name(torque, || format!("tau{}", j + 1));
+        torques.push(torque);
         let unknown = chain.g.symbol(Symbol::Deflection { joint: j, weights });
         unknowns.push(unknown);
         sum.add(chain, twists[j], unknown);
@@ -130,7 +134,7 @@ pub(super) fn stiffness_regressor(chain: &mut Chain) -> Vec<Expr> {
         .map(|twist| {
             let torque = power(chain, twist, w);
             let scaled = twist_times(chain, twist, torque);
-            (chain.to_base(scaled.0), chain.to_base(scaled.1))
+            (chain.in_base(scaled.0), chain.in_base(scaled.1))
         })
         .collect();
     flatten(columns)
@@ -157,6 +161,6 @@ impl Sum {
     }
 
     fn in_base(self, chain: &mut Chain) -> Vec<Expr> {
-        flatten([(chain.to_base(self.0), chain.to_base(self.1))])
+        flatten([(chain.in_base(self.0), chain.in_base(self.1))])
     }
 }

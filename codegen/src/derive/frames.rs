@@ -69,7 +69,7 @@ fn columns(
     [(ax, x), (ay, y), (az, z), (origin, p)]
         .into_iter()
         .flat_map(|(v, name)| {
-            let v = chain.to_base(v);
+            let v = chain.in_base(v);
             chain.name3(v, name);
             v
         })

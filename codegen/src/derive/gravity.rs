@@ -63,7 +63,7 @@ pub(super) fn masses(chain: &mut Chain) -> Vec<Mass> {
 pub(super) fn gravity(chain: &mut Chain) -> Vec3 {
     let components = chain.robot.gravity.clone();
     let base = components.each_ref().map(|c| chain.value(c));
-    let g = chain.from_base(base);
+    let g = chain.in_frame(base);
     chain.name3(g, "gw");
     g
 }

@@ -30,7 +30,7 @@ pub(super) fn twists(chain: &mut Chain) -> Vec<Twist> {
 /// The joints' twists in base axes.
 pub(super) fn base_twists(chain: &mut Chain) -> Vec<Twist> {
     let twists = twists(chain);
-    twists.into_iter().map(|(v, w)| (chain.to_base(v), chain.to_base(w))).collect()
+    twists.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect()
 }
 
 /// 6×n, base axes, at the tool origin.

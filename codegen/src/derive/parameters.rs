@@ -32,7 +32,7 @@ pub(super) fn parameter_jacobian(chain: &mut Chain) -> Vec<Expr> {
     columns.extend(last.map(|axis| (axis, [Expr::ZERO; 3])));
     columns.extend(rotation_columns(chain, last).map(|axis| ([Expr::ZERO; 3], axis)));
     let turned: Vec<Twist> =
-        columns.into_iter().map(|(v, w)| (chain.to_base(v), chain.to_base(w))).collect();
+        columns.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect();
     flatten(turned)
 }
 

@@ -8,7 +8,7 @@ use crate::expr::{Expr, Symbol, Vec3};
 pub(super) fn wrench(chain: &mut Chain) -> (Vec3, Vec3) {
     let component: [Expr; 6] = core::array::from_fn(|k| chain.g.symbol(Symbol::Wrench(k)));
     let [fx, fy, fz, mx, my, mz] = component;
-    let (f, m) = (chain.from_base([fx, fy, fz]), chain.from_base([mx, my, mz]));
+    let (f, m) = (chain.in_frame([fx, fy, fz]), chain.in_frame([mx, my, mz]));
     chain.name3(f, "fw");
     chain.name3(m, "mw");
     (f, m)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::constants::Constants;
 use super::expression::{Printer, Style};
-use super::plan::{Plan, Target};
+use super::plan::{Plan, Target, angle_terms};
 use crate::derive::{Output, Program, derive};
 use crate::expr::{Binding, Expr, Node, Symbol};
 use crate::number::Number;
@@ -110,33 +110,36 @@ fn place(output: Output, n: usize, entry: usize) -> String {
     }
 }
 
+/// Whether an angle is more than a sum of joint angles.
 fn has_offset(program: &Program, sum: Expr) -> bool {
-    match program.graph.node(sum) {
-        Node::Add(a, b) => has_offset(program, a) || has_offset(program, b),
-        Node::Symbol(s) => !matches!(program.graph.symbol_of(s), Symbol::Joint(_)),
-        _ => true,
-    }
+    let g = &program.graph;
+    let joint = |e: &Expr| match g.node(*e) {
+        Node::Symbol(s) => matches!(g.symbol_of(s), Symbol::Joint(_)),
+        _ => false,
+    };
+    !angle_terms(g, sum).iter().all(joint)
 }
 
-fn angle_text(program: &Program, e: Expr) -> String {
+fn angle_text(program: &Program, sum: Expr) -> String {
     let g = &program.graph;
-    let sign = if e.is_negative() { "-" } else { "" };
-    match g.node(e) {
-        Node::Number(n) => format!("{sign}{}", Latex.number(n)),
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Joint(joint) => format!("{sign}q_{{{}}}", joint + 1),
-            Symbol::Parameter(name) => format!("{sign}{}", Latex.name(name)),
+    let mut text = String::new();
+    for e in angle_terms(g, sum) {
+        text.push_str(match (text.is_empty(), e.is_negative()) {
+            (true, false) => "",
+            (_, true) => "-",
+            (false, false) => "+",
+        });
+        text.push_str(&match g.node(e) {
+            Node::Number(n) => Latex.number(n),
+            Node::Symbol(s) => match g.symbol_of(s) {
+                Symbol::Joint(joint) => format!("q_{{{}}}", joint + 1),
+                Symbol::Parameter(name) => Latex.name(name),
+                _ => String::new(),
+            },
             _ => String::new(),
-        },
-        Node::Add(a, b) => {
-            let flip = e.is_negative();
-            let (a, b) = (a.signed(flip), b.signed(flip));
-            let right = angle_text(program, b);
-            let plus = if right.starts_with('-') { "" } else { "+" };
-            format!("{}{plus}{right}", angle_text(program, a))
-        }
-        _ => String::new(),
+        });
     }
+    text
 }
 
 fn escaped(text: &str) -> String {

@@ -230,38 +230,48 @@ fn reachable_outside(g: &Graph, roots: &[Expr], only: &[bool]) -> Vec<bool> {
     reached
 }
 
-/// The joints in a sum of angles, each with whether it is subtracted.
-fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
-    let mut joints = Vec::new();
+/// The terms of an angle: joints in order, then symbolic offsets, then the constant.
+pub(super) fn angle_terms(g: &Graph, sum: Expr) -> Vec<Expr> {
+    let mut terms = Vec::new();
     let mut stack = vec![sum];
     while let Some(e) = stack.pop() {
         match g.node(e) {
             Node::Add(a, b) => stack.extend([a, b].map(|o| o.signed(e.is_negative()))),
-            Node::Symbol(s) => {
-                if let Symbol::Joint(joint) = g.symbol_of(s) {
-                    joints.push((*joint, e.is_negative()));
-                }
-            }
-            _ => {}
+            _ => terms.push(e),
         }
     }
-    joints.sort_unstable();
-    joints
+    terms.sort_by_key(|e| match g.node(*e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => (0, *joint),
+            _ => (1, e.node()),
+        },
+        _ => (2, e.node()),
+    });
+    terms
+}
+
+/// The joints in a sum of angles, each with whether it is subtracted.
+fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
+    let joint = |e: Expr| match g.node(e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => Some((*joint, e.is_negative())),
+            _ => None,
+        },
+        _ => None,
+    };
+    angle_terms(g, sum).into_iter().filter_map(joint).collect()
 }
 
 /// The parameters in an angle without joints.
 fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
-    let mut names = Vec::new();
-    let mut stack = vec![sum.node()];
-    while let Some(node) = stack.pop() {
-        if let Node::Symbol(s) = g.nodes()[node]
-            && let Symbol::Parameter(name) = g.symbol_of(s)
-        {
-            names.push(name.clone());
-        }
-        stack.extend(g.nodes()[node].operands().map(Expr::node));
-    }
-    names
+    let parameter = |e: Expr| match g.node(e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Parameter(name) => Some(name.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    angle_terms(g, sum).into_iter().filter_map(parameter).collect()
 }
 
 /// `23` for θ2 + θ3, `2m3` for θ2 − θ3, `9_10` where a joint's number has two digits.

@@ -74,13 +74,14 @@ impl Graph {
             })
             .collect();
         let (uses, size) = self.weigh(&roots, &operands);
-        // What is only stored is written where it is stored.
-        let mut stored = vec![false; self.nodes().len()];
+        // What is only stored is written where it is stored; what enters a system gets a name.
+        let (mut stored, mut solved) = (vec![false; uses.len()], vec![false; uses.len()]);
         for (item, inputs) in items.iter().zip(&roots) {
-            let store = matches!(item, Item::Store(_));
-            inputs.iter().for_each(|node| stored[*node] |= store);
+            let mask = if matches!(item, Item::Store(_)) { &mut stored } else { &mut solved };
+            inputs.iter().for_each(|node| mask[*node] = true);
         }
-        let wanted = |at: usize| !stored[at] && (self.name_of(at).is_some() || size[at].1);
+        let long = |at: usize| self.name_of(at).is_some() || size[at].1;
+        let wanted = |at: usize| solved[at] || !stored[at] && long(at);
         let bound: Vec<bool> =
             (0..self.nodes().len()).map(|at| uses[at] > 1 || uses[at] == 1 && wanted(at)).collect();
         let mut order =

@@ -36,8 +36,11 @@ impl Lines {
         self.push(indent, rest);
     }
 
-    /// A line of documentation, wrapped at words.
+    /// A line of documentation, wrapped at words; a table's row stays one line.
     pub fn doc(&mut self, line: &str) {
+        if line.starts_with('|') {
+            return self.push(4 * self.depth, &format!("/// {line}"));
+        }
         let room = WIDTH - 4 * self.depth - 4;
         let mut current = String::new();
         for word in line.split(' ') {

@@ -1,7 +1,7 @@
 //! What enters a kernel: the posture as sines, cosines and displacements, and the wrench.
 
 use super::super::expression::constant;
-use super::super::plan::{Angle, Plan};
+use super::super::plan::{Angle, Plan, angle_terms};
 use super::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
 
@@ -70,7 +70,16 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
         };
         let sines: Vec<String> = plan.angles.iter().map(|a| name(a.sine, "s", a)).collect();
         let cosines: Vec<String> = plan.angles.iter().map(|a| name(a.cosine, "c", a)).collect();
-        let sums: Vec<String> = plan.angles.iter().map(|a| angle_text(plan, a)).collect();
+        let mut sums = Vec::new();
+        for angle in &plan.angles {
+            let text = angle_text(plan, angle);
+            if text.contains(' ') {
+                out.code(&format!("let theta{} = {text};", angle.suffix));
+                sums.push(format!("theta{}", angle.suffix));
+            } else {
+                sums.push(text);
+            }
+        }
         out.code(&format!("let ([{}], [{}]) =", sines.join(", "), cosines.join(", ")));
         out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
     }
@@ -86,30 +95,25 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
 
 /// An angle in terms of `q` and the constants.
 fn angle_text(plan: &Plan, angle: &Angle) -> String {
-    fn write(plan: &Plan, e: Expr) -> String {
-        let g = &plan.program.graph;
-        let sign = if e.is_negative() { "-" } else { "" };
-        if let Some(constant) = plan.name(e.node()).filter(|n| n.starts_with("constants.")) {
-            return format!("{sign}{constant}");
-        }
-        match g.node(e) {
-            Node::Number(n) => format!("S::lit({sign}{})", constant(n)),
-            Node::Symbol(s) => match g.symbol_of(s) {
-                Symbol::Joint(joint) => format!("{sign}q[{joint}]"),
-                _ => String::new(),
-            },
-            Node::Add(a, b) if e.is_negative() => format!("-({})", write_sum(plan, a, b)),
-            Node::Add(a, b) => write_sum(plan, a, b),
-            Node::Mul(a, b) => format!("{sign}({} * {})", write(plan, a), write(plan, b)),
-            _ => String::new(),
-        }
+    let g = &plan.program.graph;
+    let named = |e: Expr| plan.name(e.node()).unwrap_or_default().to_string();
+    let term = |e: Expr| match g.node(e) {
+        Node::Number(n) => format!("S::lit({})", constant(n)),
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => format!("q[{joint}]"),
+            _ => named(e),
+        },
+        _ => named(e),
+    };
+    let mut text = String::new();
+    for e in angle_terms(g, angle.sum) {
+        text.push_str(match (text.is_empty(), e.is_negative()) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        });
+        text.push_str(&term(e.abs()));
     }
-    fn write_sum(plan: &Plan, a: Expr, b: Expr) -> String {
-        let (operator, b) = if b.is_negative() { ("-", -b) } else { ("+", b) };
-        let right = write(plan, b);
-        let nested = matches!(plan.program.graph.node(b), Node::Add(..));
-        let right = if nested { format!("({right})") } else { right };
-        format!("{} {operator} {right}", write(plan, a))
-    }
-    write(plan, angle.sum)
+    text
 }

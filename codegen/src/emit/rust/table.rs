@@ -4,7 +4,7 @@ use super::super::constants::Constants;
 use super::RustOptions;
 use super::lines::Lines;
 use crate::number::Number;
-use crate::robot::{Angle, Motion, Robot, Value};
+use crate::robot::{Angle, Convention, Joint, Motion, Robot, Value};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
@@ -28,7 +28,17 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     out.doc("Number of joints.");
     out.code(&format!("pub const N: usize = {n};"));
     out.blank();
-    out.doc("The Denavit-Hartenberg table that every function of this module was derived from.");
+    out.doc("The Denavit-Hartenberg table that every function of this module was derived from:");
+    out.doc(match robot.convention {
+        Convention::Standard => "each row is Rz(theta) Tz(d) Tx(a) Rx(alpha).",
+        Convention::Modified => "each row is Rx(alpha) Tx(a) Rz(theta) Tz(d).",
+    });
+    out.doc("");
+    out.doc("| joint | theta | d | a | alpha | stiffness |");
+    out.doc("|---|---|---|---|---|---|");
+    for joint in &robot.joints {
+        out.doc(&row(joint));
+    }
     out.code("pub const DH: [DhRow; N] = [");
     out.indent();
     for joint in &robot.joints {
@@ -51,6 +61,23 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     out.dedent();
     out.code("];");
     out.finish()
+}
+
+/// A row in the notation of the input: `q` stands where the joint moves.
+fn row(joint: &Joint) -> String {
+    let with_q = |offset: String| match offset.as_str() {
+        "0" => "q".to_string(),
+        offset if offset.starts_with('-') => format!("q - {}", &offset[1..]),
+        offset => format!("q + {offset}"),
+    };
+    let (theta, d) = (angle(&joint.theta), value(&joint.d));
+    let (theta, d) = match joint.motion {
+        Motion::Revolute => (with_q(theta), d),
+        Motion::Prismatic => (theta, with_q(d)),
+    };
+    let stiffness = joint.stiffness.as_ref().map_or("rigid".to_string(), value);
+    let (a, alpha) = (value(&joint.a), angle(&joint.alpha));
+    format!("| {} | {theta} | {d} | {a} | {alpha} | {stiffness} |", joint.name)
 }
 
 /// The structs of symbolic parameters and of what is worked out from them once.
