@@ -3,6 +3,25 @@
 use stiffarm::kernels::generic::{Arm, Joint};
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
+/// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
+macro_rules! parameters {
+    (
+        pub const $set:ident: $($ty:ident)::+<f64> = { $($name:ident: $value:expr),* $(,)? };
+        pub fn $lookup:ident;
+    ) => {
+        pub const $set: $($ty)::+<f64> = $($ty)::+ { $($name: $value),* };
+
+        pub fn $lookup(name: &str) -> Option<f64> {
+            [$((stringify!($name), $value)),*].into_iter().find(|(n, _)| *n == name).map(|(_, x)| x)
+        }
+
+        #[allow(dead_code)]
+        pub fn parameters_as<S>(cast: impl Fn(f64) -> S) -> $($ty)::+<S> {
+            $($ty)::+ { $($name: cast($value)),* }
+        }
+    };
+}
+
 /// Joint values and wrenches by a small deterministic generator (PCG's multiplier).
 pub struct Draws(u64);
 

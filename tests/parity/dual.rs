@@ -144,50 +144,18 @@ fn jacobian_and_stiffness_are_derivatives() {
 #[test]
 fn the_regressor_is_the_derivative_by_joint_compliance() {
     // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
-    use zoo::symbolic::{Constants, Parameters, deflection_first_order, stiffness_regressor};
+    use zoo::symbolic::{Constants, deflection_first_order, stiffness_regressor};
     let mut draws = Draws::new(5);
     let p = zoo::PARAMETERS;
     for _ in 0..200 {
         let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
         let wrench = wrench(&mut draws);
         let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
-        let mut dual = dual_parameters(&p);
+        let mut dual = zoo::parameters_as(Dual::lit);
         dual.k2.0.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);
         let (q, wrench) = (q.map(Dual::lit), wrench.map(Dual::lit));
         let slope = deflection_first_order(&constants, &q, &wrench).map(|d| -d.0.eps * p.k2 * p.k2);
         assert!(relative(&slope, &regressor[1], 0.0) < 1e-12);
-    }
-
-    fn dual_parameters(p: &Parameters<f64>) -> Parameters<Dual> {
-        let d = Dual::lit;
-        Parameters {
-            o1: d(p.o1),
-            d1: d(p.d1),
-            a1: d(p.a1),
-            alpha1: d(p.alpha1),
-            k1: d(p.k1),
-            m1: d(p.m1),
-            cx: d(p.cx),
-            cz: d(p.cz),
-            E1: d(p.E1),
-            G1: d(p.G1),
-            A1: d(p.A1),
-            Iy1: d(p.Iy1),
-            Iz1: d(p.Iz1),
-            J1: d(p.J1),
-            rho1: d(p.rho1),
-            a2: d(p.a2),
-            k2: d(p.k2),
-            m2: d(p.m2),
-            cy: d(p.cy),
-            o3: d(p.o3),
-            d3: d(p.d3),
-            k3: d(p.k3),
-            d4: d(p.d4),
-            a4: d(p.a4),
-            k4: d(p.k4),
-            t_z: d(p.t_z),
-        }
     }
 }

@@ -4,8 +4,10 @@
 //! arms of `stiffarm-robots`, on a zoo of odd tables written for this test, and (through the graph's
 //! own evaluation) on random tables. The dual numbers are num-dual's.
 
+#[macro_use]
 mod compare;
 mod dual;
 mod known;
 mod random;
+mod symbolic;
 mod zoo;

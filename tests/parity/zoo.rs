@@ -70,34 +70,37 @@ robot! {
     j4    | 0      | q + d4  | a4    | 90 deg  | k4        | -    | -             | { youngs_modulus: E1, shear_modulus: G1, section: { area: A1, iy: Iy1, iz: Iz1, j: J1 } }
 }
 
-pub const PARAMETERS: symbolic::Parameters<f64> = symbolic::Parameters {
-    o1: 0.3,
-    d1: 0.25,
-    a1: -0.4,
-    alpha1: 0.6,
-    k1: 2e5,
-    m1: 7.0,
-    cx: 0.1,
-    cz: -0.05,
-    E1: 70e9,
-    G1: 26e9,
-    A1: 1.5e-3,
-    Iy1: 2e-6,
-    Iz1: 3e-6,
-    J1: 4e-6,
-    rho1: 2700.0,
-    a2: 0.55,
-    k2: 1.5e5,
-    m2: 4.0,
-    cy: 0.07,
-    o3: -0.8,
-    d3: 0.12,
-    k3: 9e4,
-    d4: 0.3,
-    a4: 0.15,
-    k4: 1e6,
-    t_z: 0.2,
-};
+parameters! {
+    pub const PARAMETERS: symbolic::Parameters<f64> = {
+        o1: 0.3,
+        d1: 0.25,
+        a1: -0.4,
+        alpha1: 0.6,
+        k1: 2e5,
+        m1: 7.0,
+        cx: 0.1,
+        cz: -0.05,
+        E1: 70e9,
+        G1: 26e9,
+        A1: 1.5e-3,
+        Iy1: 2e-6,
+        Iz1: 3e-6,
+        J1: 4e-6,
+        rho1: 2700.0,
+        a2: 0.55,
+        k2: 1.5e5,
+        m2: 4.0,
+        cy: 0.07,
+        o3: -0.8,
+        d3: 0.12,
+        k3: 9e4,
+        d4: 0.3,
+        a4: 0.15,
+        k4: 1e6,
+        t_z: 0.2,
+    };
+    pub fn parameter;
+}
 
 /// The table of a module of this file, read through the macro's own reader.
 fn table(module: &str) -> Robot {
@@ -136,39 +139,7 @@ fn odd_tables_agree_with_the_textbook() {
 
 #[test]
 fn symbolic_parameters_agree_with_the_textbook() {
-    let p = PARAMETERS;
-    let value = |name: &str| {
-        let known = [
-            ("o1", p.o1),
-            ("d1", p.d1),
-            ("a1", p.a1),
-            ("alpha1", p.alpha1),
-            ("k1", p.k1),
-            ("m1", p.m1),
-            ("cx", p.cx),
-            ("cz", p.cz),
-            ("E1", p.E1),
-            ("G1", p.G1),
-            ("A1", p.A1),
-            ("Iy1", p.Iy1),
-            ("Iz1", p.Iz1),
-            ("J1", p.J1),
-            ("rho1", p.rho1),
-            ("a2", p.a2),
-            ("k2", p.k2),
-            ("m2", p.m2),
-            ("cy", p.cy),
-            ("o3", p.o3),
-            ("d3", p.d3),
-            ("k3", p.k3),
-            ("d4", p.d4),
-            ("a4", p.a4),
-            ("k4", p.k4),
-            ("t_z", p.t_z),
-        ];
-        known.iter().find(|(n, _)| *n == name).map(|(_, x)| *x)
-    };
-    let robot = table("symbolic").with_parameters(value).expect("every symbol has a value");
+    let robot = table("symbolic").with_parameters(parameter).expect("every symbol has a value");
     check("symbolic", &robot, &symbolic::Robot::new(&PARAMETERS));
 }
 
