@@ -63,6 +63,19 @@ impl Number {
         }
     }
 
+    /// Numerator and denominator, where the value is a fraction that no decimal of a few digits is.
+    pub fn fraction(self) -> Option<(i128, i128)> {
+        let Number::Exact(r) = self else { return None };
+        let (n, d) = (*r.numer(), *r.denom());
+        let mut rest = d;
+        for prime in [2, 5] {
+            while rest % prime == 0 {
+                rest /= prime;
+            }
+        }
+        (rest != 1 && n.abs() < 1_000_000 && d < 1_000_000).then_some((n, d))
+    }
+
     /// Whether the value is exactly zero.
     pub fn is_zero(self) -> bool {
         matches!(self, Number::Exact(r) if r.is_zero())

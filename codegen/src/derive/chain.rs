@@ -1,6 +1,7 @@
 //! The chain: a table as a sequence of turns and slides about z and x, and the axes of every place
 //! along it in the working frame.
 
+use super::jacobian::Twist;
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
 use crate::robot::{Convention, Motion, Robot, Value};
 
@@ -31,7 +32,11 @@ pub(super) struct Chain<'r> {
     steps: Vec<Step>,
     /// Orientation before step `s`; one more than there are steps.
     places: Vec<Place>,
+    /// The axes of places that were asked for.
+    axes: Vec<Option<[Vec3; 3]>>,
     tool: [Vec3; 3],
+    /// The joints' twists, once they were asked for.
+    pub twists: Option<Vec<Twist>>,
 }
 
 impl<'r> Chain<'r> {
@@ -56,7 +61,9 @@ impl<'r> Chain<'r> {
         for s in (0..cut).rev() {
             places[s] = places[s + 1].before(&mut g, &steps[s]);
         }
-        let mut chain = Chain { g, robot, steps, places, tool: [[Expr::ZERO; 3]; 3] };
+        let axes = vec![None; places.len()];
+        let tool = [[Expr::ZERO; 3]; 3];
+        let mut chain = Chain { g, robot, steps, places, axes, tool, twists: None };
         chain.tool = chain.turned_tool();
         // The tool's axes in base axes are Paul's n, o, a; in another frame they are not.
         chain.name_axes(if cut == 0 { ["n", "o", "a"] } else { ["xt", "yt", "zt"] });
@@ -112,7 +119,10 @@ impl<'r> Chain<'r> {
 
     /// All three axes before step `s`.
     pub fn axes(&mut self, s: usize) -> [Vec3; 3] {
-        self.places[s].clone().carried_out(&mut self.g)
+        let known = self.axes[s];
+        let axes = known.unwrap_or_else(|| self.places[s].clone().carried_out(&mut self.g));
+        self.axes[s] = Some(axes);
+        axes
     }
 
     /// Axes of the tool.

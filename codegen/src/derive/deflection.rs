@@ -6,6 +6,7 @@ use super::compliance::joint_compliances;
 use super::gravity;
 use super::jacobian::{Twist, flatten, twists};
 use super::lever::{From, Levers};
+use super::output::Output;
 use super::program::Solve;
 use super::stiffness::{matrix, tool_load};
 use super::torque::{power, wrench};
@@ -69,7 +70,8 @@ pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option
         sum.add(chain, twists[j], unknown);
     }
     links(chain, &mut sum, weights);
-    let solve = Solve { matrix: system, right: torques, unknowns };
+    let output = if weights { Output::DeflectionWithGravity } else { Output::Deflection };
+    let solve = Solve { output, matrix: system, right: torques, unknowns };
     (sum.in_base(chain), (!compliant.is_empty()).then_some(solve))
 }
 

@@ -10,8 +10,11 @@ pub(super) type Twist = (Vec3, Vec3);
 /// The joints' twists in the working frame: `(z × (p − p_j), z)` where the joint turns, `(z, 0)` where
 /// it slides.
 pub(super) fn twists(chain: &mut Chain) -> Vec<Twist> {
+    if let Some(known) = &chain.twists {
+        return known.clone();
+    }
     let levers = Levers::to_tool(chain);
-    (0..chain.dof())
+    let twists: Vec<Twist> = (0..chain.dof())
         .map(|j| {
             let z = chain.joint_axis(j);
             if !chain.revolute(j) {
@@ -24,7 +27,9 @@ pub(super) fn twists(chain: &mut Chain) -> Vec<Twist> {
             chain.name3(v, &format!("v{}", j + 1));
             (v, z)
         })
-        .collect()
+        .collect();
+    chain.twists = Some(twists.clone());
+    twists
 }
 
 /// The joints' twists in base axes.

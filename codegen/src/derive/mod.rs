@@ -19,4 +19,4 @@ mod stiffness;
 mod torque;
 
 pub use output::Output;
-pub use program::{Block, Program, Solve, Unstable, derive, derive_in};
+pub use program::{Block, Program, Solve, Unstable, derive, derive_each, derive_in};

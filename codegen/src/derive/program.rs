@@ -36,6 +36,8 @@ pub struct Block {
 /// `matrix · unknowns = right`; the matrix is column-major.
 #[derive(Clone, Debug)]
 pub struct Solve {
+    /// The output that it is for.
+    pub output: Output,
     /// Kθ − K_C over the compliant joints.
     pub matrix: Vec<Expr>,
     /// The torques on them.
@@ -61,12 +63,36 @@ const EXHAUSTIVE: usize = 8;
 
 /// Derives `outputs` in the working frame in which they cost least.
 pub fn derive(robot: &Robot, outputs: &[Output]) -> Program {
+    let cut = best_cuts(robot, &[outputs])[0];
+    derive_in(robot, outputs, cut)
+}
+
+/// Derives each of several sets of outputs in the working frame in which it costs least.
+pub fn derive_each(robot: &Robot, sets: &[&[Output]]) -> Vec<Program> {
+    let cuts = best_cuts(robot, sets);
+    sets.iter().zip(cuts).map(|(outputs, cut)| derive_in(robot, outputs, cut)).collect()
+}
+
+/// The cheapest working frame of each set: every frame is laid out once, with all outputs in it.
+fn best_cuts(robot: &Robot, sets: &[&[Output]]) -> Vec<usize> {
     let cuts = Chain::cuts(robot);
     let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
-    let tried = cuts.iter().step_by(stride).map(|cut| derive_in(robot, outputs, *cut));
-    // The first of equals wins: the frame nearest the base.
-    let best = tried.min_by_key(|program| program.ops().cost());
-    best.unwrap_or_else(|| derive_in(robot, outputs, 0))
+    let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    let mut best = vec![(u32::MAX, 0); sets.len()];
+    for cut in cuts.into_iter().step_by(stride) {
+        let laid_out = derive_in(robot, &wanted, cut);
+        let free = laid_out.graph.parameter_only();
+        for (set, best) in sets.iter().zip(&mut best) {
+            let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
+            // The first of equals wins: the frame nearest the base.
+            if cost < best.0 {
+                *best = (cost, cut);
+            }
+        }
+    }
+    best.into_iter().map(|(_, cut)| cut).collect()
 }
 
 /// Derives `outputs` with the working frame at boundary `cut`.
@@ -104,8 +130,16 @@ pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
 impl Program {
     /// Every expression that the program computes.
     pub fn roots(&self) -> Vec<Expr> {
-        let solves = self.solves.iter().flat_map(|s| s.matrix.iter().chain(&s.right));
-        solves.chain(self.blocks.iter().flat_map(|b| &b.entries)).copied().collect()
+        let outputs: Vec<Output> = self.blocks.iter().map(|b| b.output).collect();
+        self.roots_of(&outputs)
+    }
+
+    /// What it computes for some of its outputs.
+    fn roots_of(&self, outputs: &[Output]) -> Vec<Expr> {
+        let solves = self.solves.iter().filter(|s| outputs.contains(&s.output));
+        let blocks = self.blocks.iter().filter(|b| outputs.contains(&b.output));
+        let systems = solves.flat_map(|s| s.matrix.iter().chain(&s.right));
+        systems.chain(blocks.flat_map(|b| &b.entries)).copied().collect()
     }
 
     /// Operations beyond the solve itself.

@@ -59,8 +59,36 @@ fn section(program: &Program) -> String {
         out.push_str("All entries are zero.\n");
         return out;
     }
+    let lines: Vec<String> = lines.iter().map(|line| broken(line)).collect();
     let _ = writeln!(out, "\\begin{{align*}}\n{}\n\\end{{align*}}", lines.join(" \\\\\n"));
     out
+}
+
+/// Longest line, in characters of source, that fits the page.
+const WIDE: usize = 150;
+
+/// A long equation continued on a further line, broken before an operator outside brackets.
+fn broken(line: &str) -> String {
+    if line.len() <= WIDE {
+        return line.to_string();
+    }
+    let mut depth = 0usize;
+    let mut last = None;
+    for (at, c) in line.char_indices().take_while(|(at, _)| *at < WIDE) {
+        match c {
+            '{' | '(' => depth += 1,
+            '}' | ')' => depth = depth.saturating_sub(1),
+            '+' | '-' if depth == 0 && line[..at].ends_with(' ') => last = Some(at),
+            _ => {}
+        }
+    }
+    match last {
+        Some(at) => {
+            let (head, rest) = line.split_at(at);
+            format!("{} \\\\\n&\\quad {}", head.trim_end(), broken(rest))
+        }
+        None => line.to_string(),
+    }
 }
 
 /// `(K_θ − K_C) δq = τ`, entry by entry.
@@ -156,6 +184,9 @@ struct Latex;
 
 impl Style for Latex {
     fn number(&self, n: Number) -> String {
+        if let Some((numerator, denominator)) = n.fraction() {
+            return format!("\\tfrac{{{numerator}}}{{{denominator}}}");
+        }
         let text = n.to_string();
         match text.split_once('e') {
             Some((mantissa, exponent)) => format!("{mantissa}\\cdot 10^{{{exponent}}}"),

@@ -65,13 +65,17 @@ impl Graph {
     /// worked out once and free. What the angles of sines and cosines are made of (sums of joint
     /// angles) is not counted: it belongs to the trigonometry.
     pub fn count(&self, outputs: &[Expr]) -> OpCount {
+        self.count_without(&self.parameter_only(), outputs)
+    }
+
+    /// The same with the mask of what is free given, for many counts on one graph.
+    pub fn count_without(&self, once: &[bool], outputs: &[Expr]) -> OpCount {
         let mut count = OpCount::default();
         let mut angles = HashSet::new();
         let mut used = vec![false; self.nodes().len()];
         for e in outputs {
             used[e.node()] = true;
         }
-        let once = self.parameter_only();
         for at in (0..used.len()).rev() {
             if !used[at] || once[at] {
                 continue;

@@ -1,6 +1,6 @@
 //! The arena: nodes are stored once, handles carry a sign.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::number::Number;
 
@@ -111,9 +111,9 @@ impl Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    index: HashMap<Node, u32>,
+    index: FxHashMap<Node, u32>,
     symbols: Vec<Symbol>,
-    names: HashMap<usize, String>,
+    names: FxHashMap<usize, String>,
 }
 
 impl Graph {

@@ -29,4 +29,4 @@ pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
 pub use symbols::Symbol;
-pub use tokens::{Invocation, Rejected, Source, SpannedError, parse_tokens};
+pub use tokens::{Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};

@@ -12,7 +12,7 @@ mod shapes;
 mod table;
 
 use super::constants::Constants;
-use crate::derive::{Output, derive};
+use crate::derive::{Output, derive_each};
 use crate::robot::Robot;
 
 /// How the generated module finds its runtime.
@@ -34,17 +34,15 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
     let mut functions = String::new();
-    for output in Output::EACH {
-        let program = derive(robot, &[output]);
-        let function = function::Function::single(&program, output, symbolic);
+    let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
+    let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
+    for (outputs, program) in sets.iter().zip(derive_each(robot, &sets)) {
+        let function = match outputs {
+            [output] => function::Function::single(&program, *output, symbolic),
+            _ => function::Function::all(&program, symbolic),
+        };
         functions.push_str(&function.text(robot, options, &mut constants));
     }
-    let all = derive(robot, &Output::ALL);
-    functions.push_str(&function::Function::all(&all, symbolic).text(
-        robot,
-        options,
-        &mut constants,
-    ));
 
     let mut text = table::header(robot, options);
     if symbolic {

@@ -27,6 +27,7 @@
 mod beam;
 mod cells;
 mod header;
+mod outline;
 mod rows;
 mod spot;
 mod table;
@@ -40,6 +41,7 @@ use syn::{Attribute, Ident, LitStr, Path, Token, Visibility};
 use super::model::Robot;
 use super::problem::{Problem, Report};
 use super::validate::validate;
+pub use outline::Outline;
 pub use spot::SpannedError;
 use spot::{Spot, flatten};
 
@@ -74,6 +76,12 @@ pub struct Rejected {
     pub vis: Option<Visibility>,
     /// The module's name, if it was read.
     pub module: Option<Ident>,
+    /// Where the generated code finds the kernels, if that was said.
+    pub kernels: Option<Path>,
+    /// The robot file, if one was named.
+    pub file: Option<LitStr>,
+    /// What the inline table seems to describe.
+    pub outline: Outline,
     /// At least one mistake, in the order of the input.
     pub errors: Vec<SpannedError>,
 }
@@ -92,12 +100,14 @@ impl Rejected {
 /// multiple of π) is an error here.
 pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
     let mut head = Head::default();
+    let mut outline = Outline::default();
     let mut report = Report::new();
     let parsed = (|stream: ParseStream<'_>| head.read(stream)).parse2(input);
     let rest = report.keep(parsed.map_err(Problem::from));
     let source = match (&head.module, rest) {
         (Some(module), Some(rest)) => {
-            body(&mut head.kernels, module, head.file.take(), rest, &mut report)
+            let said = (&mut head.kernels, &mut outline);
+            body(said, module, head.file.take(), rest, &mut report)
         }
         _ => None,
     };
@@ -109,10 +119,14 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
         {
             Ok(Invocation { attrs, vis, module, kernels, source })
         }
-        (_, Head { attrs, vis, module, .. }) => {
+        (source, Head { attrs, vis, module, kernels, .. }) => {
+            let file = match source {
+                Some(Source::File(file)) => Some(file),
+                _ => None,
+            };
             let mut errors: Vec<_> = report.errors.into_iter().map(SpannedError::from).collect();
             errors.sort_by_key(|e| (e.span.start().line, e.span.start().column));
-            Err(Box::new(Rejected { attrs, vis, module, errors }))
+            Err(Box::new(Rejected { attrs, vis, module, kernels, file, outline, errors }))
         }
     }
 }
@@ -152,7 +166,7 @@ impl Head {
 }
 
 fn body(
-    kernels: &mut Option<Path>,
+    (kernels, outline): (&mut Option<Path>, &mut Outline),
     module: &Ident,
     file: Option<LitStr>,
     rest: TokenStream,
@@ -160,17 +174,18 @@ fn body(
 ) -> Option<Source> {
     let tokens = flatten(rest);
     let at = Spot::new(module.span());
-    let (mut settings, tokens) = header::read(&tokens, report);
+    let (mut settings, table) = header::read(&tokens, report);
     *kernels = settings.kernels.take();
     if let Some(file) = file {
         settings.refuse_for_a_file(report);
-        if !tokens.is_empty() {
+        if !table.is_empty() {
             let message = "a table and a robot file: one of them is enough";
-            report.error(Problem::new(Spot::of(tokens, at), message));
+            report.error(Problem::new(Spot::of(table, at), message));
         }
         return Some(Source::File(file));
     }
-    let joints = table::read(tokens, at, report);
+    *outline = Outline::of_table(&tokens[..tokens.len() - table.len()], table);
+    let joints = table::read(table, at, report);
     let draft = settings.into_draft(module, joints, report);
     Some(Source::Table(Box::new(validate(&draft, report))))
 }

@@ -14,7 +14,8 @@ use super::cells::{
 use super::spot::{Spot, words};
 use super::{beam, header, rows};
 
-const COLUMNS: [&str; 11] =
+/// The columns that a table may have.
+pub(super) const COLUMNS: [&str; 11] =
     ["joint", "theta", "d", "a", "alpha", "stiffness", "mass", "com", "limits", "beam", "source"];
 const HEADER_HELP: &str = "for example `joint | theta | d | a | alpha | stiffness`";
 

@@ -1,0 +1,176 @@
+//! The module that stands in for one whose table has mistakes: the same names, no content.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::{Attribute, Ident, Visibility};
+
+use crate::derive::Output;
+use crate::robot::Outline;
+
+/// Joints of a stub whose table shows none.
+const JOINTS: usize = 6;
+
+/// A module with everything that code outside can name. Its functions take any number of joints: a
+/// row may be among the mistakes.
+pub(super) fn stub(
+    (attrs, vis, name): (&[Attribute], &Visibility, &Ident),
+    kernels: &TokenStream,
+    outline: &Outline,
+) -> TokenStream {
+    let joints = outline.joints.unwrap_or(JOINTS);
+    let symbols: Vec<Ident> =
+        outline.symbols.iter().filter_map(|name| syn::parse_str(name).ok()).collect();
+    let symbolic = !symbols.is_empty();
+    let constants = symbolic.then(|| quote!(_: &Constants<S>,));
+    let functions = Output::EACH.map(|output| function(output, constants.as_ref()));
+    let parameters = symbolic.then(|| parameters(&symbols));
+    let all = all(constants.as_ref());
+    let robot = robot(symbolic);
+    quote! {
+        #(#attrs)*
+        #[allow(unused, missing_docs, clippy::all, clippy::pedantic)]
+        #vis mod #name {
+            use #kernels::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, Scalar, Unstable};
+            pub const NAME: &str = "";
+            pub const N: usize = #joints;
+            pub const DH: [DhRow; N] = [DhRow {
+                joint: "",
+                motion: Motion::Revolute,
+                theta: "",
+                d: "",
+                a: "",
+                alpha: "",
+                stiffness: "",
+            }; N];
+            const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
+            #parameters
+            #(#functions)*
+            #all
+            #robot
+        }
+    }
+}
+
+/// The type of an output for `M` joints.
+fn ty(output: Output) -> TokenStream {
+    match output {
+        Output::Pose => quote!(Pose<S>),
+        Output::Frames => quote!([Pose<S>; M]),
+        Output::Jacobian | Output::JacobianTool | Output::StiffnessRegressor => quote!([[S; 6]; M]),
+        Output::ComplementaryStiffness | Output::GravityStiffness => quote!([[S; M]; M]),
+        Output::JointTorque | Output::GravityTorque => quote!([S; M]),
+        Output::Compliance => quote!([[S; 6]; 6]),
+        Output::DeflectionFirstOrder | Output::Deflection | Output::DeflectionWithGravity => {
+            quote!([S; 6])
+        }
+        Output::ParameterJacobian => quote!([[S; 6]; 4 * N + 6]),
+    }
+}
+
+/// The function of an output, and the figures in its module.
+fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
+    let name = format_ident!("{}", output.name());
+    let wrench = matches!(
+        output,
+        Output::ComplementaryStiffness
+            | Output::JointTorque
+            | Output::DeflectionFirstOrder
+            | Output::Deflection
+            | Output::DeflectionWithGravity
+            | Output::StiffnessRegressor
+    );
+    let wrench = wrench.then(|| quote!(, _: &[S; 6]));
+    let ty = match (ty(output), output) {
+        (ty, Output::Deflection | Output::DeflectionWithGravity) => quote!(Result<#ty, Unstable>),
+        (ty, _) => ty,
+    };
+    // The shape is linear in the number of joints, or square in it.
+    let size = |at: fn((usize, usize)) -> usize| match (at(output.shape(1)), at(output.shape(2))) {
+        (one, two) if one == two => quote!(#one),
+        (one, two) => {
+            let (slope, start) = (two - one, 2 * one - two);
+            quote!(#slope * super::N + #start)
+        }
+    };
+    let (rows, columns) = (size(|s| s.0), size(|s| s.1));
+    quote! {
+        pub fn #name<S: Scalar, const M: usize>(#constants _: &[S; M] #wrench) -> #ty {
+            ::core::unreachable!()
+        }
+        pub mod #name {
+            pub use super::OPS;
+            pub const SPARSITY: [[bool; #rows]; #columns] = [[true; #rows]; #columns];
+        }
+    }
+}
+
+/// The fused function.
+fn all(constants: Option<&TokenStream>) -> TokenStream {
+    let fields = Output::ALL.map(|output| {
+        let (name, ty) = (format_ident!("{}", output.name()), ty(output));
+        quote!(pub #name: #ty,)
+    });
+    quote! {
+        pub fn all<S: Scalar, const M: usize>(
+            #constants _: &[S; M], _: &[S; 6]
+        ) -> Result<all::All<S, M>, Unstable> {
+            ::core::unreachable!()
+        }
+        pub mod all {
+            use super::{N, Pose};
+            pub use super::OPS;
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct All<S, const M: usize = N> { #(#fields)* }
+        }
+    }
+}
+
+/// The structs of a table with symbolic parameters.
+fn parameters(symbols: &[Ident]) -> TokenStream {
+    quote! {
+        #[allow(non_snake_case)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters<S> { #(pub #symbols: S,)* }
+        #[allow(non_snake_case)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Constants<S> { #(pub #symbols: S,)* }
+        impl<S: Scalar> Constants<S> {
+            pub fn new(_: &Parameters<S>) -> Self { ::core::unreachable!() }
+        }
+    }
+}
+
+/// The robot behind a pointer.
+fn robot(symbolic: bool) -> TokenStream {
+    let (definition, ty) = match symbolic {
+        true => (
+            quote! {
+                #[derive(Clone, Copy, Debug, PartialEq)]
+                pub struct Robot<S> { pub constants: Constants<S> }
+                impl<S: Scalar> Robot<S> {
+                    pub fn new(_: &Parameters<S>) -> Self { ::core::unreachable!() }
+                }
+            },
+            quote!(Robot<S>),
+        ),
+        false => (
+            quote! {
+                #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+                pub struct Robot;
+            },
+            quote!(Robot),
+        ),
+    };
+    quote! {
+        #definition
+        impl<S: Scalar> Kernels<S> for #ty {
+            fn name(&self) -> &'static str { NAME }
+            fn dof(&self) -> usize { N }
+            fn evaluate(
+                &self, _: Output, _: &[S], _: &[S; 6], _: &mut [S]
+            ) -> Result<(), Error> {
+                Err(Error::Length)
+            }
+        }
+    }
+}

@@ -1,0 +1,382 @@
+//! Tokens into a tree.
+
+use core::ops::Range;
+
+use num_rational::Ratio;
+
+use super::lexer::{Bracket, Lexeme, Token, lex};
+use super::mistake::Mistake;
+use super::notation::{Notation, Slash, key};
+use super::tree::{Angle, Function, Tree};
+
+/// Brackets deeper than this are no formula.
+const DEEPEST: usize = 100;
+
+/// Reads a formula without an equals sign.
+///
+/// # Errors
+/// The first place that cannot be read.
+pub fn parse(text: &str, notation: &Notation) -> Result<Tree, Mistake> {
+    parse_tokens(&lex(text, notation)?, notation, text.len())
+}
+
+/// Reads tokens; `end` is where their text ends, for mistakes there.
+///
+/// # Errors
+/// The first place that cannot be read.
+pub fn parse_tokens(tokens: &[Token], notation: &Notation, end: usize) -> Result<Tree, Mistake> {
+    let mut parser = Parser { tokens, notation, next: 0, end, depth: 0 };
+    let tree = parser.sum()?;
+    match parser.peek() {
+        None => Ok(tree),
+        Some(token) => Err(parser.unexpected(token)),
+    }
+}
+
+struct Parser<'t> {
+    tokens: &'t [Token],
+    notation: &'t Notation,
+    next: usize,
+    end: usize,
+    depth: usize,
+}
+
+impl<'t> Parser<'t> {
+    fn peek(&self) -> Option<&'t Token> {
+        self.tokens.get(self.next)
+    }
+
+    fn eat(&mut self, is: &Lexeme) -> bool {
+        let found = self.peek().is_some_and(|t| t.is == *is);
+        self.next += usize::from(found);
+        found
+    }
+
+    fn here(&self) -> Range<usize> {
+        self.peek().map_or(self.end..self.end, |t| t.at.clone())
+    }
+
+    fn unexpected(&self, token: &Token) -> Mistake {
+        let at = token.at.clone();
+        match token.is {
+            Lexeme::Close(_) => Mistake::new(at, format!("`{}` closes no bracket", token.text)),
+            _ => Mistake::new(at, format!("`{}` stands where a sum should go on", token.text)),
+        }
+    }
+
+    fn deeper<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<T, Mistake>,
+    ) -> Result<T, Mistake> {
+        if self.depth >= DEEPEST {
+            return Err(Mistake::new(self.here(), "brackets are nested too deeply here"));
+        }
+        self.depth += 1;
+        let result = read(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn sum(&mut self) -> Result<Tree, Mistake> {
+        let mut terms = Vec::new();
+        loop {
+            let mut negative = false;
+            let mut signed = false;
+            while let Some(Lexeme::Plus | Lexeme::Minus) = self.peek().map(|t| &t.is) {
+                // A line that breaks at a sign may repeat it: `+ \\ +` is one plus.
+                negative |= self.tokens[self.next].is == Lexeme::Minus;
+                signed = true;
+                self.next += 1;
+            }
+            if !signed && !terms.is_empty() {
+                break;
+            }
+            terms.push((negative, self.product()?));
+        }
+        match terms.as_mut_slice() {
+            [(false, _)] => Ok(terms.remove(0).1),
+            _ => Ok(Tree::Sum(terms)),
+        }
+    }
+
+    fn product(&mut self) -> Result<Tree, Mistake> {
+        let mut factors = vec![self.factor()?];
+        let mut below: Vec<Tree> = Vec::new();
+        loop {
+            if self.eat(&Lexeme::Times) {
+                factors.push(self.factor()?);
+            } else if self.eat(&Lexeme::Slash) {
+                below.push(self.factor()?);
+                while self.notation.slash == Slash::Product && self.begins_factor() {
+                    below.push(self.factor()?);
+                }
+            } else if self.begins_factor() {
+                factors.push(self.factor()?);
+            } else {
+                break;
+            }
+        }
+        let above = product_of(factors);
+        if below.is_empty() {
+            return Ok(above);
+        }
+        Ok(Tree::Quotient(Box::new(above), Box::new(product_of(below))))
+    }
+
+    fn begins_factor(&self) -> bool {
+        matches!(
+            self.peek().map(|t| &t.is),
+            Some(
+                Lexeme::Number(_)
+                    | Lexeme::Name { .. }
+                    | Lexeme::Open(_)
+                    | Lexeme::Function(_)
+                    | Lexeme::Frac
+                    | Lexeme::Sqrt
+                    | Lexeme::Integral
+            )
+        )
+    }
+
+    fn factor(&mut self) -> Result<Tree, Mistake> {
+        let mut base = self.deeper(Self::primary)?;
+        while let Some(Lexeme::Power(power)) = self.peek().map(|t| &t.is) {
+            base = Tree::Power(Box::new(base), *power);
+            self.next += 1;
+        }
+        Ok(base)
+    }
+
+    fn primary(&mut self) -> Result<Tree, Mistake> {
+        let Some(token) = self.peek() else {
+            return Err(Mistake::new(self.end..self.end, "the formula ends where a term is expected"));
+        };
+        self.next += 1;
+        match &token.is {
+            Lexeme::Number(value) => Ok(Tree::Number(*value)),
+            Lexeme::Name { base, sub } => Ok(self.name(base, sub.as_deref())),
+            Lexeme::Open(bracket) => self.closed(token, *bracket),
+            Lexeme::Function(function) => self.call(*function),
+            Lexeme::Frac => self.fraction(),
+            Lexeme::Sqrt => self.group().map(|inner| Tree::Sqrt(Box::new(inner))),
+            Lexeme::Integral => self.integral(),
+            Lexeme::Close(_) => {
+                let message = format!("`{}` stands where a term is expected", token.text);
+                Err(Mistake::new(token.at.clone(), message))
+            }
+            _ => {
+                let message = format!("`{}` stands where a term is expected", token.text);
+                Err(Mistake::new(token.at.clone(), message))
+            }
+        }
+    }
+
+    fn name(&self, base: &str, sub: Option<&str>) -> Tree {
+        match self.notation.function(base, sub) {
+            Some((function, angle)) => Tree::Trig(function, angle),
+            None => Tree::Symbol(key(base, sub)),
+        }
+    }
+
+    /// What stands in a bracket that has just been opened.
+    fn closed(&mut self, open: &Token, bracket: Bracket) -> Result<Tree, Mistake> {
+        let inner = self.sum()?;
+        if self.eat(&Lexeme::Close(bracket)) {
+            return Ok(inner);
+        }
+        match self.peek() {
+            Some(Token { is: Lexeme::Close(_), text, at }) => {
+                let message = format!("`{text}` stands where `{}` should be closed", open.text);
+                Err(Mistake::new(at.clone(), message))
+            }
+            Some(token) => Err(self.unexpected(token)),
+            None => Err(Mistake::new(open.at.clone(), "this bracket is never closed")),
+        }
+    }
+
+    /// A group in braces, or a single factor.
+    fn group(&mut self) -> Result<Tree, Mistake> {
+        self.deeper(Self::primary)
+    }
+
+    fn fraction(&mut self) -> Result<Tree, Mistake> {
+        if let Some(tree) = self.partial()? {
+            return Ok(tree);
+        }
+        let above = self.group()?;
+        let below = self.group()?;
+        Ok(Tree::Quotient(Box::new(above), Box::new(below)))
+    }
+
+    /// `\frac{\partial}{\partial P}(body)`.
+    fn partial(&mut self) -> Result<Option<Tree>, Mistake> {
+        let is = |k: usize| self.tokens.get(self.next + k).map(|t| &t.is);
+        let open = Lexeme::Open(Bracket::Group);
+        if is(0) != Some(&open) || is(1) != Some(&Lexeme::Partial) {
+            return Ok(None);
+        }
+        let close = Some(&Lexeme::Close(Bracket::Group));
+        let shape = is(2) == close
+            && is(3) == Some(&open)
+            && is(4) == Some(&Lexeme::Partial)
+            && is(6) == close;
+        let name = match is(5) {
+            Some(Lexeme::Name { base, sub }) if shape => key(base, sub.as_deref()),
+            _ => {
+                return Err(Mistake::new(
+                    self.here(),
+                    "a derivative is written \\frac{\\partial}{\\partial x}( … )",
+                ));
+            }
+        };
+        self.next += 7;
+        let body = self.group()?;
+        Ok(Some(Tree::Derivative(Box::new(body), name)))
+    }
+
+    /// `\int_{a}^{b} body dx`.
+    fn integral(&mut self) -> Result<Tree, Mistake> {
+        let from = self.group()?;
+        let to = match self.peek().map(|t| &t.is) {
+            Some(Lexeme::Power(end)) => {
+                let end = Tree::Number(Ratio::from(i128::from(*end)));
+                self.next += 1;
+                end
+            }
+            _ => self.group()?,
+        };
+        let body = self.group()?;
+        let d = |token: &Token| matches!(&token.is, Lexeme::Name { base, sub: None } if base == "d");
+        let over = match (self.peek(), self.tokens.get(self.next + 1).map(|t| &t.is)) {
+            (Some(token), Some(Lexeme::Name { base, sub })) if d(token) => key(base, sub.as_deref()),
+            _ => return Err(Mistake::new(self.here(), "an integral ends with d and its variable")),
+        };
+        self.next += 2;
+        Ok(Tree::Integral { body: Box::new(body), over, ends: Box::new((from, to)) })
+    }
+
+    /// What a sine or cosine is taken of; `\sin^2\theta` is the square of the sine.
+    fn call(&mut self, function: Function) -> Result<Tree, Mistake> {
+        let mut power = None;
+        if let Some(Lexeme::Power(p)) = self.peek().map(|t| &t.is) {
+            power = Some(*p);
+            self.next += 1;
+        }
+        let start = self.here();
+        let mut angle = Angle::default();
+        let tree = match self.peek().map(|t| &t.is) {
+            Some(Lexeme::Number(n)) => {
+                self.next += 1;
+                Tree::Product(vec![Tree::Number(*n), self.group()?])
+            }
+            _ => self.group()?,
+        };
+        if !collect(&tree, Ratio::from(1), &mut angle) {
+            let message = "this is no sum of angles, of which a sine or cosine could be taken";
+            return Err(Mistake::new(start, message));
+        }
+        let call = Tree::Trig(function, angle);
+        Ok(match power {
+            Some(power) => Tree::Power(Box::new(call), power),
+            None => call,
+        })
+    }
+}
+
+fn product_of(mut factors: Vec<Tree>) -> Tree {
+    if factors.len() == 1 { factors.remove(0) } else { Tree::Product(factors) }
+}
+
+/// Reads a tree as a whole-number combination of angles; whether it is one.
+pub(super) fn collect(tree: &Tree, times: Ratio<i128>, into: &mut Angle) -> bool {
+    match tree {
+        Tree::Number(n) => *n.numer() == 0,
+        Tree::Symbol(name) => match i64::try_from(times.to_integer()) {
+            Ok(whole) if times.is_integer() => {
+                into.add(name, whole);
+                true
+            }
+            _ => false,
+        },
+        Tree::Sum(terms) => terms
+            .iter()
+            .all(|(negative, term)| collect(term, if *negative { -times } else { times }, into)),
+        Tree::Product(factors) => match factors.as_slice() {
+            [Tree::Number(n), rest] if n.numer().abs() < 1000 => collect(rest, times * n, into),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn notation(slash: Slash) -> Notation {
+        let f = |l: &str, f| (l.to_owned(), f, "\\theta".to_owned());
+        Notation {
+            functions: vec![f("s", Function::Sin), f("c", Function::Cos)],
+            names: vec!["RL".into()],
+            slash,
+        }
+    }
+
+    fn read(text: &str) -> Tree {
+        parse(text, &notation(Slash::Factor)).unwrap()
+    }
+
+    #[test]
+    fn implicit_products_and_functions() {
+        assert_eq!(read("\\sin \\theta_1 \\cos(\\theta_2+\\theta_3)"), read("s_1 c_{23}"));
+        assert_eq!(read("\\sin^2\\theta_1"), read("s_1^2"));
+        assert_eq!(read("-RL_4 s_1"), Tree::Sum(vec![(true, read("RL_4 s_1"))]));
+        assert_eq!(read("\\left[ a \\right]^2"), read("a^{2}"));
+        assert_eq!(read("a + \\\\ & + b"), read("a+b"));
+    }
+
+    #[test]
+    fn a_slash_reaches_as_far_as_the_file_says() {
+        let long = parse("a/2bc", &notation(Slash::Product)).unwrap();
+        assert_eq!(long, read("\\frac{a}{2bc}"));
+        assert_ne!(read("a/2bc"), long);
+    }
+
+    #[test]
+    fn mistakes_point_at_their_character() {
+        let at = |text: &str| {
+            let m = parse(text, &notation(Slash::Factor)).unwrap_err();
+            (m.at.start, m.message)
+        };
+        assert_eq!(at("a + (b"), (4, "this bracket is never closed".into()));
+        assert_eq!(at("a + b)"), (5, "`)` closes no bracket".into()));
+        assert_eq!(at("(a]"), (2, "`]` stands where `(` should be closed".into()));
+        assert_eq!(at("a +"), (3, "the formula ends where a term is expected".into()));
+        assert_eq!(at("\\cos(a b)").0, 4);
+    }
+
+    #[test]
+    fn integrals_and_derivatives() {
+        assert!(matches!(read("\\int_{0}^{L_1}(a x)dx"), Tree::Integral { over, .. } if over == "x"));
+        let d = read("\\frac{\\partial}{\\partial P}(P a)");
+        assert!(matches!(d, Tree::Derivative(_, name) if name == "P"));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_panics(text in "\\PC{0,60}") {
+            let _ = parse(&text, &notation(Slash::Product));
+        }
+
+        #[test]
+        fn no_formula_panics(parts in proptest::collection::vec(
+            prop::sample::select(vec!["\\frac", "{", "}", "(", ")", "\\left[", "\\right.", "a", "_2",
+                "_{", "^", "^{3}", "+", "-", "/", "\\sin", "\\theta", "2", ".", "\\int", "\\partial",
+                "s_{1-", "'", "\\\\", "=", "\\sqrt", "99999999999999999999999999999999999999999"]),
+            0..24,
+        )) {
+            let _ = parse(&parts.concat(), &notation(Slash::Factor));
+        }
+    }
+}

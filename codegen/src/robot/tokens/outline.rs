@@ -1,0 +1,155 @@
+//! What a rejected table seems to describe, so that the stub of its module fits the code that uses it.
+
+use proc_macro2::{Delimiter, TokenTree};
+use toml::Value;
+
+use super::super::lexeme::{Kind, Lexeme, lex};
+use super::super::problem::Place;
+use super::super::quantity::symbol;
+use super::super::suggest::closest;
+use super::super::units::expression;
+use super::cells::split;
+use super::rows;
+use super::spot::{Spot, flatten, is_sign, is_word, words};
+use super::table::COLUMNS;
+
+/// Columns whose cells hold no parameters.
+const WITHOUT_PARAMETERS: [&str; 3] = ["joint", "limits", "source"];
+/// Tables of a robot file whose strings hold no parameters.
+const WITHOUT_VALUES: [&str; 4] = ["name", "type", "limits", "source"];
+
+/// The joints and the parameters of a table, as far as its mistakes leave them visible. Nothing is
+/// checked and nothing reported: the mistakes have been.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Outline {
+    /// Number of rows; `None` where no row can be seen.
+    pub joints: Option<usize>,
+    /// What seems to be a parameter, each once, in order of appearance.
+    pub symbols: Vec<String>,
+}
+
+impl Outline {
+    /// The outline of an inline table and of the settings before it.
+    pub(super) fn of_table(settings: &[TokenTree], table: &[TokenTree]) -> Self {
+        let mut outline = Outline::default();
+        for (i, token) in settings.iter().enumerate() {
+            let behind = |word: &str, back: usize| i >= back && is_word(&settings[i - back], word);
+            if behind("translation", 1) || (behind("gravity", 2) && is_sign(&settings[i - 1], ':'))
+            {
+                outline.cell(std::slice::from_ref(token));
+            }
+        }
+        let rows = rows::split(table);
+        let Some((header, rows)) = rows.split_first().filter(|_| !table.is_empty()) else {
+            return outline;
+        };
+        let nowhere = Spot::new(proc_macro2::Span::call_site());
+        let columns: Vec<Option<&str>> = split(header, '|', nowhere)
+            .iter()
+            .map(|cell| closest(&cell.tokens.first()?.to_string(), COLUMNS))
+            .collect();
+        outline.joints = Some(rows.len()).filter(|n| *n > 0);
+        for row in rows {
+            for (cell, column) in split(row, '|', nowhere).iter().zip(&columns) {
+                if column.is_some_and(|name| !WITHOUT_PARAMETERS.contains(&name)) {
+                    outline.cell(&cell.tokens);
+                }
+            }
+        }
+        outline
+    }
+
+    /// The outline of a robot file.
+    pub fn of_file(text: &str) -> Self {
+        let mut outline = Outline::default();
+        let Ok(table) = text.parse::<toml::Table>() else { return outline };
+        let joints = table.get("joint").and_then(Value::as_array);
+        outline.joints = joints.map(Vec::len).filter(|n| *n > 0);
+        for key in ["gravity", "joint", "tool"] {
+            table.get(key).into_iter().for_each(|value| outline.value(value));
+        }
+        outline
+    }
+
+    /// A cell of the inline table: words, a list, or a beam in braces.
+    fn cell(&mut self, tokens: &[TokenTree]) {
+        match tokens {
+            [TokenTree::Group(group)] => {
+                let nowhere = Spot::new(group.span());
+                for entry in split(&flatten(group.stream()), ',', nowhere) {
+                    match (group.delimiter(), entry.tokens.as_slice()) {
+                        (Delimiter::Brace, [_, _, value @ ..]) => self.cell(value),
+                        (Delimiter::Bracket, entry) => self.cell(entry),
+                        _ => {}
+                    }
+                }
+            }
+            tokens => self.words(&words(tokens)),
+        }
+    }
+
+    fn value(&mut self, value: &Value) {
+        match value {
+            Value::String(text) => self.words(&lex(text, |at| at)),
+            Value::Array(entries) => entries.iter().for_each(|entry| self.value(entry)),
+            Value::Table(table) => table
+                .iter()
+                .filter(|(key, _)| !WITHOUT_VALUES.contains(&key.as_str()))
+                .for_each(|(_, value)| self.value(value)),
+            _ => {}
+        }
+    }
+
+    /// The names in a cell that are neither a unit nor a word of the table's language.
+    fn words<L: Place>(&mut self, words: &[Lexeme<L>]) {
+        let mut in_unit = false;
+        for (i, word) in words.iter().enumerate() {
+            let behind = i.checked_sub(1).map(|before| &words[before].kind);
+            in_unit &= !(word.is('+') || word.is('-'));
+            let Some(name) = word.name() else { continue };
+            in_unit |= matches!(behind, Some(Kind::Number(_)));
+            let called = matches!(words.get(i + 1).map(|w| &w.kind), Some(Kind::Other(_)));
+            let unit = in_unit || (words.len() > 1 && expression(&words[i..=i]).is_ok());
+            let field = syn::parse_str::<syn::Ident>(name).is_ok() && symbol(name, word).is_ok();
+            if field && !unit && !called && name != "q" && !self.symbols.iter().any(|s| s == name) {
+                self.symbols.push(name.to_owned());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::TokenStream;
+
+    use super::super::super::problem::Report;
+    use super::*;
+
+    fn table(text: &str) -> Outline {
+        let tokens = flatten(text.parse::<TokenStream>().unwrap());
+        let (_, table) = super::super::header::read(&tokens, &mut Report::new());
+        Outline::of_table(&tokens[..tokens.len() - table.len()], table)
+    }
+
+    #[test]
+    fn rows_and_names_show_through_mistakes() {
+        let outline = table(
+            "gravity: [0, g_y, 0]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
+             joint | theta  | d      | alhpa | kind | stiffness | com | beam\n\
+             a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, section: tube(x) }\n\
+             a2 | q      | d2/2 | 0 | - | type | - | -\n\
+             a3 | q | 3e5 N/rda + e",
+        );
+        assert_eq!(outline.joints, Some(3));
+        assert_eq!(outline.symbols, ["g_y", "t", "t1", "al", "k1", "c", "E", "d2", "e"]);
+    }
+
+    #[test]
+    fn a_file_shows_the_same() {
+        let text = "name = \"arm\"\n[[joint]]\ntype = \"revolut\"\na = \"2*a1\"\nd = \"3 furlong\"\n\
+                    [joint.beam]\nsection = { area = \"A\" }\n[[joint]]\nsource = \"x\"";
+        let outline = Outline::of_file(text);
+        assert_eq!((outline.joints, outline.symbols.join(" ")), (Some(2), "a1 A".to_owned()));
+        assert_eq!(Outline::of_file("not toml"), Outline::default());
+    }
+}
