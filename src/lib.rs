@@ -1,4 +1,4 @@
-//! stiffarm: closed-form elastostatic kernels from a Denavit-Hartenberg table.
+#![doc = include_str!("../README.md")]
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -9,7 +9,7 @@ use quote::{quote, quote_spanned};
 use syn::{LitStr, Visibility};
 
 use crate::emit::{RustOptions, rust};
-use crate::robot::{Outline, Rejected, Robot, Source, parse_tokens};
+use crate::robot::{Outline, Rejected, Robot, Source, closest, parse_tokens};
 use stub::stub;
 
 /// Expands a `robot!` invocation. `root` is the folder that robot files are looked for in: the one of
@@ -71,6 +71,19 @@ fn path_text(path: &TokenStream) -> String {
     path.to_string().replace(' ', "")
 }
 
+/// Where a file that is not there may be instead.
+fn whereabouts(path: &Path) -> String {
+    let here = path.parent().and_then(|folder| folder.read_dir().ok()).into_iter().flatten();
+    let names = here.flatten().map(|file| file.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    names.sort();
+    let wanted = path.file_name().unwrap_or_default().to_string_lossy();
+    match closest(&wanted, names.iter().map(String::as_str)) {
+        Some(near) if near != wanted => format!("did you mean `{near}`, in the same folder?"),
+        _ => "the name is relative to the folder of this package's Cargo.toml".to_owned(),
+    }
+}
+
 /// A robot file that is no robot.
 struct Unread {
     errors: TokenStream,
@@ -85,10 +98,7 @@ fn read(name: &LitStr, root: &Path) -> Result<(Robot, TokenStream), Unread> {
     let path = root.join(name.value());
     let at = name.span();
     let text = std::fs::read_to_string(&path).map_err(|e| {
-        let message = format!(
-            "cannot read the robot file {}: {e}\nhelp: the name is relative to the folder of Cargo.toml",
-            path.display()
-        );
+        let message = format!("cannot read the robot file: {e}\nhelp: {}", whereabouts(&path));
         let errors = quote_spanned! { at => ::core::compile_error!(#message); };
         Unread { errors, watched: None, outline: Outline::default() }
     })?;

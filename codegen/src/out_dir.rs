@@ -7,7 +7,6 @@ use crate::emit::{RustOptions, rust};
 use crate::robot::{FileError, Robot};
 
 /// Why a build script's robot was not written.
-#[derive(Debug)]
 pub enum BuildError {
     /// A file could not be read or written.
     Io(PathBuf, std::io::Error),
@@ -24,6 +23,13 @@ impl fmt::Display for BuildError {
             BuildError::Robot(e) => e.fmt(f),
             BuildError::NoOutDir => f.write_str("OUT_DIR is not set: call this from build.rs"),
         }
+    }
+}
+
+impl fmt::Debug for BuildError {
+    /// The message as a user reads it: `main` of a build script prints an error with `Debug`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
     }
 }
 

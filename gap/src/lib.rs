@@ -5,12 +5,17 @@
 //! [`measurement`] reads what was measured; [`gap`] is the difference; [`effects`] are what may
 //! explain it; [`mod@diagnose`] finds out which does, on poses that no fit has seen.
 //!
+//! [`chain`] is the arm with an error at every place, loads coming down it and displacements going
+//! up; [`force`] finds the joint corrections with which a flexible arm exerts the wanted wrench.
+//!
 //! This crate returns data and structured errors; it prints nothing.
 
+pub mod chain;
 pub mod diagnose;
 pub mod effects;
 #[cfg(test)]
 mod fixture;
+pub mod force;
 pub mod gap;
 pub mod measurement;
 pub mod robot;

@@ -1,15 +1,12 @@
-//! What keeps a command from its work, and how it is said: a sentence and advice, or the mistakes of
-//! a file, each at its place.
+//! What keeps a command from its work, and how it is said: a sentence and advice, or the mistakes
+//! of a file, each at its place.
 
-use std::fmt;
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
+use std::ops::Range;
 use std::path::Path;
 
-use console::{Term, style};
-use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity,
-    SourceCode,
-};
+use annotate_snippets::{AnnotationKind, Element, Level, Renderer, Snippet};
+use console::style;
 use stiffarm_codegen::robot::Located;
 
 /// Why a command could not do its work: exit status 2.
@@ -31,9 +28,10 @@ pub enum Failure {
 pub struct Remark {
     message: String,
     help: Option<String>,
-    severity: Severity,
-    source: Option<NamedSource<String>>,
-    span: Option<LabeledSpan>,
+    /// Used as it is, but probably not meant.
+    doubt: bool,
+    /// The file's name, its text, and the bytes that are meant.
+    place: Option<(String, String, Range<usize>)>,
 }
 
 impl Failure {
@@ -56,101 +54,84 @@ impl Failure {
     pub fn print(&self) {
         let text = match self {
             Failure::Plain { message, help } => {
-                let head = style("error:").for_stderr().red().bold();
+                let blue = |text| style(text).for_stderr().blue().bright().bold();
+                let head = style("error").for_stderr().red().bright().bold();
                 let advice = help.as_ref().map_or_else(String::new, |help| {
-                    format!("{} {help}\n", style(" help:").for_stderr().cyan())
+                    format!("  {} {}: {help}\n", blue("="), style("help").for_stderr().bold())
                 });
-                format!("{head} {message}\n{advice}")
+                format!("{head}: {message}\n{advice}")
             }
-            Failure::File(remarks) => remarks.iter().map(Remark::render).collect(),
+            Failure::File(remarks) => {
+                remarks.iter().map(Remark::render).collect::<Vec<_>>().join("\n")
+            }
         };
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 }
 
-/// What the system says, without its number.
+/// What the system says, in words.
 pub fn reason(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_lowercase()
-}
-
-impl Remark {
-    /// A mistake in `text`, the content of `file`, at some of its bytes; without a snippet if the
-    /// text has no such place.
-    pub fn error(
-        message: String,
-        help: Option<String>,
-        file: &str,
-        text: &str,
-        span: Option<std::ops::Range<usize>>,
-    ) -> Remark {
-        let span = span.filter(|s| s.start < text.len() && s.end <= text.len());
-        let source = span.as_ref().map(|_| NamedSource::new(file, text.to_owned()));
-        let span = span.map(|s| LabeledSpan::new_primary_with_span(None, s));
-        Remark { message, help, severity: Severity::Error, source, span }
-    }
-
-    /// A remark of the robot file's reader.
-    pub fn located(located: &Located, text: &str, severity: Severity) -> Remark {
-        let Located { path, span, line, column, message, help, .. } = located;
-        let shown = located.source.chars().count() <= LONGEST;
-        let at = Some(span.clone()).filter(|_| shown);
-        let mut remark = Remark::error(message.clone(), help.clone(), path, text, at);
-        if remark.span.is_none() {
-            remark.message = format!("{path}: line {line}, column {column}: {message}");
-        }
-        Remark { severity, ..remark }
-    }
-
-    fn render(&self) -> String {
-        let theme = match console::colors_enabled_stderr() {
-            true => GraphicalTheme::unicode(),
-            false => GraphicalTheme::unicode_nocolor(),
-        };
-        let term = Term::stderr();
-        let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1);
-        let handler = match term.size_checked().filter(|_| term.is_term()) {
-            Some((_, width)) => handler.with_width(usize::from(width).clamp(40, 120)),
-            None => handler.with_wrap_lines(false),
-        };
-        let mut text = String::new();
-        match handler.render_report(&mut text, self) {
-            Ok(()) => text,
-            Err(fmt::Error) => format!("{}\n", self.message),
-        }
-    }
-
-    /// Prints a warning to standard error.
-    pub fn print(&self) {
-        let _ = std::io::stderr().write_all(self.render().as_bytes());
-    }
+    let known = match error.kind() {
+        ErrorKind::NotFound => "no such file or folder",
+        ErrorKind::PermissionDenied => "permission denied",
+        ErrorKind::IsADirectory => "it is a folder",
+        ErrorKind::NotADirectory => "part of the path is no folder",
+        ErrorKind::StorageFull => "no space left",
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
+        _ => return error.to_string(),
+    };
+    known.to_owned()
 }
 
 /// Lines longer than this are not shown.
 pub const LONGEST: usize = 300;
 
-impl fmt::Display for Remark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for Remark {}
-
-impl Diagnostic for Remark {
-    fn severity(&self) -> Option<Severity> {
-        Some(self.severity)
-    }
-
-    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as &dyn SourceCode)
+impl Remark {
+    /// A mistake in `text`, the content of `file`, at some of its bytes; where the text has no such
+    /// place the message names the file.
+    pub fn error(
+        message: String,
+        help: Option<String>,
+        file: &str,
+        text: &str,
+        span: Option<Range<usize>>,
+    ) -> Remark {
+        let span = span.filter(|s| s.start < text.len() && s.end <= text.len());
+        let message = if span.is_some() { message } else { format!("{file}: {message}") };
+        let place = span.map(|span| (file.to_owned(), text.to_owned(), span));
+        Remark { message, help, doubt: false, place }
     }
 
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.span.as_ref().map(|span| Box::new(std::iter::once(span.clone())) as Box<_>)
+    /// A remark of the robot file's reader: a mistake, or a doubt.
+    pub fn located(located: &Located, text: &str, doubt: bool) -> Remark {
+        let Located { path, line, column, message, .. } = located;
+        let shown = located.source.chars().count() <= LONGEST && located.span.start < text.len();
+        let (span, message) = match shown {
+            true => (Some(located.span.clone()), message.clone()),
+            false => (None, format!("line {line}, column {column}: {message}")),
+        };
+        Remark { doubt, ..Remark::error(message, located.help.clone(), path, text, span) }
+    }
+
+    fn render(&self) -> String {
+        let level = if self.doubt { Level::WARNING } else { Level::ERROR };
+        let mut group = level.primary_title(&self.message).elements(None::<Element<'_>>);
+        if let Some((file, text, span)) = &self.place {
+            let meant = AnnotationKind::Primary.span(span.clone());
+            group = group.element(Snippet::source(text).path(file).annotation(meant));
+        }
+        if let Some(help) = &self.help {
+            group = group.element(Level::HELP.message(help));
+        }
+        let renderer = match console::colors_enabled_stderr() {
+            true => Renderer::styled(),
+            false => Renderer::plain(),
+        };
+        renderer.render(&[group]) + "\n"
+    }
+
+    /// Prints a warning to standard error.
+    pub fn print(&self) {
+        let _ = std::io::stderr().write_all(self.render().as_bytes());
     }
 }

@@ -64,7 +64,8 @@ mod tests {
             "z": [[1.0, 2.5], [3e-12, -1]], "a": {"b": null, "c": []}, "d": {}, "e": ["x\n", true]
         });
         let want = "{\n  \"z\": [\n    [1.0, 2.5],\n    [3e-12, -1]\n  ],\n  \"a\": {\n    \
-                    \"b\": null,\n    \"c\": []\n  },\n  \"d\": {},\n  \"e\": [\"x\\n\", true]\n}\n";
+                    \"b\": null,\n    \"c\": []\n  },\n  \"d\": {},\n  \
+                    \"e\": [\"x\\n\", true]\n}\n";
         assert_eq!(super::text(&value).unwrap(), want);
         assert_eq!(serde_json::from_str::<Value>(want).unwrap(), value);
     }

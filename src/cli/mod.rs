@@ -23,22 +23,21 @@ use std::process::ExitCode;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Parser, Subcommand};
 
-use failure::Failure;
-
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Yellow.on_default().bold())
     .usage(AnsiColor::Yellow.on_default().bold())
     .literal(AnsiColor::Green.on_default())
     .placeholder(AnsiColor::Cyan.on_default());
 
-const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form elastostatics, and why \
-                     the real arm is not where the model says";
+const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form elastostatics, and \
+                     why the real arm is not where the model says";
 
 const AFTER: &str = "\
 A ROBOT is a robot file (TOML) or the id of a built-in robot (`stiffarm robots` lists them).
 Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
 
-Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used. Nothing is written then.";
+Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was
+written.";
 
 /// The whole command line.
 #[derive(Parser)]

@@ -33,8 +33,9 @@ impl Target {
     pub fn write(&self, text: &str) -> Result<(), Failure> {
         match self {
             Target::Stdout => print(text),
-            Target::File(path) => file(path, text.as_bytes())
-                .map_err(|error| Failure::io("write", path, &error)),
+            Target::File(path) => {
+                file(path, text.as_bytes()).map_err(|error| Failure::io("write", path, &error))
+            }
         }
     }
 }
@@ -86,9 +87,7 @@ fn beside(folder: &Path) -> io::Result<NamedTempFile> {
     if let Some(permissions) = permissions {
         builder.permissions(permissions);
     }
-    let made = builder.tempfile_in(folder);
-    // The temporary name is nobody's business.
-    made.map_err(|error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error))
+    builder.tempfile_in(folder)
 }
 
 #[cfg(unix)]

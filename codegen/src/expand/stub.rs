@@ -42,7 +42,7 @@ pub(super) fn stub(
                 alpha: "",
                 stiffness: "",
             }; N];
-            const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
+            pub const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
             #parameters
             #(#functions)*
             #all

@@ -94,7 +94,7 @@ fn product<L: Place>(
             }
             Kind::Name(name) if name == "pi" && !divide => found.pi += 1,
             Kind::Name(name) if name == "pi" => {
-                return Err(Problem::new(word.at.clone(), "`pi` cannot stand below the line"));
+                return Err(Problem::new(word.at.clone(), "`pi` cannot be divided by"));
             }
             Kind::Name(_) => return Err(refuse_expression(cell, at)),
             _ => return Err(unexpected(word)),
@@ -125,7 +125,8 @@ fn plain_radians<L: Place>(number: Number, words: &[Lexeme<L>], whole: L) -> Dou
     let (angle, doubt) = plain_radians_in_unit(number, words, whole.clone());
     if doubt.is_none() && matches!(angle, Angle::Radians(_)) && x.abs() > 4.0 * PI {
         let turns = x.abs() / (2.0 * PI);
-        let shown = show(words);
+        let sign = if number.is_negative() { "-" } else { "" };
+        let shown = format!("{sign}{}", show(words));
         let message = format!("{shown} radians is {turns:.1} turns: for degrees write {shown} deg");
         let doubt = Problem::new(whole, message);
         return (angle, Some(doubt.help(format!("if radians are meant, write {shown} rad"))));
@@ -227,7 +228,7 @@ mod tests {
     fn degrees_without_a_unit_are_doubted() {
         let (angle, doubt) = cell("-90").unwrap();
         assert_eq!(angle, Angle::Radians(Number::integer(-90)));
-        assert_eq!(doubt.unwrap().message, "90 radians is 14.3 turns: for degrees write 90 deg");
+        assert_eq!(doubt.unwrap().message, "-90 radians is 14.3 turns: for degrees write -90 deg");
         assert_eq!(cell("90 rad").unwrap().1, None);
     }
 
@@ -242,7 +243,7 @@ mod tests {
             ("pi/", "an angle is expected here (e.g. `pi/2`, `90 deg`, `0.5`)"),
             ("pi/0", "a division by zero"),
             ("1/1e-310", "a division by zero"),
-            ("1/pi", "`pi` cannot stand below the line"),
+            ("1/pi", "`pi` cannot be divided by"),
             ("pi*pi", "`pi*pi` has a factor pi too many"),
             ("pi deg", "`pi deg` has a factor pi too many"),
             ("90 degs", "unknown unit `degs`"),

@@ -28,5 +28,6 @@ mod validate;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+pub(crate) use suggest::closest;
 pub use symbols::Symbol;
 pub use tokens::{Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};

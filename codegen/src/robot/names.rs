@@ -20,14 +20,15 @@ pub(crate) fn check<L: Place>(draft: &Draft<L>, report: &mut Report<L>) {
     let markers = draft.markers.iter();
     unique("marker", markers.filter_map(|m| Some((m.name.value.as_deref()?, &m.name.at))), report);
     let mut seen: HashMap<&str, Dimension> = HashMap::new();
-    draft.each_symbol(&mut |name, dimension, at| match seen.get(name) {
+    // The joint variable is misplaced wherever it stands; another name is refused once.
+    draft.each_symbol(&mut |name, dimension, at| match seen.get(name).filter(|_| name != "q") {
         None => {
             seen.insert(name, dimension);
             if let Some((message, help)) = refused(name) {
                 report.error(Problem::new(at.clone(), message).help(help));
             }
         }
-        Some(first) if *first != dimension => {
+        Some(first) if *first != dimension && refused(name).is_none() => {
             let message =
                 format!("`{name}` is {first} where it first stands, and {dimension} here");
             let help = "one parameter is one quantity: use two names";

@@ -177,7 +177,12 @@ fn unknown<L: Place>(name: &str, word: &Lexeme<L>) -> Problem<L> {
 /// A word that has no place in a number with a unit.
 pub(crate) fn unexpected<L: Place>(word: &Lexeme<L>) -> Problem<L> {
     let shown = show(core::slice::from_ref(word));
-    Problem::new(word.at.clone(), format!("unexpected `{shown}`"))
+    let problem = Problem::new(word.at.clone(), format!("unexpected `{shown}`"));
+    match shown.as_str() {
+        "," => problem.help("a decimal point is written `.`"),
+        quoted if quoted.starts_with('"') => problem.help("write the cell without quotes"),
+        _ => problem,
+    }
 }
 
 /// Checks that a unit measures what a cell holds; `cell` is the whole cell, for the message.

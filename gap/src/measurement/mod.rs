@@ -43,6 +43,10 @@ pub struct Measurements {
     pub extra: Vec<ExtraColumn>,
     /// Columns that are known but play no part: a simulated component that is not measured.
     pub unused: Vec<Column>,
+    /// The unit in which the file has each measured component; `None` where it is not measured.
+    pub measured_in: [Option<Unit>; 6],
+    /// The unit in which the file has each component of the wrench; `None` where it has no column.
+    pub wrench_in: [Option<Unit>; 6],
 }
 
 /// What the file measures.
@@ -208,8 +212,15 @@ fn read_into(
     let poses = group::assign(&mut rows);
     let measured = kind.components();
     let unused = |h: &&header::Head| matches!(h.role, Some(Role::Sim(_, k)) if !measured[k]);
+    let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
+    let family = match kind {
+        Kind::Pose { .. } => role::Family::Pose,
+        Kind::Displacement { .. } => role::Family::Displacement,
+    };
     Some(Measurements {
         file: file.to_owned(),
+        measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
+        wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
         extra: extra(&heads, body, layout),
         rows,

@@ -11,9 +11,11 @@ use super::cells::{Raw, group, length, list, split, value};
 use super::spot::{Spot, flatten, is_sign, is_word};
 use crate::number::Number;
 
-const KEYS: [&str; 5] =
+/// What a beam says.
+pub(super) const KEYS: [&str; 5] =
     ["youngs_modulus", "shear_modulus", "section", "density", "shear_coefficient"];
-const CONSTANTS: [&str; 4] = ["area", "iy", "iz", "j"];
+/// What a section says that is neither a tube nor a box.
+pub(super) const CONSTANTS: [&str; 4] = ["area", "iy", "iz", "j"];
 const SECTION: &str = "`tube(outer, inner)`, `box([b, h], [b, h])` or \
                        `{ area: …, iy: …, iz: …, j: … }` is expected here";
 
@@ -134,7 +136,15 @@ fn shape(cell: &Raw, report: &mut Report<Spot>) -> Option<Section> {
             return None;
         }
     };
-    let arguments = split(&flatten(arguments.stream()), ',', cell.at);
+    let at = Spot::new(arguments.span());
+    let arguments = split(&flatten(arguments.stream()), ',', at);
+    let lists = arguments.iter().all(|side| group(side, Delimiter::Bracket).is_some());
+    if is_word(word, "box") && !lists {
+        let message = "the sides of a box are [b, h], along the beam's y and along its z";
+        let help = "write `box([120 mm, 80 mm])`, with a second pair if it is hollow";
+        report.error(Problem::new(at, message).help(help));
+        return None;
+    }
     let section = match arguments.as_slice() {
         [outer] if is_word(word, "tube") => Section::tube(size(outer, report)?, Number::ZERO),
         [outer, inner] if is_word(word, "tube") => {

@@ -1,6 +1,7 @@
 //! The settings before the table: `name: "…"; convention: modified_dh; …`.
 
 use proc_macro2::{Delimiter, Spacing, TokenTree};
+use syn::ext::IdentExt;
 use syn::parse::Parser;
 use syn::{Ident, LitStr, Path};
 
@@ -54,6 +55,7 @@ pub(super) fn read<'t>(
             .unwrap_or(tokens.len());
         let (setting, rest) = tokens.split_at(end);
         if !starts_setting(setting) {
+            settings.meant.extend(closest(&setting[0].to_string(), KEYS));
             let message = "a setting such as `convention: modified_dh;`, or the table's header \
                            `joint | theta | …`, is expected here";
             report.error(Problem::new(Spot::new(setting[0].span()), message));
@@ -70,9 +72,10 @@ pub(super) fn read<'t>(
     (settings, tokens)
 }
 
-/// `joint …` or `word | …`.
+/// `joint …` or `word | …`, or a `|` where no setting can stand.
 fn starts_table(tokens: &[TokenTree]) -> bool {
     match tokens {
+        [first, ..] if is_sign(first, '|') => true,
         [TokenTree::Ident(_), next, ..] if is_sign(next, '|') => true,
         [first, next, ..] => is_word(first, "joint") && !is_sign(next, ':'),
         [first] => is_word(first, "joint"),
@@ -173,7 +176,7 @@ impl Settings {
             report.error(problem.help(help));
         }
         Draft {
-            name: Some(self.name.unwrap_or_else(|| Cell::new(module.to_string(), at))),
+            name: Some(self.name.unwrap_or_else(|| Cell::new(module.unraw().to_string(), at))),
             convention: self.convention,
             gravity: self.gravity,
             joints,

@@ -16,6 +16,7 @@
 //!
 //! Columns after `joint` may stand in any order. `theta`, `d`, `a`, `alpha` are 0 where a column or
 //! cell (`-`) is absent; `stiffness`, `mass`, `com`, `limits`, `beam`, `source` are then not given.
+//! A stiffness that is not given may also be written `rigid`.
 //!
 //! A beam's cell is `{ youngs_modulus: 69 GPa, shear_modulus: 26 GPa, section: tube(0.2, 0.18) }`,
 //! with `density` and `shear_coefficient` if wanted. Its section is `tube(outer diameter, inner

@@ -8,6 +8,7 @@ use super::super::problem::Place;
 use super::super::quantity::symbol;
 use super::super::suggest::closest;
 use super::super::units::expression;
+use super::beam::{CONSTANTS, KEYS};
 use super::cells::split;
 use super::rows;
 use super::spot::{Spot, flatten, is_sign, is_word, words};
@@ -78,13 +79,24 @@ impl Outline {
                 let nowhere = Spot::new(group.span());
                 for entry in split(&flatten(group.stream()), ',', nowhere) {
                     match (group.delimiter(), entry.tokens.as_slice()) {
-                        (Delimiter::Brace, [_, _, value @ ..]) => self.cell(value),
+                        (Delimiter::Brace, [key, _, value @ ..]) => self.field(key, value),
                         (Delimiter::Bracket, entry) => self.cell(entry),
                         _ => {}
                     }
                 }
             }
             tokens => self.words(&words(tokens)),
+        }
+    }
+
+    /// A field of a beam, or of its section's constants.
+    fn field(&mut self, key: &TokenTree, value: &[TokenTree]) {
+        let known = KEYS.into_iter().chain(CONSTANTS);
+        match closest(&key.to_string(), known) {
+            // The sizes of a tube or a box are numbers.
+            Some("section") if !matches!(value, [TokenTree::Group(_)]) => {}
+            Some(_) => self.cell(value),
+            None => {}
         }
     }
 
@@ -110,8 +122,10 @@ impl Outline {
             in_unit |= matches!(behind, Some(Kind::Number(_)));
             let called = matches!(words.get(i + 1).map(|w| &w.kind), Some(Kind::Other(_)));
             let unit = in_unit || (words.len() > 1 && expression(&words[i..=i]).is_ok());
+            let word_of_table = ["q", "rigid"].contains(&name);
             let field = syn::parse_str::<syn::Ident>(name).is_ok() && symbol(name, word).is_ok();
-            if field && !unit && !called && name != "q" && !self.symbols.iter().any(|s| s == name) {
+            let new = !self.symbols.iter().any(|known| known == name);
+            if field && new && !unit && !called && !word_of_table {
                 self.symbols.push(name.to_owned());
             }
         }
@@ -136,7 +150,7 @@ mod tests {
         let outline = table(
             "gravity: [0, g_y, 0]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
              joint | theta  | d      | alhpa | kind | stiffness | com | beam\n\
-             a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, section: tube(x) }\n\
+             a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, colour: red, section: tube }\n\
              a2 | q      | d2/2 | 0 | - | type | - | -\n\
              a3 | q | 3e5 N/rda + e",
         );

@@ -11,7 +11,7 @@ use super::super::suggest::advice;
 use super::cells::{
     self, Raw, Variable, angle, angle_of, limits, value, value_of, values, variable,
 };
-use super::spot::{Spot, words};
+use super::spot::{Spot, is_sign, is_word, words};
 use super::{beam, header, rows};
 
 /// The columns that a table may have.
@@ -27,6 +27,11 @@ pub(super) fn read(
 ) -> Vec<DraftJoint<Spot>> {
     if tokens.is_empty() {
         report.error(Problem::new(at, "the table is missing").help(HEADER_HELP));
+        return Vec::new();
+    }
+    if is_sign(&tokens[0], '|') {
+        let problem = Problem::new(Spot::new(tokens[0].span()), "`|` stands between two cells");
+        report.error(problem.help("begin each line with its first cell, and end it with its last"));
         return Vec::new();
     }
     let mut rows = rows::split(tokens).into_iter();
@@ -83,16 +88,16 @@ impl Columns {
         if found == expected {
             return true;
         }
-        let label: String =
-            cells.iter().take(1).flat_map(|c| &c.tokens).map(ToString::to_string).collect();
+        let label = cells.iter().take(1).flat_map(|c| &c.tokens).map(ToString::to_string);
+        let label = label.collect::<Vec<_>>().join(" ");
         let message =
             format!("row `{label}` has {found} cells where the header has {expected} columns");
         let problem = match cells.get(expected) {
             Some(extra) => Problem::new(extra.at.to(&at), message),
             None => {
-                let missing: Vec<&str> =
-                    self.names[found..].iter().map(|name| name.unwrap_or("…")).collect();
-                let help = format!("no cell for {}: write `-` for none", missing.join(", "));
+                let missing: Option<Vec<&str>> = self.names[found..].iter().copied().collect();
+                let help = missing.map(|names| format!("no cell for {}: ", names.join(", ")));
+                let help = help.unwrap_or_default() + "write `-` for none";
                 Problem::new(at, message).help(help)
             }
         };
@@ -136,7 +141,13 @@ impl Row<'_> {
     /// The cell of a column, unless it is absent.
     fn get(&self, column: &str) -> Option<&Raw> {
         let index = self.columns.iter().position(|name| *name == Some(column))?;
-        self.cells.get(index).filter(|cell| !cell.is_absent() && !cell.tokens.is_empty())
+        let rigid = |cell: &Raw| match cell.tokens.as_slice() {
+            // What the generated documentation writes for a joint without a spring.
+            [word] => column == "stiffness" && is_word(word, "rigid"),
+            _ => false,
+        };
+        let none = |cell: &Raw| cell.is_absent() || cell.tokens.is_empty() || rigid(cell);
+        self.cells.get(index).filter(|cell| !none(cell))
     }
 
     fn joint(&self, has_variable: bool, report: &mut Report<Spot>) -> DraftJoint<Spot> {

@@ -115,7 +115,7 @@ fn mistakes_of_a_row_stand_at_their_cells() {
              no cell for alpha, stiffness: write `-` for none",
             "7:26 row `a1` has 7 cells where the header has 6 columns",
             "8:1 two joints are called `a1`",
-            "8:10 unexpected `\"350 mm\"`",
+            "8:10 unexpected `\"350 mm\"` | write the cell without quotes",
             "8:21 unexpected `(3)`",
         ]
     );

@@ -116,7 +116,7 @@ fn a_rounded_angle_is_a_warning() {
     read(&format!("{HEAD}{JOINT}limits = [-3.1416, 3.1416]\n"));
     let degrees = format!("{HEAD}{JOINT}limits = [-180, 180]\n");
     let (_, warnings) = Robot::from_toml(&degrees, "arm.toml").unwrap();
-    assert_eq!(warnings[0].message, "180 radians is 28.6 turns: for degrees write 180 deg");
+    assert_eq!(warnings[0].message, "-180 radians is 28.6 turns: for degrees write -180 deg");
     assert_eq!(warnings.len(), 2);
     let exact = read(&format!("{HEAD}{JOINT}alpha = 1.5707963267948966\n"));
     assert_eq!(exact.joints[0].alpha, Angle::Pi(Ratio::new(1, 2)));

@@ -1,0 +1,9 @@
+//! The command line as its users meet it: what it prints, writes and returns.
+
+mod check;
+mod diagnose;
+mod errors;
+mod eval;
+mod generate;
+mod others;
+mod support;
