@@ -37,7 +37,12 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
     };
     let text = rust(&robot, &RustOptions { kernels: path_text(&kernels) });
     match text.parse::<TokenStream>() {
-        Ok(items) => quote! { #(#attrs)* #vis mod #module { #watched #items } },
+        // A length or a cosine may happen to be near a well-known constant.
+        Ok(items) => quote! {
+            #[allow(clippy::approx_constant)]
+            #(#attrs)*
+            #vis mod #module { #watched #items }
+        },
         Err(e) => {
             let message = format!("the generated text is not Rust ({e}): a defect of stiffarm");
             quote_spanned! { module.span() => ::core::compile_error!(#message); }

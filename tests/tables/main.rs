@@ -1,0 +1,44 @@
+//! The macro's input, right and wrong: what `stiffarm::robot!` accepts, and what it says otherwise.
+//!
+//! Each file of `wrong/` is a table with mistakes and code that uses its module. The `.stderr` beside
+//! it is all that the compiler says: one error per mistake, at its cell, and none about the code.
+//! `TRYBUILD=overwrite cargo test -p stiffarm-tables` writes these files; read them as a user would.
+
+use std::path::Path;
+use std::{fs, io};
+
+mod right;
+
+/// Robot files are looked for beside the Cargo.toml of the package that invokes the macro: for a wrong
+/// table that is the one that trybuild writes.
+fn provide_files() -> io::Result<()> {
+    let package =
+        Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("tests/trybuild/stiffarm-tables");
+    fs::create_dir_all(package.join("files"))?;
+    for file in fs::read_dir("files")? {
+        let file = file?;
+        fs::copy(file.path(), package.join("files").join(file.file_name()))?;
+    }
+    Ok(())
+}
+
+#[test]
+fn wrong_tables_are_explained() {
+    provide_files().expect("robot files can be copied");
+    trybuild::TestCases::new().compile_fail("wrong/*.rs");
+}
+
+/// The reviewed outputs hold no errors of the compiler's own: those have codes, or are warnings.
+#[test]
+fn nothing_cascades() {
+    let wrong = Path::new("wrong").read_dir().expect("the folder is here");
+    let paths = wrong.flatten().map(|file| file.path());
+    let outputs: Vec<_> =
+        paths.filter(|path| path.extension() == Some("stderr".as_ref())).collect();
+    assert!(outputs.len() >= 35, "{} wrong tables", outputs.len());
+    for path in outputs {
+        let text = fs::read_to_string(&path).expect("a text");
+        let sound = |line: &str| !line.starts_with("error[") && !line.starts_with("warning");
+        assert!(text.lines().all(sound), "{}:\n{text}", path.display());
+    }
+}

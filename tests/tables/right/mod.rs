@@ -1,0 +1,4 @@
+//! Tables as they may be written, and where they may stand.
+
+mod forms;
+mod places;

@@ -1,0 +1,19 @@
+//! Where pi may stand.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta | d  | a | alpha
+    a1    | q     | pi | 1 | pi*pi
+    a2    | q     | 0  | 1 | 1/pi
+    a3    | q     | 0  | 1 | pi/0
+    a4    | q     | 0  | 1 | pi deg
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

@@ -1,0 +1,18 @@
+//! Rounded multiples of pi.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta      | d | a | alpha
+    a1    | q          | 0 | 1 | 1.5708
+    a2    | q - 1.5708 | 0 | 1 | -3.14159
+    a3    | q          | 0 | 1 | 0.7854 rad
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

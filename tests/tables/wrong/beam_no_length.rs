@@ -1,0 +1,17 @@
+//! A beam on a row that has no length.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta | d | a | alpha | beam
+    a1    | q     | 0 | 0 | pi/2  | { youngs_modulus: 69 GPa, shear_modulus: 26 GPa, section: tube(0.2) }
+    a2    | q     | 0 | 1 | 0     | -
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

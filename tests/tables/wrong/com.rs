@@ -1,0 +1,19 @@
+//! Centres of mass.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta | d | a | mass | com
+    a1    | q     | 0 | 1 | -    | [0.3, 0, 0]
+    a2    | q     | 0 | 1 | 5 kg | [0.3, 0]
+    a3    | q     | 0 | 1 | 5 kg | (0.3, 0, 0)
+    a4    | q     | 0 | 1 | 5 kg | [0.3, 0, 2 kg]
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

@@ -1,0 +1,5 @@
+//! Nothing at all.
+
+stiffarm::robot! {}
+
+fn main() {}

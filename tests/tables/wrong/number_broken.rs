@@ -1,0 +1,18 @@
+//! What is no number.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta | d     | a        | alpha
+    a1    | q     | 1e999 | "350 mm" | (pi)
+    a2    | q     | nan   | 1,5      | 0
+    a3    | q     | 0x10  | - - 1    | pi/
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

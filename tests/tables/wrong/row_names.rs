@@ -1,0 +1,19 @@
+//! Joints without a name, with two words, with the name of another.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint    | theta | d | a
+    shoulder | q     | 0 | 1
+    -        | q     | 0 | 1
+    elbow up | q     | 0 | 1
+    shoulder | q     | 0 | 1
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

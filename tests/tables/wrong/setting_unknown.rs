@@ -1,0 +1,17 @@
+//! Two settings that there are none of: one is misspelt, one is unheard of.
+
+stiffarm::robot! {
+    pub mod arm;
+    convetion: modified_dh;
+    payload: 3 kg;
+    joint | theta
+    a1    | q
+}
+
+fn main() {
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let lift = arm::jacobian(&q)[0][2];
+    println!("{lift} {:?} {:?}", arm::pose(&q).position, arm::deflection(&q, &w));
+    println!("{:?} {:?}", arm::all(&q, &w).map(|all| all.jacobian), arm::jacobian::OPS);
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot;
+}

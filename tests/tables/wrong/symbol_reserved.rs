@@ -1,0 +1,18 @@
+//! Names that the generated code means something else by.
+
+stiffarm::robot! {
+    pub mod arm;
+    convention: modified_dh;
+    joint | theta | d    | a    | alpha
+    a1    | q     | type | a1   | 0
+    a2    | q     | 0    | w    | 0
+    a3    | q     | 0    | Self | 0
+}
+
+fn main() {
+    let p = arm::Parameters { a1: 0.3, w: 0.4 };
+    let (q, w) = ([0.1; arm::N], [0.0; 6]);
+    let constants = arm::Constants::new(&p);
+    println!("{:?} {:?}", arm::pose(&constants, &q), arm::deflection(&constants, &q, &w));
+    let _: &dyn stiffarm::kernels::Kernels<f64> = &arm::Robot::new(&p);
+}

@@ -1,0 +1,113 @@
+//! The macro's two forms, the build script and the command give what `emit::rust` returns.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+use proc_macro2::{TokenStream, TokenTree};
+use stiffarm_codegen::emit::{RustOptions, rust};
+use stiffarm_codegen::{expand, generate_to_out_dir};
+
+use crate::tables::{collection, invocations, table};
+
+/// The items of the module that an expansion ends with.
+fn items(expansion: TokenStream) -> String {
+    match expansion.into_iter().last() {
+        Some(TokenTree::Group(module)) => module.stream().to_string(),
+        other => panic!("no module: {other:?}"),
+    }
+}
+
+fn tokens(text: &str) -> String {
+    text.parse::<TokenStream>().expect("the text is Rust").to_string()
+}
+
+#[test]
+fn an_inline_table_expands_to_the_text() {
+    for input in invocations() {
+        let robot = table(input.clone());
+        let text = rust(&robot, &RustOptions::default());
+        assert!(items(expand(input, Path::new(""))) == tokens(&text), "{}", robot.name);
+    }
+}
+
+#[test]
+fn a_robot_file_expands_to_the_text_and_is_watched() {
+    for (id, _, robot) in collection() {
+        let invocation = format!("mod arm from \"robots/arms/{id}.toml\"; crate: ::here;");
+        let expansion = expand(invocation.parse().expect("tokens"), Path::new("."));
+        let text = rust(&robot, &RustOptions { kernels: "::here".to_owned() });
+        let items = items(expansion);
+        let watched = items.strip_suffix(&tokens(&text)).expect("the text ends the module");
+        let file = format!("\"./robots/arms/{id}.toml\"");
+        assert!(watched.contains("include_bytes") && watched.contains(&file), "{watched}");
+    }
+}
+
+/// Set in the process that plays the build script.
+const CHILD: &str = "STIFFARM_TEXT_CHILD";
+
+fn out_dir() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("text")
+}
+
+/// The build script is this test in a process of its own: with `OUT_DIR`, and with hash seeds of its
+/// own, so that a text that hangs on the order of a map would differ.
+#[test]
+fn a_build_script_writes_the_text() {
+    let options = RustOptions::default();
+    if env::var_os(CHILD).is_some() {
+        for (id, _, _) in collection() {
+            generate_to_out_dir(format!("robots/arms/{id}.toml"), &options).expect("written");
+        }
+        return;
+    }
+    fs::create_dir_all(out_dir()).expect("a folder for the output");
+    let child = Command::new(env::current_exe().expect("this test"))
+        .args(["--exact", "forms::a_build_script_writes_the_text", "--nocapture"])
+        .env(CHILD, "1")
+        .env("OUT_DIR", out_dir())
+        .output()
+        .expect("the process runs");
+    let said = String::from_utf8_lossy(&child.stdout);
+    assert!(child.status.success(), "{said}");
+    for (id, _, robot) in collection() {
+        let written = fs::read(out_dir().join(id).with_extension("rs")).expect("the output");
+        assert!(written == rust(&robot, &options).into_bytes(), "{id}");
+        assert!(said.contains(&format!("cargo::rerun-if-changed=robots/arms/{id}.toml")), "{said}");
+    }
+}
+
+/// The command is built with the feature `cli` only.
+#[cfg(feature = "cli")]
+#[test]
+fn the_command_writes_the_text() {
+    for (id, _, robot) in collection() {
+        let file = format!("robots/arms/{id}.toml");
+        let command = Command::new(env!("CARGO_BIN_EXE_stiffarm"))
+            .args(["generate", &file, "--emit", "rust"])
+            .output()
+            .expect("the command runs");
+        let said = String::from_utf8_lossy(&command.stderr);
+        assert!(
+            command.stdout == rust(&robot, &RustOptions::default()).into_bytes(),
+            "{id}: {said}"
+        );
+    }
+}
+
+#[test]
+fn the_same_table_gives_the_same_bytes() {
+    for (id, toml, robot) in collection() {
+        let (again, _) = stiffarm_codegen::robot::Robot::from_toml(toml, id).expect("a valid file");
+        let options = RustOptions::default();
+        assert!(rust(&robot, &options) == rust(&again, &options), "{id}");
+    }
+}
+
+#[test]
+fn a_build_script_without_out_dir_says_so() {
+    let error = stiffarm_codegen::BuildError::NoOutDir;
+    let shown = "OUT_DIR is not set: call this from build.rs";
+    assert_eq!((error.to_string().as_str(), format!("{error:?}").trim()), (shown, shown));
+}

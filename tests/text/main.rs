@@ -1,0 +1,8 @@
+//! The generated text: the same from every form, the same on every run, and of a shape that the
+//! compiler and a reader can digest.
+
+mod forms;
+mod golden;
+mod literals;
+mod scopes;
+mod tables;
