@@ -51,7 +51,7 @@ impl Constants {
         };
         let wanted = parameter
             .or_else(|| hint.map(str::to_string))
-            .unwrap_or_else(|| format!("k{}", self.fields.len() + 1));
+            .unwrap_or_else(|| format!("aux{}", self.fields.len() + 1));
         let name = self.unused(wanted);
         self.fields.push(Field { name: name.clone(), text });
         name

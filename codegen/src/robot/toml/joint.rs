@@ -58,11 +58,14 @@ fn read(reader: &mut Reader<'_>, fields: &Fields<'_, '_>) -> DraftJoint<Range<us
         d: fields.get("d").map(|v| reader.value(v, length)),
         a: fields.get("a").map(|v| reader.value(v, length)),
         alpha: fields.get("alpha").map(|v| reader.angle(v)),
-        // What these measure depends on a type that is not known: they are left unread.
-        stiffness: fields.get("stiffness").map(|v| match motion.value {
-            Some(motion) => reader.value(v, Dimension::stiffness(motion)),
-            None => Cell::broken(v.span()),
-        }),
+        // What these measure depends on a type that is not known: they are left unread. A rigid joint
+        // may say so instead of leaving its stiffness out.
+        stiffness: fields.get("stiffness").filter(|v| v.as_ref().as_str() != Some("rigid")).map(
+            |v| match motion.value {
+                Some(motion) => reader.value(v, Dimension::stiffness(motion)),
+                None => Cell::broken(v.span()),
+            },
+        ),
         mass: fields.get("mass").map(|v| reader.value(v, Dimension::Mass)),
         com: fields.get("com").map(|v| (v.span(), reader.values(v, length))),
         limits: fields.get("limits").map(|v| match motion.value {

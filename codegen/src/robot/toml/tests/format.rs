@@ -99,6 +99,15 @@ fn defaults() {
 }
 
 #[test]
+fn a_joint_may_say_that_it_is_rigid() {
+    let robot = read(
+        "name = \"R\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\nstiffness = \"rigid\"\n",
+    );
+    assert_eq!(robot.joints[0].stiffness, None);
+    assert!(robot.symbols().is_empty());
+}
+
+#[test]
 fn a_rounded_angle_is_a_warning() {
     let text = format!("{HEAD}{JOINT}alpha = 1.5708\n[tool]\nrotation = [0, 0, -1.570796327]\n");
     let (robot, warnings) = Robot::from_toml(&text, "arm.toml").unwrap();
