@@ -10,6 +10,7 @@ mod json;
 mod man;
 mod model;
 mod output;
+mod papers;
 mod progress;
 mod quantity;
 mod robots;
@@ -58,6 +59,7 @@ enum Command {
     Robots(robots::Args),
     Generate(generate::Args),
     Diagnose(diagnose::Args),
+    Papers(papers::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
@@ -80,6 +82,7 @@ pub fn main() -> ExitCode {
         Command::Robots(args) => robots::run(&args),
         Command::Generate(args) => generate::run(&args, quiet),
         Command::Diagnose(args) => diagnose::run(&args, quiet),
+        Command::Papers(args) => papers::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
     };

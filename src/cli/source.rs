@@ -127,7 +127,11 @@ fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
     }
 }
 
-fn text(path: &Path) -> Result<String, Failure> {
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`]: it cannot be read, or is not UTF-8.
+pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
     String::from_utf8(bytes).map_err(|error| {
         let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
@@ -142,7 +146,7 @@ fn text(path: &Path) -> Result<String, Failure> {
                 column + 1,
                 bytes[valid]
             ),
-            "a robot file is TOML, saved as UTF-8",
+            "the file is TOML, saved as UTF-8",
         )
     })
 }

@@ -1,87 +1,29 @@
 //! LaTeX into tokens, each with its place and its own spelling, so that a mended formula is printed
 //! back as it stood.
 
-use core::ops::Range;
-
-use num_rational::Ratio;
-
+use super::letters::{letter, matched};
 use super::mistake::Mistake;
 use super::notation::Notation;
+pub use super::token::{Bracket, Lexeme, Token};
 use super::tree::Function;
-
-/// A bracket's shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bracket {
-    /// `( )`
-    Round,
-    /// `[ ]`
-    Square,
-    /// `\{ \}`
-    Brace,
-    /// `{ }`, which LaTeX does not print.
-    Group,
-}
-
-/// What a token is.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Lexeme {
-    /// A decimal number.
-    Number(Ratio<i128>),
-    /// A letter, Greek letter or longer name, with its subscript.
-    Name {
-        /// Without spaces.
-        base: String,
-        /// Without braces and spaces.
-        sub: Option<String>,
-    },
-    /// `+`
-    Plus,
-    /// `-`
-    Minus,
-    /// `\cdot`, `\times`, `*`
-    Times,
-    /// `/`
-    Slash,
-    /// `=`
-    Equals,
-    /// An opening bracket.
-    Open(Bracket),
-    /// A closing bracket.
-    Close(Bracket),
-    /// `^2`
-    Power(i32),
-    /// `\sin`, `\cos`
-    Function(Function),
-    /// `\frac`
-    Frac,
-    /// `\sqrt`
-    Sqrt,
-    /// `\int`; its ends follow as groups.
-    Integral,
-    /// `\partial`
-    Partial,
-}
-
-/// A token.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Token {
-    /// What it is.
-    pub is: Lexeme,
-    /// As it was written.
-    pub text: String,
-    /// Where.
-    pub at: Range<usize>,
-}
 
 /// Splits LaTeX into tokens.
 ///
 /// # Errors
 /// The first character that cannot begin a token.
 pub fn lex(text: &str, notation: &Notation) -> Result<Vec<Token>, Mistake> {
-    let mut lexer = Lexer { text, at: 0, names: notation.long_names() };
+    let mut lexer = Lexer { text, at: 0, names: notation.long_names(), ends: false };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next()? {
-        tokens.push(token);
+        // A line that breaks at a sign repeats it.
+        let repeated = tokens.last().is_some_and(|last: &Token| {
+            matches!(token.is, Lexeme::Plus | Lexeme::Minus)
+                && last.is == token.is
+                && text[last.at.end..token.at.start].contains("\\\\")
+        });
+        if !repeated {
+            tokens.push(token);
+        }
     }
     Ok(tokens)
 }
@@ -90,12 +32,46 @@ struct Lexer<'t> {
     text: &'t str,
     at: usize,
     names: Vec<String>,
+    /// Whether a `^` still belongs to an integral.
+    ends: bool,
 }
+
+/// Marks that only lay the formula out.
+const IGNORED: [&str; 12] = [
+    "\\\\",
+    "\\,",
+    "\\;",
+    "\\!",
+    "\\:",
+    "\\ ",
+    "&",
+    "~",
+    "\\begin{aligned}",
+    "\\end{aligned}",
+    "\\begin{split}",
+    "\\end{split}",
+];
 
 /// Commands that only space or size.
 const SILENT: [&str; 18] = [
-    "quad", "qquad", "big", "Big", "bigg", "Bigg", "bigl", "bigr", "Bigl", "Bigr", "displaystyle",
-    "mathrm", "mathbf", "boldsymbol", "mathit", "limits", "nonumber", "text",
+    "quad",
+    "qquad",
+    "big",
+    "Big",
+    "bigg",
+    "Bigg",
+    "bigl",
+    "bigr",
+    "Bigl",
+    "Bigr",
+    "displaystyle",
+    "mathrm",
+    "mathbf",
+    "boldsymbol",
+    "mathit",
+    "limits",
+    "nonumber",
+    "text",
 ];
 
 impl Lexer<'_> {
@@ -121,8 +97,7 @@ impl Lexer<'_> {
         let rest = self.rest();
         let Some(c) = rest.chars().next() else { return Ok(None) };
         if c == '\\' {
-            let command: String =
-                rest[1..].chars().take_while(char::is_ascii_alphabetic).collect();
+            let command: String = rest[1..].chars().take_while(char::is_ascii_alphabetic).collect();
             if SILENT.contains(&command.as_str()) {
                 self.at += 1 + command.len();
                 return self.next();
@@ -132,6 +107,11 @@ impl Lexer<'_> {
         }
         if c.is_ascii_digit() || (c == '.' && rest[1..].starts_with(|d: char| d.is_ascii_digit())) {
             return self.number().map(Some);
+        }
+        if c == '^' && self.ends {
+            self.ends = false;
+            self.at += 1;
+            return self.next();
         }
         if c == '^' {
             return self.power().map(Some);
@@ -169,8 +149,7 @@ impl Lexer<'_> {
     fn skip(&self, mut at: usize) -> usize {
         loop {
             let rest = &self.text[at..];
-            let silent = ["\\\\", "\\,", "\\;", "\\!", "\\:", "\\ ", "&", "~"];
-            if let Some(mark) = silent.iter().find(|mark| rest.starts_with(**mark)) {
+            if let Some(mark) = IGNORED.iter().find(|mark| rest.starts_with(**mark)) {
                 at += mark.len();
             } else if let Some(c) = rest.chars().next().filter(|c| c.is_whitespace()) {
                 at += c.len_utf8();
@@ -208,13 +187,16 @@ impl Lexer<'_> {
                 let shown: String = self.rest().chars().take(1 + command.len().max(1)).collect();
                 let at = self.at..self.at + shown.len();
                 return Err(Mistake::new(at, format!("`{shown}` is no command of a formula"))
-                    .help("a Greek letter, \\sin, \\cos, \\frac, \\sqrt, \\cdot, \\times, \\left, \\right"));
+                    .help(
+                        "Greek letters, \\sin, \\cos, \\frac, \\sqrt, \\cdot, \\left, \\right are",
+                    ));
             }
         };
         self.at += 1 + command.len().max(usize::from(command.is_empty()));
         if is == Lexeme::Integral {
             // The ends are written `_{a}^{b}`; the marks themselves say nothing more.
             self.drop_mark('_');
+            self.ends = true;
         }
         Ok(self.token(is, start))
     }
@@ -229,7 +211,8 @@ impl Lexer<'_> {
     /// A name with its subscript, or `None` where none begins.
     fn name(&mut self) -> Result<Option<Lexeme>, Mistake> {
         let rest = self.rest();
-        let long = self.names.iter().find_map(|name| matched(rest, name).map(|n| (name.clone(), n)));
+        let long =
+            self.names.iter().find_map(|name| matched(rest, name).map(|n| (name.clone(), n)));
         let (base, length) = match long {
             Some(found) => found,
             None => match letter(rest) {
@@ -313,78 +296,5 @@ impl Lexer<'_> {
     }
 }
 
-/// Length of the spelling of `name` (which has no spaces) at the start of `text`, spaces ignored.
-fn matched(text: &str, name: &str) -> Option<usize> {
-    let mut wanted = name.chars().peekable();
-    let mut length = 0;
-    for c in text.chars() {
-        let Some(next) = wanted.peek() else { break };
-        if c == *next {
-            wanted.next();
-        } else if !c.is_whitespace() || length == 0 {
-            return None;
-        }
-        length += c.len_utf8();
-    }
-    let complete = wanted.next().is_none();
-    // `\delta` must not be found at the start of `\deltas`.
-    let command = name.rfind('\\').is_some_and(|i| name[i + 1..].chars().all(char::is_alphabetic));
-    let runs_on = command && text[length..].starts_with(|c: char| c.is_ascii_alphabetic());
-    (complete && !runs_on).then_some(length)
-}
-
-/// Greek letters that papers use as symbols.
-const GREEK: [&str; 30] = [
-    "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "iota",
-    "kappa", "lambda", "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "varphi",
-    "chi", "psi", "omega", "Delta", "Theta", "Lambda", "Gamma", "Omega",
-];
-
-/// Length of the single letter or Greek letter at the start.
-fn letter(text: &str) -> Option<usize> {
-    let first = text.chars().next()?;
-    if first.is_alphabetic() {
-        return Some(first.len_utf8());
-    }
-    let command: String =
-        text.strip_prefix('\\')?.chars().take_while(char::is_ascii_alphabetic).collect();
-    GREEK.contains(&command.as_str()).then_some(1 + command.len())
-}
-
 #[cfg(test)]
-mod tests {
-    use super::super::notation::Slash;
-    use super::*;
-
-    fn texts(text: &str) -> Vec<String> {
-        let notation = Notation {
-            functions: vec![("cd".into(), Function::Cos, "d\\phi".into())],
-            names: vec!["RL".into(), "\\delta x".into()],
-            slash: Slash::Factor,
-        };
-        lex(text, &notation).unwrap().into_iter().map(|t| t.text).collect()
-    }
-
-    #[test]
-    fn names_take_their_subscripts() {
-        assert_eq!(texts("RL_4 C_{234}^2"), ["RL_4", "C_{234}", "^2"]);
-        assert_eq!(texts("cd_1c_1\\delta x_2"), ["cd_1", "c_1", "\\delta x_2"]);
-        assert_eq!(texts("d\\phi_1 d_1"), ["d\\phi_1", "d_1"]);
-    }
-
-    #[test]
-    fn sizes_and_line_breaks_are_not_tokens() {
-        assert_eq!(texts("\\left[ a \\right. \\\\ & + \\left. b \\right]"), ["\\left[", "a", "+", "b", "\\right]"]);
-        assert_eq!(texts("\\frac{1}{2}"), ["\\frac", "{", "1", "}", "{", "2", "}"]);
-    }
-
-    #[test]
-    fn mistakes_have_a_place() {
-        let at = |text: &str| lex(text, &Notation::default()).unwrap_err().at;
-        assert_eq!(at("a + §"), 4..6);
-        assert_eq!(at("a \\foo"), 2..6);
-        assert_eq!(at("a^x"), 1..3);
-        assert_eq!(at("a_{2"), 2..3);
-        assert_eq!(at("_2"), 0..1);
-    }
-}
+mod tests;

@@ -83,8 +83,7 @@ impl<'t> Parser<'t> {
             let mut negative = false;
             let mut signed = false;
             while let Some(Lexeme::Plus | Lexeme::Minus) = self.peek().map(|t| &t.is) {
-                // A line that breaks at a sign may repeat it: `+ \\ +` is one plus.
-                negative |= self.tokens[self.next].is == Lexeme::Minus;
+                negative ^= self.tokens[self.next].is == Lexeme::Minus;
                 signed = true;
                 self.next += 1;
             }
@@ -149,7 +148,10 @@ impl<'t> Parser<'t> {
 
     fn primary(&mut self) -> Result<Tree, Mistake> {
         let Some(token) = self.peek() else {
-            return Err(Mistake::new(self.end..self.end, "the formula ends where a term is expected"));
+            return Err(Mistake::new(
+                self.end..self.end,
+                "the formula ends where a term is expected",
+            ));
         };
         self.next += 1;
         match &token.is {
@@ -237,18 +239,14 @@ impl<'t> Parser<'t> {
     /// `\int_{a}^{b} body dx`.
     fn integral(&mut self) -> Result<Tree, Mistake> {
         let from = self.group()?;
-        let to = match self.peek().map(|t| &t.is) {
-            Some(Lexeme::Power(end)) => {
-                let end = Tree::Number(Ratio::from(i128::from(*end)));
-                self.next += 1;
-                end
-            }
-            _ => self.group()?,
-        };
+        let to = self.group()?;
         let body = self.group()?;
-        let d = |token: &Token| matches!(&token.is, Lexeme::Name { base, sub: None } if base == "d");
+        let d =
+            |token: &Token| matches!(&token.is, Lexeme::Name { base, sub: None } if base == "d");
         let over = match (self.peek(), self.tokens.get(self.next + 1).map(|t| &t.is)) {
-            (Some(token), Some(Lexeme::Name { base, sub })) if d(token) => key(base, sub.as_deref()),
+            (Some(token), Some(Lexeme::Name { base, sub })) if d(token) => {
+                key(base, sub.as_deref())
+            }
             _ => return Err(Mistake::new(self.here(), "an integral ends with d and its variable")),
         };
         self.next += 2;
@@ -310,73 +308,4 @@ pub(super) fn collect(tree: &Tree, times: Ratio<i128>, into: &mut Angle) -> bool
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn notation(slash: Slash) -> Notation {
-        let f = |l: &str, f| (l.to_owned(), f, "\\theta".to_owned());
-        Notation {
-            functions: vec![f("s", Function::Sin), f("c", Function::Cos)],
-            names: vec!["RL".into()],
-            slash,
-        }
-    }
-
-    fn read(text: &str) -> Tree {
-        parse(text, &notation(Slash::Factor)).unwrap()
-    }
-
-    #[test]
-    fn implicit_products_and_functions() {
-        assert_eq!(read("\\sin \\theta_1 \\cos(\\theta_2+\\theta_3)"), read("s_1 c_{23}"));
-        assert_eq!(read("\\sin^2\\theta_1"), read("s_1^2"));
-        assert_eq!(read("-RL_4 s_1"), Tree::Sum(vec![(true, read("RL_4 s_1"))]));
-        assert_eq!(read("\\left[ a \\right]^2"), read("a^{2}"));
-        assert_eq!(read("a + \\\\ & + b"), read("a+b"));
-    }
-
-    #[test]
-    fn a_slash_reaches_as_far_as_the_file_says() {
-        let long = parse("a/2bc", &notation(Slash::Product)).unwrap();
-        assert_eq!(long, read("\\frac{a}{2bc}"));
-        assert_ne!(read("a/2bc"), long);
-    }
-
-    #[test]
-    fn mistakes_point_at_their_character() {
-        let at = |text: &str| {
-            let m = parse(text, &notation(Slash::Factor)).unwrap_err();
-            (m.at.start, m.message)
-        };
-        assert_eq!(at("a + (b"), (4, "this bracket is never closed".into()));
-        assert_eq!(at("a + b)"), (5, "`)` closes no bracket".into()));
-        assert_eq!(at("(a]"), (2, "`]` stands where `(` should be closed".into()));
-        assert_eq!(at("a +"), (3, "the formula ends where a term is expected".into()));
-        assert_eq!(at("\\cos(a b)").0, 4);
-    }
-
-    #[test]
-    fn integrals_and_derivatives() {
-        assert!(matches!(read("\\int_{0}^{L_1}(a x)dx"), Tree::Integral { over, .. } if over == "x"));
-        let d = read("\\frac{\\partial}{\\partial P}(P a)");
-        assert!(matches!(d, Tree::Derivative(_, name) if name == "P"));
-    }
-
-    proptest! {
-        #[test]
-        fn no_text_panics(text in "\\PC{0,60}") {
-            let _ = parse(&text, &notation(Slash::Product));
-        }
-
-        #[test]
-        fn no_formula_panics(parts in proptest::collection::vec(
-            prop::sample::select(vec!["\\frac", "{", "}", "(", ")", "\\left[", "\\right.", "a", "_2",
-                "_{", "^", "^{3}", "+", "-", "/", "\\sin", "\\theta", "2", ".", "\\int", "\\partial",
-                "s_{1-", "'", "\\\\", "=", "\\sqrt", "99999999999999999999999999999999999999999"]),
-            0..24,
-        )) {
-            let _ = parse(&parts.concat(), &notation(Slash::Factor));
-        }
-    }
-}
+mod tests;

@@ -1,11 +1,11 @@
-//! Polynomials over symbols, sines and cosines with s² + c² = 1 eliminated: a canonical form, so that
-//! equality is decided and not sampled. Powers of plain symbols may be negative.
+//! Polynomials over symbols, sines and cosines with s² + c² = 1 eliminated: a canonical form, so
+//! that equality is decided and not sampled. Powers of plain symbols may be negative.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use num_rational::Ratio;
-use num_traits::{CheckedAdd, CheckedMul, CheckedSub, One, Signed, Zero};
+use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 
 use super::tree::{Angle, Function};
 
@@ -145,8 +145,8 @@ impl Polynomial {
         Ok(if function == Function::Sin { s } else { c })
     }
 
-    /// The limit in which each of these symbols grows without bounds: terms with a negative power of
-    /// one vanish. `None` if a term grows with it.
+    /// The limit in which each of these symbols grows without bounds: terms with a negative power
+    /// of one vanish. `None` if a term grows with it.
     pub fn limit(mut self, infinite: &[String]) -> Option<Self> {
         for name in infinite {
             let power = |m: &Monomial| {
@@ -228,7 +228,7 @@ impl Polynomial {
     fn put_product(&mut self, a: &Monomial, b: &Monomial, c: Ratio<i128>) -> Result<(), TooLong> {
         let mut m: Monomial = Vec::with_capacity(a.len() + b.len());
         let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-        let mut square = None;
+        let mut squares: Vec<Arc<str>> = Vec::new();
         while let Some((v, p)) = match (a.peek(), b.peek()) {
             (Some(x), Some(y)) if x.0 == y.0 => {
                 let sum = x.1.checked_add(y.1).ok_or(TooLong)?;
@@ -242,14 +242,16 @@ impl Polynomial {
         } {
             match (&v, p) {
                 (_, 0) => {}
-                (Variable::Sin(angle), 2) => square = Some(square.map_or_else(|| vec![angle.clone()], |mut s: Vec<_>| { s.push(angle.clone()); s })),
+                (Variable::Sin(angle), 2) => squares.push(angle.clone()),
                 _ => m.push((v, p)),
             }
         }
-        let Some(angles) = square else { return self.put(m, c) };
+        if squares.is_empty() {
+            return self.put(m, c);
+        }
         // s² = 1 − c² for each sine that met itself.
         let mut terms = vec![(m, c)];
-        for angle in angles {
+        for angle in squares {
             let cosine = vec![(Variable::Cos(angle), 2)];
             let mut next = Vec::new();
             for (m, c) in terms {
@@ -276,59 +278,5 @@ impl Polynomial {
     }
 }
 
-/// Checked difference of two exact numbers, for callers that compare coefficients.
-pub(super) fn difference(a: Ratio<i128>, b: Ratio<i128>) -> Option<Ratio<i128>> {
-    a.checked_sub(&b)
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn angle(names: &[&str]) -> Angle {
-        let mut angle = Angle::default();
-        names.iter().for_each(|name| angle.add(name, 1));
-        angle
-    }
-
-    #[test]
-    fn sums_of_angles_expand_and_squares_vanish() {
-        let s = Polynomial::trig(Function::Sin, &angle(&["a", "b", "c"])).unwrap();
-        let c = Polynomial::trig(Function::Cos, &angle(&["a", "b", "c"])).unwrap();
-        let one = s.times(&s).unwrap().plus(&c.times(&c).unwrap(), Ratio::one()).unwrap();
-        assert_eq!(one, Polynomial::one());
-        let double = Polynomial::trig(Function::Sin, &angle(&["a", "a"])).unwrap();
-        let (s, c) = (angle(&["a"]), angle(&["a"]));
-        let s = Polynomial::trig(Function::Sin, &s).unwrap();
-        let c = Polynomial::trig(Function::Cos, &c).unwrap();
-        assert_eq!(double, s.times(&c).unwrap().times(&Polynomial::number(2.into())).unwrap());
-    }
-
-    #[test]
-    fn symbols_may_have_negative_powers() {
-        let x = Polynomial::symbol("x");
-        let inverse = x.reciprocal().unwrap();
-        assert_eq!(x.times(&inverse).unwrap(), Polynomial::one());
-        assert_eq!(x.times(&x).unwrap().root(), Some(x.clone()));
-        assert_eq!(inverse.clone().limit(&["x".into()]), Some(Polynomial::default()));
-        assert_eq!(x.clone().limit(&["x".into()]), None);
-        let s = Polynomial::variable(Variable::Sin("a".into()));
-        assert_eq!(s.reciprocal(), None);
-        assert_eq!(x.plus(&inverse, Ratio::one()).unwrap().reciprocal(), None);
-    }
-
-    #[test]
-    fn integrals_undo_derivatives() {
-        let x = Polynomial::symbol("x");
-        let cube = x.power(3).unwrap();
-        assert_eq!(cube.derivative("x").integral("x"), Some(cube.clone()));
-        assert_eq!(x.reciprocal().unwrap().integral("x"), None);
-        assert_eq!(cube.by_power("x")[&3], Polynomial::one());
-    }
-
-    #[test]
-    fn overflow_is_told() {
-        let big = Polynomial::number(Ratio::from(i128::MAX));
-        assert_eq!(big.times(&big), Err(TooLong));
-    }
-}
+mod tests;

@@ -144,7 +144,8 @@ mod tests {
     #[test]
     fn names_are_visited() {
         let tree = Tree::Power(Box::new(Tree::Symbol("a".into())), 2);
-        let sum = Tree::Sum(vec![(false, tree), (true, Tree::Sqrt(Box::new(Tree::Symbol("b".into()))))]);
+        let sum =
+            Tree::Sum(vec![(false, tree), (true, Tree::Sqrt(Box::new(Tree::Symbol("b".into()))))]);
         let mut names = Vec::new();
         sum.each_name(&mut |name| names.push(name.to_owned()));
         assert_eq!(names, ["a", "b"]);

@@ -1,0 +1,303 @@
+//! Reads a paper's data file.
+
+use std::collections::HashMap;
+
+use ::toml::de::DeTable;
+
+use super::section::{Notes, Section, Written, number, string};
+use super::{About, Equation, Paper, table};
+use crate::paper::formula::{Piece, formula};
+use crate::paper::lexer::{Lexeme, lex};
+use crate::paper::mistake::{Mistake, file_error};
+use crate::paper::notation::{Notation, Slash, key, squeezed};
+use crate::paper::parser::{collect, parse};
+use crate::paper::rational::Rational;
+use crate::paper::tree::{Angle, Function, Tree};
+use crate::robot::{FileError, Robot};
+
+const PAPER: &[&str] =
+    &["paper", "title", "notation", "robot", "where", "values", "equation", "quantity", "table"];
+const NOTATION: &[&str] = &["sine", "cosine", "names", "slash"];
+const EQUATION: &[&str] = &[
+    "number",
+    "latex",
+    "of",
+    "truth",
+    "definition",
+    "robot",
+    "joints",
+    "wrench",
+    "product",
+    "let",
+    "where",
+    "infinite",
+    "group",
+    "note",
+    "correct",
+    "printed",
+    "stated",
+];
+
+/// Reads a data file. `path` is only used in messages.
+///
+/// # Errors
+/// Every mistake in the file, each at its character.
+pub fn read(text: &str, path: &str) -> Result<Paper, FileError> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let mut notes = Notes { text, mistakes: Vec::new() };
+    for error in errors {
+        let at = error.span().unwrap_or(0..0);
+        notes.wrong(at, format!("this is no TOML: {}", error.message()));
+    }
+    if notes.mistakes.is_empty() {
+        let section = Section::open(root.get_ref(), root.span(), PAPER, &mut notes);
+        let paper = paper(&section, path, &mut notes);
+        if notes.mistakes.is_empty() {
+            return Ok(paper);
+        }
+    }
+    Err(file_error(path, text, notes.mistakes))
+}
+
+fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
+    let notation = root.section("notation", NOTATION, notes);
+    let notation = notation.map(|s| self::notation(&s, notes)).unwrap_or_default();
+    let mut out = Paper {
+        path: path.to_owned(),
+        text: notes.text.to_owned(),
+        id: root.required("paper", notes).unwrap_or_default().text,
+        title: root.string("title", notes).unwrap_or_default().text,
+        notation,
+        ..Paper::default()
+    };
+    for robot in root.sections("robot", &["name", "table"], notes) {
+        let name = robot.required("name", notes);
+        let (Some(name), Some(table)) = (name, robot.required("table", notes)) else { continue };
+        match Robot::from_toml(&table.text, &name.text) {
+            Ok((robot, _)) => {
+                out.robots.insert(name.text, robot);
+            }
+            Err(error) => notes.mistakes.extend(error.errors.into_iter().map(|e| Mistake {
+                at: e.span.start + table.at..e.span.end + table.at,
+                message: e.message,
+                help: e.help,
+            })),
+        }
+    }
+    if let Some(values) = root.section("values", &[], notes) {
+        for (name, at, value) in values.entries() {
+            let name = symbol(&Written { text: name, at: at.start + 1 }, &out.notation, notes);
+            if let (Some(name), Some(value)) = (name, number(value, notes)) {
+                out.values.insert(name, value);
+            }
+        }
+    }
+    let shared = definitions(root, &HashMap::new(), &out.notation, notes);
+    for section in root.sections("equation", EQUATION, notes) {
+        let equation = equation(&section, true, &shared, &out.notation, notes);
+        out.equations.extend(equation);
+    }
+    for section in root.sections("quantity", EQUATION, notes) {
+        let quantity = equation(&section, false, &shared, &out.notation, notes);
+        out.quantities.extend(quantity);
+    }
+    for section in root.sections("table", table::KEYS, notes) {
+        out.tables.extend(table::read(&section, &out.notation, notes));
+    }
+    out
+}
+
+fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
+    let mut functions = Vec::new();
+    for (key, function) in [("sine", Function::Sin), ("cosine", Function::Cos)] {
+        let Some(letters) = section.section(key, &[], notes) else { continue };
+        for (letter, _, value) in letters.entries() {
+            if let Some(angle) = string(value, notes) {
+                functions.push((squeezed(&letter), function, squeezed(&angle.text)));
+            }
+        }
+    }
+    let names = section.strings("names", notes).unwrap_or_default();
+    let slash = match section.string("slash", notes) {
+        Some(w) if w.text == "product" => Slash::Product,
+        Some(w) if w.text != "factor" => {
+            notes.wrong(w.at..w.at + w.text.len(), "`slash` is \"product\" or \"factor\"");
+            Slash::Factor
+        }
+        _ => Slash::Factor,
+    };
+    Notation { functions, names: names.into_iter().map(|w| w.text).collect(), slash }
+}
+
+/// The name of a single printed symbol.
+pub(super) fn symbol(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<String> {
+    let at = w.at..w.at + w.text.len();
+    match lex(&w.text, notation).as_deref() {
+        Ok([token]) => {
+            if let Lexeme::Name { base, sub } = &token.is {
+                return Some(key(base, sub.as_deref()));
+            }
+            notes.wrong(at, format!("`{}` is no symbol", w.text));
+        }
+        Ok(_) => notes.wrong(at, format!("`{}` is not one symbol", w.text)),
+        Err(mistake) => notes.mistakes.push(mistake.clone().moved(w.at)),
+    }
+    None
+}
+
+/// A formula of the file.
+pub(super) fn tree(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<Tree> {
+    parse(&w.text, notation).map_err(|mistake| notes.mistakes.push(mistake.moved(w.at))).ok()
+}
+
+fn exact(
+    w: &Written,
+    notation: &Notation,
+    defined: &HashMap<String, Rational>,
+    notes: &mut Notes<'_>,
+) -> Option<Rational> {
+    let tree = tree(w, notation, notes)?;
+    let exact = Rational::of_tree(&tree, defined);
+    let at = w.at..w.at + w.text.len();
+    exact.map_err(|why| notes.wrong(at, format!("this has no exact form: {why:?}"))).ok()
+}
+
+/// The `where` of a table on top of what is defined already; a definition may use another.
+fn definitions(
+    section: &Section<'_, '_>,
+    outer: &HashMap<String, Rational>,
+    notation: &Notation,
+    notes: &mut Notes<'_>,
+) -> HashMap<String, Rational> {
+    let mut defined = outer.clone();
+    let Some(section) = section.section("where", &[], notes) else { return defined };
+    let mut open = Vec::new();
+    for (name, at, value) in section.entries() {
+        let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
+        let (Some(name), Some(value)) = (name, string(value, notes)) else { continue };
+        let Some(tree) = tree(&value, notation, notes) else { continue };
+        open.push((name, value, tree));
+    }
+    while !open.is_empty() {
+        let names: Vec<String> = open.iter().map(|(name, ..)| name.clone()).collect();
+        let before = open.len();
+        let mut waiting = Vec::new();
+        for (name, value, tree) in open {
+            let mut waits = false;
+            tree.each_name(&mut |used| waits |= names.iter().any(|n| n == used));
+            if waits {
+                waiting.push((name, value, tree));
+            } else if let Some(exact) = exact(&value, notation, &defined, notes) {
+                defined.insert(name, exact);
+            }
+        }
+        if waiting.len() == before {
+            for (_, value, _) in &waiting {
+                let at = value.at..value.at + value.text.len();
+                notes.wrong(at, "this definition goes round in a circle");
+            }
+            break;
+        }
+        open = waiting;
+    }
+    defined
+}
+
+fn equation(
+    section: &Section<'_, '_>,
+    printed: bool,
+    shared: &HashMap<String, Rational>,
+    notation: &Notation,
+    notes: &mut Notes<'_>,
+) -> Option<Equation> {
+    let number = section.required("number", notes)?.text;
+    let latex = match printed {
+        true => section.required("latex", notes)?,
+        false => Written::default(),
+    };
+    let defined = definitions(section, shared, notation, notes);
+    let path = section.string("of", notes).map(About::Path);
+    let truth = section.string("truth", notes).map(About::Formula);
+    let definition = section.string("definition", notes).map(|w| About::Definition(w.text));
+    let stated = section.string("stated", notes).map(|w| About::Stated(w.text));
+    let mut given = [path, truth, definition, stated].into_iter().flatten();
+    let about = given.next();
+    if about.is_none() || given.next().is_some() {
+        notes
+            .wrong(section.at(), "an equation has one of `of`, `truth`, `definition` and `stated`");
+    }
+    check(&latex, about.as_ref(), notation, notes);
+    let mut joints = None;
+    if let Some(written) = section.strings("joints", notes) {
+        joints = Some(written.iter().filter_map(|w| angle(w, notation, notes)).collect());
+    }
+    let wrench = section.strings("wrench", notes).unwrap_or_default();
+    let wrench = wrench.iter().filter_map(|w| exact(w, notation, &defined, notes)).collect();
+    let mut lets = Vec::new();
+    if let Some(names) = section.section("let", &[], notes) {
+        for (name, at, value) in names.entries() {
+            let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
+            if let (Some(name), Some(path)) = (name, string(value, notes)) {
+                lets.push((name, path));
+            }
+        }
+    }
+    let infinite = section.strings("infinite", notes).unwrap_or_default();
+    let infinite = infinite.iter().filter_map(|w| symbol(w, notation, notes)).collect();
+    Some(Equation {
+        number,
+        latex,
+        about: about.unwrap_or_default(),
+        robot: section.string("robot", notes).map(|w| w.text),
+        joints,
+        wrench,
+        product: section
+            .strings("product", notes)
+            .unwrap_or_default()
+            .into_iter()
+            .map(|w| w.text)
+            .collect(),
+        lets,
+        defined,
+        infinite,
+        group: section.string("group", notes).map(|w| w.text),
+        note: section.string("note", notes).map(|w| w.text),
+        printed: section.string("printed", notes).map(|w| w.text),
+        correct: section.string("correct", notes),
+    })
+}
+
+/// What is printed must be made of tokens (whether they make a formula is for the judgement: a
+/// bracket may be missing on paper); a truth must be a formula.
+fn check(latex: &Written, about: Option<&About>, notation: &Notation, notes: &mut Notes<'_>) {
+    let cells = |text: &str| {
+        let sides = formula(text).sides.into_iter();
+        sides.flat_map(|side| side.rows).flatten().collect::<Vec<Piece>>()
+    };
+    if matches!(about, Some(About::Path(_) | About::Formula(_))) {
+        for cell in cells(&latex.text) {
+            if let Err(mistake) = lex(&cell.text, notation) {
+                notes.mistakes.push(mistake.moved(latex.at + cell.at));
+            }
+        }
+    }
+    if let Some(About::Formula(truth)) = about {
+        for cell in cells(&truth.text) {
+            if let Err(mistake) = parse(&cell.text, notation) {
+                notes.mistakes.push(mistake.moved(truth.at + cell.at));
+            }
+        }
+    }
+}
+
+fn angle(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<Angle> {
+    let tree = tree(w, notation, notes)?;
+    let mut angle = Angle::default();
+    if !collect(&tree, 1.into(), &mut angle) {
+        notes.wrong(w.at..w.at + w.text.len(), "this is no sum of angles");
+    }
+    Some(angle)
+}
+
+#[cfg(test)]
+mod tests;

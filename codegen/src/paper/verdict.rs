@@ -1,0 +1,139 @@
+//! What was found about a printed equation or a cell of a printed table.
+
+/// The finding.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Printed and derived are the same, exactly.
+    Agrees,
+    /// They agree at many random points; there is no exact form to compare.
+    AgreesAtPoints,
+    /// They differ.
+    Misprint,
+    /// There is nothing that could be wrong.
+    Definition,
+    /// The printed formula cannot be read, and no small change makes it readable and true.
+    Unreadable,
+    /// What it should be could not be derived.
+    NotJudged,
+    /// A cell: right to the last printed digit.
+    Reproduced,
+    /// A cell: within one unit of the last printed digit.
+    Close,
+    /// A cell: not met.
+    NotReproduced,
+    /// A cell: given, not computed.
+    Given,
+}
+
+impl Verdict {
+    /// Every verdict.
+    pub const EACH: [Verdict; 10] = [
+        Verdict::Agrees,
+        Verdict::AgreesAtPoints,
+        Verdict::Misprint,
+        Verdict::Definition,
+        Verdict::Unreadable,
+        Verdict::NotJudged,
+        Verdict::Reproduced,
+        Verdict::Close,
+        Verdict::NotReproduced,
+        Verdict::Given,
+    ];
+
+    /// In words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::AgreesAtPoints => "agrees at random points",
+            Verdict::Misprint => "misprint",
+            Verdict::Definition => "definition",
+            Verdict::Unreadable => "cannot be read",
+            Verdict::NotJudged => "not judged",
+            Verdict::Reproduced => "reproduced",
+            Verdict::Close => "within one unit of the last digit",
+            Verdict::NotReproduced => "not reproducible",
+            Verdict::Given => "given",
+        }
+    }
+
+    /// A short name for machines.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::AgreesAtPoints => "agrees_at_points",
+            Verdict::Misprint => "misprint",
+            Verdict::Definition => "definition",
+            Verdict::Unreadable => "unreadable",
+            Verdict::NotJudged => "not_judged",
+            Verdict::Reproduced => "reproduced",
+            Verdict::Close => "close",
+            Verdict::NotReproduced => "not_reproducible",
+            Verdict::Given => "given",
+        }
+    }
+}
+
+/// A joint vector at which printed and derived differ, and both values there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Witness {
+    /// Angles in degrees, by their names.
+    pub angles: Vec<(String, f64)>,
+    /// Values of the other symbols.
+    pub symbols: Vec<(String, f64)>,
+    /// What is printed gives this.
+    pub printed: f64,
+    /// What is derived gives this.
+    pub derived: f64,
+}
+
+/// Equation or cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A printed equation.
+    Equation,
+    /// A cell of a printed table.
+    Cell,
+}
+
+/// A line of the ledger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Short name of the paper.
+    pub paper: String,
+    /// The paper's number of the equation, or table, row and column.
+    pub number: String,
+    /// Equation or cell.
+    pub kind: Kind,
+    /// As printed.
+    pub printed: String,
+    /// The finding.
+    pub verdict: Verdict,
+    /// What it should be, in the paper's own notation; the computed value of a cell.
+    pub correction: Option<String>,
+    /// The smallest change that was found to mend it.
+    pub change: Option<String>,
+    /// A joint vector that tells the two apart.
+    pub witness: Option<Witness>,
+    /// What it was compared with.
+    pub source: String,
+    /// A remark, or why a cell cannot be reproduced.
+    pub note: Option<String>,
+}
+
+impl Entry {
+    /// An entry without a finding.
+    pub fn new(paper: &str, number: &str, kind: Kind, printed: &str) -> Self {
+        Entry {
+            paper: paper.to_owned(),
+            number: number.to_owned(),
+            kind,
+            printed: printed.to_owned(),
+            verdict: Verdict::Definition,
+            correction: None,
+            change: None,
+            witness: None,
+            source: String::new(),
+            note: None,
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! How well a posture suits the identification of joint stiffnesses (Dumas, Caro, Cherif, Garnier,
+//! Furet: *Joint stiffness identification of industrial serial robots*, Robotica 2011, sections
+//! 2.2 to 3.2).
+//!
+//! * [`cartesian_stiffness`]: K_X of eq. 10.
+//! * [`inverse_condition`]: the dexterity `1/κ_F` of eqs. 11-12; it needs a length that makes
+//!   translations and rotations comparable, which [`characteristic_length`] finds (Khan & Angeles,
+//!   J. Mech. Design 128, 2006, the direct problem).
+//! * [`influence`]: ν_p and ν_r of eqs. 14-15, what leaving K_C out costs.
+//! * [`Map`]: any of these over two joints, as data; [`zones`] compares parts of a map, and
+//!   [`choose`] picks test postures from it.
+//! * [`apparent`]: how stiff one direction looks (Knapczyk & Ryska, *Stiffness matrix analysis of
+//!   six-revolute serial manipulator*).
+//!
+//! Joint values are in rad (m of prismatic joints), J in m and rad, base axes at the tool origin.
+//! Nothing here reads a robot's weight: the displacements are those of an added load.
+
+mod apparent;
+mod choice;
+mod condition;
+mod influence;
+mod length;
+mod map;
+mod search;
+mod stiffness;
+pub mod zones;
+
+pub use apparent::{Apparent, apparent};
+pub use choice::{Choice, TestPosture, choose};
+pub use condition::{Best, best_length, condition_number, inverse_condition, normalised_jacobian};
+pub use influence::{Influence, influence};
+pub use length::{Characteristic, Search, characteristic_length};
+pub use map::{Map, Peak, Plane};
+pub use stiffness::cartesian_stiffness;
+
+use stiffarm_kernels::Unstable;
+use stiffarm_kernels::generic::Arm;
+
+/// Why a property of a posture could not be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DexterityError {
+    /// The number of joint values.
+    #[error("found {found} joint values, expected {expected}, one for each joint")]
+    Posture {
+        /// As given.
+        found: usize,
+        /// Of the arm.
+        expected: usize,
+    },
+    /// A joint value that is infinite or not a number.
+    #[error("joint value {joint} is not a finite number")]
+    NotFinite {
+        /// From 1.
+        joint: usize,
+    },
+    /// K_X needs a square Jacobian.
+    #[error("found {found} joints, expected 6: with any other number J has no inverse")]
+    NotSquare {
+        /// Of the arm.
+        found: usize,
+    },
+    /// A closed-form length needs six independent motions.
+    #[error("found {found} joints, expected at least 6: fewer cannot move the tool in all ways")]
+    TooFewJoints {
+        /// Of the arm.
+        found: usize,
+    },
+    /// A joint without a spring.
+    #[error("joint {joint} is rigid: give it a stiffness")]
+    Rigid {
+        /// From 1.
+        joint: usize,
+    },
+    /// J has no inverse here.
+    #[error(
+        "the posture is singular (smallest singular value of J {ratio:e} of the largest), so that \
+         no finite stiffness describes it: use the deflection, which needs no inverse of J"
+    )]
+    Singular {
+        /// Smallest singular value of J over the largest.
+        ratio: f64,
+    },
+    /// A sliding joint without limits cannot be searched.
+    #[error("joint {joint} slides and has no limits: give it limits to search between")]
+    Unlimited {
+        /// From 1.
+        joint: usize,
+    },
+    /// A length that cannot make rotations and translations comparable.
+    #[error("found {found} as the length, expected a positive number of metres")]
+    Length {
+        /// As given.
+        found: f64,
+    },
+    /// A map needs cells.
+    #[error("found {found} as {what}, expected {expected}")]
+    Setting {
+        /// Which setting.
+        what: &'static str,
+        /// As given.
+        found: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// No posture of the search was regular.
+    #[error("every posture that was tried is singular: the arm cannot move the tool in all ways")]
+    AllSingular,
+    /// The load is too large for the springs.
+    #[error(transparent)]
+    Unstable(#[from] Unstable),
+}
+
+/// One finite joint value for each joint.
+fn check_posture(arm: &Arm, q: &[f64]) -> Result<(), DexterityError> {
+    if q.len() != arm.dof() {
+        return Err(DexterityError::Posture { found: q.len(), expected: arm.dof() });
+    }
+    match q.iter().position(|value| !value.is_finite()) {
+        Some(k) => Err(DexterityError::NotFinite { joint: k + 1 }),
+        None => Ok(()),
+    }
+}
