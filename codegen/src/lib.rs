@@ -1,6 +1,6 @@
 //! From a Denavit-Hartenberg table to an expression graph to code.
 //!
-//! Data flows one way: [`robot`] (the table, read and validated) → [`derive`] (the kinematic
+//! Data flows one way: [`robot`] (the table, read and validated) → [`mod@derive`] (the kinematic
 //! recursion, written into the graph of [`expr`]) → [`emit`] (one graph, many printers). The macro
 //! ([`expand`]), the command `stiffarm generate` and build scripts ([`generate_to_out_dir`]) all write
 //! what [`emit::rust`] returns.

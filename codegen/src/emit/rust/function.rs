@@ -131,7 +131,7 @@ impl<'p> Function<'p> {
     }
 
     fn module(&self, out: &mut Lines, plan: &Plan, body: &Body, options: &RustOptions) {
-        out.doc(&format!("[`{0}`](super::{0}) in parts, with its figures.", self.name));
+        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.name));
         out.code(&format!("pub mod {} {{", self.name));
         out.indent();
         let mut imports = vec!["Ops"];
@@ -186,7 +186,7 @@ impl<'p> Function<'p> {
 
     fn all_struct(&self, out: &mut Lines) {
         out.blank();
-        out.doc("Everything that [`all`](super::all) computes.");
+        out.doc("Everything that [`all`](fn@super::all) computes.");
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
         out.code("pub struct All<S> {");
         out.indent();

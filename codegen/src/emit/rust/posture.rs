@@ -45,7 +45,7 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
         let sum = angle_text(plan, angle);
         for (used, letter, word) in [(angle.sine, "s", "sin"), (angle.cosine, "c", "cos")] {
             if used {
-                out.doc(&format!("{word}({sum})"));
+                out.doc(&format!("`{word}({sum})`"));
                 out.code(&format!("pub {letter}{}: S,", angle.suffix));
             }
         }
