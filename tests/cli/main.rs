@@ -6,4 +6,5 @@ mod errors;
 mod eval;
 mod generate;
 mod others;
+mod papers;
 mod support;

@@ -52,7 +52,8 @@ fn manual_pages_are_written() {
         .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    let commands = ["check", "completions", "diagnose", "eval", "generate", "man", "robots"];
+    let commands =
+        ["check", "completions", "diagnose", "eval", "generate", "man", "papers", "robots"];
     let mut expected: Vec<String> = commands.map(|c| format!("stiffarm-{c}.1")).to_vec();
     expected.push("stiffarm.1".to_owned());
     assert_eq!(names, expected);
@@ -62,7 +63,8 @@ fn manual_pages_are_written() {
 
 #[test]
 fn help_has_examples() {
-    for name in ["eval", "check", "robots", "generate", "diagnose", "completions", "man"] {
+    for name in ["eval", "check", "robots", "generate", "diagnose", "papers", "completions", "man"]
+    {
         let out = stiffarm(&[name, "--help"]).good();
         assert!(out.contains("Example") && out.contains(&format!("  stiffarm {name}")), "{out}");
     }
