@@ -15,7 +15,7 @@ body { font: 15px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto
 h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2.5rem; }
 table { border-collapse: collapse; width: 100%; }
 td { border-top: 1px solid var(--line); padding: .35rem .6rem .35rem 0; vertical-align: top; }
-td:first-child { white-space: nowrap; } code { font-size: .85em; overflow-wrap: anywhere; }
+td:first-child { min-width: 6rem; max-width: 14rem; overflow-wrap: anywhere; } code { font-size: .85em; overflow-wrap: anywhere; }
 .ok { color: var(--ok); } .bad { color: var(--bad); font-weight: 600; }
 .mute { color: var(--mute); }
 ";
