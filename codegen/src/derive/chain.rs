@@ -3,6 +3,7 @@
 
 use super::jacobian::Twist;
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
+use crate::number::Number;
 use crate::robot::{Convention, Motion, Robot, Value};
 
 /// Steps of a row, whatever the convention.
@@ -166,7 +167,12 @@ impl<'r> Chain<'r> {
             return place.carried_out(&mut self.g);
         }
         let matrix = super::parameters::tool_rotation(&self.robot.tool);
-        let frame = self.axes(last);
+        self.turned(matrix, last)
+    }
+
+    /// The columns of a constant matrix given in the axes before step `s`.
+    pub fn turned(&mut self, matrix: [[Number; 3]; 3], s: usize) -> [Vec3; 3] {
+        let frame = self.axes(s);
         matrix.map(|column| {
             let parts: [Vec3; 3] = core::array::from_fn(|k| {
                 let c = self.g.number(column[k]);

@@ -94,6 +94,24 @@ impl Output {
         )
     }
 
+    /// Whether the output depends on the wrench on the tool.
+    pub const fn needs_wrench(self) -> bool {
+        matches!(
+            self,
+            Output::ComplementaryStiffness
+                | Output::JointTorque
+                | Output::DeflectionFirstOrder
+                | Output::Deflection
+                | Output::DeflectionWithGravity
+                | Output::StiffnessRegressor
+        )
+    }
+
+    /// Whether a load can leave the output without a value: the arm may be unstable under it.
+    pub const fn is_fallible(self) -> bool {
+        matches!(self, Output::Deflection | Output::DeflectionWithGravity)
+    }
+
     /// Rows and columns for an arm of `n` joints.
     pub const fn shape(self, n: usize) -> (usize, usize) {
         match self {

@@ -55,15 +55,8 @@ fn rotation_columns(chain: &mut Chain, last: [Vec3; 3]) -> [Vec3; 3] {
     let angle = libm::sqrt(square);
     let (first, second) =
         ((1.0 - libm::cos(angle)) / square, (angle - libm::sin(angle)) / (square * angle));
-    let matrix = series(vector, first, second);
-    matrix.map(|column| {
-        let parts: [Vec3; 3] = core::array::from_fn(|k| {
-            let c = chain.g.number(column[k]);
-            chain.g.scale3(c, last[k])
-        });
-        let sum = chain.g.add3(parts[0], parts[1]);
-        chain.g.add3(sum, parts[2])
-    })
+    let end = chain.steps().len();
+    chain.turned(series(vector, first, second), end)
 }
 
 /// The tool's rotation matrix, columns, from its rotation vector (Rodrigues).

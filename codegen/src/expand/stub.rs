@@ -70,16 +70,7 @@ fn ty(output: Output) -> TokenStream {
 /// The function of an output, and the figures in its module.
 fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
     let name = format_ident!("{}", output.name());
-    let wrench = matches!(
-        output,
-        Output::ComplementaryStiffness
-            | Output::JointTorque
-            | Output::DeflectionFirstOrder
-            | Output::Deflection
-            | Output::DeflectionWithGravity
-            | Output::StiffnessRegressor
-    );
-    let wrench = wrench.then(|| quote!(, _: &[S; 6]));
+    let wrench = output.needs_wrench().then(|| quote!(, _: &[S; 6]));
     let ty = match (ty(output), output) {
         (ty, Output::Deflection | Output::DeflectionWithGravity) => quote!(Result<#ty, Unstable>),
         (ty, _) => ty,

@@ -46,11 +46,11 @@ impl<'p> Function<'p> {
     }
 
     pub(super) fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| shapes::needs_wrench(*o))
+        self.outputs.iter().any(|o| o.needs_wrench())
     }
 
     pub(super) fn fallible(&self) -> bool {
-        self.outputs.iter().any(|o| shapes::fallible(*o))
+        self.outputs.iter().any(|o| o.is_fallible())
     }
 
     pub(super) fn ty(&self) -> String {

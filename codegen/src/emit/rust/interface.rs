@@ -1,7 +1,6 @@
 //! The implementation of `Kernels`: a generated robot behind a pointer.
 
 use super::lines::Lines;
-use super::shapes::{fallible, needs_wrench};
 use crate::derive::Output;
 
 /// The struct `Robot` and its `Kernels`.
@@ -55,8 +54,8 @@ pub(super) fn interface(symbolic: bool) -> String {
     out.indent();
     for output in Output::EACH {
         let first = if symbolic { "constants, q" } else { "q" };
-        let last = if needs_wrench(output) { ", wrench" } else { "" };
-        let question = if fallible(output) { "?" } else { "" };
+        let last = if output.needs_wrench() { ", wrench" } else { "" };
+        let question = if output.is_fallible() { "?" } else { "" };
         let call = format!("{}({first}{last}){question}", output.name());
         let flat = match output {
             Output::Pose => format!("{call}.columns().as_flattened()"),

@@ -40,24 +40,6 @@ pub(super) fn place(output: Output, n: usize, entry: usize) -> String {
     }
 }
 
-/// Whether the function takes a wrench.
-pub(super) fn needs_wrench(output: Output) -> bool {
-    matches!(
-        output,
-        Output::ComplementaryStiffness
-            | Output::JointTorque
-            | Output::DeflectionFirstOrder
-            | Output::Deflection
-            | Output::DeflectionWithGravity
-            | Output::StiffnessRegressor
-    )
-}
-
-/// Whether the function can find the arm unstable.
-pub(super) fn fallible(output: Output) -> bool {
-    matches!(output, Output::Deflection | Output::DeflectionWithGravity)
-}
-
 /// What the function computes: a sentence, and the formula in the papers' notation.
 pub(super) fn docs(output: Output) -> [&'static str; 2] {
     match output {
