@@ -7,7 +7,6 @@
 //! on them as the force wL/2 and, for its own slope, the moment wL²/6.
 
 use super::chain::{Chain, ROW, Step};
-use super::frames::slide;
 use super::jacobian::Twist;
 use super::lever::{From, Levers, row_slides};
 use crate::expr::{Expr, Graph, Node, Turn, Vec3};
@@ -44,8 +43,8 @@ pub(super) struct Spring {
 /// perpendicular to the chord; along that axis itself, x of the frame is taken as the section's y.
 pub(super) fn chord(chain: &mut Chain, row: usize) -> Chord {
     let (z_step, x_step) = row_slides(chain, row);
-    let (d, z) = slide(chain, z_step);
-    let (a, x) = slide(chain, x_step);
+    let (d, z) = chain.slide(z_step).unwrap_or_default();
+    let (a, x) = chain.slide(x_step).unwrap_or_default();
     let half = chain.g.number(Number::ratio(1, 2));
     let to_end = [(chain.g.mul(half, d), z), (chain.g.mul(half, a), x)];
     let end = match chain.robot.convention {

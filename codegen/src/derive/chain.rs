@@ -126,6 +126,15 @@ impl<'r> Chain<'r> {
         axes
     }
 
+    /// Length and axis of the slide at step `s`; `None` if the step turns.
+    pub fn slide(&mut self, s: usize) -> Option<(Expr, Vec3)> {
+        match self.steps[s] {
+            Step::SlideZ(length) => Some((length, self.z(s))),
+            Step::SlideX(length) => Some((length, self.axes(s)[0])),
+            Step::TurnZ(_) | Step::TurnX(_) => None,
+        }
+    }
+
     /// Axes of the tool.
     pub fn tool_axes(&self) -> [Vec3; 3] {
         self.tool

@@ -1,6 +1,6 @@
 //! Poses: of the tool and of every frame of the chain.
 
-use super::chain::{Chain, ROW, Step};
+use super::chain::{Chain, ROW};
 use super::lever::{From, Levers};
 use crate::expr::{Expr, Vec3};
 
@@ -38,22 +38,13 @@ fn path(chain: &mut Chain) -> Vec<Vec3> {
     for row in 0..chain.dof() {
         let (z_step, x_step) = super::lever::row_slides(chain, row);
         for s in [z_step.min(x_step), z_step.max(x_step)] {
-            let (length, axis) = slide(chain, s);
+            let (length, axis) = chain.slide(s).unwrap_or_default();
             let part = chain.g.scale3(length, axis);
             origin = chain.g.add3(origin, part);
         }
         origins.push(origin);
     }
     origins
-}
-
-/// Length and axis of a slide.
-pub(super) fn slide(chain: &mut Chain, s: usize) -> (Expr, Vec3) {
-    match chain.steps()[s] {
-        Step::SlideZ(length) => (length, chain.z(s)),
-        Step::SlideX(length) => (length, chain.axes(s)[0]),
-        _ => (Expr::ZERO, [Expr::ZERO; 3]),
-    }
 }
 
 fn columns(

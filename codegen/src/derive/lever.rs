@@ -137,11 +137,7 @@ fn slides(
 ) -> Vec<Segment> {
     let mut segments = Vec::new();
     for s in 0..chain.steps().len() {
-        let (length, axis) = match chain.steps()[s] {
-            Step::SlideZ(length) => (length, chain.z(s)),
-            Step::SlideX(length) => (length, chain.axes(s)[0]),
-            _ => continue,
-        };
+        let Some((length, axis)) = chain.slide(s) else { continue };
         let length = weigh(&mut chain.g, s, length);
         segments.push(Segment { at: 2 * s + 1, length, axis });
     }

@@ -172,11 +172,11 @@ impl Program {
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
             Symbol::Deflection { .. } => {
-                let mut graph_symbol = solved.iter().filter(|(e, _)| {
+                let known = solved.iter().find(|(e, _)| {
                     matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)
                         if self.graph.symbol_of(s) == symbol)
                 });
-                graph_symbol.next().map_or(0.0, |(_, x)| *x)
+                known.map_or(0.0, |(_, x)| *x)
             }
         };
         for solve in &self.solves {

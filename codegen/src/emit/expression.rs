@@ -152,9 +152,9 @@ impl Printer<'_> {
             false => (a, b),
         };
         let mut outer = negative;
-        if negative && self.absorbs_inline(a) {
+        if negative && self.absorbs(a.node()) {
             (a, outer) = (-a, false);
-        } else if negative && self.absorbs_inline(b) {
+        } else if negative && self.absorbs(b.node()) {
             (b, outer) = (-b, false);
         }
         let (left, right) = (self.signed(a, false), self.signed(b, false));
@@ -181,10 +181,6 @@ impl Printer<'_> {
             Node::Mul(a, b) => self.absorbs(a.node()) || self.absorbs(b.node()),
             _ => false,
         }
-    }
-
-    fn absorbs_inline(&self, e: Expr) -> bool {
-        self.absorbs(e.node())
     }
 
     fn is_inline_sum(&self, e: Expr) -> bool {

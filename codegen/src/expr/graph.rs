@@ -5,7 +5,8 @@ use rustc_hash::FxHashMap;
 use crate::number::Number;
 
 /// A handle to a node, with a sign: negation costs nothing and is never a node of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// The default is the structural zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Expr(u32);
 
 impl Expr {
