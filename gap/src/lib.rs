@@ -13,6 +13,7 @@
 
 pub mod chain;
 pub mod compensate;
+pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
 pub mod effects;
@@ -22,8 +23,10 @@ pub mod force;
 pub mod gap;
 pub mod identify;
 pub mod measurement;
+pub mod plant;
 pub mod robot;
 pub mod simulate;
+pub mod withhold;
 
-pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose};
+pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
 pub use measurement::{Measurements, ReadError};

@@ -4,6 +4,7 @@
 //! numbers.
 
 use nalgebra::{Isometry3, Vector3};
+use stiffarm_gap::diagnose::Alternative;
 use stiffarm_gap::measurement::Layout;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose};
 use stiffarm_kernels::Motion;
@@ -134,21 +135,36 @@ fn a_spring_at_joint_1_closes_the_gap_of_the_beams() {
     near(1.0 / compliance, 2.14e5, 5e2);
     let half = (finding.parameters[0].ci95[1] - finding.parameters[0].ci95[0]) / 2.0;
     near(half * POUND * INCH / 2.200985, 1.6e-7, 5e-9);
-    // All 2¹² sign patterns, of which only the true one explains as much.
-    assert_eq!(finding.p_value, 1.0 / 4096.0);
+    // All 2¹¹ sign patterns that differ by more than a common sign; no other explains as much.
+    assert_eq!(finding.p_value, 1.0 / 2048.0);
 }
 
 #[test]
 fn a_spring_at_joint_2_is_a_worse_explanation() {
     let d = diagnosis(0);
-    let [other] = &d.findings[0].alternatives[..] else { panic!("one alternative") };
-    assert_eq!(other.place, "joint 2");
-    near(other.held_out_after / MIL, 2.043, 1e-3);
+    let joint_2 = |a: &&Alternative| a.effect == "joint_compliance" && a.place == "joint 2";
+    let other = d.findings[0].alternatives.iter().find(joint_2).expect("an alternative");
+    near(other.held_out_after / MIL, 2.043, 1e-2);
     assert!(other.separable);
-    assert_eq!(d.findings[0].to_separate, None);
-    assert_eq!(d.places[0].place, "joint 1");
-    near(d.places[0].share, 1.0 - (0.891_f64 / 7.411).powi(2), 1e-4);
-    assert!(d.cannot_see.is_empty());
+    let joint_1 = d.places.iter().find(|p| p.place == "joint 1").expect("a place");
+    assert!(joint_1.share > 1.0 - (0.892_f64 / 7.411).powi(2), "{}", joint_1.share);
+}
+
+#[test]
+fn twelve_points_under_one_load_do_not_tell_what_scales_with_the_load() {
+    let d = diagnosis(0);
+    let same: Vec<_> = d.findings[0]
+        .alternatives
+        .iter()
+        .filter(|a| !a.separable)
+        .map(|a| (a.effect, a.place.as_str()))
+        .collect();
+    // A softer first link and a larger load do what a spring at joint 1 does; so does a softer
+    // foundation, as far as the twelve poses go.
+    assert!(same.contains(&("link_compliance", "link 1")), "{same:?}");
+    assert!(d.findings[0].to_separate.is_some());
+    let hidden = |effect: &str| d.cannot_see.iter().any(|c| c.effect == effect);
+    assert!(hidden("backlash") && hidden("thermal_growth") && hidden("bearing_compliance"));
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! * [`TwoLink`], [`ElbowLinks`]: the same in closed form for the paper's two arms.
 //! * [`ParallelElbow`]: all inverse solutions of an arm whose axes 2, 3 and 4 are parallel.
 //! * [`correction`], [`compensate`], [`plan`]: the joint corrections, and the ten steps.
+//! * [`mod@reach`]: any arm, its joint limits kept, at equilibrium in the loaded geometry.
 //!
 //! # Definitions
 //!
@@ -30,6 +31,7 @@ mod inverse;
 mod iterate;
 mod jacobians;
 mod plan;
+pub mod reach;
 mod two_link;
 
 pub use correction::{Correction, Damping, correction};
@@ -66,6 +68,12 @@ pub enum CompensateError {
         what: &'static str,
         /// As given.
         found: f64,
+    },
+    /// A sliding joint without limits cannot be searched.
+    #[error("joint {joint} slides and has no limits: give it limits, or a start")]
+    Unlimited {
+        /// From 1.
+        joint: usize,
     },
     /// The joint springs do not hold the load.
     #[error("the arm has no stable rest under its load: the joint springs would buckle")]

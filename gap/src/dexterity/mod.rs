@@ -9,6 +9,7 @@
 //! * [`influence`]: ν_p and ν_r of eqs. 14-15, what leaving K_C out costs.
 //! * [`Map`]: any of these over two joints, as data; [`zones`] compares parts of a map, and
 //!   [`choose`] picks test postures from it.
+//! * [`mod@design`]: postures and loads for tests by D-optimality.
 //! * [`apparent`]: how stiff one direction looks (Knapczyk & Ryska, *Stiffness matrix analysis of
 //!   six-revolute serial manipulator*).
 //!
@@ -18,6 +19,7 @@
 mod apparent;
 mod choice;
 mod condition;
+pub mod design;
 mod influence;
 mod length;
 mod map;

@@ -1,4 +1,4 @@
-//! Which poses are held out together.
+//! Which poses are held out together, and which are resampled together.
 
 use super::options::{DiagnoseError, Options};
 use super::rng::{Stream, generator, shuffled};
@@ -10,16 +10,22 @@ const MOST_SINGLE: usize = 30;
 /// Folds of poses beyond that.
 const USUAL: usize = 10;
 
-/// A division of the poses into folds.
+/// Blocks of poses: beyond this, poses that were measured one after another share a block, so that
+/// cost and memory stay linear.
+const MOST_BLOCKS: usize = 240;
+
+/// A division of the poses into blocks, and of the blocks into folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Folds {
     pub(crate) count: usize,
-    /// The fold of each pose.
-    pub(crate) of_pose: Vec<usize>,
+    /// The block of each pose.
+    pub(crate) block_of_pose: Vec<usize>,
+    /// The fold of each block.
+    pub(crate) of_block: Vec<usize>,
 }
 
 impl Folds {
-    /// Deals the poses out: as evenly as can be, at random by the seed.
+    /// Deals the blocks out: as evenly as can be, at random by the seed.
     pub(crate) fn deal(data: &Measurements, options: &Options) -> Result<Folds, DiagnoseError> {
         let poses = data.poses;
         if poses < 2 {
@@ -31,12 +37,41 @@ impl Folds {
             let file = data.file.clone();
             return Err(DiagnoseError::Folds { file, found: count, poses });
         }
-        let mut of_pose = vec![0; poses];
-        let order = shuffled(&mut generator(options.seed, Stream::Folds), poses);
-        for (place, pose) in order.into_iter().enumerate() {
-            of_pose[pose] = place % count;
+        let blocks = poses.min(MOST_BLOCKS.max(count));
+        let mut of_block = vec![0; blocks];
+        let order = shuffled(&mut generator(options.seed, Stream::Folds), blocks);
+        for (place, block) in order.into_iter().enumerate() {
+            of_block[block] = place % count;
         }
-        Ok(Folds { count, of_pose })
+        let block_of_pose = (0..poses).map(|pose| pose * blocks / poses).collect();
+        Ok(Folds { count, block_of_pose, of_block })
+    }
+
+    pub(crate) fn blocks(&self) -> usize {
+        self.of_block.len()
+    }
+
+    /// The rows of each block, in order.
+    pub(crate) fn rows_of_blocks(&self, data: &Measurements) -> Vec<Vec<usize>> {
+        let mut rows = vec![Vec::new(); self.blocks()];
+        for (index, row) in data.rows.iter().enumerate() {
+            rows[self.block_of_pose[row.group]].push(index);
+        }
+        rows
+    }
+
+    /// The fold of a pose.
+    pub(crate) fn of_pose(&self, pose: usize) -> usize {
+        self.of_block[self.block_of_pose[pose]]
+    }
+
+    /// Sums of squares of each block, of one size per row.
+    pub(crate) fn per_block(&self, data: &Measurements, sizes: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.blocks()];
+        for (row, size) in data.rows.iter().zip(sizes) {
+            sums[self.block_of_pose[row.group]] += size * size;
+        }
+        sums
     }
 }
 
@@ -52,16 +87,25 @@ mod tests {
         table(rows, Kind::Pose { orientation: false })
     }
 
-    fn sizes(folds: &Folds) -> Vec<usize> {
-        (0..folds.count).map(|f| folds.of_pose.iter().filter(|p| **p == f).count()).collect()
+    fn sizes(folds: &Folds, poses: usize) -> Vec<usize> {
+        let in_fold = |f| (0..poses).filter(|p| folds.of_pose(*p) == f).count();
+        (0..folds.count).map(in_fold).collect()
     }
 
     #[test]
     fn few_poses_stand_alone_and_many_in_tens() {
         let deal = |poses| Folds::deal(&data(poses), &Options::default()).unwrap();
-        assert_eq!(sizes(&deal(12)), vec![1; 12]);
-        assert_eq!(sizes(&deal(35)), [4, 4, 4, 4, 4, 3, 3, 3, 3, 3]);
+        assert_eq!(sizes(&deal(12), 12), vec![1; 12]);
+        assert_eq!(sizes(&deal(35), 35), [4, 4, 4, 4, 4, 3, 3, 3, 3, 3]);
         assert_eq!(deal(35), deal(35));
+    }
+
+    #[test]
+    fn very_many_poses_share_blocks() {
+        let folds = Folds::deal(&data(1000), &Options::default()).unwrap();
+        assert_eq!(folds.blocks(), MOST_BLOCKS);
+        assert_eq!((folds.block_of_pose[0], folds.block_of_pose[999]), (0, MOST_BLOCKS - 1));
+        assert!(sizes(&folds, 1000).iter().all(|n| (96..=105).contains(n)));
     }
 
     #[test]

@@ -1,45 +1,88 @@
-//! The diagnosis: which joint's compliance, if any, closes the gap, judged on poses that no fit
-//! has seen.
+//! The diagnosis: where the gap between model and measurement lies, which unmodelled effects cause
+//! it, and how far it shrinks when they are put into the model, judged on poses that no fit has
+//! seen.
 //!
-//! 1. The gap of the model as it is, whitened by the noise.
-//! 2. Each effect at each place that the data can show is fitted exactly; the one with the least
-//!    held-out gap is chosen.
-//! 3. It is a finding if it is significant (signs of whole poses flipped, corrected for the number
-//!    of candidates) and if the held-out gap shrinks.
-//! 4. Alternatives that resampling the poses does not tell from it are named as such.
-//!
-//! This version adds one finding at most.
+//! 1. Frames that are known to be unknown are fitted first, and along with everything after
+//!    ([`align`], [`refit`]).
+//! 2. One pass over the data ([`screen`]) gathers what every candidate (an effect at a place, in one
+//!    form) does to the measured quantities. What this data cannot show is told before anything is
+//!    fitted ([`visible`]).
+//! 3. Effects are added one by one ([`search`]): the one with the most evidence ([`evidence`]), if
+//!    it is significant among all that were tried and shrinks the held-out gap; then fitted
+//!    exactly, and the others taken back or exchanged where it makes them superfluous.
+//! 4. The findings are held out together ([`outcome`]), and every candidate is tried in the place of
+//!    each ([`rivals`]): those that this data does not tell from it are named, with the measurement
+//!    that would ([`separate`]).
+//! 5. What is left is tested for structure with free-form displacements ([`remainder`], [`probe`]).
 
+mod align;
+mod basis;
 mod bootstrap;
-mod fit;
+mod candidate;
+mod evidence;
+mod explanation;
 mod folds;
-mod judge;
+mod model;
 mod noise;
-mod normal;
 mod options;
+mod outcome;
+mod parts;
+mod probe;
 mod problem;
+mod refit;
+mod remainder;
 mod report;
 mod rival;
+mod rivals;
 mod rng;
-mod significance;
-mod visibility;
+mod score;
+mod screen;
+mod search;
+mod separate;
+mod stability;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod visible;
 
-use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-pub use options::{DiagnoseError, Options};
+pub use explanation::{Explanation, FoundEffect, Prediction};
+pub use options::{DiagnoseError, Nuisance, Options};
 pub use report::{
-    Alternative, CannotSee, Diagnosis, Finding, GapReport, HeldOut, NoiseReport, ParameterReport,
-    Rival, Share, Shrink, Unexplained,
+    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, HeldOut, NoiseReport,
+    NuisanceReport, ParameterReport, Part, Rival, Share, Shrink, Slice, Unexplained,
 };
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
-use fit::Candidate;
+use candidate::Candidate;
 use folds::Folds;
-use judge::{Judged, is_there};
-use noise::Noise;
+use model::Model;
 use problem::Problem;
+use search::Search;
+
+/// A gap below this, relative to the arm's reach, is rounding error.
+const ROUNDING: f64 = 1e-12;
+
+/// How far a diagnosis is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Simulating the rows and fitting the unknown frames.
+    Align,
+    /// Looking for effects, with so many found.
+    Search(usize),
+    /// Judging so many findings.
+    Judge(usize),
+}
+
+/// A diagnosis, and the models before and after it.
+pub struct Diagnosed {
+    /// What was found.
+    pub diagnosis: Diagnosis,
+    /// The same as models that predict.
+    pub explanation: Explanation,
+}
 
 /// Tells where the gap between `arm` and `data` comes from.
 ///
@@ -50,76 +93,92 @@ pub fn diagnose(
     data: &Measurements,
     options: &Options,
 ) -> Result<Diagnosis, DiagnoseError> {
+    diagnose_with(arm, data, options, &|_| {}).map(|d| d.diagnosis)
+}
+
+/// The same, with the models that were found, telling `progress` how far it is.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnose_with(
+    arm: &Arm,
+    data: &Measurements,
+    options: &Options,
+    progress: &(dyn Fn(Stage) + Sync),
+) -> Result<Diagnosed, DiagnoseError> {
     options.check()?;
+    progress(Stage::Align);
     let effects = options.effects()?;
-    let problem = Problem::new(arm, data)?;
+    let problem = Problem::new(arm, data, options)?;
     let folds = Folds::deal(data, options)?;
-    let rivals: Vec<_> = options
+    enough_rows(&problem, &folds)?;
+    let compared: Vec<_> = options
         .rivals
         .iter()
         .map(|name| rival::Rival::read(data, name))
         .collect::<Result<_, _>>()?;
-    let (mut candidates, cannot_see) = visibility::candidates(&problem, &effects);
-    enough_rows(&problem, &folds, &candidates)?;
-    if !is_there(&problem) {
+    let mut candidates = Candidate::all(&problem, &effects);
+    let model = align::aligned(&problem)?;
+    let begun =
+        Search { problem: &problem, folds: &folds, candidates: &[], options }.begin(model)?;
+    let before = begun.fit.predicted.gaps.clone();
+    let size = Statistics::of(&before);
+    let is_there =
+        size.position_max > ROUNDING * (1.0 + problem.reach) || size.rotation_rms > ROUNDING;
+    let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
+    let cannot_see = search.cannot_see(&effects, &begun);
+    let shares = if is_there { search.shares(&begun) } else { Vec::new() };
+    let parts = if is_there { search.parts(&begun) } else { Vec::new() };
+    if !is_there {
         candidates.clear();
     }
-
-    let judged = Judged::of(&problem, &folds, &candidates, options);
-    let before = Statistics::of(&problem.gaps);
-    let finding = judged.accepted(&problem, &candidates, options);
-    let (residual, held_out, parameters) = match &finding {
-        Some(_) => {
-            let best = &judged.fits[judged.order[0]];
-            (&best.point.gaps, &best.held_out, best.values.len())
-        }
-        None => (&problem.gaps, &problem.gaps, 0),
+    let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
+    let first = begun.fit.model.clone();
+    let explained = search.explain(begun, &|found| progress(Stage::Search(found)))?;
+    let (explained, groups, held_out) = search.shrinking(explained)?;
+    let after = match groups.is_empty() {
+        true => before.clone(),
+        false => held_out.last().cloned().unwrap_or_default(),
     };
-    let after = Statistics::of(held_out);
-    let noise = Noise::of(&problem, options, residual, parameters);
-    let compared = rivals.iter().map(|r| r.compare(data, held_out, options.seed)).collect();
-    Ok(Diagnosis {
+    let statistics = Statistics::of(&after);
+    let main =
+        if problem.measures_position() { statistics.position_rms } else { statistics.rotation_rms };
+    let unexplained = match is_there {
+        true => search.remainder(&explained, main)?,
+        false => Unexplained::default(),
+    };
+    progress(Stage::Judge(groups.len()));
+    let findings =
+        search.findings(&explained, &groups, &before, &held_out, !unexplained.present)?;
+    let compared = compared.iter().map(|r| r.compare(data, &after, options.seed)).collect();
+    let diagnosis = Diagnosis {
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
         measurements: data.rows.len(),
         held_out: HeldOut { folds: folds.count, grouped_by: "pose" },
-        gap: GapReport { before, after, noise: noise.report() },
-        places: judged.shares(&problem, &candidates),
-        findings: finding.into_iter().collect(),
+        gap: GapReport { before: size, after: statistics, noise: explained.noise.report() },
+        places: shares,
+        findings,
         cannot_see,
-        unexplained: unexplained(&noise, residual, parameters, &after),
-        rivals: (!rivals.is_empty()).then_some(compared),
-    })
+        unexplained,
+        parts,
+        by: search.slices(&before, &after),
+        nuisances: summary::nuisances(&problem, &explained.fit.model),
+        covers: summary::cover(&problem),
+        rivals: (!options.rivals.is_empty()).then_some(compared),
+    };
+    let explanation = Explanation::new(&problem, first, explained.fit.model, &diagnosis.covers);
+    Ok(Diagnosed { diagnosis, explanation })
 }
 
-/// Every fold must leave at least as many measured numbers as an effect has parameters.
-fn enough_rows(
-    problem: &Problem<'_>,
-    folds: &Folds,
-    candidates: &[Candidate],
-) -> Result<(), DiagnoseError> {
-    let parameters = candidates.iter().map(|c| c.parameters.len()).max().unwrap_or(0);
+/// Every fold must leave more measured numbers than there are frames to fit.
+fn enough_rows(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
+    let parameters = Model::nuisances(problem) + 1;
     let rows = &problem.data.rows;
-    let kept = |fold| rows.iter().filter(|r| folds.of_pose[r.group] != fold).count();
-    let least = (0..folds.count).map(kept).min().unwrap_or(0) * problem.data.components();
+    let kept = |fold| rows.iter().filter(|r| folds.of_pose(r.group) != fold).count();
+    let least = (0..folds.count).map(kept).min().unwrap_or(0) * problem.measured.len();
     if least >= parameters {
         return Ok(());
     }
     Err(DiagnoseError::TooFewRows { file: problem.data.file.clone(), rows: rows.len(), parameters })
 }
-
-fn unexplained(
-    noise: &Noise,
-    residual: &[Vector6<f64>],
-    parameters: usize,
-    after: &Statistics,
-) -> Unexplained {
-    if !noise.exceeded(residual, parameters) {
-        return Unexplained::default();
-    }
-    let beyond = after.position_rms.powi(2) - noise.report().position_rms.powi(2);
-    Unexplained { present: true, position_rms: beyond.max(0.0).sqrt(), ..Unexplained::default() }
-}
-
-#[cfg(test)]
-mod tests;

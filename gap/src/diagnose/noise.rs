@@ -20,6 +20,9 @@ const LEAST: f64 = 1e-30;
 /// cases.
 const LEVEL: f64 = 0.01;
 
+/// A standard deviation is not known better than this: what remains must exceed it by the factor.
+const EXCESS: f64 = 1.05;
+
 /// Where a noise level comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
@@ -62,10 +65,10 @@ impl Noise {
             if let Some(sd) = given {
                 return with(sd, Source::Option);
             }
-            if let Some((sd, freedom)) = repeats(problem, first, components) {
+            if let Some((sd, freedom)) = repeats(problem, residual, first, components) {
                 return with(sd, Source::Repeats(freedom));
             }
-            let total = residual.len() * problem.data.components();
+            let total = problem.numbers();
             // Each kind pays for the parameters by its part of the numbers measured.
             let left = total.saturating_sub(parameters).max(1) as f64 / total.max(1) as f64;
             let freedom = left * (residual.len() * components) as f64;
@@ -103,8 +106,14 @@ impl Noise {
         }
     }
 
-    /// Whether `residual`, with `parameters` fitted to it, is more than this noise. A noise taken
-    /// from the residual itself cannot tell.
+    /// Whether the noise is known apart from what is left.
+    pub(crate) fn is_known(&self) -> bool {
+        let kinds = [&self.position, &self.rotation];
+        kinds.iter().filter(|l| l.components > 0).all(|l| l.source != Source::Residual)
+    }
+
+    /// Whether `residual`, with `parameters` fitted to it, is more than this noise: surely, and by
+    /// more than noise is ever known. A noise taken from the residual itself cannot tell.
     pub(crate) fn exceeded(&self, residual: &[Vector6<f64>], parameters: usize) -> bool {
         let kinds = [&self.position, &self.rotation];
         let measured: usize = kinds.iter().map(|l| l.components).sum();
@@ -115,9 +124,10 @@ impl Noise {
         kinds.iter().any(|level| {
             let share = level.components as f64 / measured.max(1) as f64;
             let freedom = (residual.len() * level.components) as f64 - share * parameters as f64;
-            level
-                .chance(squares(residual, level.first), freedom)
-                .is_some_and(|p| p * (judged as f64) < LEVEL)
+            let squares = squares(residual, level.first);
+            let more = squares > freedom * (EXCESS * level.sd).powi(2);
+            let chance = level.chance(squares, freedom);
+            more && chance.is_some_and(|p| p * (judged as f64) < LEVEL)
         })
     }
 }
@@ -150,10 +160,15 @@ fn squares(gaps: &[Vector6<f64>], first: usize) -> f64 {
 
 /// Standard deviation about the mean of repeats, and its degrees of freedom. Repeats are rows of
 /// one pose with the same load, marker and direction of approach.
-fn repeats(problem: &Problem<'_>, first: usize, components: usize) -> Option<(f64, f64)> {
+fn repeats(
+    problem: &Problem<'_>,
+    residual: &[Vector6<f64>],
+    first: usize,
+    components: usize,
+) -> Option<(f64, f64)> {
     let mut sets: HashMap<_, usize> = HashMap::new();
     let mut members: Vec<Vec<Vector6<f64>>> = Vec::new();
-    for (row, gap) in problem.data.rows.iter().zip(&problem.gaps) {
+    for (row, gap) in problem.data.rows.iter().zip(residual) {
         let load: Vec<u64> = row.wrench.iter().map(|f| (f + 0.0).to_bits()).collect();
         let key = (row.group, load, row.marker.as_deref(), row.direction.as_deref());
         let set = *sets.entry(key).or_insert(members.len());
@@ -196,11 +211,16 @@ mod tests {
         table(rows, Kind::Pose { orientation: false })
     }
 
+    fn gaps(problem: &Problem<'_>) -> Vec<Vector6<f64>> {
+        super::super::model::Model::nominal(problem).predict(problem, None).unwrap().gaps
+    }
+
     #[test]
     fn repeats_give_the_noise() {
         let (arm, data) = (rigid(), data());
-        let problem = Problem::new(&arm, &data).unwrap();
-        let noise = Noise::of(&problem, &Options::default(), &problem.gaps, 0);
+        let none = Options::default();
+        let problem = Problem::new(&arm, &data, &none).unwrap();
+        let noise = Noise::of(&problem, &none, &gaps(&problem), 0);
         assert_eq!(noise.position.source, Source::Repeats(12.0));
         // Each set spreads by −1, 0, 1 mm in x: 4 mm² over 12.
         assert!((noise.position.sd - 1e-3 * (4.0_f64 / 12.0).sqrt()).abs() < 1e-12);
@@ -213,14 +233,15 @@ mod tests {
     fn the_option_comes_first_and_the_residual_last() {
         let (arm, mut data) = (rigid(), data());
         let given = Options { noise_position: Some(2e-3), ..Options::default() };
-        let problem = Problem::new(&arm, &data).unwrap();
-        let noise = Noise::of(&problem, &given, &problem.gaps, 0);
+        let problem = Problem::new(&arm, &data, &given).unwrap();
+        let noise = Noise::of(&problem, &given, &gaps(&problem), 0);
         assert_eq!((noise.position.sd, noise.position.source), (2e-3, Source::Option));
         for (k, row) in data.rows.iter_mut().enumerate() {
             row.wrench[0] = k as f64;
         }
-        let problem = Problem::new(&arm, &data).unwrap();
-        let noise = Noise::of(&problem, &Options::default(), &problem.gaps, 1);
+        let problem = Problem::new(&arm, &data, &given).unwrap();
+        let noise = Noise::of(&problem, &Options::default(), &gaps(&problem), 1);
+        assert!(!noise.is_known());
         assert_eq!(noise.position.source, Source::Residual);
         assert!(!noise.exceeded(&vec![Vector6::repeat(1.0); 6], 0));
     }
@@ -228,9 +249,10 @@ mod tests {
     #[test]
     fn more_than_noise_is_noticed_and_noise_is_not() {
         let (arm, data) = (rigid(), data());
-        let problem = Problem::new(&arm, &data).unwrap();
         let given = Options { noise_position: Some(1e-3), ..Options::default() };
-        let noise = Noise::of(&problem, &given, &problem.gaps, 0);
+        let problem = Problem::new(&arm, &data, &given).unwrap();
+        let noise = Noise::of(&problem, &given, &gaps(&problem), 0);
+        assert!(noise.is_known());
         let gap = |x| vec![Vector6::new(x, x, x, 0.0, 0.0, 0.0); 6];
         assert!(!noise.exceeded(&gap(1e-3), 1));
         assert!(noise.exceeded(&gap(2e-3), 1));

@@ -3,6 +3,40 @@
 use crate::effects::{CATALOGUE, Effect};
 use crate::measurement::nearest;
 
+/// A frame that is known to be unknown: fitted and projected out, never a finding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nuisance {
+    /// Where the arm's base stands in the measuring frame.
+    BaseFrame,
+    /// Where the measured frame is on the tool.
+    ToolFrame,
+}
+
+impl Nuisance {
+    /// By its identifier, `base_frame` or `tool_frame`.
+    ///
+    /// # Errors
+    /// [`DiagnoseError::UnknownNuisance`].
+    pub fn parse(found: &str) -> Result<Self, DiagnoseError> {
+        match found.trim() {
+            "base_frame" => Ok(Self::BaseFrame),
+            "tool_frame" => Ok(Self::ToolFrame),
+            _ => Err(DiagnoseError::UnknownNuisance {
+                found: found.to_owned(),
+                suggestion: nearest(found, ["base_frame", "tool_frame"].into_iter()),
+            }),
+        }
+    }
+
+    /// Its identifier.
+    pub fn identifier(self) -> &'static str {
+        match self {
+            Self::BaseFrame => "base_frame",
+            Self::ToolFrame => "tool_frame",
+        }
+    }
+}
+
 /// Choices of a diagnosis. The same choices on the same data give the same bytes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
@@ -18,6 +52,8 @@ pub struct Options {
     pub noise_rotation: Option<f64>,
     /// Identifiers of the effects to be tried; `None` is all.
     pub effects: Option<Vec<String>>,
+    /// Frames that are known to be unknown.
+    pub nuisances: Vec<Nuisance>,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,
@@ -58,11 +94,15 @@ pub enum DiagnoseError {
     )]
     TooLarge { file: String, line: u64 },
     #[error(
-        "{file}: line {line}: marker `{marker}` has no translation in the robot file, expected \
-         one: \
-         fitting it is not in this version"
+        "found the unknown nuisance `{found}`, expected base_frame or tool_frame{}",
+        suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
-    UnknownOffset { file: String, line: u64, marker: String },
+    UnknownNuisance { found: String, suggestion: Option<&'static str> },
+    #[error(
+        "{file}: found the marker `{marker}`, expected one that the diagnosed data had: its place \
+         on the tool was never fitted"
+    )]
+    NewMarker { file: String, marker: String },
     #[error(
         "found the unknown effect `{found}`, expected one of {known}{}",
         suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
@@ -97,7 +137,11 @@ impl Options {
     /// # Errors
     /// [`DiagnoseError::UnknownEffect`] for a name that is not in the catalogue.
     pub(crate) fn effects(&self) -> Result<Vec<&'static dyn Effect>, DiagnoseError> {
-        let Some(names) = &self.effects else { return Ok(CATALOGUE.to_vec()) };
+        // A frame that is fitted along is no finding.
+        let fitted =
+            |e: &&dyn Effect| self.nuisances.iter().any(|n| n.identifier() == e.identifier());
+        let all = CATALOGUE.into_iter().filter(|e| !fitted(e));
+        let Some(names) = &self.effects else { return Ok(all.collect()) };
         for found in names {
             if !CATALOGUE.iter().any(|e| e.identifier() == found) {
                 let known: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
@@ -108,8 +152,7 @@ impl Options {
                 });
             }
         }
-        let chosen = CATALOGUE.into_iter().filter(|e| names.iter().any(|n| n == e.identifier()));
-        Ok(chosen.collect())
+        Ok(all.filter(|e| names.iter().any(|n| n == e.identifier())).collect())
     }
 
     /// Checks what can be checked without data.

@@ -26,9 +26,69 @@ pub struct Diagnosis {
     pub cannot_see: Vec<CannotSee>,
     /// What is left.
     pub unexplained: Unexplained,
+    /// The gap taken apart by what it goes with; empty where the data are too few.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Part>,
+    /// How large the gap is along each joint's range, by load, direction and time.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by: Vec<Slice>,
+    /// Frames that were fitted along, and are no findings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub nuisances: Vec<NuisanceReport>,
+    /// Where the data has been: predictions elsewhere are extrapolation.
+    pub covers: Cover,
     /// Other models' predictions against this one's; only if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rivals: Option<Vec<Rival>>,
+}
+
+/// A part of the gap.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// With what it goes.
+    pub part: &'static str,
+    /// Share of the mean square (whitened, held out), beside the parts before it.
+    pub share: f64,
+}
+
+/// The gap on some of the rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Slice {
+    /// Along what: `q2`, `load` (N), `s3`, `time` (s).
+    pub of: String,
+    /// Least value, SI.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+    /// Number of rows.
+    pub rows: usize,
+    /// Root mean square of the gap of the robot file as it is, m (rad without positions).
+    pub before: f64,
+    /// The same with the findings, held out.
+    pub after: f64,
+}
+
+/// A frame that was fitted along.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NuisanceReport {
+    /// `base_frame`, `tool_frame` or a marker's name.
+    pub name: String,
+    /// Where it is: the base in the measuring frame, the tool in the last frame, the marker in the
+    /// tool frame; m.
+    pub translation: [f64; 3],
+    /// Rotation vector, rad; 0 of a marker.
+    pub rotation: [f64; 3],
+}
+
+/// The range of the data.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cover {
+    /// Least and largest reading of each joint, rad (m if prismatic).
+    pub joints: Vec<[f64; 2]>,
+    /// Largest force on the tool, N.
+    pub force: f64,
+    /// Largest moment on the tool, N·m.
+    pub moment: f64,
 }
 
 /// How measurements were held out.
@@ -87,7 +147,10 @@ pub struct Finding {
     pub held_out: Shrink,
     /// The chance that the best of all places tried explains as much of a gap without cause.
     pub p_value: f64,
-    /// Every other candidate, best first.
+    /// Part of random halves of the poses in which the finding is the best explanation again.
+    pub stability: f64,
+    /// Every other candidate in the finding's place, beside the other findings: those that are not
+    /// told from it first.
     pub alternatives: Vec<Alternative>,
     /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
     /// if all are separable.
@@ -98,7 +161,7 @@ pub struct Finding {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParameterReport {
     /// What it is.
-    pub name: &'static str,
+    pub name: String,
     /// Its value, added to what the robot file has.
     pub value: f64,
     /// Of the value.
@@ -151,14 +214,15 @@ pub struct CannotSee {
 /// What is left of the gap.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Unexplained {
-    /// Whether it is more than noise; false where nothing but the residual tells the noise.
+    /// Whether it is more than noise, or still depends on something.
     pub present: bool,
     /// What is left beyond the noise, m; 0 if not present.
     pub position_rms: f64,
-    /// Where it lies; this version does not say.
+    /// Where it lies: what a free-form displacement at each place takes of the mean square of what
+    /// is left, held out.
     #[serde(rename = "where")]
     pub places: Vec<Share>,
-    /// On what it depends; this version does not say.
+    /// On what it depends, most first.
     pub depends_on: Vec<String>,
 }
 

@@ -9,6 +9,7 @@ pub(crate) enum Stream {
     Folds = 1,
     Signs = 2,
     Bootstrap = 3,
+    Halves = 4,
 }
 
 /// The generator of one stream.

@@ -1,66 +1,105 @@
 //! The catalogue: what reality does that the sim does not. A new effect is one file that implements
 //! [`Effect`], and one line in [`CATALOGUE`].
+//!
+//! Each file tells the effect's signature, what it is confused with, and what measurement tells
+//! them apart.
 
+mod backlash;
+mod base_compliance;
+mod base_frame;
+mod bearing_compliance;
+mod drift;
+mod friction_hysteresis;
+mod geometric_stiffness;
+mod instrument_scale;
 mod joint_compliance;
+mod joint_coupling;
+mod joint_hardening;
+mod joint_offset;
+mod joint_ratio;
+mod link_compliance;
+mod link_geometry;
+mod link_weight;
+mod payload_com;
+mod place;
+mod scene;
+mod settling_lag;
+mod slip;
+#[cfg(test)]
+mod tests;
+mod thermal_growth;
+mod tool_frame;
+mod transmission_error;
+mod wrench_scale;
 
-use std::fmt;
+use std::borrow::Cow;
 
 use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::Arm;
 
-use crate::measurement::Row;
-use crate::simulate::State;
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
 
+pub use backlash::Backlash;
+pub use base_compliance::BaseCompliance;
+pub use base_frame::BaseFrame;
+pub use bearing_compliance::BearingCompliance;
+pub use drift::Drift;
+pub use friction_hysteresis::FrictionHysteresis;
+pub use geometric_stiffness::GeometricStiffness;
+pub use instrument_scale::InstrumentScale;
 pub use joint_compliance::JointCompliance;
+pub use joint_coupling::JointCoupling;
+pub use joint_hardening::JointHardening;
+pub use joint_offset::JointOffset;
+pub use joint_ratio::JointRatio;
+pub use link_compliance::LinkCompliance;
+pub use link_geometry::LinkGeometry;
+pub use link_weight::LinkWeight;
+pub use payload_com::PayloadCom;
+pub use place::{Place, Spot};
+pub use scene::Scene;
+pub use settling_lag::SettlingLag;
+pub use slip::Slip;
+pub use thermal_growth::ThermalGrowth;
+pub use tool_frame::ToolFrame;
+pub use transmission_error::TransmissionError;
+pub use wrench_scale::WrenchScale;
 
-/// Where an effect acts; numbers count from 1 at the base, as they are printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Place {
-    /// A joint.
-    Joint(usize),
-    /// A link, that is a row of the table.
-    Link(usize),
-    /// The base.
-    Base,
-    /// The tool.
-    Tool,
-    /// The arm as a whole.
-    Arm,
-    /// The measuring instrument.
-    Instrument,
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Place::Joint(i) => write!(f, "joint {i}"),
-            Place::Link(i) => write!(f, "link {i}"),
-            Place::Base => f.write_str("base"),
-            Place::Tool => f.write_str("tool"),
-            Place::Arm => f.write_str("arm"),
-            Place::Instrument => f.write_str("instrument"),
-        }
-    }
-}
-
-/// One number of an effect at a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One number of an effect at a spot.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// What it is.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// In SI.
     pub unit: &'static str,
     /// The least value that is physical; −∞ if every one is.
     pub least: f64,
-    /// Magnitude that makes the parameters of one effect comparable between places of other units:
-    /// 1, or powers of the arm's reach.
-    pub scale: f64,
+    /// What nobody would be surprised by: far beyond it, other explanations are more likely.
+    pub usual: f64,
+}
+
+impl Parameter {
+    /// A parameter of which every value is physical.
+    pub fn free(name: impl Into<Cow<'static, str>>, unit: &'static str) -> Self {
+        Self { name: name.into(), unit, least: f64::NEG_INFINITY, usual: f64::INFINITY }
+    }
+
+    /// A parameter that is at least `least`.
+    pub fn at_least(name: &'static str, unit: &'static str, least: f64) -> Self {
+        Self { name: name.into(), unit, least, usual: f64::INFINITY }
+    }
+
+    /// The same, with what is usual.
+    pub fn usually(self, usual: f64) -> Self {
+        Self { usual, ..self }
+    }
 }
 
 /// An effect of reality at places of the arm.
 ///
-/// [`Effect::apply`] is the exact model: the arm and the row as they are *with* the effect, to be
-/// simulated like any other. [`Effect::block`] is its linearisation; the fit iterates between the
+/// [`Effect::alter`] is the exact model: the arm of a row as it is *with* the effect, to be brought
+/// to rest like any other. [`Effect::block`] is its linearisation; the fit iterates between the
 /// two.
 pub trait Effect: Sync {
     /// The identifier that files and options use.
@@ -69,40 +108,88 @@ pub trait Effect: Sync {
     /// Where on this arm it may act.
     fn places(&self, arm: &Arm) -> Vec<Place>;
 
-    /// Its parameters at a place; all zero is no effect. `reach` is the arm's reach on the data, m.
-    fn parameters(&self, arm: &Arm, place: Place, reach: f64) -> Vec<Parameter>;
+    /// The forms that it may take at a place: the orders of a periodic error, the joints that may
+    /// turn this one, the moments of a jump. Each is tried by itself.
+    fn forms(&self, _: &Arm, _: Place, _: &Measurements) -> Vec<usize> {
+        vec![0]
+    }
 
-    /// Puts the effect with these values into the arm, or into the row where it depends on
-    /// the row's direction, temperature, load or time.
-    fn apply(&self, arm: &mut Arm, row: &mut Row, place: Place, values: &[f64]);
+    /// Its parameters; all zero is no effect.
+    fn parameters(&self, arm: &Arm, spot: Spot, data: &Measurements) -> Vec<Parameter>;
 
-    /// Twist of the tool, base axes, at the tool origin, per unit of each parameter, 6×p, at a
-    /// state of the arm.
-    fn block(&self, arm: &Arm, row: &Row, state: &State, place: Place) -> Matrix6xX<f64>;
+    /// Puts the effect with these values into the arm of a row.
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment, spot: Spot, values: &[f64]);
+
+    /// Twist of the tool, base axes, at the tool origin, per unit of each parameter, 6×p, to first
+    /// order at a state of the arm.
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64>;
 
     /// Why data shows nothing of it where its block is zero everywhere.
     fn idle(&self) -> &'static str;
+
+    /// Why data that excites it may still not show it beside all of the arm's geometry.
+    fn hidden(&self) -> &'static str {
+        "lengths, twists, zeros and frames of the arm do the same on this data"
+    }
+
+    /// Whether it is a matter of lengths and angles alone, the same at every load, moment and
+    /// direction.
+    fn is_geometry(&self) -> bool {
+        false
+    }
+
+    /// Why it cannot be there at all with this data; `None` if it can.
+    fn excluded(&self, _: &Measurements) -> Option<&'static str> {
+        None
+    }
+
+    /// What a form is as a reported number: name and unit; `None` if the parameters' names tell it.
+    fn form_is(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
 }
 
-/// Every effect of this version.
-pub const CATALOGUE: [&dyn Effect; 1] = [&JointCompliance];
+/// Every effect, in the order in which equally good explanations are preferred.
+pub const CATALOGUE: [&dyn Effect; 23] = [
+    &JointOffset,
+    &JointCompliance,
+    &Backlash,
+    &JointRatio,
+    &SettlingLag,
+    &FrictionHysteresis,
+    &JointHardening,
+    &TransmissionError,
+    &JointCoupling,
+    &LinkCompliance,
+    &BearingCompliance,
+    &LinkWeight,
+    &WrenchScale,
+    &PayloadCom,
+    &BaseCompliance,
+    &ThermalGrowth,
+    &InstrumentScale,
+    &LinkGeometry,
+    &BaseFrame,
+    &ToolFrame,
+    &Slip,
+    &Drift,
+    &GeometricStiffness,
+];
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Names and units of a displacement's six numbers, times whatever `per` divides them by.
+fn displacement(units: [&'static str; 2]) -> Vec<Parameter> {
+    let names = ["x", "y", "z", "rx", "ry", "rz"];
+    let one =
+        |(k, name): (usize, &&'static str)| Parameter::free(*name, units[k / 3]).usually(0.05);
+    names.iter().enumerate().map(one).collect()
+}
 
-    #[test]
-    fn identifiers_are_unique() {
-        let mut names: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), CATALOGUE.len());
-    }
+/// The joints of an arm as places.
+fn joints(arm: &Arm) -> Vec<Place> {
+    (1..=arm.dof()).map(Place::Joint).collect()
+}
 
-    #[test]
-    fn places_print_as_the_format_has_them() {
-        assert_eq!(Place::Joint(2).to_string(), "joint 2");
-        assert_eq!(Place::Link(3).to_string(), "link 3");
-        assert_eq!(Place::Instrument.to_string(), "instrument");
-    }
+/// The links of an arm as places.
+fn links(arm: &Arm) -> Vec<Place> {
+    (1..=arm.dof()).map(Place::Link).collect()
 }

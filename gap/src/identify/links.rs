@@ -44,7 +44,7 @@ pub fn shares(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Result<Vec<Share>, Iden
 }
 
 /// The arm with nothing that yields but one beam.
-fn only_beam(arm: &Arm, row: usize) -> Arm {
+pub(super) fn only_beam(arm: &Arm, row: usize) -> Arm {
     let mut only = links_only(arm);
     for (k, joint) in only.joints.iter_mut().enumerate() {
         if k != row {

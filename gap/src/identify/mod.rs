@@ -7,6 +7,8 @@
 //! * [`identify`] solves it with the instrument's noise as [`Weighting`], columns scaled, by an
 //!   orthogonal decomposition; the paper's normal equations (eq. 26) are there to compare. A joint
 //!   that the tests do not show is refused by name, with the [`Pull`] that would show it.
+//! * [`measured`]: the same from a measurement file, whatever it measures, with weights, links
+//!   and foundation.
 //! * [`points`]: the displacement from three points before and after (eqs. 27-30).
 //! * [`validate()`]: prediction of tests that were not used (Figs. 9-12).
 //! * [`rig`] simulates the experiment, and [`study`] repeats it: number of tests (Fig. 7) and
@@ -17,6 +19,7 @@
 
 mod hidden;
 pub mod links;
+pub mod measured;
 pub mod points;
 pub(crate) mod random;
 pub mod rig;

@@ -1,0 +1,228 @@
+//! Set-points of any serial arm: joint values within the limits at which the arm, at equilibrium
+//! under its load and weights ([`crate::simulate`]), stands at a target.
+//!
+//! Levenberg's and Marquardt's steps on what the loaded tool misses, along the motions that the
+//! joints give the loaded tool. A joint at its limit that would have
+//! to leave it stands still for that step.
+
+mod steps;
+#[cfg(test)]
+mod tests;
+
+use core::f64::consts::PI;
+
+use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use super::{CompensateError, finite};
+use crate::identify::random::between;
+use crate::simulate::equilibrium;
+
+/// Where the tool should be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Of the tool origin in the base frame, m.
+    pub position: Vector3<f64>,
+    /// Of the tool frame in the base frame; none if any will do.
+    pub rotation: Option<UnitQuaternion<f64>>,
+}
+
+/// What is good enough, and how long to look for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Largest distance from the target, m.
+    pub translation: f64,
+    /// Largest angle from the target, rad.
+    pub rotation: f64,
+    /// Random starts where the first one does not lead there.
+    pub starts: usize,
+    /// Of the random starts.
+    pub seed: u64,
+}
+
+impl Default for Search {
+    /// A micrometre, a microradian, 24 starts.
+    fn default() -> Search {
+        Search { translation: 1e-6, rotation: 1e-6, starts: 24, seed: 0 }
+    }
+}
+
+/// How a search ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// At the target.
+    Reached,
+    /// No start leads nearer; these joints (from 1) stand at a limit there. Without any, the target
+    /// is out of reach.
+    Nearest(Vec<usize>),
+    /// The arm has no stable rest under the load, from whatever start.
+    Unstable,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reached {
+    /// Set-points, rad or m.
+    pub q: Vec<f64>,
+    /// From the loaded tool to the target: translation and rotation vector, base axes. The rotation
+    /// is 0 if any will do.
+    pub error: Vector6<f64>,
+    /// The same at the set-points of an arm that does not give way, which would be commanded
+    /// without compensation; none if it does not reach the target.
+    pub uncompensated: Option<Vector6<f64>>,
+    /// How it ended.
+    pub ended: Ended,
+}
+
+/// Set-points for one target under a load on the tool (base axes, at the tool origin).
+///
+/// From `start` if there is one; where that is not given or leads nowhere, from random starts, of
+/// which the one is taken whose arm gives way least.
+///
+/// # Errors
+/// [`CompensateError::NotFinite`]; [`CompensateError::Chain`] if the start has not as many values
+/// as the arm has joints; [`CompensateError::Unlimited`] if a prismatic joint has no limits and no
+/// start is given; [`CompensateError::NotPositive`] for a tolerance.
+pub fn reach(
+    arm: &Arm,
+    target: &Target,
+    load: &Vector6<f64>,
+    start: Option<&[f64]>,
+    search: &Search,
+) -> Result<Reached, CompensateError> {
+    check(arm, target, load, start, search)?;
+    let task = steps::Task::new(arm, *target, *load, search);
+    let mut best: Option<steps::Point> = None;
+    if let Some(start) = start {
+        match task.settle(&within(arm, start)) {
+            Some(end) if task.reached(&end) => {
+                return Ok(finish(arm, target, &task, end, search));
+            }
+            missed => best = missed,
+        }
+    }
+    let Some(bounds) = bounds(arm) else {
+        return match (best, unlimited(arm)) {
+            (None, Some(joint)) if start.is_none() => Err(CompensateError::Unlimited { joint }),
+            (best, _) => Ok(best.map_or_else(
+                || nothing(arm, start),
+                |end| finish(arm, target, &task, end, search),
+            )),
+        };
+    };
+    let mut random = ChaCha8Rng::seed_from_u64(search.seed);
+    let mut reached: Option<(f64, steps::Point)> = None;
+    for _ in 0..search.starts {
+        let from: Vec<f64> = bounds.iter().map(|b| between(&mut random, *b)).collect();
+        let Some(end) = task.settle(&from) else { continue };
+        let end = task.turned_back(end);
+        if task.reached(&end) {
+            let gives = task.gives(&end);
+            if reached.as_ref().is_none_or(|(least, _)| gives < *least) {
+                reached = Some((gives, end));
+            }
+        } else if best.as_ref().is_none_or(|before| end.size < before.size) {
+            best = Some(end);
+        }
+    }
+    let end = reached.map(|(_, end)| end).or(best);
+    Ok(end.map_or_else(|| nothing(arm, start), |end| finish(arm, target, &task, end, search)))
+}
+
+fn finish(
+    arm: &Arm,
+    target: &Target,
+    task: &steps::Task<'_>,
+    end: steps::Point,
+    search: &Search,
+) -> Reached {
+    let ended = if task.reached(&end) {
+        Ended::Reached
+    } else {
+        Ended::Nearest(task.at_limits(&end).into_iter().map(|joint| joint + 1).collect())
+    };
+    let uncompensated = uncompensated(arm, target, task, &end.q, search);
+    Reached { error: end.error, q: end.q, uncompensated, ended }
+}
+
+/// What the loaded arm misses at the set-points of a rigid one near `q`.
+fn uncompensated(
+    arm: &Arm,
+    target: &Target,
+    task: &steps::Task<'_>,
+    q: &[f64],
+    search: &Search,
+) -> Option<Vector6<f64>> {
+    let mut rigid = arm.clone();
+    for joint in &mut rigid.joints {
+        (joint.compliance, joint.beam) = (0.0, None);
+        // Where a rigid arm would have to stand is no question of limits.
+        joint.limits = None;
+    }
+    let ideal = steps::Task::new(&rigid, *target, Vector6::zeros(), search);
+    let end = ideal.settle(q).filter(|end| ideal.reached(end))?;
+    let state = equilibrium(arm, &end.q, task.load()).ok()?;
+    Some(task.missed(&state.tool))
+}
+
+fn nothing(arm: &Arm, start: Option<&[f64]>) -> Reached {
+    let q = start.map_or_else(|| vec![0.0; arm.dof()], <[f64]>::to_vec);
+    Reached { q, error: Vector6::zeros(), uncompensated: None, ended: Ended::Unstable }
+}
+
+fn check(
+    arm: &Arm,
+    target: &Target,
+    load: &Vector6<f64>,
+    start: Option<&[f64]>,
+    search: &Search,
+) -> Result<(), CompensateError> {
+    finite("a coordinate of the target", &target.position)?;
+    finite("a component of the load", load)?;
+    if let Some(rotation) = target.rotation {
+        finite("the rotation of the target", &rotation.coords)?;
+    }
+    if let Some(start) = start {
+        crate::chain::steps(arm, start)?;
+    }
+    for (what, found) in
+        [("the tolerance", search.translation), ("the tolerance of rotations", search.rotation)]
+    {
+        if !(found.is_finite() && found > 0.0) {
+            return Err(CompensateError::NotPositive { what, found });
+        }
+    }
+    Ok(())
+}
+
+/// The nearest values within the limits.
+fn within(arm: &Arm, q: &[f64]) -> Vec<f64> {
+    let clamped = |(q, joint): (&f64, &stiffarm_kernels::generic::Joint)| match joint.limits {
+        Some([low, high]) => q.clamp(low, high),
+        None => *q,
+    };
+    q.iter().zip(&arm.joints).map(clamped).collect()
+}
+
+/// The first prismatic joint without limits, from 1.
+fn unlimited(arm: &Arm) -> Option<usize> {
+    let free = |joint: &stiffarm_kernels::generic::Joint| {
+        joint.limits.is_none() && joint.motion == Motion::Prismatic
+    };
+    arm.joints.iter().position(free).map(|k| k + 1)
+}
+
+/// What random starts are drawn from; none if a joint slides without limits.
+fn bounds(arm: &Arm) -> Option<Vec<[f64; 2]>> {
+    unlimited(arm)
+        .is_none()
+        .then(|| arm.joints.iter().map(|joint| joint.limits.unwrap_or([-PI, PI])).collect())
+}
+
+/// The loaded tool at some set-points, as the simulator has it.
+pub fn loaded(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Option<Isometry3<f64>> {
+    equilibrium(arm, q, load).ok().map(|state| state.tool)
+}

@@ -1,0 +1,152 @@
+//! The postures and loads that tests are chosen from, and what each would say.
+
+use core::f64::consts::PI;
+
+use nalgebra::{DMatrix, Vector6};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use super::{Plan, Purpose};
+use crate::dexterity::{
+    DexterityError, Search, characteristic_length, influence, inverse_condition,
+};
+use crate::identify::random::between;
+
+/// Postures drawn per test wanted, and bounds of their number.
+const PER_TEST: usize = 40;
+const FEWEST: usize = 240;
+const MOST: usize = 1000;
+
+/// Of the postures drawn the part that is dexterous enough, and of these the part in which K_C is
+/// small enough.
+const DEXTEROUS: f64 = 0.5;
+const SMALL_K_C: f64 = 0.8;
+
+/// Starts of the search for the characteristic length: no more than the length's digits matter.
+const STARTS: usize = 6;
+
+/// A posture that may be tested.
+pub(super) struct Posture {
+    pub(super) q: Vec<f64>,
+    pub(super) inverse_condition: f64,
+    pub(super) nu_p: f64,
+}
+
+/// A posture under a load, and its whitened regressors: rows are numbers measured, columns the
+/// compliances of all joints and, for a diagnosis, their zeros.
+pub(super) struct Block {
+    pub(super) posture: usize,
+    pub(super) load: usize,
+    pub(super) rows: DMatrix<f64>,
+}
+
+/// All that may be chosen.
+pub(super) struct Pool {
+    pub(super) postures: Vec<Posture>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) length: f64,
+}
+
+pub(super) fn draw(arm: &Arm, plan: &Plan) -> Result<Pool, DexterityError> {
+    let bounds = bounds(arm)?;
+    let count = (PER_TEST * plan.count).clamp(FEWEST, MOST).max(2 * plan.count);
+    let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
+    let drawn: Vec<Vec<f64>> =
+        (0..count).map(|_| bounds.iter().map(|b| between(&mut random, *b)).collect()).collect();
+    let length = length(arm, &drawn, plan.seed)?;
+    let mut postures = Vec::new();
+    let mut unstable = None;
+    for q in drawn {
+        let inverse_condition = inverse_condition(arm, &q, length)?;
+        let nu_p = plan.loads.iter().map(|load| influence(arm, &q, load).map(|i| i.nu_p));
+        match nu_p.collect::<Result<Vec<f64>, _>>() {
+            Ok(each) => {
+                let nu_p = each.into_iter().fold(0.0, f64::max);
+                postures.push(Posture { q, inverse_condition, nu_p });
+            }
+            Err(error) => unstable = Some(error),
+        }
+    }
+    if let (true, Some(error)) = (postures.is_empty(), unstable) {
+        return Err(error);
+    }
+    // Ties are kept in the order drawn, so that the plan depends on nothing but its seed.
+    keep(&mut postures, DEXTEROUS, plan.count, |p| -p.inverse_condition);
+    keep(&mut postures, SMALL_K_C, plan.count, |p| p.nu_p);
+    let blocks = (0..postures.len())
+        .flat_map(|posture| (0..plan.loads.len()).map(move |load| (posture, load)))
+        .map(|(posture, load)| Block {
+            posture,
+            load,
+            rows: rows(arm, &postures[posture].q, &plan.loads[load], plan),
+        })
+        .collect();
+    Ok(Pool { postures, blocks, length })
+}
+
+/// The part of the postures with the lowest cost, no fewer than `least`.
+fn keep(postures: &mut Vec<Posture>, part: f64, least: usize, cost: impl Fn(&Posture) -> f64) {
+    postures.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+    let count = (part * postures.len() as f64).ceil() as usize;
+    postures.truncate(count.max(least));
+}
+
+/// Limits; a revolute joint without any turns once around.
+fn bounds(arm: &Arm) -> Result<Vec<[f64; 2]>, DexterityError> {
+    let each = arm.joints.iter().enumerate().map(|(k, joint)| match (joint.limits, joint.motion) {
+        (Some(limits), _) => Ok(limits),
+        (None, Motion::Revolute) => Ok([-PI, PI]),
+        (None, Motion::Prismatic) => Err(DexterityError::Unlimited { joint: k + 1 }),
+    });
+    each.collect()
+}
+
+/// The characteristic length; of an arm that cannot move its tool in all ways, the one that makes
+/// translations and rotations equal on average.
+fn length(arm: &Arm, drawn: &[Vec<f64>], seed: u64) -> Result<f64, DexterityError> {
+    let search = Search { starts: STARTS, seed, limits: true };
+    match characteristic_length(arm, search) {
+        Ok(found) => return Ok(found.length),
+        Err(DexterityError::TooFewJoints { .. } | DexterityError::AllSingular) => {}
+        Err(other) => return Err(other),
+    }
+    let (mut shifts, mut turns) = (0.0, 0.0);
+    for q in drawn {
+        let jacobian = arm.jacobian(q);
+        shifts += jacobian.fixed_rows::<3>(0).norm_squared();
+        turns += jacobian.fixed_rows::<3>(3).norm_squared();
+    }
+    if turns > 0.0 && shifts > 0.0 { Ok((shifts / turns).sqrt()) } else { Ok(1.0) }
+}
+
+/// What a test measures per unit of each unknown, in units of the noise.
+fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan) -> DMatrix<f64> {
+    let n = arm.dof();
+    let measured = if plan.noise_rotation.is_some() { 6 } else { 3 };
+    let noise = |row: usize| match (row < 3, plan.noise_rotation) {
+        (false, Some(rotation)) => rotation,
+        _ => plan.noise_position,
+    };
+    let springs = arm.stiffness_regressor(q, load);
+    match plan.purpose {
+        // A displacement is the difference of two readings, each with its noise.
+        Purpose::Identify => DMatrix::from_fn(measured, n, |r, c| {
+            springs[(r, c)] / (core::f64::consts::SQRT_2 * noise(r))
+        }),
+        // Two poses: unloaded below, loaded above.
+        Purpose::Diagnose => {
+            let zeros = arm.jacobian(q);
+            DMatrix::from_fn(2 * measured, 2 * n, |r, c| {
+                let (row, loaded) = (r % measured, r < measured);
+                let value = match (c < n, loaded) {
+                    (true, true) => springs[(row, c)],
+                    (true, false) => 0.0,
+                    (false, _) => zeros[(row, c - n)],
+                };
+                value / noise(row)
+            })
+        }
+    }
+}

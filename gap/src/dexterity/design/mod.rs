@@ -1,0 +1,137 @@
+//! A plan of tests: which postures and loads say most about the springs (or about springs and
+//! zeros together) before anything is measured.
+//!
+//! Postures are drawn within the joint limits. The less dexterous half is left out (`1/κ_F` of
+//! [`super::inverse_condition`]), and of the rest those in which leaving K_C out would cost most
+//! ([`super::influence`]). Of these postures, each with one of the loads, those are chosen whose
+//! regressors `B` make `det Σ BᵀB` largest: D-optimality, by adding one test after the other and
+//! then exchanging as long as that helps (Fedorov).
+
+mod candidates;
+mod exchange;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use super::DexterityError;
+
+/// What the tests are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The joints' compliances, from displacements under a load.
+    Identify,
+    /// Zeros and compliances of the joints, from poses: each posture without a load and under one.
+    Diagnose,
+}
+
+/// What to plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// How many postures.
+    pub count: usize,
+    /// What for.
+    pub purpose: Purpose,
+    /// The loads to choose from, base axes at the tool origin.
+    pub loads: Vec<Vector6<f64>>,
+    /// Standard deviation of a measured coordinate, m.
+    pub noise_position: f64,
+    /// Standard deviation of a component of a measured rotation, rad; none if rotations are not
+    /// measured.
+    pub noise_rotation: Option<f64>,
+    /// Of the postures drawn.
+    pub seed: u64,
+}
+
+/// One test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Joint values, rad or m.
+    pub q: Vec<f64>,
+    /// Base axes at the tool origin.
+    pub wrench: Vector6<f64>,
+    /// `1/κ_F(J_N)`.
+    pub inverse_condition: f64,
+    /// ν_p, the largest under any of the loads.
+    pub nu_p: f64,
+}
+
+/// What the tests will say of one number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expected {
+    /// From 1.
+    pub joint: usize,
+    /// Standard deviation of the joint's compliance, rad/(N·m) or m/N; none if no test shows it.
+    pub compliance: Option<f64>,
+    /// Standard deviation of the joint's zero, rad or m; none if that is not asked for or no test
+    /// shows it.
+    pub zero: Option<f64>,
+}
+
+/// A plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// In the order in which they were chosen.
+    pub tests: Vec<Planned>,
+    /// One for each joint.
+    pub expected: Vec<Expected>,
+    /// L of the condition numbers, m.
+    pub length: f64,
+    /// How many times as many tests drawn at random from the same postures and loads would say as
+    /// much: the ratio of the determinants, per unknown.
+    pub efficiency: f64,
+}
+
+/// Plans tests for an arm; `done` is told the part of the work that is done, from 0 to 1.
+///
+/// # Errors
+/// [`DexterityError::Setting`] without tests or loads; [`DexterityError::Unlimited`] if a prismatic
+/// joint has no limits; [`DexterityError::AllSingular`]; [`DexterityError::Unstable`] if the arm
+/// buckles under every load in every posture drawn.
+pub fn design(arm: &Arm, plan: &Plan, done: &dyn Fn(f64)) -> Result<Design, DexterityError> {
+    check(plan)?;
+    let pool = candidates::draw(arm, plan)?;
+    let choices = exchange::Choices::new(&pool.blocks, arm.dof());
+    let chosen = choices.choose(plan.count, done);
+    let tests = chosen.iter().map(|&k| {
+        let (posture, load) = (&pool.postures[pool.blocks[k].posture], pool.blocks[k].load);
+        Planned {
+            q: posture.q.clone(),
+            wrench: plan.loads[load],
+            inverse_condition: posture.inverse_condition,
+            nu_p: posture.nu_p,
+        }
+    });
+    let deviations = choices.deviations(&chosen);
+    let n = arm.dof();
+    let expected = (0..n).map(|j| Expected {
+        joint: j + 1,
+        compliance: deviations[j],
+        zero: deviations.get(n + j).copied().flatten(),
+    });
+    Ok(Design {
+        tests: tests.collect(),
+        expected: expected.collect(),
+        length: pool.length,
+        efficiency: choices.efficiency(&chosen, plan.seed),
+    })
+}
+
+fn check(plan: &Plan) -> Result<(), DexterityError> {
+    let setting = |what, found, expected| Err(DexterityError::Setting { what, found, expected });
+    if !(1..=1000).contains(&plan.count) {
+        return setting("the number of tests", plan.count as f64, "1 to 1000");
+    }
+    if plan.loads.iter().all(|load| *load == Vector6::zeros()) {
+        return setting("the number of loads", 0.0, "at least one that is not zero");
+    }
+    if let Some(wrong) = plan.loads.iter().flat_map(|l| l.iter()).find(|x| !x.is_finite()) {
+        return setting("a load", *wrong, "a finite number");
+    }
+    let noises = [Some(plan.noise_position), plan.noise_rotation];
+    match noises.into_iter().flatten().find(|sd| !(sd.is_finite() && *sd > 0.0)) {
+        Some(wrong) => setting("a noise", wrong, "a positive number"),
+        None => Ok(()),
+    }
+}

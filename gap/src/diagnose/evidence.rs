@@ -1,0 +1,172 @@
+//! How much the data speak for a candidate: its cost in parameters weighed against what it
+//! explains, and the chance that noise alone explains as much.
+
+use nalgebra::DMatrix;
+use rand_chacha::rand_core::Rng;
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use super::rng::{Stream, generator};
+use super::score::Score;
+use super::screen::Screen;
+
+/// Random sign patterns; all of them are taken if there are no more.
+const FLIPS: usize = 999;
+
+/// A fall of squares beyond this, in units of the variance, is no chance with any number of
+/// parameters that an effect has; the distributions' tails are not asked there.
+const CERTAIN: f64 = 2000.0;
+
+/// No chance is told below this.
+const LEAST_CHANCE: f64 = 1e-300;
+
+/// What remains against what the noise is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    /// Whether the gaps were weighted by a noise that is known apart from them: the expected
+    /// remainder is then 1 per number.
+    pub(crate) known: bool,
+    /// Numbers that are measured.
+    pub(crate) numbers: usize,
+}
+
+impl Scale {
+    /// Variance of what remains of `squares` after so many parameters.
+    pub(crate) fn variance(&self, squares: f64, parameters: usize) -> f64 {
+        let own = squares / self.freedom(parameters);
+        (if self.known { own.max(1.0) } else { own }).max(f64::MIN_POSITIVE)
+    }
+
+    pub(crate) fn freedom(&self, parameters: usize) -> f64 {
+        self.numbers.saturating_sub(parameters).max(1) as f64
+    }
+
+    /// Cost of parameters: the logarithm of the numbers for each (Schwarz), the chances that other
+    /// forms of the effect had, and how far the values are beyond what is usual (a Cauchy prior).
+    pub(crate) fn cost<'v>(
+        &self,
+        rank: usize,
+        forms: usize,
+        values: impl IntoIterator<Item = (&'v f64, &'v f64)>,
+    ) -> f64 {
+        let each = (self.numbers.max(2) as f64).ln();
+        let unusual = values.into_iter().map(|(value, usual)| (value / usual).powi(2).ln_1p());
+        rank as f64 * each + 2.0 * (forms.max(1) as f64).ln() + 2.0 * unusual.sum::<f64>()
+    }
+
+    /// The chance that noise makes a fall as large with so many parameters, `tried` candidates
+    /// having been tried (Bonferroni).
+    pub(crate) fn chance(&self, score: &Score, left: f64, fitted: usize, tried: usize) -> f64 {
+        if score.rank == 0 || score.drop <= 0.0 {
+            return 1.0;
+        }
+        let (rank, freedom) = (score.rank as f64, self.freedom(fitted + score.rank));
+        let variance = self.variance((left - score.drop).max(0.0), fitted + score.rank);
+        let chance = if score.drop / variance > CERTAIN {
+            Some(0.0)
+        } else if self.known && variance == 1.0 {
+            ChiSquared::new(rank).ok().map(|d| d.sf(score.drop))
+        } else {
+            let ratio = score.drop / rank / variance;
+            FisherSnedecor::new(rank, freedom).ok().map(|d| d.sf(ratio))
+        };
+        let chance = chance.unwrap_or(1.0);
+        if chance.is_nan() { 1.0 } else { (chance * tried as f64).clamp(LEAST_CHANCE, 1.0) }
+    }
+}
+
+/// A fall of squares with `rank` parameters as a number that is comparable between ranks: the
+/// normal deviate of the same chance (Wilson & Hilferty).
+fn deviate(fall: f64, rank: usize) -> f64 {
+    let p = rank as f64;
+    let spread = 2.0 / (9.0 * p);
+    ((fall / p).max(0.0).cbrt() - (1.0 - spread)) / spread.sqrt()
+}
+
+/// The chance that the best of `tried` explains as much as `best` does of a gap whose signs are
+/// flipped at random, pose by pose. Whether all sign patterns were taken comes with it.
+pub(crate) fn flipped(
+    screen: &Screen<'_>,
+    tried: &[usize],
+    best: &Score,
+    scale: &Scale,
+    seed: u64,
+) -> (f64, bool) {
+    let blocks = screen.blocks.len();
+    let variance = scale.variance(screen.left(), screen.basis.rank());
+    let observed = deviate(best.drop / variance, best.rank.max(1));
+    let signs = sign_patterns(blocks, seed);
+    let mut highest = vec![f64::NEG_INFINITY; signs.ncols()];
+    for &candidate in tried {
+        let shares = screen.shares(candidate);
+        let rank = shares.nrows();
+        if rank == 0 {
+            continue;
+        }
+        let sums = shares * &signs;
+        for (high, sum) in highest.iter_mut().zip(sums.column_iter()) {
+            *high = high.max(deviate(sum.norm_squared() / variance, rank));
+        }
+    }
+    // Rounding may put a pattern that equals the observed one just below it.
+    let reached = highest.iter().filter(|h| **h >= observed - 1e-9 * observed.abs()).count();
+    let exhaustive = signs.ncols() == patterns(blocks);
+    let count = signs.ncols();
+    // All patterns include the observed one; drawn patterns do not.
+    let chance = if exhaustive {
+        reached.max(1) as f64 / count as f64
+    } else {
+        (reached + 1) as f64 / (count + 1) as f64
+    };
+    (chance, exhaustive)
+}
+
+/// Sign patterns that differ by more than all signs at once, at most `usize::MAX`.
+fn patterns(blocks: usize) -> usize {
+    1_usize.checked_shl(blocks.saturating_sub(1) as u32).unwrap_or(usize::MAX)
+}
+
+/// blocks × patterns of ±1.
+fn sign_patterns(blocks: usize, seed: u64) -> DMatrix<f64> {
+    let all = patterns(blocks);
+    let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
+    if all <= 4 * FLIPS {
+        return DMatrix::from_fn(blocks, all, |b, pattern| {
+            sign(b < usize::BITS as usize && pattern >> b & 1 == 1)
+        });
+    }
+    let mut generator = generator(seed, Stream::Signs);
+    DMatrix::from_fn(blocks, FLIPS, |_, _| sign(generator.next_u32() & 1 == 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn deviates_are_comparable_between_ranks() {
+        // 5 % points of the chi-squared distribution.
+        for (rank, point) in [(1, 3.841), (2, 5.991), (6, 12.592)] {
+            assert!((deviate(point, rank) - 1.645).abs() < 0.03, "{rank}");
+        }
+    }
+
+    #[test]
+    fn few_blocks_give_every_pattern_once() {
+        let signs = sign_patterns(5, 0);
+        assert_eq!(signs.ncols(), 16);
+        let columns: std::collections::HashSet<Vec<i8>> =
+            signs.column_iter().map(|c| c.iter().map(|s| *s as i8).collect()).collect();
+        assert_eq!(columns.len(), 16);
+        assert_eq!(sign_patterns(40, 1).ncols(), FLIPS);
+    }
+
+    #[test]
+    fn known_noise_gives_the_chi_squared_chance() {
+        let scale = Scale { known: true, numbers: 100 };
+        let values = nalgebra::DVector::zeros(1);
+        let score = Score { drop: 3.841_458_8, values, rank: 1, own: 1.0 };
+        let chance = scale.chance(&score, 90.0, 0, 1);
+        assert!((chance - 0.05).abs() < 1e-6, "{chance}");
+        assert_eq!(scale.chance(&score, 90.0, 0, 100), 1.0);
+    }
+}

@@ -1,0 +1,112 @@
+//! What is left after all that was found: whether it is more than noise, where it lies and on what
+//! it depends.
+
+use std::collections::BTreeMap;
+
+use super::candidate::Source;
+use super::evidence::flipped;
+use super::options::DiagnoseError;
+use super::probe::{About, Probe};
+use super::report::{Share, Unexplained};
+use super::screen::{Kept, Screen};
+use super::search::{Explained, Search};
+use crate::effects::Place;
+
+/// A dependence that noise alone shows this often, over all that was tried, is none.
+const LEVEL: f64 = 0.01;
+
+/// Dependences that are named.
+const MOST_NAMED: usize = 6;
+
+impl Search<'_, '_> {
+    /// Looks for structure in what is left; `held_out_rms` is its size on poses that no fit has
+    /// seen, m (rad without positions).
+    pub(crate) fn remainder(
+        &self,
+        now: &Explained,
+        held_out_rms: f64,
+    ) -> Result<Unexplained, DiagnoseError> {
+        let probes = Probe::all(self.problem);
+        let kept = Kept::all(&now.fit);
+        let screen = Screen::new(self.problem, self.folds, &kept, &probes, &now.weights);
+        let scale = self.scale(now);
+        let fitted = screen.basis.rank();
+        let ranked = self.ranked(&screen, now);
+        let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let trained = screen.trained();
+        let before = screen.held_out(&trained, None).white;
+        let mut places: BTreeMap<Place, f64> = BTreeMap::new();
+        let mut about: BTreeMap<About, f64> = BTreeMap::new();
+        let mut significant = false;
+        for one in &ranked {
+            let Source::Probe(probe) = &screen.candidates[one.candidate].source else { continue };
+            let after = screen.held_out(&trained, Some(one.candidate)).white;
+            let share = 1.0 - after / before.max(f64::MIN_POSITIVE);
+            if share <= 0.0 {
+                continue;
+            }
+            let chance = scale.chance(&one.score, screen.left(), fitted, tried.len());
+            if chance > LEVEL {
+                continue;
+            }
+            let (flips, _) = flipped(&screen, &tried, &one.score, &scale, self.options.seed);
+            if flips > LEVEL {
+                continue;
+            }
+            significant = true;
+            let largest = |map: &mut f64| *map = map.max(share);
+            largest(places.entry(probe.place).or_insert(0.0));
+            if probe.about != About::Constant {
+                largest(about.entry(probe.about).or_insert(0.0));
+            }
+        }
+        let gaps = &now.fit.predicted.gaps;
+        let parameters = now.fit.model.parameters(self.problem);
+        let present = now.noise.exceeded(gaps, parameters) || significant;
+        if !present {
+            return Ok(Unexplained::default());
+        }
+        let noise = now.noise.report();
+        let floor =
+            if self.problem.measures_position() { noise.position_rms } else { noise.rotation_rms };
+        let beyond = held_out_rms.powi(2) - if now.noise.is_known() { floor.powi(2) } else { 0.0 };
+        let mut places: Vec<Share> = places
+            .into_iter()
+            .map(|(place, share)| Share { place: place.to_string(), share })
+            .collect();
+        places.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let mut about: Vec<(About, f64)> = about.into_iter().collect();
+        about.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(Unexplained {
+            present,
+            position_rms: beyond.max(0.0).sqrt(),
+            places,
+            depends_on: about.into_iter().take(MOST_NAMED).map(|(a, _)| a.name()).collect(),
+        })
+    }
+
+    /// The held-out part of the gap that a displacement at each place alone explains: free-form, or
+    /// by the best effect there.
+    pub(crate) fn shares(&self, now: &Explained) -> Vec<Share> {
+        let mut all = Probe::all(self.problem);
+        all.extend(self.candidates.iter().cloned());
+        let kept = Kept::all(&now.fit);
+        let screen = Screen::new(self.problem, self.folds, &kept, &all, &now.weights);
+        let trained = screen.trained();
+        let before = screen.held_out(&trained, None).white;
+        let mut places: BTreeMap<Place, f64> = BTreeMap::new();
+        for one in self.ranked(&screen, now) {
+            let after = screen.held_out(&trained, Some(one.candidate)).white;
+            let share = 1.0 - after / before.max(f64::MIN_POSITIVE);
+            let best = places.entry(screen.candidates[one.candidate].place()).or_insert(0.0);
+            *best = best.max(share);
+        }
+        let mut shares: Vec<Share> = places
+            .into_iter()
+            .filter(|(_, share)| *share > 0.0)
+            .map(|(place, share)| Share { place: place.to_string(), share })
+            .collect();
+        shares.sort_by(|a, b| b.share.total_cmp(&a.share));
+        shares
+    }
+}

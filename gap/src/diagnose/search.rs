@@ -1,0 +1,372 @@
+//! Which effects: added one by one, each judged beside all that is already there, and each taken
+//! back or exchanged when what came later makes it superfluous or another better.
+
+use super::basis::Basis;
+use super::candidate::Candidate;
+use super::evidence::{Scale, flipped};
+use super::folds::Folds;
+use super::model::{Fitted, Model};
+use super::noise::Noise;
+use super::options::{DiagnoseError, Options};
+use super::problem::Problem;
+use super::refit::{Fit, normal_equations, refit, squares};
+use super::score::Score;
+use super::screen::{Kept, Screen};
+use crate::effects::Spot;
+use nalgebra::{DVector, Vector6};
+
+/// A finding's largest p value.
+pub(crate) const SIGNIFICANT: f64 = 0.05;
+
+/// Most effects that are added.
+const MOST_FOUND: usize = 40;
+
+/// An order of a periodic error that nothing else in the catalogue comes near to.
+const FINE: usize = 3;
+
+/// Effects that are compared with all others after each addition.
+const SMALL: usize = 4;
+
+/// Orders of periodic errors that are added with the best one: they hardly touch each other, and a
+/// real gear has many.
+const MOST_ORDERS: usize = 5;
+
+/// Candidates that are tried in turn when the exact fit does not follow the linear one.
+const MOST_TRIED: usize = 3;
+
+/// Rounds of taking back and exchanging after each addition.
+const MOST_ROUNDS: usize = 12;
+
+/// A candidate of which less is left beside the model cannot be seen.
+pub(crate) const OWN: f64 = 0.01;
+
+/// One effect is exchanged for another only for this much more evidence: a factor of about five.
+const EXCHANGE: f64 = 3.0;
+
+/// A value beyond what is usual by more than this is none that an arm has.
+const IMPOSSIBLE: f64 = 100.0;
+
+/// At least this many measured numbers for each parameter.
+const NUMBERS_EACH: usize = 3;
+
+/// Everything that a search works with.
+pub(crate) struct Search<'s, 'p> {
+    pub(crate) problem: &'s Problem<'p>,
+    pub(crate) folds: &'s Folds,
+    pub(crate) candidates: &'s [Candidate],
+    pub(crate) options: &'s Options,
+}
+
+/// A fit and the noise by which it was weighted.
+pub(crate) struct Explained {
+    pub(crate) fit: Fit,
+    pub(crate) noise: Noise,
+    pub(crate) weights: Vector6<f64>,
+}
+
+/// A candidate beside a model; less `cost` is better.
+pub(crate) struct Ranked {
+    pub(crate) candidate: usize,
+    pub(crate) score: Score,
+    /// Squares left in units of the noise, and what the parameters cost.
+    pub(crate) cost: f64,
+    /// By how much that is less than without it.
+    pub(crate) gain: f64,
+}
+
+impl<'s> Search<'s, '_> {
+    fn weigh(&self, fit: Fit) -> Explained {
+        let parameters = fit.model.parameters(self.problem);
+        let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
+        let weights = noise.weights(&self.problem.mask);
+        Explained { fit, noise, weights }
+    }
+
+    /// Fits the frames alone.
+    pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
+        let first = Fit { predicted: model.predict(self.problem, None)?, model };
+        let mut now = self.weigh(first);
+        // Weights that come from the remainder are those of the fit after two rounds.
+        for _ in 0..3 {
+            let Explained { fit, weights, .. } = now;
+            let near = fit.predicted.sims;
+            let fit = refit(self.problem, fit.model, Some(&near), &weights)?;
+            now = self.weigh(fit);
+            if self.problem.nuisances.is_empty() && self.problem.markers.is_empty() {
+                break;
+            }
+        }
+        Ok(now)
+    }
+
+    /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
+    /// seen. `progress` gets the number of effects found.
+    pub(crate) fn explain(
+        &self,
+        mut now: Explained,
+        progress: &dyn Fn(usize),
+    ) -> Result<Explained, DiagnoseError> {
+        for _ in 0..MOST_FOUND {
+            progress(now.fit.model.found.len());
+            let Some(next) = self.added(&now)? else { break };
+            now = self.weigh(next);
+            // Few effects are compared with all others after each addition, many now and then.
+            let count = now.fit.model.found.len();
+            if count <= SMALL || count % SMALL == 0 {
+                now = self.pruned(now)?;
+            }
+        }
+        self.pruned(now)
+    }
+
+    pub(crate) fn scale(&self, now: &Explained) -> Scale {
+        Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
+    }
+
+    /// Cost of the parameters of an effect that was found.
+    pub(crate) fn cost_of(&self, scale: &Scale, found: &Fitted) -> f64 {
+        let (arm, data) = (self.problem.arm, self.problem.data);
+        let forms = found.effect.forms(arm, found.spot.place, data).len();
+        let parameters = found.effect.parameters(arm, found.spot, data);
+        let usual: Vec<f64> = parameters.iter().map(|p| p.usual).collect();
+        scale.cost(found.values.len(), forms, found.values.iter().zip(&usual))
+    }
+
+    /// The candidates beside the model, best first.
+    pub(crate) fn ranked(&self, screen: &Screen<'_>, now: &Explained) -> Vec<Ranked> {
+        let (left, fitted) = (screen.left(), screen.basis.rank());
+        let room = (self.problem.numbers() / NUMBERS_EACH).saturating_sub(fitted);
+        let scale = self.scale(now);
+        let scored = (0..screen.candidates.len()).map(|c| (c, screen.score(c)));
+        let can = |candidate: usize, score: &Score| {
+            let usual = &screen.candidates[candidate].usual;
+            let mut values = score.values.iter().zip(usual);
+            let possible = values.all(|(value, usual)| value.abs() <= IMPOSSIBLE * usual);
+            score.rank > 0 && score.own > OWN && score.rank <= room && possible
+        };
+        let kept: Vec<_> = scored.filter(|(c, s)| can(*c, s) && s.drop > 0.0).collect();
+        let best = kept.iter().map(|(_, s)| s.drop).fold(0.0, f64::max);
+        let variance = scale.variance((left - best).max(0.0), fitted);
+        let mut ranked: Vec<Ranked> = kept
+            .into_iter()
+            .map(|(candidate, score)| {
+                let it = &screen.candidates[candidate];
+                let values = score.values.iter().zip(&it.usual);
+                let cost =
+                    (left - score.drop) / variance + scale.cost(score.rank, it.forms, values);
+                Ranked { candidate, score, cost, gain: left / variance - cost }
+            })
+            .collect();
+        ranked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        ranked
+    }
+
+    /// The model with the best candidate added, if it is significant.
+    fn added(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
+        let kept = Kept::all(&now.fit);
+        let screen = Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
+        let scale = self.scale(now);
+        let ranked = self.ranked(&screen, now);
+        let trained = screen.trained();
+        let before = screen.held_out(&trained, None);
+        let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        for one in ranked.iter().take(MOST_TRIED) {
+            let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
+            let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
+            if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
+                continue;
+            }
+            let (flips, _) = flipped(&screen, &tried, &one.score, &scale, self.options.seed);
+            if flips > SIGNIFICANT {
+                continue;
+            }
+            let refined = self.refined(now, &[], one, &screen)?;
+            let mut added: Vec<Fitted> = refined.into_iter().collect();
+            let significant = |r: &&Ranked| {
+                let chance =
+                    scale.chance(&r.score, screen.left(), screen.basis.rank(), tried.len());
+                chance <= SIGNIFICANT && r.gain > 0.0
+            };
+            let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
+            if periodic(&one) {
+                for other in ranked.iter().filter(periodic).filter(significant) {
+                    let next = self.refined(now, &[], other, &screen)?;
+                    added.extend(next.filter(|next| self.is_apart(next, &added)));
+                    if added.len() > MOST_ORDERS {
+                        break;
+                    }
+                }
+            }
+            let expected = one.score.drop;
+            if let Some(fit) = self.with(now, &[], added, expected)? {
+                return Ok(Some(fit));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the range of the joint tells this order of a periodic error from the others.
+    fn is_apart(&self, next: &Fitted, others: &[Fitted]) -> bool {
+        let angles = self.problem.data.rows.iter().map(|r| r.q[next.spot.row()]);
+        let (low, high) =
+            (angles.clone().fold(f64::MAX, f64::min), angles.fold(f64::MIN, f64::max));
+        let resolved = std::f64::consts::TAU / (high - low);
+        let is_near = |other: &Fitted| {
+            other.spot.place == next.spot.place
+                && (other.spot.form.abs_diff(next.spot.form) as f64) < resolved
+        };
+        !others.iter().any(is_near)
+    }
+
+    /// The model without the effects `out` and with another; `None` if the exact fit does not
+    /// follow what the linear one promised.
+    fn with(
+        &self,
+        now: &Explained,
+        out: &[usize],
+        added: Vec<Fitted>,
+        expected: f64,
+    ) -> Result<Option<Fit>, DiagnoseError> {
+        let mut model = now.fit.model.clone();
+        for &index in out.iter().rev() {
+            model.found.remove(index);
+        }
+        let kept = model.found.len();
+        model.found.extend(added);
+        let before = squares(&now.fit.predicted.gaps, &now.weights);
+        let near = &now.fit.predicted.sims;
+        // An arm that finds no rest with the values of the linear fit begins from none.
+        let fit = refit(self.problem, model.clone(), Some(near), &now.weights).or_else(|_| {
+            model.found[kept..].iter_mut().for_each(|added| added.values.fill(0.0));
+            refit(self.problem, model, Some(near), &now.weights)
+        });
+        let Ok(fit) = fit else { return Ok(None) };
+        let after = squares(&fit.predicted.gaps, &now.weights);
+        Ok((before - after >= 0.5 * expected).then_some(fit))
+    }
+
+    /// The model without the effects `out` (ascending), fitted again.
+    pub(crate) fn fitted_without(
+        &self,
+        now: Explained,
+        out: &[usize],
+    ) -> Result<Explained, DiagnoseError> {
+        let Explained { fit, weights, .. } = now;
+        let mut model = fit.model;
+        for &index in out.iter().rev() {
+            model.found.remove(index);
+        }
+        let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
+        Ok(self.weigh(fit))
+    }
+
+    /// The candidate as a part of the model; a jump at the best of all rows near its own.
+    pub(crate) fn refined(
+        &self,
+        now: &Explained,
+        without: &[usize],
+        one: &Ranked,
+        screen: &Screen<'_>,
+    ) -> Result<Option<Fitted>, DiagnoseError> {
+        let candidate = &screen.candidates[one.candidate];
+        let Some((effect, spot)) = candidate.effect() else { return Ok(None) };
+        let fitted = |spot: Spot, score: &Score| Fitted {
+            effect,
+            spot,
+            least: candidate.least.clone(),
+            values: score.values.iter().copied().collect(),
+        };
+        if effect.form_is().is_none() {
+            return Ok(Some(fitted(spot, &one.score)));
+        }
+        let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);
+        let at = forms.iter().position(|f| *f == spot.form).unwrap_or(0);
+        let from = at.checked_sub(1).map_or(1, |k| forms[k] + 1);
+        let to = forms.get(at + 1).copied().unwrap_or(self.problem.data.rows.len());
+        let near: Vec<Candidate> = (from..to)
+            .map(|form| Candidate::of(self.problem, effect, Spot { form, ..spot }, forms.len()))
+            .collect();
+        let kept = Kept { without, ..Kept::all(&now.fit) };
+        let finer = Screen::new(self.problem, self.folds, &kept, &near, &now.weights);
+        let scores = (0..near.len()).map(|c| (c, finer.score(c)));
+        let best = scores.max_by(|a, b| a.1.drop.total_cmp(&b.1.drop));
+        Ok(best.and_then(|(c, score)| near[c].effect().map(|(_, spot)| fitted(spot, &score))))
+    }
+
+    /// Takes back what is superfluous and exchanges what another explains better.
+    fn pruned(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
+        for _ in 0..MOST_ROUNDS {
+            if now.fit.model.found.len() < 2 {
+                break;
+            }
+            let Some(next) = self.changed(&now)? else { break };
+            now = self.weigh(next);
+        }
+        Ok(now)
+    }
+
+    fn changed(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
+        let scale = self.scale(now);
+        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let fitted = now.fit.model.parameters(self.problem);
+        let variance = scale.variance(left, fitted);
+        if let Some(index) = self.superfluous(now, variance)
+            && let Some(fit) = self.with(now, &[index], Vec::new(), -f64::INFINITY)?
+        {
+            return Ok(Some(fit));
+        }
+        for index in 0..now.fit.model.found.len() {
+            let found = &now.fit.model.found[index];
+            if found.effect.identifier() == "transmission_error" && found.spot.form >= FINE {
+                continue;
+            }
+            let without = [index];
+            let kept = Kept { without: &without, ..Kept::all(&now.fit) };
+            let screen =
+                Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
+            let own = left / variance + self.cost_of(&scale, found);
+            let ranked = self.ranked(&screen, now);
+            let Some(best) = ranked.first() else { continue };
+            let candidate = &self.candidates[best.candidate];
+            let values = best.score.values.iter().zip(&candidate.usual);
+            let its = scale.cost(best.score.rank, candidate.forms, values);
+            let cost = (screen.left() - best.score.drop) / variance + its;
+            let is_it = candidate.effect().is_some_and(|(effect, spot)| {
+                effect.identifier() == found.effect.identifier() && spot.place == found.spot.place
+            });
+            if is_it || cost + EXCHANGE >= own {
+                continue;
+            }
+            let refined = self.refined(now, &without, best, &screen)?;
+            let refined = refined.into_iter().collect();
+            if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)? {
+                if squares(&fit.predicted.gaps, &now.weights) / variance + its < own {
+                    return Ok(Some(fit));
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// The effect that costs most beyond what it explains beside all the others, if one does.
+    fn superfluous(&self, now: &Explained, variance: f64) -> Option<usize> {
+        let (normal, _) = normal_equations(self.problem, &now.fit, &now.weights);
+        let basis = Basis::new(&normal);
+        let scale = self.scale(now);
+        let mut at = Model::nuisances(self.problem);
+        let mut worst: Option<(f64, usize)> = None;
+        for (index, found) in now.fit.model.found.iter().enumerate() {
+            let size = found.values.len();
+            let own = basis.t.rows(at, size);
+            at += size;
+            // Without it the squares rise by its values in the metric of their covariance.
+            let values = DVector::from_column_slice(&found.values);
+            let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
+            let excess = self.cost_of(&scale, found) - rise / variance;
+            if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
+                worst = Some((excess, index));
+            }
+        }
+        worst.map(|(_, index)| index)
+    }
+}

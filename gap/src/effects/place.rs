@@ -1,0 +1,77 @@
+//! Where an effect acts.
+
+use std::fmt;
+
+/// Where an effect acts; numbers count from 1 at the base, as they are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// A joint.
+    Joint(usize),
+    /// A link, that is a row of the table.
+    Link(usize),
+    /// The base.
+    Base,
+    /// The tool.
+    Tool,
+    /// The arm as a whole.
+    Arm,
+    /// The measuring instrument.
+    Instrument,
+}
+
+impl Place {
+    /// Row of the table, from 0; the first for what is not at a row.
+    pub fn row(self) -> usize {
+        match self {
+            Place::Joint(number) | Place::Link(number) => number.saturating_sub(1),
+            Place::Base | Place::Tool | Place::Arm | Place::Instrument => 0,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Joint(i) => write!(f, "joint {i}"),
+            Place::Link(i) => write!(f, "link {i}"),
+            Place::Base => f.write_str("base"),
+            Place::Tool => f.write_str("tool"),
+            Place::Arm => f.write_str("arm"),
+            Place::Instrument => f.write_str("instrument"),
+        }
+    }
+}
+
+/// A place and a form of the effect there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Spot {
+    /// Where.
+    pub place: Place,
+    /// Which form; 0 where there is one only.
+    pub form: usize,
+}
+
+impl Spot {
+    /// The first form at a place.
+    pub fn at(place: Place) -> Self {
+        Self { place, form: 0 }
+    }
+
+    /// Row of the table, from 0.
+    pub fn row(self) -> usize {
+        self.place.row()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_print_as_the_format_has_them() {
+        assert_eq!(Place::Joint(2).to_string(), "joint 2");
+        assert_eq!(Place::Link(3).to_string(), "link 3");
+        assert_eq!(Place::Instrument.to_string(), "instrument");
+        assert_eq!((Place::Link(3).row(), Place::Base.row()), (2, 0));
+    }
+}

@@ -1,0 +1,137 @@
+//! Every block against small differences of the exact model.
+
+use nalgebra::{Isometry3, Matrix6xX, Vector6};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Convention};
+
+use super::*;
+use crate::fixture::{bent, row, table};
+use crate::measurement::{Kind, Measurements};
+use crate::simulate::{Reading, Sim, moments};
+
+/// An arm of each convention, one with a slide; soft enough for loads to matter.
+fn arms() -> Vec<Arm> {
+    let mut modified = bent();
+    modified.convention = Convention::Modified;
+    let mut slide = bent();
+    slide.joints[2].motion = Motion::Prismatic;
+    slide.joints[2].alpha = 0.4;
+    vec![bent(), modified, slide]
+}
+
+fn data(kind: Kind) -> Measurements {
+    let w = Vector6::new(300.0, -200.0, -800.0, 20.0, -30.0, 10.0);
+    let rows = (0..8).map(|k| {
+        let at = f64::from(k);
+        let mut row = row(&[0.3 + 0.4 * at, -0.7 + 0.2 * at, 0.4 - 0.1 * at], w * (0.5 + 0.1 * at));
+        row.offset = Some([0.05, 0.1, 0.2]);
+        row.direction = Some(vec![1, -1, 1]);
+        row.temperature = Some(20.0 + at);
+        row.time = Some(60.0 * at);
+        row.group = k as usize;
+        row
+    });
+    let mut data = table(rows.collect(), kind);
+    data.sim_given = kind.components();
+    data
+}
+
+/// The block and its central difference at row 5.
+fn both(
+    arm: &Arm,
+    data: &Measurements,
+    effect: &dyn Effect,
+    spot: Spot,
+) -> (Matrix6xX<f64>, Matrix6xX<f64>) {
+    let (row, when) = (&data.rows[5], &moments(data)[5]);
+    let none = Vector6::zeros();
+    let actual = |values: &[f64]| {
+        let values = values.to_vec();
+        move |loaded: bool| {
+            let mut actual = Actual::new(arm, &row.q, if loaded { &row.wrench } else { &none });
+            effect.alter(&mut actual, row, when, spot, &values);
+            actual
+        }
+    };
+    let count = effect.parameters(arm, spot, data).len();
+    let zero = vec![0.0; count];
+    let [x, y, z] = row.offset.unwrap_or_default();
+    let measured = Isometry3::translation(x, y, z);
+    let sim = Sim::of(data.kind, measured, None, actual(&zero)).unwrap();
+    let block = sim.change(|state, loaded| {
+        let actual = actual(&zero)(loaded);
+        let point = sim.point(state);
+        let base = &sim.base;
+        let scene = Scene { nominal: arm, row, when, actual: &actual, state, point, base };
+        effect.block(&scene, spot)
+    });
+    let size = block.amax().max(1e-12);
+    // A change of about a micrometre.
+    let step = 1e-6 / size;
+    let columns = (0..count).map(|k| {
+        let at = |h: f64| -> Reading {
+            let mut values = zero.clone();
+            values[k] = h;
+            Sim::of(data.kind, measured, None, actual(&values)).unwrap().reading()
+        };
+        let (high, low) = (at(step), at(-step));
+        let turn = (high.rotation * low.rotation.inverse()).scaled_axis();
+        let shift = high.position - low.position;
+        Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z) / (2.0 * step)
+    });
+    (block, Matrix6xX::from_columns(&columns.collect::<Vec<_>>()))
+}
+
+#[test]
+fn every_block_is_the_derivative_of_the_exact_model() {
+    let displacement = Kind::Displacement { components: [true; 6] };
+    for arm in arms() {
+        for kind in [Kind::Pose { orientation: true }, displacement] {
+            let data = data(kind);
+            for effect in CATALOGUE {
+                for place in effect.places(&arm) {
+                    let form = effect.forms(&arm, place, &data)[0];
+                    let spot = Spot { place, form };
+                    let (block, difference) = both(&arm, &data, effect, spot);
+                    let error = (&block - &difference).amax();
+                    // The blocks leave out how the change of posture changes the loads: of the
+                    // second order in the deflection, here some 1 %.
+                    let scale = difference.amax();
+                    let name = effect.identifier();
+                    // Between two readings of one pose a weight and a length cancel but for that
+                    // part itself, and the blocks leave out that a longer beam bends more.
+                    let part = match name {
+                        "link_weight" if kind == displacement => 0.15,
+                        "link_geometry" | "thermal_growth" if kind == displacement => 0.4,
+                        _ => 0.03,
+                    };
+                    assert!(
+                        error <= part * scale + 1e-9,
+                        "{name} at {place}, {:?} {kind:?}: {error} of {scale}\n{block}{difference}",
+                        arm.convention
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn identifiers_are_unique() {
+    let mut names: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), CATALOGUE.len());
+}
+
+#[test]
+fn a_joint_is_at_most_rigid() {
+    let arm = bent();
+    let data = data(Kind::Pose { orientation: true });
+    let spot = Spot::at(Place::Joint(2));
+    let parameters = JointCompliance.parameters(&arm, spot, &data);
+    assert_eq!(parameters[0].least, -arm.joints[1].compliance);
+    let mut actual = Actual::new(&arm, &[0.0; 3], &Vector6::zeros());
+    JointCompliance.alter(&mut actual, &data.rows[0], &moments(&data)[0], spot, &[-1.0]);
+    assert_eq!(actual.arm.joints[1].compliance, 0.0);
+}

@@ -1,0 +1,42 @@
+//! Postures.
+
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Joint};
+
+use super::super::noise::{Dice, Stream};
+use super::{Design, Shape, rounded};
+
+/// Where a joint that has no limits may go: 150° to either side, or half a metre out.
+fn range(joint: &Joint) -> [f64; 2] {
+    let free = match joint.motion {
+        Motion::Revolute => [-150_f64.to_radians(), 150_f64.to_radians()],
+        Motion::Prismatic => [0.0, 0.5],
+    };
+    joint.limits.unwrap_or(free)
+}
+
+/// Part of each range that a narrow design keeps to.
+const NARROW: f64 = 0.1;
+
+/// Joint readings, one posture each.
+pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
+    let mut dice = Dice::new(design.seed, Stream::Poses);
+    let ranges: Vec<[f64; 2]> = arm
+        .joints
+        .iter()
+        .map(|joint| {
+            let [low, high] = range(joint);
+            match design.shape {
+                Shape::Narrow => {
+                    let width = NARROW * (high - low);
+                    let from = dice.between(low, high - width);
+                    [from, from + width]
+                }
+                _ => [low, high],
+            }
+        })
+        .collect();
+    let mut posture =
+        || ranges.iter().map(|[low, high]| rounded(dice.between(*low, *high), 1e6)).collect();
+    (0..design.poses).map(|_| posture()).collect()
+}

@@ -1,0 +1,192 @@
+//! What the instrument shows of the arm: frames, drift, slips, scale, noise.
+
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector6};
+
+use super::assemble::Situation;
+use super::balance::{Unstable, rest};
+use super::noise::{Dice, Noise, Stream};
+use super::reading::direction;
+use super::reality::{Reality, Slip};
+use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
+use crate::measurement::{Kind, Row};
+
+/// Frames that nobody knows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frames {
+    /// The robot's base in the measuring frame.
+    pub base: nalgebra::Isometry3<f64>,
+    /// The measured tool frame in the robot file's tool frame.
+    pub tool: nalgebra::Isometry3<f64>,
+}
+
+impl Default for Frames {
+    fn default() -> Self {
+        Frames { base: nalgebra::Isometry3::identity(), tool: nalgebra::Isometry3::identity() }
+    }
+}
+
+impl Frames {
+    /// Frames that are nowhere near the robot file's: the base up to two metres off and turned any
+    /// way, the tool up to a hand's breadth.
+    pub fn unknown(seed: u64) -> Frames {
+        let mut dice = Dice::new(seed, Stream::Frames);
+        let mut draw = |reach: f64| {
+            let place = reach * Vector3::from_fn(|_, _| dice.between(-1.0, 1.0));
+            nalgebra::Isometry3::new(place, dice.between(0.5, 3.0) * dice.direction())
+        };
+        Frames { base: draw(2.0), tool: draw(0.1) }
+    }
+}
+
+/// Position and orientation, or the difference of two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    pub(super) position: Vector3<f64>,
+    pub(super) rotation: Matrix3<f64>,
+}
+
+impl Shown {
+    /// Out of what a file has.
+    pub(super) fn of(vector: &Vector6<f64>) -> Shown {
+        Shown {
+            position: Vector3::new(vector[0], vector[1], vector[2]),
+            rotation: rotation_of(&Vector3::new(vector[3], vector[4], vector[5])),
+        }
+    }
+
+    /// As a file has it.
+    pub(super) fn vector(&self) -> Vector6<f64> {
+        let (p, r) = (self.position, rotation_vector(&self.rotation));
+        Vector6::new(p.x, p.y, p.z, r.x, r.y, r.z)
+    }
+
+    fn less(&self, other: &Shown) -> Shown {
+        Shown {
+            position: self.position - other.position,
+            rotation: self.rotation * other.rotation.transpose(),
+        }
+    }
+
+    pub(super) fn noisy(mut self, noise: Noise, dice: &mut Dice) -> Shown {
+        self.position += noise.position * dice.normal3();
+        self.rotation = rotation_of(&(noise.rotation * dice.normal3())) * self.rotation;
+        self
+    }
+
+    /// From here towards `other`, part of the way.
+    pub(super) fn towards(&self, other: &Shown, part: f64) -> Shown {
+        let turn = rotation_vector(&(other.rotation * self.rotation.transpose()));
+        Shown {
+            position: self.position + part * (other.position - self.position),
+            rotation: rotation_of(&(part * turn)) * self.rotation,
+        }
+    }
+}
+
+/// A row among the rows: what came before counts.
+#[derive(Clone, Copy)]
+pub(super) struct InOrder<'a> {
+    pub(super) row: &'a Row,
+    /// From 1.
+    pub(super) number: usize,
+    pub(super) before: Option<&'a Row>,
+    pub(super) first: &'a Row,
+}
+
+impl InOrder<'_> {
+    /// Seconds since the first row; rows where there is no time.
+    fn elapsed(&self) -> f64 {
+        match (self.row.time, self.first.time) {
+            (Some(now), Some(then)) => now - then,
+            _ => (self.number - 1) as f64,
+        }
+    }
+
+    /// Kelvin above the first row; 0 where there is no temperature.
+    fn warmth(&self) -> f64 {
+        match (self.row.temperature, self.first.temperature) {
+            (Some(now), Some(then)) => now - then,
+            _ => 0.0,
+        }
+    }
+}
+
+impl Reality {
+    fn situation(&self, at: InOrder<'_>, wrench: &Vector6<f64>) -> Situation {
+        let after = |slips: &[Slip]| {
+            let over = slips.iter().filter(|slip| at.number > slip.after);
+            over.map(|slip| slip.by).sum::<Vector6<f64>>()
+        };
+        Situation {
+            values: self.joint_values(at.row, at.before),
+            directions: (0..self.joints.len()).map(|j| direction(at.row, j)).collect(),
+            growth: 1.0 + self.expansion * at.warmth(),
+            tool_frame: self.tool_frame + after(&self.tool_slips),
+            wrench: (1.0 + self.wrench_scale) * wrench,
+        }
+    }
+
+    /// The arm's base in the measuring frame; its small displacements add up.
+    fn standing(&self, at: InOrder<'_>, frames: &Frames) -> Matrix4<f64> {
+        let over = self.base_slips.iter().filter(|slip| at.number > slip.after);
+        let slipped: Vector6<f64> = over.map(|slip| slip.by).sum();
+        let all = self.base_frame + slipped + at.elapsed() * self.drift;
+        frames.base.to_homogeneous() * displaced(&all)
+    }
+
+    fn seen(&self, standing: &Matrix4<f64>, tool: &Matrix4<f64>, row: &Row) -> Shown {
+        let frame = standing * tool;
+        // A marker whose place is not known sits where the tool frame does.
+        let offset = Vector3::from(row.offset.unwrap_or([0.0; 3]));
+        Shown {
+            position: (1.0 + self.instrument_scale) * carried(&frame, &offset),
+            rotation: rotation(&frame),
+        }
+    }
+
+    /// What a noiseless instrument shows.
+    pub(super) fn shown(
+        &self,
+        at: InOrder<'_>,
+        kind: Kind,
+        frames: &Frames,
+    ) -> Result<Shown, Unstable> {
+        let mount = frames.tool.to_homogeneous();
+        let standing = self.standing(at, frames);
+        let under = |wrench: &Vector6<f64>| {
+            let chain = self.chain(&self.situation(at, wrench), &mount);
+            let tool = chain.shape(&rest(&chain)?).tool;
+            Ok(self.seen(&standing, &tool, at.row))
+        };
+        let loaded: Shown = under(&at.row.wrench)?;
+        match kind {
+            Kind::Pose { .. } => Ok(loaded),
+            Kind::Displacement { .. } => Ok(loaded.less(&under(&Vector6::zeros())?)),
+        }
+    }
+
+    /// What a sim of first order predicts: the loads are those of the undeformed arm, and move it
+    /// by `J C Jᵀ w` and the links' bending alone.
+    pub(super) fn first_order(&self, at: InOrder<'_>, kind: Kind) -> Shown {
+        let mount = Matrix4::identity();
+        let standing = self.standing(at, &Frames::default());
+        let under = |wrench: &Vector6<f64>| {
+            let chain = self.chain(&self.situation(at, wrench), &mount);
+            let straight = vec![0.0; chain.unknowns];
+            let yielded = chain.wanted(&straight);
+            let twist = chain.first_order_twist(&yielded);
+            let mut tool = chain.shape(&straight).tool;
+            let turned = rotation_of(&Vector3::new(twist[3], twist[4], twist[5])) * rotation(&tool);
+            tool.fixed_view_mut::<3, 3>(0, 0).copy_from(&turned);
+            for k in 0..3 {
+                tool[(k, 3)] += twist[k];
+            }
+            self.seen(&standing, &tool, at.row)
+        };
+        let loaded = under(&at.row.wrench);
+        match kind {
+            Kind::Pose { .. } => loaded,
+            Kind::Displacement { .. } => loaded.less(&under(&Vector6::zeros())),
+        }
+    }
+}

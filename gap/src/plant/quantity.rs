@@ -1,0 +1,229 @@
+//! What the numbers of an effect are, and the units in which they may be written.
+
+/// The kind of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// m.
+    Length,
+    /// rad.
+    Angle,
+    /// rad/(N·m).
+    AnglePerMoment,
+    /// m/N.
+    LengthPerForce,
+    /// rad/(N·m)³.
+    AnglePerMomentCubed,
+    /// m/N³.
+    LengthPerForceCubed,
+    /// 1/(N·m²): one over EI or GJ.
+    Flexibility,
+    /// kg.
+    Mass,
+    /// A plain number.
+    Ratio,
+    /// 1/K.
+    PerKelvin,
+    /// m/s; metres per row where the rows have no time.
+    LengthRate,
+    /// rad/s; radians per row where the rows have no time.
+    AngleRate,
+    /// The number of a row, from 1.
+    Row,
+}
+
+/// A unit and what it is in SI.
+type Named = (&'static str, f64);
+
+const DEGREE: f64 = core::f64::consts::PI / 180.0;
+
+const LENGTHS: [Named; 4] = [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("in", 0.0254)];
+const ANGLES: [Named; 4] = [("rad", 1.0), ("mrad", 1e-3), ("urad", 1e-6), ("deg", DEGREE)];
+const MOMENTS: [Named; 4] = [("N*m", 1.0), ("Nm", 1.0), ("Nmm", 1e-3), ("kNm", 1e3)];
+const FORCES: [Named; 3] = [("N", 1.0), ("kN", 1e3), ("lbf", 4.448_221_615_260_5)];
+const TIMES: [Named; 4] = [("s", 1.0), ("min", 60.0), ("h", 3600.0), ("row", 1.0)];
+const MASSES: [Named; 3] = [("kg", 1.0), ("g", 1e-3), ("lb", 0.453_592_37)];
+const PARTS: [Named; 4] = [("", 1.0), ("1", 1.0), ("%", 1e-2), ("ppm", 1e-6)];
+const KELVINS: [Named; 2] = [("K", 1.0), ("degC", 1.0)];
+const NUMBER: [Named; 2] = [("", 1.0), ("1", 1.0)];
+const AREAS: [Named; 4] = [("N*m^2", 1.0), ("Nm^2", 1.0), ("Nm2", 1.0), ("kN*m^2", 1e3)];
+
+impl Quantity {
+    /// The SI unit, as it is printed.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::Length => "m",
+            Quantity::Angle => "rad",
+            Quantity::AnglePerMoment => "rad/(N·m)",
+            Quantity::LengthPerForce => "m/N",
+            Quantity::AnglePerMomentCubed => "rad/(N·m)^3",
+            Quantity::LengthPerForceCubed => "m/N^3",
+            Quantity::Flexibility => "1/(N·m²)",
+            Quantity::Mass => "kg",
+            Quantity::Ratio => "1",
+            Quantity::PerKelvin => "1/K",
+            Quantity::LengthRate => "m/s",
+            Quantity::AngleRate => "rad/s",
+            Quantity::Row => "",
+        }
+    }
+
+    /// Numerators, denominators, and the power of the denominator.
+    fn parts(self) -> (&'static [Named], &'static [Named], i32) {
+        match self {
+            Quantity::Length => (&LENGTHS, &[], 0),
+            Quantity::Angle => (&ANGLES, &[], 0),
+            Quantity::AnglePerMoment => (&ANGLES, &MOMENTS, 1),
+            Quantity::LengthPerForce => (&LENGTHS, &FORCES, 1),
+            Quantity::AnglePerMomentCubed => (&ANGLES, &MOMENTS, 3),
+            Quantity::LengthPerForceCubed => (&LENGTHS, &FORCES, 3),
+            Quantity::Flexibility => (&NUMBER, &AREAS, 1),
+            Quantity::Mass => (&MASSES, &[], 0),
+            Quantity::Ratio => (&PARTS, &[], 0),
+            Quantity::PerKelvin => (&PARTS, &KELVINS, 1),
+            Quantity::LengthRate => (&LENGTHS, &TIMES, 1),
+            Quantity::AngleRate => (&ANGLES, &TIMES, 1),
+            Quantity::Row => (&[("", 1.0)], &[], 0),
+        }
+    }
+
+    /// The units that may be written, as a message lists them.
+    pub fn units(self) -> String {
+        let (above, below, power) = self.parts();
+        let names = |list: &[Named]| {
+            let names: Vec<&str> =
+                list.iter().map(|(name, _)| *name).filter(|n| !n.is_empty()).collect();
+            names.join(", ")
+        };
+        match (below.is_empty(), power) {
+            (true, _) if self == Quantity::Row => "no unit: the number of a row".to_owned(),
+            (true, _) => names(above),
+            (false, 3) => {
+                format!("one of {} over the cube of one of {}", names(above), names(below))
+            }
+            (false, _) => format!("one of {} over one of {}", names(above), names(below)),
+        }
+    }
+
+    /// What one `unit` is in SI; `None` if it is no unit of this quantity.
+    fn factor(self, unit: &str) -> Option<f64> {
+        let (above, below, power) = self.parts();
+        let find =
+            |list: &[Named], name: &str| list.iter().find(|(n, _)| *n == name).map(|(_, f)| *f);
+        if below.is_empty() {
+            return find(above, unit);
+        }
+        let (numerator, denominator) = unit.split_once('/')?;
+        let denominator = match power {
+            3 => denominator.strip_suffix("^3")?,
+            _ => denominator,
+        };
+        let bare = denominator.strip_prefix('(').and_then(|d| d.strip_suffix(')'));
+        Some(find(above, numerator)? / find(below, bare.unwrap_or(denominator))?.powi(power))
+    }
+
+    /// A number with its unit, `0.3 mrad`, in SI. A number alone is in SI already.
+    pub fn read(self, text: &str) -> Option<f64> {
+        let text = text.trim();
+        // The longest beginning that is a number: the `e` of `1e-7` belongs to it.
+        let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
+        let (number, unit) = ends
+            .filter_map(|end| {
+                let (head, tail) = text.split_at(end);
+                let digits = head.bytes().any(|b| b.is_ascii_digit());
+                head.parse::<f64>().ok().filter(|x| digits && x.is_finite()).map(|x| (x, tail))
+            })
+            .next()?;
+        let plain = normal(unit);
+        let factor = if plain.is_empty() { 1.0 } else { self.factor(&plain)? };
+        let value = number * factor;
+        let row = value >= 1.0 && value.fract() == 0.0 && value < 1e9;
+        (value.is_finite() && (self != Quantity::Row || row)).then_some(value)
+    }
+}
+
+/// A unit as the tables above have it: no spaces, `*` between factors, `^` before powers.
+fn normal(unit: &str) -> String {
+    let mut text = String::new();
+    for c in unit.chars().filter(|c| !c.is_whitespace()) {
+        match c {
+            '·' => text.push('*'),
+            'µ' | 'μ' => text.push('u'),
+            '²' => text.push_str("^2"),
+            '³' => text.push_str("^3"),
+            other => text.push(other),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_read() {
+        let cases = [
+            (Quantity::Angle, "0.3 mrad", 0.3e-3),
+            (Quantity::Angle, "-2e-4", -2e-4),
+            (Quantity::Angle, "180deg", core::f64::consts::PI),
+            (Quantity::Length, "30um", 30.0 * 1e-6),
+            (Quantity::Length, "30 µm", 30.0 * 1e-6),
+            (Quantity::AnglePerMoment, "1.5e-7 rad/(N·m)", 1.5e-7),
+            (Quantity::AnglePerMoment, "1 urad/Nm", 1e-6),
+            (Quantity::AnglePerMomentCubed, "-2e-13 rad/(N·m)³", -2e-13),
+            (Quantity::LengthPerForceCubed, "1 um/N^3", 1e-6),
+            (Quantity::LengthPerForce, "2 um/kN", 2.0 * (1e-6 / 1e3)),
+            (Quantity::Flexibility, "3e-7 1/(N·m²)", 3e-7),
+            (Quantity::Mass, "250 g", 0.25),
+            (Quantity::Ratio, "2 %", 0.02),
+            (Quantity::PerKelvin, "12 ppm/K", 12.0 * (1e-6 / 1.0)),
+            (Quantity::LengthRate, "1 um/row", 1e-6),
+            (Quantity::Row, "40", 40.0),
+        ];
+        for (quantity, text, expected) in cases {
+            assert_eq!(quantity.read(text), Some(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_of_its_kind_is_not_read() {
+        let cases = [
+            (Quantity::Angle, "0.3 mm"),
+            (Quantity::Angle, "mrad"),
+            (Quantity::Angle, "nan"),
+            (Quantity::Angle, "1e999"),
+            (Quantity::Angle, ""),
+            (Quantity::AnglePerMoment, "1e-7 rad"),
+            (Quantity::AnglePerMomentCubed, "1e-7 rad/Nm"),
+            (Quantity::Row, "1.5"),
+            (Quantity::Row, "0"),
+            (Quantity::Ratio, "1 m"),
+        ];
+        for (quantity, text) in cases {
+            assert_eq!(quantity.read(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn every_si_unit_is_one() {
+        use Quantity::*;
+        for quantity in [
+            Length,
+            Angle,
+            AnglePerMoment,
+            LengthPerForce,
+            AnglePerMomentCubed,
+            LengthPerForceCubed,
+            Flexibility,
+            Mass,
+            Ratio,
+            PerKelvin,
+            LengthRate,
+            AngleRate,
+            Row,
+        ] {
+            assert_eq!(quantity.read(&format!("3 {}", quantity.unit())), Some(3.0));
+            assert!(!quantity.units().is_empty());
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! The arm as it really is: the robot file's numbers with those of the truths put in.
+
+use nalgebra::{Matrix4, Vector3, Vector6};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Beam, Convention};
+
+use super::effect::{Effect, Order, Place, order};
+use super::transform;
+use super::truth::Truth;
+
+/// Everything about the real arm that does not change from row to row.
+#[derive(Clone, Debug)]
+pub(super) struct Reality {
+    pub(super) convention: Convention,
+    pub(super) gravity: Vector3<f64>,
+    pub(super) joints: Vec<RealJoint>,
+    /// Tool frame in the last frame: rotation and translation apart, for only the latter grows.
+    pub(super) tool: Matrix4<f64>,
+    /// The arm's base in the measuring frame.
+    pub(super) base_frame: Vector6<f64>,
+    /// The tool frame's displacement.
+    pub(super) tool_frame: Vector6<f64>,
+    /// Of the foundation, about x and y, rad/(N·m).
+    pub(super) rock: [f64; 2],
+    /// Of the foundation, m/N.
+    pub(super) give: f64,
+    pub(super) wrench_scale: f64,
+    /// Where the force acts, in the tool frame.
+    pub(super) payload: Vector3<f64>,
+    pub(super) expansion: f64,
+    pub(super) instrument_scale: f64,
+    /// Per second, or per row.
+    pub(super) drift: Vector6<f64>,
+    pub(super) base_slips: Vec<Slip>,
+    pub(super) tool_slips: Vec<Slip>,
+    /// How much of the loaded geometry the user's sim leaves out.
+    pub(super) geometric: f64,
+}
+
+/// One row of the table.
+#[derive(Clone, Debug)]
+pub(super) struct RealJoint {
+    pub(super) motion: Motion,
+    pub(super) theta: f64,
+    pub(super) d: f64,
+    pub(super) a: f64,
+    pub(super) alpha: f64,
+    pub(super) beta: f64,
+    pub(super) offset: f64,
+    pub(super) ratio: f64,
+    pub(super) lag: f64,
+    pub(super) width: f64,
+    /// Other joints, from 0, and how far they turn this one.
+    pub(super) couplings: Vec<(usize, f64)>,
+    pub(super) orders: Vec<(Order, f64)>,
+    pub(super) compliance: f64,
+    pub(super) cubic: f64,
+    pub(super) windup: f64,
+    pub(super) tilt: [f64; 2],
+    /// At the file's centre of mass, kg.
+    pub(super) mass: f64,
+    pub(super) com: Vector3<f64>,
+    /// At the middle of the chord, kg.
+    pub(super) mass_on_chord: f64,
+    pub(super) beam: Option<RealBeam>,
+}
+
+/// A link that bends, by its flexibilities.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RealBeam {
+    /// 1/EA, 1/N.
+    pub(super) stretch: f64,
+    /// 1/(κGA), 1/N.
+    pub(super) shear: f64,
+    /// 1/GJ, 1/(N·m²).
+    pub(super) torsion: f64,
+    /// 1/EI about the beam's y axis, 1/(N·m²).
+    pub(super) bend_y: f64,
+    /// 1/EI about the beam's z axis, 1/(N·m²).
+    pub(super) bend_z: f64,
+    /// Mass per length, kg/m.
+    pub(super) line_density: f64,
+}
+
+/// A frame that jumps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slip {
+    /// The last row before it, counted from 1.
+    pub(super) after: usize,
+    pub(super) by: Vector6<f64>,
+}
+
+impl RealBeam {
+    fn of(beam: &Beam) -> RealBeam {
+        let shear = |kappa| 1.0 / (kappa * beam.shear_modulus * beam.area);
+        RealBeam {
+            stretch: 1.0 / (beam.youngs_modulus * beam.area),
+            shear: beam.shear_coefficient.map_or(0.0, shear),
+            torsion: 1.0 / (beam.shear_modulus * beam.j),
+            bend_y: 1.0 / (beam.youngs_modulus * beam.iy),
+            bend_z: 1.0 / (beam.youngs_modulus * beam.iz),
+            line_density: beam.density * beam.area,
+        }
+    }
+}
+
+fn sixfold(truth: &Truth) -> Vector6<f64> {
+    let names = ["x", "y", "z", "rx", "ry", "rz"];
+    Vector6::from_fn(|k, _| truth.value(names[k]))
+}
+
+impl Reality {
+    /// The robot file as it is.
+    pub(super) fn nominal(arm: &Arm) -> Reality {
+        let joints = arm.joints.iter().map(|joint| RealJoint {
+            motion: joint.motion,
+            theta: joint.theta,
+            d: joint.d,
+            a: joint.a,
+            alpha: joint.alpha,
+            beta: 0.0,
+            offset: 0.0,
+            ratio: 0.0,
+            lag: 0.0,
+            width: 0.0,
+            couplings: Vec::new(),
+            orders: Vec::new(),
+            compliance: joint.compliance,
+            cubic: 0.0,
+            windup: 0.0,
+            tilt: [0.0; 2],
+            mass: joint.mass,
+            com: joint.com,
+            mass_on_chord: 0.0,
+            beam: joint.beam.as_ref().map(RealBeam::of),
+        });
+        Reality {
+            convention: arm.convention,
+            gravity: arm.gravity,
+            joints: joints.collect(),
+            tool: transform::of(&arm.tool),
+            base_frame: Vector6::zeros(),
+            tool_frame: Vector6::zeros(),
+            rock: [0.0; 2],
+            give: 0.0,
+            wrench_scale: 0.0,
+            payload: Vector3::zeros(),
+            expansion: 0.0,
+            instrument_scale: 0.0,
+            drift: Vector6::zeros(),
+            base_slips: Vec::new(),
+            tool_slips: Vec::new(),
+            geometric: 0.0,
+        }
+    }
+
+    /// The robot file with the truths put in; truths about the same thing add up.
+    ///
+    /// # Errors
+    /// In words, a total that cannot be: a spring, beam or mass below zero.
+    pub(super) fn new(arm: &Arm, truths: &[Truth]) -> Result<Reality, String> {
+        let mut reality = Reality::nominal(arm);
+        for truth in truths {
+            reality.put(truth);
+        }
+        for (j, joint) in reality.joints.iter().enumerate() {
+            let beam = joint.beam.unwrap_or_default();
+            let totals = [
+                ("compliance of joint", joint.compliance),
+                ("tilt_x of joint", joint.tilt[0]),
+                ("tilt_y of joint", joint.tilt[1]),
+                ("1/EI of link", beam.bend_y.min(beam.bend_z)),
+                ("1/GJ of link", beam.torsion),
+                ("mass of link", joint.mass.min(joint.mass_on_chord)),
+            ];
+            for (what, total) in totals {
+                not_negative(&format!("{what} {}", j + 1), total)?;
+            }
+        }
+        not_negative("rocking compliance of the base", reality.rock[0].min(reality.rock[1]))?;
+        not_negative("giving compliance of the base", reality.give)?;
+        Ok(reality)
+    }
+
+    fn put(&mut self, truth: &Truth) {
+        let value = |name: &str| truth.value(name);
+        match truth.place {
+            Place::Joint(i) => return self.joints[i - 1].put_at_joint(truth),
+            Place::Link(i) => return self.joints[i - 1].put_at_link(truth),
+            _ => {}
+        }
+        let slip = Slip { after: value("after") as usize, by: sixfold(truth) };
+        match (truth.effect, truth.place) {
+            (Effect::BaseFrame, _) => self.base_frame += sixfold(truth),
+            (Effect::ToolFrame, _) => self.tool_frame += sixfold(truth),
+            (Effect::BaseCompliance, _) => {
+                self.rock[0] += value("rock_x");
+                self.rock[1] += value("rock_y");
+                self.give += value("give");
+            }
+            (Effect::WrenchScale, _) => self.wrench_scale += value("scale"),
+            (Effect::PayloadCom, _) => {
+                self.payload += Vector3::new(value("x"), value("y"), value("z"));
+            }
+            (Effect::ThermalGrowth, _) => self.expansion += value("expansion"),
+            (Effect::InstrumentScale, _) => self.instrument_scale += value("scale"),
+            (Effect::Drift, _) => self.drift += sixfold(truth),
+            (Effect::Slip, Place::Tool) => self.tool_slips.push(slip),
+            (Effect::Slip, _) => self.base_slips.push(slip),
+            (Effect::GeometricStiffness, _) => self.geometric += value("fraction"),
+            // The others act at joints and links.
+            _ => {}
+        }
+    }
+}
+
+fn not_negative(what: &str, total: f64) -> Result<(), String> {
+    if total >= 0.0 {
+        return Ok(());
+    }
+    Err(format!("the {what} comes to {total:e}, expected at least 0: make the effect smaller"))
+}
+
+impl RealJoint {
+    fn put_at_joint(&mut self, truth: &Truth) {
+        let value = |name: &str| truth.value(name);
+        match truth.effect {
+            Effect::JointOffset => self.offset += value("offset"),
+            Effect::JointCompliance => self.compliance += value("compliance"),
+            Effect::JointHardening => self.cubic += value("cubic"),
+            Effect::BearingCompliance => {
+                self.tilt[0] += value("tilt_x");
+                self.tilt[1] += value("tilt_y");
+            }
+            Effect::Backlash => self.width += value("width"),
+            Effect::FrictionHysteresis => self.windup += value("windup"),
+            Effect::JointRatio => self.ratio += value("ratio"),
+            Effect::SettlingLag => self.lag += value("fraction"),
+            Effect::TransmissionError => {
+                let terms = truth.values.iter().filter_map(|(n, v)| order(n).map(|o| (o, *v)));
+                self.orders.extend(terms);
+            }
+            Effect::JointCoupling => {
+                let number = |name: &str| name.strip_prefix("joint ")?.parse::<usize>().ok();
+                let terms = truth.values.iter().filter_map(|(n, v)| Some((number(n)? - 1, *v)));
+                self.couplings.extend(terms);
+            }
+            // The others do not act at joints.
+            _ => {}
+        }
+    }
+
+    fn put_at_link(&mut self, truth: &Truth) {
+        let value = |name: &str| truth.value(name);
+        match truth.effect {
+            Effect::LinkGeometry => {
+                self.theta += value("theta");
+                self.d += value("d");
+                self.a += value("a");
+                self.alpha += value("alpha");
+                self.beta += value("beta");
+            }
+            Effect::LinkWeight if self.mass > 0.0 => self.mass += value("mass"),
+            Effect::LinkWeight => self.mass_on_chord += value("mass"),
+            Effect::LinkCompliance => {
+                let beam = self.beam.get_or_insert_default();
+                beam.bend_y += value("bending");
+                beam.bend_z += value("bending");
+                beam.torsion += value("torsion");
+            }
+            // The others do not act at links.
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! The plant on its design: how large an effect's gap is, in multiples of the noise.
+
+use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
+
+use super::draw::{resized, typical};
+use super::{Plan, WithholdError};
+use crate::measurement::Measurements;
+use crate::plant::noise::Dice;
+use crate::plant::{Effect, Place, Plant, PlantError, Truth};
+
+/// An effect of usual size that does no more than this, in multiples of the noise, does not show: it
+/// would have to be thousands of times as large.
+const FAINT: f64 = 1e-3;
+
+/// Everything that cases share.
+pub(super) struct Bench<'a> {
+    pub(super) plan: &'a Plan<'a>,
+    /// What the arm of the file shows, without noise.
+    nominal: Measurements,
+    /// An orthonormal basis of what unknown frames could do to the whitened gap.
+    nuisance: Option<DMatrix<f64>>,
+}
+
+/// An effect put in, and what it does.
+pub(super) struct Planted {
+    pub(super) truth: Truth,
+    pub(super) multiple: f64,
+    pub(super) exact: Measurements,
+}
+
+impl<'a> Bench<'a> {
+    pub(super) fn new(plan: &'a Plan<'a>) -> Result<Bench<'a>, WithholdError> {
+        let components = plan.design.kind.components();
+        for (what, range, noise) in
+            [("position", 0..3, plan.noise.position), ("rotation", 3..6, plan.noise.rotation)]
+        {
+            if noise <= 0.0 && range.into_iter().any(|k| components[k]) {
+                return Err(WithholdError::NoNoise { what });
+            }
+        }
+        let nominal = plant(plan, &[])?.exact(plan.design)?;
+        let mut bench = Bench { plan, nominal, nuisance: None };
+        if plan.frames.is_some() {
+            bench.nuisance = Some(bench.what_frames_do()?);
+        }
+        Ok(bench)
+    }
+
+    /// What an instrument without noise shows of these truths.
+    pub(super) fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
+        plant(self.plan, truths)?.exact(self.plan.design)
+    }
+
+    /// An effect at a place of chance, its gap about `multiple` times the noise. `None` if it does
+    /// not show anywhere on this design.
+    pub(super) fn plant(&self, effect: Effect, multiple: f64, dice: &mut Dice) -> Option<Planted> {
+        let mut places = effect.places(self.plan.arm);
+        dice.shuffle(&mut places);
+        places.into_iter().find_map(|place| self.plant_at(effect, place, multiple, dice))
+    }
+
+    fn plant_at(
+        &self,
+        effect: Effect,
+        place: Place,
+        multiple: f64,
+        dice: &mut Dice,
+    ) -> Option<Planted> {
+        let Plan { arm, design, .. } = self.plan;
+        let first = typical(effect, place, arm, design, dice);
+        if effect == Effect::GeometricStiffness {
+            // It has the size that it has.
+            return self.shown(first).filter(|planted| planted.multiple >= multiple);
+        }
+        let mut planted = self.shown(first)?;
+        // Most gaps are proportional to the size, a cubic one and its torque are not.
+        for _ in 0..4 {
+            if planted.multiple.is_nan() || planted.multiple < FAINT {
+                return None;
+            }
+            let off = multiple / planted.multiple;
+            if (off - 1.0).abs() < 0.02 {
+                break;
+            }
+            planted = self.shown(resized(&planted.truth, arm, off)?)?;
+        }
+        let close = (planted.multiple / multiple - 1.0).abs() < 0.1;
+        close.then_some(planted)
+    }
+
+    fn shown(&self, truth: Truth) -> Option<Planted> {
+        let exact = self.exact(core::slice::from_ref(&truth)).ok()?;
+        let multiple = self.multiple(&exact);
+        Some(Planted { truth, multiple, exact })
+    }
+
+    /// Root mean square of the gap over all measured components, each in its noise, after unknown
+    /// frames have been fitted.
+    fn multiple(&self, exact: &Measurements) -> f64 {
+        let mut gap = self.whitened(exact);
+        if let Some(basis) = &self.nuisance {
+            gap -= basis * (basis.transpose() * &gap);
+        }
+        gap.norm() / (gap.len() as f64).sqrt()
+    }
+
+    fn whitened(&self, exact: &Measurements) -> DVector<f64> {
+        let (components, noise) = (exact.kind.components(), self.plan.noise);
+        let mut gap = Vec::new();
+        for (row, nominal) in exact.rows.iter().zip(&self.nominal.rows) {
+            let predicted = row.sim.as_ref().unwrap_or(&nominal.measured);
+            let off = difference(&row.measured, predicted, components);
+            for k in (0..6).filter(|k| components[*k]) {
+                gap.push(off[k] / if k < 3 { noise.position } else { noise.rotation });
+            }
+        }
+        DVector::from_vec(gap)
+    }
+
+    fn what_frames_do(&self) -> Result<DMatrix<f64>, PlantError> {
+        let mut columns = Vec::new();
+        for (effect, place) in [(Effect::BaseFrame, Place::Base), (Effect::ToolFrame, Place::Tool)]
+        {
+            for name in ["x", "y", "z", "rx", "ry", "rz"] {
+                let truth = Truth { effect, place, values: vec![(name.to_owned(), 1e-5)] };
+                columns.push(self.whitened(&self.exact(&[truth])?));
+            }
+        }
+        Ok(orthonormal(columns))
+    }
+}
+
+/// A basis of what the columns span (Gram and Schmidt, twice over); what the others make up to
+/// seven digits is left out.
+fn orthonormal(columns: Vec<DVector<f64>>) -> DMatrix<f64> {
+    let rows = columns.first().map_or(0, DVector::len);
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for mut column in columns {
+        let size = column.norm();
+        for own in basis.iter().chain(&basis) {
+            column -= own * own.dot(&column);
+        }
+        if column.norm() > 1e-7 * size {
+            basis.push(column.normalize());
+        }
+    }
+    if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
+}
+
+fn plant(plan: &Plan<'_>, truths: &[Truth]) -> Result<Plant, PlantError> {
+    let plant = Plant::new(plan.arm, truths)?;
+    Ok(match &plan.frames {
+        Some(frames) => plant.with_frames(frames.clone()),
+        None => plant,
+    })
+}
+
+/// Measured less predicted; of whole rotations the rotation vector between them.
+pub(super) fn difference(
+    measured: &Vector6<f64>,
+    predicted: &Vector6<f64>,
+    components: [bool; 6],
+) -> Vector6<f64> {
+    let mut off = measured - predicted;
+    if components[3..] == [true; 3] {
+        let turn = |v: &Vector6<f64>| Rotation3::from_scaled_axis(Vector3::new(v[3], v[4], v[5]));
+        let between = (turn(measured) * turn(predicted).inverse()).scaled_axis();
+        off.fixed_rows_mut::<3>(3).copy_from(&between);
+    }
+    off
+}

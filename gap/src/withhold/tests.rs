@@ -1,0 +1,121 @@
+use super::*;
+use crate::fixture;
+use crate::measurement;
+use crate::plant::design::{Design, Shape};
+
+fn design(seed: u64) -> Measurements {
+    let kind = measurement::Kind::Pose { orientation: true };
+    let shape = Shape::Payload;
+    Design { shape, poses: 8, repeats: 1, payload: 20.0, kind, seed }.rows(&fixture::springy())
+}
+
+fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
+    let (arm, design, fresh) = (fixture::springy(), design(1), [design(2), design(3)]);
+    let predict = with_findings(&arm);
+    let options =
+        Options { effects: Some(vec!["joint_compliance".to_owned()]), ..Options::default() };
+    let mut plan = Plan {
+        arm: &arm,
+        design: &design,
+        fresh: &fresh,
+        predict: Some(&predict),
+        noise: Noise { position: 3e-5, rotation: 1e-4 },
+        frames: None,
+        effects: &[Effect::JointCompliance],
+        cases: 20,
+        multiple: [8.0, 20.0],
+        seed: 4,
+        options: &options,
+        threads: 2,
+    };
+    change(&mut plan);
+    withhold(&plan, &|_, _| {})
+}
+
+/// With springs alone in plant and catalogue, every spring is found.
+#[test]
+fn springs_are_found_where_they_are() {
+    let report = check(|_| {}).unwrap();
+    assert_eq!((report.cases.len(), report.failed), (20, 0));
+    assert_eq!(report.single.first_named.rate, Some(1.0), "{report:#?}");
+    assert_eq!(report.single.in_set.rate, Some(1.0));
+    assert!(report.after.median.unwrap() < 1.2);
+    assert!(report.cannot_plant.is_empty());
+    for case in report.cases.iter().filter(|case| case.kind == Kind::Single) {
+        assert!((7.2..22.0).contains(&case.multiples[0]), "{case:?}");
+        let realised = case.realised.unwrap();
+        assert!(realised > 0.7 && realised < 1.0, "{case:?}");
+    }
+    assert!(report.shrink.unwrap().median_off.abs() < 0.05);
+}
+
+/// How many threads work makes no difference, and neither does a second run; the seed does.
+#[test]
+fn the_seed_decides() {
+    let one = check(|plan| plan.threads = 1).unwrap();
+    assert_eq!(one, check(|_| {}).unwrap());
+    assert_ne!(one, check(|plan| plan.seed = 5).unwrap());
+}
+
+#[test]
+fn what_does_not_show_is_said() {
+    let (arm, mut unloaded) = (fixture::rigid(), design(1));
+    unloaded.rows.iter_mut().for_each(|row| row.wrench.fill(0.0));
+    let options = Options::default();
+    let plan = Plan {
+        arm: &arm,
+        design: &unloaded,
+        fresh: &[],
+        predict: None,
+        noise: Noise { position: 3e-5, rotation: 1e-4 },
+        frames: None,
+        effects: &[Effect::WrenchScale, Effect::JointOffset],
+        cases: 4,
+        multiple: [8.0, 20.0],
+        seed: 4,
+        options: &options,
+        threads: 2,
+    };
+    let report = withhold(&plan, &|_, _| {}).unwrap();
+    assert_eq!(report.cannot_plant, ["wrench_scale"]);
+    assert_eq!(report.shrink, None);
+}
+
+#[test]
+fn plans_that_make_no_sense_are_refused() {
+    assert_eq!(check(|plan| plan.cases = 0), Err(WithholdError::NoCases));
+    let wrong = check(|plan| plan.multiple = [20.0, 8.0]);
+    assert_eq!(wrong, Err(WithholdError::Multiple { from: 20.0, to: 8.0 }));
+    let silent = check(|plan| plan.noise.rotation = 0.0);
+    assert_eq!(silent, Err(WithholdError::NoNoise { what: "rotation" }));
+}
+
+/// The gap that an effect is given is in multiples of the noise, whatever unknown frames could do.
+#[test]
+fn frames_that_are_unknown_hide_what_moves_them() {
+    use super::bench::Bench;
+    use crate::plant::noise::{Dice, Stream};
+    let (arm, design) = (fixture::springy(), design(1));
+    let options = Options::default();
+    let plan = Plan {
+        arm: &arm,
+        design: &design,
+        fresh: &[],
+        predict: None,
+        noise: Noise { position: 3e-5, rotation: 1e-4 },
+        frames: Some(Frames::unknown(3)),
+        effects: &Effect::ALL,
+        cases: 1,
+        multiple: [8.0, 20.0],
+        seed: 4,
+        options: &options,
+        threads: 1,
+    };
+    let bench = Bench::new(&plan).unwrap();
+    let mut dice = Dice::new(1, Stream::Truths);
+    // The first joint's zero is a turn of the base, its ratio is not.
+    let first = bench.plant(Effect::JointRatio, 10.0, &mut dice).unwrap();
+    assert!((first.multiple - 10.0).abs() < 0.5);
+    let (shows, _) = bench.shows();
+    assert!(!shows.contains(&Effect::BaseFrame) && shows.contains(&Effect::Backlash));
+}

@@ -1,0 +1,9 @@
+//! The plant against means that it does not use: the textbook, closed forms, arms whose file has
+//! what a truth would add.
+
+mod arms;
+mod closed_forms;
+mod kinematic;
+mod nominal;
+mod same_as_file;
+mod session;
