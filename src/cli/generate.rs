@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use stiffarm_codegen::derive::Output;
-use stiffarm_codegen::emit::{RustOptions, dot, latex, rust};
+use stiffarm_codegen::derive::{Displacements, Output};
+use stiffarm_codegen::emit::{RustOptions, dot, flexible_latex, flexible_rust, latex, rust};
 
 use super::Verdict;
 use super::failure::Failure;
@@ -17,7 +17,8 @@ Examples:
   stiffarm generate ur5 --emit rust --out src/ur5.rs
   stiffarm generate ur5 --emit rust --check src/ur5.rs     (exit status 1 if it differs)
   stiffarm generate arm.toml --emit latex --output jacobian --output deflection > arm.tex
-  stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg";
+  stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
+  stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
 /// The kernels as Rust, or the closed form as LaTeX or as a graph
 ///
@@ -33,6 +34,12 @@ pub struct Args {
     /// An output to write, may be repeated [default: all of them as LaTeX, the Jacobian as dot]
     #[arg(long = "output", value_name = "NAME", value_parser = outputs())]
     outputs: Vec<String>,
+    /// The pose with displacements in the chain instead, exact and in both approximations: a list
+    /// of dx, dy, dz (m), dpsi, dbeta, dphi (rad, about x, y, z), of every link, or of one place
+    /// like dphi1, 0 is the base [all of them everywhere if there is no LIST]
+    #[arg(long, value_name = "LIST", num_args = 0..=1, default_missing_value = "")]
+    #[arg(conflicts_with = "outputs")]
+    flexible: Option<String>,
     /// Path of the kernels crate in the Rust text [default: ::stiffarm::kernels]
     #[arg(long, value_name = "PATH")]
     kernels: Option<String>,
@@ -65,7 +72,10 @@ fn outputs() -> Vec<&'static str> {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
     let source = source::open(&args.robot, quiet)?;
-    let text = args.text(&source);
+    let text = match &args.flexible {
+        Some(list) => args.flexible(list, &source)?,
+        None => args.text(&source),
+    };
     match (&args.check, &args.out) {
         (Some(file), _) => args.check(file, &text, quiet),
         (None, Some(target)) => target.write(&text).map(|()| Verdict::Good),
@@ -78,6 +88,9 @@ impl Args {
         match self.emit {
             Emit::Rust if !self.outputs.is_empty() => {
                 Err(Failure::new("--output is for latex and dot: the Rust module has every output"))
+            }
+            Emit::Dot if self.flexible.is_some() => {
+                Err(Failure::new("--flexible is for rust and latex"))
             }
             Emit::Latex | Emit::Dot if self.kernels.is_some() => {
                 Err(Failure::new("--kernels is for rust: latex and dot use no crate"))
@@ -95,14 +108,24 @@ impl Args {
         match self.emit {
             Emit::Latex => latex(robot, &or(&Output::EACH)),
             Emit::Dot => dot(robot, &or(&[Output::Jacobian])),
-            Emit::Rust => {
-                let kernels = self.kernels.clone();
-                rust(
-                    robot,
-                    &kernels.map_or_else(RustOptions::default, |kernels| RustOptions { kernels }),
-                )
-            }
+            Emit::Rust => rust(robot, &self.options()),
         }
+    }
+
+    fn options(&self) -> RustOptions {
+        let kernels = self.kernels.clone();
+        kernels.map_or_else(RustOptions::default, |kernels| RustOptions { kernels })
+    }
+
+    fn flexible(&self, list: &str, Source { robot, .. }: &Source) -> Result<String, Failure> {
+        let displacements = match list {
+            "" => Displacements::all(robot.dof()),
+            list => Displacements::read(list, robot.dof()).map_err(Failure::new)?,
+        };
+        Ok(match self.emit {
+            Emit::Rust => flexible_rust(robot, &displacements, &self.options()),
+            Emit::Latex | Emit::Dot => flexible_latex(robot, &displacements),
+        })
     }
 
     fn check(&self, file: &PathBuf, text: &str, quiet: bool) -> Result<Verdict, Failure> {

@@ -7,7 +7,7 @@ use super::notation::Notation;
 use super::product::{Matrix, product};
 use super::rational::{Rational, Reading};
 use super::tree::Angle;
-use crate::derive::{Output, derive_in};
+use crate::derive::{Displacements, Form, Output, Program, derive_in, flexible};
 use crate::robot::Robot;
 
 /// What an equation's derivation may refer to.
@@ -103,14 +103,46 @@ fn entry(whole: &Matrix, indices: &[usize]) -> Result<Matrix, String> {
     Ok(Matrix { columns: 1, entries: vec![found.clone()] })
 }
 
+/// What of a robot's derivation a path names.
+enum Derivation {
+    Output(Output),
+    /// The pose with displacements in the chain: `flexible_published(dx,dy,dphi)`.
+    Flexible(Form, String),
+}
+
+impl Derivation {
+    fn read(name: &str) -> Result<Self, String> {
+        if let Some((form, list)) = name.strip_suffix(')').and_then(|name| name.split_once('(')) {
+            let form = form.strip_prefix("flexible_");
+            let known = Form::EACH.into_iter().find(|known| form == Some(known.name()));
+            if let Some(known) = known {
+                return Ok(Derivation::Flexible(known, list.to_owned()));
+            }
+        }
+        let output = Output::EACH.into_iter().find(|output| output.name() == name);
+        output.map(Derivation::Output).ok_or_else(|| {
+            let names: Vec<&str> = Output::EACH.iter().map(|o| o.name()).collect();
+            format!(
+                "`{name}` is none of product, transport, transport_transposed, {}, or a pose with \
+                 displacements such as flexible_exact(dx,dy,dphi), flexible_published(…), \
+                 flexible_first_order(…)",
+                names.join(", ")
+            )
+        })
+    }
+
+    fn derive(&self, robot: &Robot) -> Result<Program, String> {
+        Ok(match self {
+            Derivation::Output(output) => derive_in(robot, &[*output], 0),
+            Derivation::Flexible(form, list) => {
+                flexible(robot, &Displacements::read(list, robot.dof())?, *form)
+            }
+        })
+    }
+}
+
 fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, String> {
-    let output = Output::EACH.into_iter().find(|o| o.name() == name).ok_or_else(|| {
-        let names: Vec<&str> = Output::EACH.iter().map(|o| o.name()).collect();
-        format!(
-            "`{name}` is none of product, transport, transport_transposed, {}",
-            names.join(", ")
-        )
-    })?;
+    let derivation = Derivation::read(name)?;
     let which = path.robot.or(setting.robot.as_deref()).ok_or("no robot is named")?;
     let mut robot =
         setting.robots.get(which).cloned().ok_or_else(|| format!("there is no robot `{which}`"))?;
@@ -121,7 +153,8 @@ fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, Stri
         }
     }
     let n = robot.dof();
-    let (rows, columns) = output.shape(n);
+    let program = derivation.derive(&robot)?;
+    let (rows, columns) = program.blocks[0].output.shape(n);
     let joints = match &setting.joints {
         Some(joints) => joints.clone(),
         None => (1..=n).map(|k| Angle::single(&format!("theta{k}"))).collect(),
@@ -131,7 +164,6 @@ fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, Stri
     }
     let parameters = setting.defined.clone();
     let reading = Reading { joints, wrench: setting.wrench.clone(), parameters };
-    let program = derive_in(&robot, &[output], 0);
     let entries = &program.blocks[0].entries;
     let of = |row: usize, column: usize| {
         let e = entries.get(column * rows + row).copied();

@@ -51,7 +51,7 @@ pub fn truth(paper: &Paper, equation: &Equation) -> Result<Matrix, String> {
     let written = match &equation.about {
         About::Path(path) => return derived(&path.text, &setting),
         About::Formula(written) => written,
-        About::Definition(_) | About::Stated(_) | About::Nothing => {
+        About::Definition(_) | About::Relation(_) | About::Nothing => {
             return Err("there is nothing to derive".into());
         }
     };
@@ -110,7 +110,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
     entry.note = equation.note.clone();
     entry.source = match &equation.about {
         About::Nothing => String::new(),
-        About::Stated(_) => "stated by hand, not derived".into(),
+        About::Relation(relation) => relation.words(),
         About::Definition(why) => why.clone(),
         About::Path(path) => match (&equation.robot, equation.product.is_empty()) {
             (_, false) => format!("{} of {}", path.text, equation.product.join(" ")),
@@ -126,10 +126,9 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
     };
     let truth = match (&equation.about, &this.truth) {
         (About::Definition(_) | About::Nothing, _) => return entry,
-        (About::Stated(change), _) => {
-            entry.verdict = Verdict::Misprint;
-            entry.change = Some(change.clone());
-            entry.correction = equation.correct.as_ref().map(|w| w.text.clone());
+        (About::Relation(relation), _) => {
+            let (latex, setting) = (&equation.latex.text, setting(paper, equation));
+            super::matrix::judge(&mut entry, latex, relation, &setting, &paper.values);
             return entry;
         }
         (_, Err(why)) => {
@@ -176,8 +175,17 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
                             .ok()
                             .and_then(|tree| witness(tree, truth, &this.defined, &paper.values));
                     }
-                    let found =
-                        label(ready, at, &read).or_else(|| small(tokens, truth, &read, inventory));
+                    let stated =
+                        equation.correct.as_ref().map(|w| w.text.as_str()).filter(|text| {
+                            lex(text, &paper.notation).is_ok_and(|t| read.is(&t, truth))
+                        });
+                    // What the data file states is better than a patchwork of slips.
+                    let single =
+                        |(.., slips): &(String, String, usize)| *slips == 1 || stated.is_none();
+                    let found = label(ready, at, &read).or_else(|| {
+                        let small = small(tokens, truth, &read, inventory).filter(single);
+                        small.map(|(mended, change, _)| (mended, change))
+                    });
                     if entry.verdict != Verdict::Unreadable {
                         entry.verdict = Verdict::Misprint;
                     }
@@ -187,14 +195,8 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
                             changes.push(format!("{place}{change}"));
                         }
                         None => {
-                            let stated = equation.correct.as_ref().map(|w| w.text.as_str());
-                            let right = |text: &&str| {
-                                lex(text, &paper.notation).is_ok_and(|t| read.is(&t, truth))
-                            };
-                            let whole = match stated.filter(right) {
-                                Some(text) => text.to_owned(),
-                                None => super::print::exact(truth, &paper.notation, inventory),
-                            };
+                            let derived = || super::print::exact(truth, &paper.notation, inventory);
+                            let whole = stated.map_or_else(derived, str::to_owned);
                             corrections.push(format!("{place}{whole}"));
                             if let Err(mistake) = &tree {
                                 entry.verdict = Verdict::Unreadable;
@@ -237,13 +239,13 @@ fn label(ready: &[Ready<'_>], at: usize, read: &Reader<'_>) -> Option<(String, S
     shifted(&members, own?, read)
 }
 
-/// The smallest change of the tokens.
+/// The smallest change of the tokens: what they then are, what was changed, how many slips that is.
 fn small(
     tokens: &[Token],
     truth: &Rational,
     read: &Reader<'_>,
     inventory: &Inventory,
-) -> Option<(String, String)> {
+) -> Option<(String, String, usize)> {
     let (notation, defined) = (read.notation, read.defined);
     let search = Search { tokens, notation, inventory, truth, defined };
     let edits = mend(&search, |tokens| read.is(tokens, truth))?;
@@ -251,5 +253,5 @@ fn small(
     let mended = written(&super::mend::apply(tokens, &all));
     let change: Vec<String> =
         edits.iter().map(|e| format!("{}: {}", e.slip.name(), e.what)).collect();
-    Some((mended, change.join(", ")))
+    Some((mended, change.join(", "), edits.len()))
 }

@@ -1,15 +1,15 @@
 //! The ledger: a line for every equation and every table cell.
 
-use super::cells::cells;
+use super::cells::{Methods, cells};
 use super::file::Paper;
 use super::judge::equations;
 use super::print::short;
 use super::verdict::{Entry, Kind, Verdict};
 
 /// Judges every equation and every table cell of a paper.
-pub fn judge(paper: &Paper) -> Vec<Entry> {
+pub fn judge(paper: &Paper, methods: Methods<'_>) -> Vec<Entry> {
     let mut entries = equations(paper);
-    entries.extend(cells(paper));
+    entries.extend(cells(paper, methods));
     entries
 }
 
@@ -25,6 +25,11 @@ pub struct Ledger {
 impl Ledger {
     /// The ledger of some papers; several files may belong to one paper.
     pub fn of(papers: &[Paper]) -> Self {
+        Self::with(papers, &|_| None)
+    }
+
+    /// The same, with methods for the cells that no formula gives.
+    pub fn with(papers: &[Paper], methods: Methods<'_>) -> Self {
         let mut joined: Vec<Paper> = Vec::new();
         for paper in papers {
             match joined.iter_mut().find(|known| known.id == paper.id) {
@@ -33,7 +38,7 @@ impl Ledger {
             }
         }
         Ledger {
-            entries: joined.iter().flat_map(judge).collect(),
+            entries: joined.iter().flat_map(|paper| judge(paper, methods)).collect(),
             titles: joined.into_iter().map(|paper| (paper.id, paper.title)).collect(),
         }
     }

@@ -6,9 +6,9 @@
 //! differ, the smallest change of what is printed that mends it is looked for ([`mend`]). The
 //! result of all papers is the ledger.
 
-pub mod builtin;
 mod cells;
 pub mod derived;
+mod escape;
 pub mod evaluate;
 pub mod field;
 pub mod file;
@@ -19,6 +19,8 @@ mod labels;
 mod ledger;
 mod letters;
 pub mod lexer;
+mod mathml;
+mod matrix;
 pub mod mend;
 pub mod mistake;
 pub mod notation;
@@ -35,6 +37,7 @@ pub mod tree;
 mod verdict;
 mod witness;
 
+pub use cells::Methods;
 pub use file::{Paper, read};
 pub use ledger::{Ledger, judge};
 pub use verdict::{Entry, Kind, Verdict, Witness};

@@ -214,6 +214,9 @@ impl Reading {
                 let name = self.joints.get(*joint).map(ToString::to_string);
                 Ok(Polynomial::symbol(&name.unwrap_or_else(|| format!("q{}", joint + 1))).into())
             }
+            Symbol::Displacement { place, component } => {
+                Ok(Polynomial::symbol(&displacement(*place, *component)).into())
+            }
             Symbol::Deflection { .. } => Err(Inexact::Root),
         }
     }
@@ -239,6 +242,9 @@ impl Reading {
                         None => into.add(&format!("q{}", joint + 1), times),
                     },
                     Symbol::Parameter(name) => into.add(name, times),
+                    Symbol::Displacement { place, component } => {
+                        into.add(&displacement(*place, *component), times);
+                    }
                     _ => return Err(Inexact::Rounded),
                 }
                 Ok(())
@@ -261,6 +267,12 @@ impl Reading {
                 !uses || matches!(node, Node::Sin(_) | Node::Cos(_))
             })
     }
+}
+
+/// The name of a displacement in the notation of Jweeg & Al-Khafaji: `\delta x_1`, `d\phi_1`.
+fn displacement(place: usize, component: usize) -> String {
+    let names = ["deltax", "deltay", "deltaz", "dpsi", "dbeta", "dphi"];
+    format!("{}{place}", names[component])
 }
 
 fn signed(values: &[Option<Rational>], e: Expr) -> Result<Rational, Inexact> {

@@ -7,6 +7,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::displacement::{lag, versine};
 use super::transport::along;
+use super::two_link::{Bend, TwoLink};
 use super::{Chain, ChainError, Displacement, rpy};
 
 /// One row of the two-link arm's table.
@@ -20,7 +21,7 @@ pub struct TwoLinkGrowth {
     pub leading: f64,
 }
 
-/// The size of [`TwoLink::difference`](super::two_link::TwoLink::difference) for each turn dφ1 in
+/// The size of [`TwoLink::difference`] for each turn dφ1 in
 /// `turns` (rad). `reach` is ρ = |(a2 + δx2, δy2)|, m; the posture does not matter.
 pub fn two_link(reach: f64, turns: &[f64]) -> Vec<TwoLinkGrowth> {
     let row = |&phi: &f64| TwoLinkGrowth {
@@ -29,6 +30,38 @@ pub fn two_link(reach: f64, turns: &[f64]) -> Vec<TwoLinkGrowth> {
         leading: reach * phi * phi / 2.0,
     };
     turns.iter().map(row).collect()
+}
+
+/// A largest difference and where it stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Largest {
+    /// m.
+    pub size: f64,
+    /// The joint angles, degrees, as the paper counts them.
+    pub degrees: [f64; 2],
+}
+
+/// The largest differences in px and in py on the paper's grid of postures (θ1 from 4° by 5° to
+/// 29°, θ2 from −35° by 5° to 60°), where a weight at the arm's tip turns the tip of the first
+/// link, a cantilever, by `dφ1 = w (a1² cos θ1/2 + a1 a2 cos θ12)`. `w` is the weight over the
+/// link's E I, 1/m²; `offset`, degrees, is added to θ1.
+pub fn largest(two: TwoLink, w: f64, offset: f64) -> [Largest; 2] {
+    let mut found = [Largest { size: 0.0, degrees: [0.0; 2] }; 2];
+    for i in 0..6 {
+        for j in 0..20 {
+            let degrees = [4.0 + 5.0 * f64::from(i), -35.0 + 5.0 * f64::from(j)];
+            let t = [(degrees[0] + offset).to_radians(), degrees[1].to_radians()];
+            let bending = two.a1 * t[0].cos() / 2.0 + two.a2 * (t[0] + t[1]).cos();
+            let bend = Bend { phi: w * two.a1 * bending, ..Bend::default() };
+            let difference = two.difference(t, [bend, Bend::default()]);
+            for (best, size) in found.iter_mut().zip(difference.iter()) {
+                if size.abs() > best.size {
+                    *best = Largest { size: size.abs(), degrees };
+                }
+            }
+        }
+    }
+    found
 }
 
 /// One row of the table of any chain.

@@ -4,12 +4,15 @@
 //! parses it, the others write it down.
 
 mod body;
+mod flexible;
 mod function;
 mod interface;
 mod lines;
 mod posture;
 mod shapes;
 mod table;
+
+pub use flexible::flexible_rust;
 
 use super::constants::Constants;
 use crate::derive::{Output, derive_each};
@@ -31,16 +34,28 @@ impl Default for RustOptions {
 /// The items of a robot's module, ready to stand in a file of its own or between the braces of a
 /// `mod`. The same table always gives the same bytes.
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
+    module(robot, options, false)
+}
+
+/// The same module with products fused into sums (`S::mul_add`): one rounding less in most sums, so
+/// faster where the target has the instruction, and not the same bits everywhere. `f64` and `f32` fuse
+/// only under the kernels' feature `fma` and on a target that has the instruction.
+pub fn rust_fused(robot: &Robot, options: &RustOptions) -> String {
+    module(robot, options, true)
+}
+
+fn module(robot: &Robot, options: &RustOptions, fused_products: bool) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
     let mut functions = String::new();
     let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
     let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
     for (outputs, program) in sets.iter().zip(derive_each(robot, &sets)) {
-        let function = match outputs {
+        let mut function = match outputs {
             [output] => function::Function::single(&program, *output, symbolic),
             _ => function::Function::all(&program, symbolic),
         };
+        function.fused_products = fused_products;
         functions.push_str(&function.text(robot, options, &mut constants));
     }
 

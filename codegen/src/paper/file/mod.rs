@@ -27,7 +27,26 @@
 //! Instead of `of`, `truth` gives a formula in the same notation, whose names may be given derived
 //! values by `let`; `correct` gives what should have been printed where no small change mends it
 //! (it is checked as well); `definition` says why there is nothing that could be wrong.
+//!
+//! A relation between matrices has `matrices`, a table of what its symbols stand for:
+//!
+//! ```toml
+//! [[equation]]
+//! number = "(8)"
+//! latex = '''K_\theta = K_C + J^T K_X J'''
+//! robot = "arm"
+//! matrices = { J = "jacobian", w = "wrench", K_C = "complementary_stiffness",
+//!   'K_\theta' = "stiffness", K_X = '= J^{-T} (K_\theta - \frac{\partial (J^T w)}{\partial \theta}) J^{-1}' }
+//! ```
+//!
+//! an output of the robot, a random matrix of some shape, or a formula of the others; `truth` may
+//! then give the value of the left side, or an equation that it has to fulfil.
+//!
+//! A `table` has a `column` for each of its columns: `symbol` names what its cells are values of,
+//! `formula` what they should follow, `computed` a method that works them out, `why` says why they
+//! do not follow. A cell such as `≤ 0.5` is a bound.
 
+mod equation;
 mod read;
 mod section;
 mod table;
@@ -127,7 +146,28 @@ pub enum About {
     Path(Written),
     /// A formula.
     Formula(Written),
-    /// A misprint outside of what algebra can tell (an index of a product sign), stated by hand:
-    /// what it is. What should stand there is in `correct`.
-    Stated(String),
+    /// A relation between matrices.
+    Relation(Relation),
+}
+
+/// A relation between matrices: what its symbols stand for, and what it is compared with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Relation {
+    /// Symbols as printed, and what they stand for.
+    pub matrices: Vec<(String, Written)>,
+    /// The value of the left side, or a condition on it; without one the printed left side itself.
+    pub truth: Option<Written>,
+}
+
+impl Relation {
+    /// What it is compared with, in words.
+    pub fn words(&self) -> String {
+        let truth = self.truth.iter().map(|truth| truth.text.clone());
+        let each =
+            self.matrices.iter().map(|(symbol, source)| match source.text.strip_prefix('=') {
+                Some(formula) => format!("{symbol} = {}", formula.trim()),
+                None => format!("{symbol} is {}", source.text),
+            });
+        truth.chain(each).collect::<Vec<_>>().join(", ")
+    }
 }

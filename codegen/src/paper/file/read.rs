@@ -5,38 +5,18 @@ use std::collections::HashMap;
 use ::toml::de::DeTable;
 
 use super::section::{Notes, Section, Written, number, string};
-use super::{About, Equation, Paper, table};
-use crate::paper::formula::{Piece, formula};
+use super::{Paper, equation, table};
 use crate::paper::lexer::{Lexeme, lex};
 use crate::paper::mistake::{Mistake, file_error};
 use crate::paper::notation::{Notation, Slash, key, squeezed};
-use crate::paper::parser::{collect, parse};
+use crate::paper::parser::parse;
 use crate::paper::rational::Rational;
-use crate::paper::tree::{Angle, Function, Tree};
+use crate::paper::tree::{Function, Tree};
 use crate::robot::{FileError, Robot};
 
 const PAPER: &[&str] =
     &["paper", "title", "notation", "robot", "where", "values", "equation", "quantity", "table"];
 const NOTATION: &[&str] = &["sine", "cosine", "names", "slash"];
-const EQUATION: &[&str] = &[
-    "number",
-    "latex",
-    "of",
-    "truth",
-    "definition",
-    "robot",
-    "joints",
-    "wrench",
-    "product",
-    "let",
-    "where",
-    "infinite",
-    "group",
-    "note",
-    "correct",
-    "printed",
-    "stated",
-];
 
 /// Reads a data file. `path` is only used in messages.
 ///
@@ -93,12 +73,12 @@ fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
         }
     }
     let shared = definitions(root, &HashMap::new(), &out.notation, notes);
-    for section in root.sections("equation", EQUATION, notes) {
-        let equation = equation(&section, true, &shared, &out.notation, notes);
-        out.equations.extend(equation);
+    for section in root.sections("equation", equation::KEYS, notes) {
+        let found = equation::read(&section, true, &shared, &out.notation, notes);
+        out.equations.extend(found);
     }
-    for section in root.sections("quantity", EQUATION, notes) {
-        let quantity = equation(&section, false, &shared, &out.notation, notes);
+    for section in root.sections("quantity", equation::KEYS, notes) {
+        let quantity = equation::read(&section, false, &shared, &out.notation, notes);
         out.quantities.extend(quantity);
     }
     for section in root.sections("table", table::KEYS, notes) {
@@ -150,7 +130,7 @@ pub(super) fn tree(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> O
     parse(&w.text, notation).map_err(|mistake| notes.mistakes.push(mistake.moved(w.at))).ok()
 }
 
-fn exact(
+pub(super) fn exact(
     w: &Written,
     notation: &Notation,
     defined: &HashMap<String, Rational>,
@@ -163,7 +143,7 @@ fn exact(
 }
 
 /// The `where` of a table on top of what is defined already; a definition may use another.
-fn definitions(
+pub(super) fn definitions(
     section: &Section<'_, '_>,
     outer: &HashMap<String, Rational>,
     notation: &Notation,
@@ -201,102 +181,6 @@ fn definitions(
         open = waiting;
     }
     defined
-}
-
-fn equation(
-    section: &Section<'_, '_>,
-    printed: bool,
-    shared: &HashMap<String, Rational>,
-    notation: &Notation,
-    notes: &mut Notes<'_>,
-) -> Option<Equation> {
-    let number = section.required("number", notes)?.text;
-    let latex = match printed {
-        true => section.required("latex", notes)?,
-        false => Written::default(),
-    };
-    let defined = definitions(section, shared, notation, notes);
-    let path = section.string("of", notes).map(About::Path);
-    let truth = section.string("truth", notes).map(About::Formula);
-    let definition = section.string("definition", notes).map(|w| About::Definition(w.text));
-    let stated = section.string("stated", notes).map(|w| About::Stated(w.text));
-    let mut given = [path, truth, definition, stated].into_iter().flatten();
-    let about = given.next();
-    if about.is_none() || given.next().is_some() {
-        notes
-            .wrong(section.at(), "an equation has one of `of`, `truth`, `definition` and `stated`");
-    }
-    check(&latex, about.as_ref(), notation, notes);
-    let mut joints = None;
-    if let Some(written) = section.strings("joints", notes) {
-        joints = Some(written.iter().filter_map(|w| angle(w, notation, notes)).collect());
-    }
-    let wrench = section.strings("wrench", notes).unwrap_or_default();
-    let wrench = wrench.iter().filter_map(|w| exact(w, notation, &defined, notes)).collect();
-    let mut lets = Vec::new();
-    if let Some(names) = section.section("let", &[], notes) {
-        for (name, at, value) in names.entries() {
-            let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
-            if let (Some(name), Some(path)) = (name, string(value, notes)) {
-                lets.push((name, path));
-            }
-        }
-    }
-    let infinite = section.strings("infinite", notes).unwrap_or_default();
-    let infinite = infinite.iter().filter_map(|w| symbol(w, notation, notes)).collect();
-    Some(Equation {
-        number,
-        latex,
-        about: about.unwrap_or_default(),
-        robot: section.string("robot", notes).map(|w| w.text),
-        joints,
-        wrench,
-        product: section
-            .strings("product", notes)
-            .unwrap_or_default()
-            .into_iter()
-            .map(|w| w.text)
-            .collect(),
-        lets,
-        defined,
-        infinite,
-        group: section.string("group", notes).map(|w| w.text),
-        note: section.string("note", notes).map(|w| w.text),
-        printed: section.string("printed", notes).map(|w| w.text),
-        correct: section.string("correct", notes),
-    })
-}
-
-/// What is printed must be made of tokens (whether they make a formula is for the judgement: a
-/// bracket may be missing on paper); a truth must be a formula.
-fn check(latex: &Written, about: Option<&About>, notation: &Notation, notes: &mut Notes<'_>) {
-    let cells = |text: &str| {
-        let sides = formula(text).sides.into_iter();
-        sides.flat_map(|side| side.rows).flatten().collect::<Vec<Piece>>()
-    };
-    if matches!(about, Some(About::Path(_) | About::Formula(_))) {
-        for cell in cells(&latex.text) {
-            if let Err(mistake) = lex(&cell.text, notation) {
-                notes.mistakes.push(mistake.moved(latex.at + cell.at));
-            }
-        }
-    }
-    if let Some(About::Formula(truth)) = about {
-        for cell in cells(&truth.text) {
-            if let Err(mistake) = parse(&cell.text, notation) {
-                notes.mistakes.push(mistake.moved(truth.at + cell.at));
-            }
-        }
-    }
-}
-
-fn angle(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<Angle> {
-    let tree = tree(w, notation, notes)?;
-    let mut angle = Angle::default();
-    if !collect(&tree, 1.into(), &mut angle) {
-        notes.wrong(w.at..w.at + w.text.len(), "this is no sum of angles");
-    }
-    Some(angle)
 }
 
 #[cfg(test)]

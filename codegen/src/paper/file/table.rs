@@ -37,15 +37,24 @@ pub struct Column {
     pub equations: Vec<(String, String)>,
     /// The symbol for the cell as it is printed, where `symbol` is the computed value.
     pub rounded: Option<String>,
+    /// The name of a method that works the cells out, where no formula does.
+    pub computed: Option<String>,
     /// Why the cells cannot be reproduced.
     pub why: Option<String>,
     /// A remark on the column.
     pub note: Option<String>,
 }
 
+impl Column {
+    /// Whether its cells are given rather than results.
+    pub fn is_given(&self) -> bool {
+        self.formula.is_none() && self.computed.is_none() && self.why.is_none()
+    }
+}
+
 pub(super) const KEYS: &[&str] = &["number", "column", "rows", "values", "note"];
 const COLUMN: &[&str] =
-    &["name", "symbol", "degrees", "formula", "equations", "rounded", "why", "note"];
+    &["name", "symbol", "degrees", "formula", "equations", "rounded", "computed", "why", "note"];
 
 pub(super) fn read(
     section: &Section<'_, '_>,
@@ -80,6 +89,7 @@ pub(super) fn read(
             formula: formula.and_then(|w| tree(&w, notation, notes)),
             equations,
             rounded: rounded.and_then(|w| symbol(&w, notation, notes)),
+            computed: column.string("computed", notes).map(|w| w.text),
             why: column.string("why", notes).map(|w| w.text),
             note: column.string("note", notes).map(|w| w.text),
         });

@@ -1,3 +1,4 @@
+use super::super::tree::Function;
 use super::*;
 use proptest::prelude::*;
 

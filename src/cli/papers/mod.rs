@@ -1,19 +1,24 @@
 //! `stiffarm papers`: printed equations and tables against what can be derived.
 
+mod builtin;
+mod figure;
+mod methods;
+
 use std::path::{Path, PathBuf};
 
-use stiffarm_codegen::paper::{Ledger, Paper, builtin, read};
+use stiffarm_codegen::paper::{Ledger, Paper, read};
 
-use super::Verdict;
-use super::failure::{Failure, Remark};
-use super::output::Target;
-use super::source;
+use crate::cli::Verdict;
+use crate::cli::failure::{Failure, Remark};
+use crate::cli::output::{Target, print};
+use crate::cli::source;
 
 const EXAMPLES: &str = "\
 Examples:
   stiffarm papers                        the ledger of the five built-in papers
   stiffarm papers --html ledger.html
-  stiffarm papers my_paper/*.toml        another paper's equations";
+  stiffarm papers my_paper/*.toml        another paper's equations
+  stiffarm papers --figure growth --svg growth.svg";
 
 /// Each printed equation and table cell of a paper: agrees, misprint and its correction, reproduced
 ///
@@ -35,6 +40,19 @@ pub struct Args {
     /// Write it as JSON
     #[arg(long, value_name = "OUT", num_args = 0..=1, default_missing_value = "-")]
     json: Option<Target>,
+    /// Instead of the ledger, what a paper says of but does not show, as a table
+    #[arg(long, value_enum, conflicts_with_all = ["files", "markdown", "html", "json"])]
+    figure: Option<Figure>,
+    /// Write the figure as a picture
+    #[arg(long, value_name = "OUT", num_args = 0..=1, default_missing_value = "-")]
+    #[arg(requires = "figure")]
+    svg: Option<Target>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Figure {
+    /// Jweeg & Al-Khafaji: how the error of the approximate kinematics grows with flexibility
+    Growth,
 }
 
 /// Runs the command.
@@ -42,8 +60,15 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: a file's mistakes, or an output that cannot be written.
 pub fn run(args: &Args) -> Result<Verdict, Failure> {
+    if let Some(Figure::Growth) = args.figure {
+        match &args.svg {
+            Some(target) => target.write(&figure::svg())?,
+            None => print(&figure::table())?,
+        }
+        return Ok(Verdict::Good);
+    }
     let papers = if args.files.is_empty() { built_in()? } else { from_files(&args.files)? };
-    let ledger = Ledger::of(&papers);
+    let ledger = Ledger::with(&papers, &methods::column);
     let (target, text) = match (&args.markdown, &args.html, &args.json) {
         (Some(target), _, _) => (target, ledger.to_markdown()),
         (_, Some(target), _) => (target, ledger.to_html()),
@@ -55,7 +80,8 @@ pub fn run(args: &Args) -> Result<Verdict, Failure> {
 }
 
 fn built_in() -> Result<Vec<Paper>, Failure> {
-    builtin::papers().map_err(|error| Failure::new(error.to_string()))
+    let each = builtin::FILES.iter().map(|(path, text)| read(text, path));
+    each.collect::<Result<_, _>>().map_err(|error| Failure::new(error.to_string()))
 }
 
 /// Reads every file; the mistakes of all of them are reported together.

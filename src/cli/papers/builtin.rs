@@ -1,8 +1,4 @@
-//! The five papers that come with stiffarm.
-
-use super::file::{Paper, read};
-use super::ledger::Ledger;
-use crate::robot::FileError;
+//! The data files of the five papers that come with stiffarm.
 
 /// The data files, by their paths in the repository.
 pub const FILES: &[(&str, &str)] = &[
@@ -13,6 +9,10 @@ pub const FILES: &[(&str, &str)] = &[
     (
         "tests/papers/dumas2011/tables/tables.toml",
         include_str!("../../../tests/papers/dumas2011/tables/tables.toml"),
+    ),
+    (
+        "tests/papers/dumas2011/tables/text.toml",
+        include_str!("../../../tests/papers/dumas2011/tables/text.toml"),
     ),
     (
         "tests/papers/knapczyk/equations.toml",
@@ -59,19 +59,3 @@ pub const FILES: &[(&str, &str)] = &[
         include_str!("../../../tests/papers/bicchi/tables/cases.toml"),
     ),
 ];
-
-/// Reads the built-in data files.
-///
-/// # Errors
-/// A mistake in one of them.
-pub fn papers() -> Result<Vec<Paper>, FileError> {
-    FILES.iter().map(|(path, text)| read(text, path)).collect()
-}
-
-/// The ledger of the five papers.
-///
-/// # Errors
-/// A mistake in a data file.
-pub fn ledger() -> Result<Ledger, FileError> {
-    Ok(Ledger::of(&papers()?))
-}
