@@ -2,7 +2,10 @@
 #![forbid(unsafe_code)]
 
 mod cli;
+mod import;
 mod parity;
+mod plot;
+mod report;
 
 fn main() -> std::process::ExitCode {
     cli::main()

@@ -1,21 +1,31 @@
 //! `stiffarm diagnose`: the gap between model and measurement, and what closes it.
 
+mod check;
+mod corrected;
+
 use std::path::PathBuf;
 
-use stiffarm_gap::measurement::{Dimension, Mistake};
-use stiffarm_gap::{Diagnosis, Measurements, Options, ReadError, diagnose};
+use serde::Serialize;
+use stiffarm_gap::diagnose::{Nuisance, Stage};
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
 
-use super::failure::{Failure, Remark};
+pub use check::Check;
+
+use super::failure::Failure;
+use super::note::note;
 use super::output::{Target, print};
-use super::quantity;
+use super::progress::Stages;
+use super::quantity::{self, counted};
 use super::screen::Screen;
 use super::source::RobotArgs;
-use super::{Verdict, json, snippet};
+use super::{Verdict, data, json};
 
 const EXAMPLES: &str = "\
 Examples:
   stiffarm diagnose arm.toml run1.csv
-  stiffarm diagnose arm.toml run1.csv --noise-position 30um --json run1.json
+  stiffarm diagnose arm.toml run1.csv --nuisance base_frame,tool_frame --noise-position 30um
+  stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
@@ -24,8 +34,8 @@ s1 … sn, temperature, time, and your own simulator's sim_x … or sim_dx …."
 
 /// Why the real arm is not where the model says
 ///
-/// The gap between robot file and measurements, before and after the best explanation, judged on
-/// poses that no fit has seen.
+/// The gap between robot file and measurements, which unmodelled effects cause it and how far it
+/// shrinks with them, judged on poses that no fit has seen.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -33,33 +43,48 @@ pub struct Args {
     robot: RobotArgs,
     /// The measurement file (CSV)
     data: PathBuf,
-    /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
-    #[arg(long = "rival", value_name = "PREFIX")]
-    rivals: Vec<String>,
-    /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
-    #[arg(long, value_name = "OUT")]
-    json: Option<Target>,
+    /// Frames known to be unknown, fitted along and never findings: base_frame, tool_frame
+    #[arg(long, value_name = "a,b", value_delimiter = ',')]
+    nuisance: Vec<String>,
     /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
     /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else estimated]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
+    /// Try only these effects
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
+    effects: Option<Vec<String>>,
     /// Number of folds [default: one per pose up to 30 poses, else 10]
     #[arg(long, value_name = "K")]
     folds: Option<usize>,
     /// Seed of folds, permutations and intervals; the same seed gives the same bytes
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Try only these effects
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
-    effects: Option<Vec<String>>,
-    /// Frames known to be unknown: base_frame, tool_frame (not in this version)
-    #[arg(long, value_name = "a,b", value_delimiter = ',')]
-    nuisance: Option<Vec<String>>,
+    /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
+    #[arg(long = "rival", value_name = "PREFIX")]
+    rivals: Vec<String>,
+    /// Predict another measurement file of the same arm with what was found
+    #[arg(long, value_name = "OTHER.csv")]
+    check: Option<PathBuf>,
+    /// Write the robot file with what was found put into it
+    #[arg(long, value_name = "OUT.toml")]
+    write_robot: Option<Target>,
+    /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
     /// Write a report (not in this version)
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
+}
+
+/// The diagnosis as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    #[serde(flatten)]
+    diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    check: Option<&'a Check>,
 }
 
 /// Runs the command.
@@ -67,36 +92,64 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    args.refuse_what_is_to_come()?;
+    args.refuse_what_cannot_be()?;
     let options = args.options()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
-    let data = read(&args.data, &source)?;
-    let found: Diagnosis =
-        diagnose(&arm, &data, &options).map_err(|error| Failure::new(error.to_string()))?;
+    let layout = data::layout(&source)?;
+    let data = data::read(&args.data, &layout)?;
+    let other = args.check.as_ref().map(|path| data::read(path, &layout)).transpose()?;
+    let stages = Stages::new(quiet);
+    let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
+        .map_err(plain)?;
+    drop(stages);
+    let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
+    let check = check.map_err(plain)?;
+    let found = &diagnosed.diagnosis;
     if let Some(target) = &args.json {
-        target.write(&json::text(&found)?)?;
+        target.write(&json::text(&Written { diagnosis: found, check: check.as_ref() })?)?;
     }
-    if args.json != Some(Target::Stdout) && !(quiet && args.json.is_some()) {
-        let screen = Screen { found: &found, data: &data, arm: &arm, rivals: &args.rivals };
+    if let Some(target) = &args.write_robot {
+        target.write(&corrected::text(&source, &data, &diagnosed))?;
+        if data.sim_given.contains(&true) {
+            note(
+                "the robot file is corrected by what the simulator of the sim_ columns lacks",
+                quiet,
+            );
+        }
+    }
+    let written: Vec<_> = [&args.json, &args.write_robot].into_iter().flatten().collect();
+    let enough = quiet && !written.is_empty();
+    if !enough && !written.contains(&&Target::Stdout) {
+        let check = check.as_ref();
+        let screen = Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check };
         print(&screen.text())?;
     }
     Ok(Verdict::Good)
 }
 
+fn in_words(stage: Stage) -> String {
+    match stage {
+        Stage::Align => "simulating the rows and fitting the unknown frames".to_owned(),
+        Stage::Search(found) => format!("looking for effects, {found} found"),
+        Stage::Judge(found) => format!("judging {} and their rivals", counted(found, "finding")),
+    }
+}
+
+fn plain(error: DiagnoseError) -> Failure {
+    Failure::new(error.to_string())
+}
+
 impl Args {
-    fn refuse_what_is_to_come(&self) -> Result<(), Failure> {
-        let refused = |option: &str, what: &str| {
-            Err(Failure::new(format!("{option} is not in this version: {what}")))
-        };
-        if self.nuisance.is_some() {
-            return refused(
-                "--nuisance",
-                "base and tool frame are taken as the robot file has them",
-            );
-        }
+    fn refuse_what_cannot_be(&self) -> Result<(), Failure> {
         if self.report.is_some() {
-            return refused("--report", "--json writes everything that a report would show");
+            let message = "--report is not in this version: --json writes everything that a \
+                           report would show";
+            return Err(Failure::new(message));
+        }
+        if self.json == Some(Target::Stdout) && self.write_robot == Some(Target::Stdout) {
+            let message = "--json and --write-robot cannot both go to standard output";
+            return Err(Failure::new(message));
         }
         Ok(())
     }
@@ -105,6 +158,7 @@ impl Args {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
+        let nuisances = self.nuisance.iter().map(|name| Nuisance::parse(name));
         Ok(Options {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             folds: self.folds,
@@ -112,34 +166,8 @@ impl Args {
             noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
             noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
             effects: self.effects.clone(),
+            nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
             rivals: self.rivals.clone(),
         })
     }
-}
-
-/// Reads the data; each mistake is shown at its cell.
-fn read(path: &PathBuf, source: &super::source::Source) -> Result<Measurements, Failure> {
-    let layout = stiffarm_gap::robot::layout(&source.robot);
-    let layout = layout.map_err(|error| Failure::new(error.to_string()))?;
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    let file = path.display().to_string();
-    Measurements::from_bytes(&file, &bytes, &layout).map_err(|error| match &error {
-        ReadError::Open { .. } => Failure::new(error.to_string()),
-        ReadError::Mistakes { mistakes, more, .. } => {
-            let text = String::from_utf8(bytes.clone()).unwrap_or_default();
-            let mut remarks: Vec<Remark> =
-                mistakes.iter().map(|mistake| remark(mistake, &file, &text)).collect();
-            if *more > 0 {
-                let rest = format!("and {more} more mistakes");
-                remarks.push(Remark::error(rest, None, &file, "", None));
-            }
-            Failure::File(remarks)
-        }
-    })
-}
-
-fn remark(mistake: &Mistake, file: &str, text: &str) -> Remark {
-    let column = mistake.column.as_ref().map(|column| column.number);
-    let span = snippet::cell(text, mistake.line, column);
-    Remark::error(mistake.to_string(), None, file, text, span)
 }

@@ -9,6 +9,7 @@ use super::model::Model;
 use super::output::{Target, print};
 use super::source::{RobotArgs, Source};
 use super::text::{Align, bold, decimals, dim, indented, minus, table};
+use super::wrench::wrench;
 use super::{Verdict, json, quantity};
 
 const EXAMPLES: &str = "\
@@ -69,7 +70,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let q = quantity::list("--q", &args.q, &source.readings(), &joints(&source))?;
     let wrench = match &args.wrench {
         None => [0.0; 6],
-        Some(text) => wrench(text)?,
+        Some(text) => wrench("--wrench", text)?.into(),
     };
     let deflection = if args.gravity { Output::DeflectionWithGravity } else { Output::Deflection };
     let model = Model::new(&source, &[&OUTPUTS[..7], &[deflection]].concat());
@@ -85,13 +86,6 @@ fn joints(source: &Source) -> String {
     let n = source.robot.dof();
     let joints = quantity::counted(n, "joint");
     format!("{} has {joints}: one value for each, base to tip", source.robot.name)
-}
-
-fn wrench(text: &str) -> Result<[f64; 6], Failure> {
-    let kinds = [[Dimension::Force; 3], [Dimension::Moment; 3]].concat();
-    let whose = "a wrench is three forces and three moments: fx,fy,fz,mx,my,mz";
-    let values = quantity::list("--wrench", text, &kinds, whose)?;
-    Ok(std::array::from_fn(|k| values[k]))
 }
 
 fn evaluate(

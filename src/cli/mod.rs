@@ -1,23 +1,33 @@
 //! The commands, one file each; what they share stands beside them.
 
 mod check;
+mod compensate;
 mod completions;
+mod data;
 mod diagnose;
 mod eval;
 mod failure;
 mod generate;
+mod identify;
+mod import;
 mod json;
 mod man;
+mod map;
 mod model;
+mod note;
 mod output;
 mod papers;
+mod poses;
 mod progress;
 mod quantity;
 mod robots;
 mod screen;
+mod simulate;
 mod snippet;
 mod source;
 mod text;
+mod withhold;
+mod wrench;
 
 use std::process::ExitCode;
 
@@ -57,8 +67,15 @@ enum Command {
     Eval(eval::Args),
     Check(check::Args),
     Robots(robots::Args),
+    Import(import::Args),
     Generate(generate::Args),
+    Map(map::Args),
+    Poses(poses::Args),
+    Identify(identify::Args),
     Diagnose(diagnose::Args),
+    Simulate(simulate::Args),
+    Withhold(withhold::Args),
+    Compensate(compensate::Args),
     Papers(papers::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -80,8 +97,15 @@ pub fn main() -> ExitCode {
         Command::Eval(args) => eval::run(&args, quiet),
         Command::Check(args) => check::run(&args, quiet),
         Command::Robots(args) => robots::run(&args),
+        Command::Import(args) => import::run(&args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),
+        Command::Map(args) => map::run(&args, quiet),
+        Command::Poses(args) => poses::run(&args, quiet),
+        Command::Identify(args) => identify::run(&args, quiet),
         Command::Diagnose(args) => diagnose::run(&args, quiet),
+        Command::Simulate(args) => simulate::run(&args, quiet),
+        Command::Withhold(args) => withhold::run(&args, quiet),
+        Command::Compensate(args) => compensate::run(&args, quiet),
         Command::Papers(args) => papers::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

@@ -43,6 +43,31 @@ pub fn indented(text: &str, by: usize) -> String {
     text.lines().map(|line| format!("{margin}{line}").trim_end().to_owned() + "\n").collect()
 }
 
+/// Text in lines of at most `width` (a longer word stands alone), the ones after the first moved
+/// right by `hanging`. Spaces at its beginning stay.
+pub fn wrapped(text: &str, width: usize, hanging: usize) -> String {
+    let mut lines = String::new();
+    let begin = text.len() - text.trim_start().len();
+    let (mut line, rest) = (text[..begin].to_owned(), &text[begin..]);
+    let mut empty = true;
+    for word in rest.split(' ') {
+        let longer = measure_text_width(&line) + usize::from(!empty) + measure_text_width(word);
+        if !empty && longer > width {
+            lines.push_str(line.trim_end());
+            lines.push('\n');
+            (line, empty) = (" ".repeat(hanging), true);
+        }
+        if !empty {
+            line.push(' ');
+        }
+        line.push_str(word);
+        empty = false;
+    }
+    lines.push_str(line.trim_end());
+    lines.push('\n');
+    lines
+}
+
 /// A number with three significant digits: `7.41`, `0.0891`, `2.14e5`.
 pub fn short(x: f64) -> String {
     let size = x.abs();
@@ -53,6 +78,15 @@ pub fn short(x: f64) -> String {
         return minus(format!("{x:.2e}"));
     }
     minus(format!("{x:.*}", decimals(size, 3)))
+}
+
+/// A number with so many digits behind the point; what rounds to nothing has no sign.
+pub fn fixed(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
+        _ => minus(text),
+    }
 }
 
 /// Digits behind the point that show `digits` significant ones of `size`.
@@ -78,6 +112,13 @@ pub fn bar(part: f64, width: usize) -> String {
     // What is there at all is to be seen.
     let eighths = if part > 0.0 { eighths.max(1) } else { eighths };
     format!("{}{}", "█".repeat(eighths / 8), EIGHTHS[eighths % 8])
+}
+
+/// A bar of what there was, of which a part is left: `██░░░░`.
+pub fn left_bar(before: f64, after: f64, width: usize) -> String {
+    let cells = |part: f64| (part.clamp(0.0, 1.0) * width as f64).round() as usize;
+    let (before, after) = (cells(before), cells(after));
+    format!("{}{}", "█".repeat(after), "░".repeat(before.saturating_sub(after)))
 }
 
 /// With thousands set apart.
@@ -135,6 +176,9 @@ mod tests {
         }
         assert_eq!(thousands(1_234_567), "1,234,567");
         assert_eq!(thousands(10), "10");
+        assert_eq!(fixed(-0.004, 2), "0.00");
+        assert_eq!(fixed(-0.006, 2), "−0.01");
+        assert_eq!(fixed(12.0, 0), "12");
     }
 
     #[test]
@@ -143,6 +187,16 @@ mod tests {
         assert_eq!(bar(0.5, 3), "█▌");
         assert_eq!(bar(1e-9, 3), "▏");
         assert_eq!(bar(0.0, 3), "");
+    }
+
+    #[test]
+    fn long_lines_are_wrapped() {
+        assert_eq!(wrapped("one two three", 8, 2), "one two\n  three\n");
+        assert_eq!(wrapped("  one", 4, 4), "  one\n");
+        assert_eq!(wrapped("  one two", 5, 4), "  one\n    two\n");
+        assert_eq!(wrapped("name    text", 20, 0), "name    text\n");
+        assert_eq!(left_bar(1.0, 0.25, 4), "█░░░");
+        assert_eq!(left_bar(0.5, 0.0, 4), "░░");
     }
 
     #[test]

@@ -154,7 +154,7 @@ fn options_of_diagnose_that_do_not_fit() {
         let lin = ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv"];
         refused(&[&lin[..], extra].concat(), expected);
     };
-    with(&["--nuisance", "base_frame,tool_frame"], &["--nuisance is not in this version"]);
+    with(&["--nuisance", "base_fram"], &["expected base_frame or tool_frame; did you mean"]);
     with(&["--report", "out.html"], &["--report is not in this version"]);
     with(&["--rival", "foo"], &["expected `foo_dy`", "the file has predictions of `ycd`, `ytd`"]);
     with(&["--noise-position", "30"], &["--noise-position: found `30`", "m, mm, um, in"]);

@@ -1,10 +1,19 @@
 //! The command line as its users meet it: what it prints, writes and returns.
 
 mod check;
+mod compensate;
 mod diagnose;
 mod errors;
 mod eval;
 mod generate;
+mod identify;
+mod import;
+mod map;
 mod others;
 mod papers;
+mod pinocchio;
+mod poses;
+mod simulate;
 mod support;
+mod withhold;
+mod workbench;

@@ -1,7 +1,7 @@
 //! Least squares with directions that the data do not decide: found by rank, and left where they
 //! are.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
@@ -26,7 +26,7 @@ impl Basis {
             if size > 0.0 { 1.0 / size } else { 0.0 }
         });
         let scaled = DMatrix::from_fn(k, k, |r, c| normal[(r, c)] * scale[r] * scale[c]);
-        let eigen = SymmetricEigen::new(scaled);
+        let eigen = eigen(scaled);
         let kept: Vec<usize> = (0..k).filter(|&i| eigen.eigenvalues[i] > RANK).collect();
         let t = DMatrix::from_fn(k, kept.len(), |r, c| {
             let i = kept[c];
@@ -48,6 +48,18 @@ impl Basis {
     pub(crate) fn variances(&self) -> DVector<f64> {
         DVector::from_fn(self.t.nrows(), |r, _| self.t.row(r).norm_squared())
     }
+}
+
+/// Sweeps after which a decomposition is given up.
+const MOST_SWEEPS: usize = 10_000;
+
+/// Eigenvalues and vectors of a symmetric matrix; of one that resists, no direction is decided.
+pub(crate) fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
+    let n = matrix.nrows();
+    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS).unwrap_or_else(|| SymmetricEigen {
+        eigenvectors: DMatrix::identity(n, n),
+        eigenvalues: DVector::zeros(n),
+    })
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ const USUAL: usize = 10;
 
 /// Blocks of poses: beyond this, poses that were measured one after another share a block, so that
 /// cost and memory stay linear.
-const MOST_BLOCKS: usize = 240;
+const MOST_BLOCKS: usize = 64;
 
 /// A division of the poses into blocks, and of the blocks into folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +56,15 @@ impl Folds {
         let mut rows = vec![Vec::new(); self.blocks()];
         for (index, row) in data.rows.iter().enumerate() {
             rows[self.block_of_pose[row.group]].push(index);
+        }
+        rows
+    }
+
+    /// The rows of each fold, in order.
+    pub(crate) fn rows_of_folds(&self, data: &Measurements) -> Vec<Vec<usize>> {
+        let mut rows = vec![Vec::new(); self.count];
+        for (index, row) in data.rows.iter().enumerate() {
+            rows[self.of_pose(row.group)].push(index);
         }
         rows
     }
@@ -105,7 +114,7 @@ mod tests {
         let folds = Folds::deal(&data(1000), &Options::default()).unwrap();
         assert_eq!(folds.blocks(), MOST_BLOCKS);
         assert_eq!((folds.block_of_pose[0], folds.block_of_pose[999]), (0, MOST_BLOCKS - 1));
-        assert!(sizes(&folds, 1000).iter().all(|n| (96..=105).contains(n)));
+        assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
     }
 
     #[test]

@@ -22,6 +22,7 @@ mod candidate;
 mod evidence;
 mod explanation;
 mod folds;
+mod judged;
 mod model;
 mod noise;
 mod options;
@@ -135,21 +136,9 @@ pub fn diagnose_with(
     let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
     let first = begun.fit.model.clone();
     let explained = search.explain(begun, &|found| progress(Stage::Search(found)))?;
-    let (explained, groups, held_out) = search.shrinking(explained)?;
-    let after = match groups.is_empty() {
-        true => before.clone(),
-        false => held_out.last().cloned().unwrap_or_default(),
-    };
+    let (explained, judged) = search.judged(explained, &before, is_there, progress)?;
+    let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
     let statistics = Statistics::of(&after);
-    let main =
-        if problem.measures_position() { statistics.position_rms } else { statistics.rotation_rms };
-    let unexplained = match is_there {
-        true => search.remainder(&explained, main)?,
-        false => Unexplained::default(),
-    };
-    progress(Stage::Judge(groups.len()));
-    let findings =
-        search.findings(&explained, &groups, &before, &held_out, !unexplained.present)?;
     let compared = compared.iter().map(|r| r.compare(data, &after, options.seed)).collect();
     let diagnosis = Diagnosis {
         stiffarm: options.version.clone(),

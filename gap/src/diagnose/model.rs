@@ -12,6 +12,9 @@ use crate::effects::{Effect, Scene, Spot};
 use crate::gap::row_gap;
 use crate::simulate::{Actual, Sim, State};
 
+/// How loosely a value is held to what is usual.
+const LOOSE: f64 = 3.0;
+
 /// An effect with its values.
 #[derive(Clone)]
 pub(crate) struct Fitted {
@@ -20,6 +23,11 @@ pub(crate) struct Fitted {
     /// Least physical values.
     pub(crate) least: Vec<f64>,
     pub(crate) values: Vec<f64>,
+    /// What is usual of them: a value is held to it as loosely as by a measurement of that size, so
+    /// that what the data hardly decide stays small.
+    pub(crate) usual: Vec<f64>,
+    /// By how much more evidence it had than any other when last compared; 0 before.
+    pub(crate) lead: f64,
 }
 
 /// An exact model of the data.
@@ -188,6 +196,20 @@ impl Model {
             Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
         });
         Matrix6xX::from_columns(&columns)
+    }
+
+    /// Inverse of each parameter's loose scale; 0 where any value is as good.
+    pub(crate) fn held(&self, problem: &Problem<'_>) -> Vec<f64> {
+        let mut held = vec![0.0; Self::nuisances(problem)];
+        held.extend(self.found.iter().flat_map(|f| &f.usual).map(|usual| 1.0 / (LOOSE * usual)));
+        held
+    }
+
+    /// The values of all parameters, those of the nuisances as 0.
+    pub(crate) fn values(&self, problem: &Problem<'_>) -> Vec<f64> {
+        let mut values = vec![0.0; Self::nuisances(problem)];
+        values.extend(self.found.iter().flat_map(|f| &f.values));
+        values
     }
 
     /// The model with its parameters moved by `step` (in the order of [`Model::block`]); values

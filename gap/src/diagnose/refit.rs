@@ -46,7 +46,10 @@ pub(crate) fn refit(
     if fit.model.parameters(problem) == 0 {
         return Ok(fit);
     }
-    let mut now = squares(&fit.predicted.gaps, weights);
+    let cost = |model: &Model, predicted: &Predicted| {
+        squares(&predicted.gaps, weights) + strain(problem, model)
+    };
+    let mut now = cost(&fit.model, &fit.predicted);
     for _ in 0..MOST_STEPS {
         let (normal, right) = normal_equations(problem, &fit, weights);
         let (step, promised) = bounded(problem, &fit.model, normal, right);
@@ -60,7 +63,7 @@ pub(crate) fn refit(
             let model = fit.model.moved(problem, &step);
             // An arm that finds no rest is no better.
             if let Ok(predicted) = model.predict(problem, Some(&fit.predicted.sims)) {
-                let then = squares(&predicted.gaps, weights);
+                let then = cost(&model, &predicted);
                 if then < now {
                     better = Some((Fit { model, predicted }, then));
                     break;
@@ -78,7 +81,7 @@ pub(crate) fn refit(
     Ok(fit)
 }
 
-/// Weighted normal matrix and right-hand side of all parameters.
+/// Weighted normal matrix and right-hand side of all parameters, each loosely held to what is usual.
 pub(crate) fn normal_equations(
     problem: &Problem<'_>,
     fit: &Fit,
@@ -92,7 +95,18 @@ pub(crate) fn normal_equations(
         normal.gemm_tr(1.0, &block, &block, 1.0);
         right.gemv_tr(1.0, &block, &gap, 1.0);
     }
+    let held = fit.model.held(problem);
+    for (at, (held, value)) in held.iter().zip(fit.model.values(problem)).enumerate() {
+        normal[(at, at)] += held * held;
+        right[at] -= held * held * value;
+    }
     (normal, right)
+}
+
+/// What it costs that values are beyond what is usual.
+fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
+    let values = model.values(problem);
+    model.held(problem).iter().zip(values).map(|(held, value)| (held * value).powi(2)).sum()
 }
 
 /// Weighted 6×k block of one row.

@@ -1,6 +1,6 @@
 //! What a candidate added to the model explains: on all rows, and on rows that no fit has seen.
 
-use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::screen::{Products, Screen};
 
@@ -77,7 +77,7 @@ fn solve(
         let scaled =
             DMatrix::from_fn(free.len(), free.len(), |r, c| part[(r, c)] * scale[r] * scale[c]);
         let target = target.component_mul(&scale);
-        let eigen = SymmetricEigen::new(scaled);
+        let eigen = super::basis::eigen(scaled);
         let mut found = DVector::zeros(free.len());
         let mut own = 0;
         for (i, value) in eigen.eigenvalues.iter().enumerate() {
@@ -128,7 +128,7 @@ impl Screen<'_> {
             if size > 0.0 { 1.0 / size } else { 0.0 }
         });
         let scaled = DMatrix::from_fn(p, p, |r, c| v[(r, c)] * scale[r] * scale[c]);
-        let eigen = SymmetricEigen::new(scaled);
+        let eigen = super::basis::eigen(scaled);
         let kept: Vec<usize> = (0..p).filter(|&i| eigen.eigenvalues[i] > OWN).collect();
         let whiten = DMatrix::from_fn(p, kept.len(), |r, c| {
             scale[r] * eigen.eigenvectors[(r, kept[c])] / eigen.eigenvalues[kept[c]].sqrt()

@@ -99,12 +99,14 @@ pub(crate) struct Kept<'k> {
     pub(crate) along: &'k [Candidate],
     /// Whether held-out gaps are wanted in m and rad too, not only weighted.
     pub(crate) plain: bool,
+    /// Whether whole folds are blocks enough: where neither signs are flipped nor halves drawn.
+    pub(crate) coarse: bool,
 }
 
 impl<'k> Kept<'k> {
     /// All of a fit's model.
     pub(crate) fn all(fit: &'k Fit) -> Self {
-        Self { fit, without: &[], along: &[], plain: false }
+        Self { fit, without: &[], along: &[], plain: false, coarse: false }
     }
 }
 
@@ -174,7 +176,10 @@ impl<'c> Screen<'c> {
         let first = if problem.measures_position() { 0 } else { 3 };
         let main: Vec<usize> =
             problem.measured.iter().copied().filter(|c| *c < first + 3 && *c >= first).collect();
-        let of_block = folds.rows_of_blocks(problem.data);
+        let of_block = match kept.coarse {
+            true => folds.rows_of_folds(problem.data),
+            false => folds.rows_of_blocks(problem.data),
+        };
         let unit = Vector6::repeat(1.0);
         let parts: Vec<(Products, Products)> = of_block
             .par_iter()
@@ -199,7 +204,8 @@ impl<'c> Screen<'c> {
             let sizes: &[usize] = if turn && !kept.plain { &[] } else { &sizes };
             let mut sums = vec![Products::zeros(k, sizes); folds.count];
             for (block, products) in of.iter().enumerate() {
-                sums[folds.of_block[block]].add(products);
+                let fold = if kept.coarse { block } else { folds.of_block[block] };
+                sums[fold].add(products);
             }
             if turn {
                 sums.iter_mut().for_each(|s| s.turned(&basis.t));

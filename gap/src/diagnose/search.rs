@@ -46,6 +46,9 @@ const EXCHANGE: f64 = 3.0;
 /// A value beyond what is usual by more than this is none that an arm has.
 const IMPOSSIBLE: f64 = 100.0;
 
+/// An effect that leads all others by this much evidence is not compared with them again.
+const SURE: f64 = 60.0;
+
 /// At least this many measured numbers for each parameter.
 const NUMBERS_EACH: usize = 3;
 
@@ -275,6 +278,8 @@ impl<'s> Search<'s, '_> {
             spot,
             least: candidate.least.clone(),
             values: score.values.iter().copied().collect(),
+            usual: candidate.usual.clone(),
+            lead: 0.0,
         };
         if effect.form_is().is_none() {
             return Ok(Some(fitted(spot, &one.score)));
@@ -286,7 +291,7 @@ impl<'s> Search<'s, '_> {
         let near: Vec<Candidate> = (from..to)
             .map(|form| Candidate::of(self.problem, effect, Spot { form, ..spot }, forms.len()))
             .collect();
-        let kept = Kept { without, ..Kept::all(&now.fit) };
+        let kept = Kept { without, coarse: true, ..Kept::all(&now.fit) };
         let finer = Screen::new(self.problem, self.folds, &kept, &near, &now.weights);
         let scores = (0..near.len()).map(|c| (c, finer.score(c)));
         let best = scores.max_by(|a, b| a.1.drop.total_cmp(&b.1.drop));
@@ -299,13 +304,13 @@ impl<'s> Search<'s, '_> {
             if now.fit.model.found.len() < 2 {
                 break;
             }
-            let Some(next) = self.changed(&now)? else { break };
+            let Some(next) = self.changed(&mut now)? else { break };
             now = self.weigh(next);
         }
         Ok(now)
     }
 
-    fn changed(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
+    fn changed(&self, now: &mut Explained) -> Result<Option<Fit>, DiagnoseError> {
         let scale = self.scale(now);
         let left = squares(&now.fit.predicted.gaps, &now.weights);
         let fitted = now.fit.model.parameters(self.problem);
@@ -317,24 +322,29 @@ impl<'s> Search<'s, '_> {
         }
         for index in 0..now.fit.model.found.len() {
             let found = &now.fit.model.found[index];
-            if found.effect.identifier() == "transmission_error" && found.spot.form >= FINE {
+            let fine = found.effect.identifier() == "transmission_error" && found.spot.form >= FINE;
+            if fine || found.lead > SURE {
                 continue;
             }
             let without = [index];
-            let kept = Kept { without: &without, ..Kept::all(&now.fit) };
+            let kept = Kept { without: &without, coarse: true, ..Kept::all(&now.fit) };
             let screen =
                 Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
             let own = left / variance + self.cost_of(&scale, found);
             let ranked = self.ranked(&screen, now);
-            let Some(best) = ranked.first() else { continue };
+            let is_it = |r: &&Ranked| {
+                self.candidates[r.candidate].effect().is_some_and(|(effect, spot)| {
+                    effect.identifier() == found.effect.identifier()
+                        && spot.place == found.spot.place
+                })
+            };
+            let Some(best) = ranked.iter().find(|r| !is_it(r)) else { continue };
             let candidate = &self.candidates[best.candidate];
             let values = best.score.values.iter().zip(&candidate.usual);
             let its = scale.cost(best.score.rank, candidate.forms, values);
-            let cost = (screen.left() - best.score.drop) / variance + its;
-            let is_it = candidate.effect().is_some_and(|(effect, spot)| {
-                effect.identifier() == found.effect.identifier() && spot.place == found.spot.place
-            });
-            if is_it || cost + EXCHANGE >= own {
+            let lead = (screen.left() - best.score.drop) / variance + its - own;
+            if lead + EXCHANGE >= 0.0 {
+                now.fit.model.found[index].lead = lead;
                 continue;
             }
             let refined = self.refined(now, &without, best, &screen)?;

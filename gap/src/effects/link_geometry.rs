@@ -21,7 +21,7 @@ pub struct LinkGeometry;
 const PARALLEL: f64 = 1e-9;
 
 /// What a table may be off by without surprise, m and rad.
-const USUAL: f64 = 0.01;
+const USUAL: f64 = 3e-3;
 
 /// Whether a row stands between two parallel axes of the arm.
 fn is_parallel(arm: &Arm, row: usize) -> bool {

@@ -111,8 +111,8 @@ fn is_stable(chain: &Chain, u: &DVector<f64>) -> bool {
     matrix.cholesky().is_some()
 }
 
-/// An upper bound of the largest eigenvalue of `Lᵀ sym(∂Q/∂u) L`: below 1, the arm is stable, and no
-/// difference quotient is needed to say so.
+/// An upper bound of the largest eigenvalue of `Lᵀ sym(∂Q/∂u) L`: below 1, the arm is stable, and
+/// no difference quotient is needed to say so.
 ///
 /// A second derivative of a point's place is at most its distance by two rotations, 1 by a rotation
 /// and a translation, 0 by two translations. With all forces `F` in the farthest point, at `R`,

@@ -3,8 +3,8 @@
 //! No wrench goes down this chain. All loads are forces at points that keep their direction (and
 //! one couple at the tool); their work in an infinitesimal motion `p → p + G p` of everything
 //! beyond a place is `Σ f · G p`, the product, element by element, of `G` with the *virial*
-//! `V = Σ f [p; 1]ᵀ` of the points beyond. The generalised force of a displacement at a site is that
-//! work per unit of the displacement, `G` being the derivative of the site's transform.
+//! `V = Σ f [p; 1]ᵀ` of the points beyond. The generalised force of a displacement at a site is
+//! that work per unit of the displacement, `G` being the derivative of the site's transform.
 
 use nalgebra::{Matrix3x4, Matrix4, Vector3, Vector6};
 

@@ -132,7 +132,8 @@ impl Effect {
     /// Where on this arm it can act.
     pub fn places(self, arm: &Arm) -> Vec<Place> {
         let joints = || (1..=arm.dof()).map(Place::Joint);
-        let revolute = |p: &Place| matches!(p, Place::Joint(i) if arm.joints[i - 1].motion == Motion::Revolute);
+        let turns = |i: usize| arm.joints[i - 1].motion == Motion::Revolute;
+        let revolute = |p: &Place| matches!(p, Place::Joint(i) if turns(*i));
         match self {
             Effect::JointOffset
             | Effect::JointCompliance

@@ -1,16 +1,16 @@
 //! A plant: the real arm with chosen effects, to be measured by a diagnosis that is not told.
 //!
 //! It shares with the diagnosis the robot file's table, the rows that are to be measured, and the
-//! definition of the effects; nothing else. Its transforms are its own 4×4 products, every effect is a
-//! true transform or number at its place, and equilibrium is found on the deformed arm from the work
-//! that the loads do in each displacement, not by passing wrenches down the chain.
+//! definition of the effects; nothing else. Its transforms are its own 4×4 products, every effect
+//! is a true transform or number at its place, and equilibrium is found on the deformed arm from
+//! the work that the loads do in each displacement, not by passing wrenches down the chain.
 //!
 //! ```text
 //! T = E_base · B · Π_i [ P_i · D_i · M_i(q_i) · S_i · L_i ] · T_tool · E_tool
 //! ```
 //!
-//! `E_base` stands between measuring frame and base; `B` is the foundation, `D_i` and `L_i` joint and
-//! link, which yield to what loads them. A row `i` is `Rz Tz Tx Rx` (standard: joint first) or
+//! `E_base` stands between measuring frame and base; `B` is the foundation, `D_i` and `L_i` joint
+//! and link, which yield to what loads them. A row `i` is `Rz Tz Tx Rx` (standard: joint first) or
 //! `Rx Tx Rz Tz` (modified: joint and beam in between).
 
 mod assemble;

@@ -8,8 +8,8 @@ use crate::measurement::Measurements;
 use crate::plant::noise::Dice;
 use crate::plant::{Effect, Place, Plant, PlantError, Truth};
 
-/// An effect of usual size that does no more than this, in multiples of the noise, does not show: it
-/// would have to be thousands of times as large.
+/// An effect of usual size that does no more than this, in multiples of the noise, does not show:
+/// it would have to be thousands of times as large.
 const FAINT: f64 = 1e-3;
 
 /// Everything that cases share.

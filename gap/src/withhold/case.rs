@@ -82,12 +82,13 @@ impl Bench<'_> {
         let moves_frames =
             |effect: &Effect| matches!(effect, Effect::BaseFrame | Effect::ToolFrame);
         let wanted = self.plan.effects.iter().copied();
-        wanted.filter(|effect| self.plan.frames.is_none() || !moves_frames(effect)).partition(
-            |effect| {
-                let mut dice = Dice::new(self.plan.seed, Stream::Truths);
-                self.plant(*effect, high, &mut dice).is_some()
-            },
-        )
+        let to_be_put = wanted.filter(|e| self.plan.frames.is_none() || !moves_frames(e));
+        let (mut shown, hidden): (Vec<Effect>, Vec<Effect>) = to_be_put.partition(|effect| {
+            let mut dice = Dice::new(self.plan.seed, Stream::Truths);
+            self.plant(*effect, high, &mut dice).is_some()
+        });
+        Dice::new(self.plan.seed, Stream::Truths).shuffle(&mut shown);
+        (shown, hidden)
     }
 }
 

@@ -156,7 +156,8 @@ pub struct After {
 /// Predicted against real.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Shrunk {
-    /// The real shrink lay in the predicted 95 % interval; of cases with one effect and one finding.
+    /// The real shrink lay in the predicted 95 % interval; of cases with one effect and one
+    /// finding.
     pub inside: Rate,
     /// Median of real minus predicted.
     pub median_off: f64,

@@ -142,7 +142,8 @@ fn a_foundation_gives_and_rocks() {
     close(found[5], 0.0);
 }
 
-/// Two links under load: the energy's gradient vanishes, found by Newton's method on the two angles.
+/// Two links under load: the energy's gradient vanishes, found by Newton's method on the two
+/// angles.
 #[test]
 fn two_links_on_two_springs() {
     let (l, c) = ([0.7, 0.5], [3e-4, 5e-4]);

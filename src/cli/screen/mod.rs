@@ -1,23 +1,31 @@
 //! A diagnosis on one screen.
 
+mod effect;
 mod finding;
+mod hidden;
 mod notes;
+mod sentence;
+mod size;
 mod unit;
 
-use stiffarm_gap::diagnose::{Rival, Share};
+use stiffarm_gap::diagnose::Rival;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 use stiffarm_gap::{Diagnosis, Measurements};
 use stiffarm_kernels::generic::Arm;
 
+use super::diagnose::Check;
 use super::quantity::counted;
-use super::text::{Align, bad, bar, bold, dim, good, indented, minus, table};
+use super::text::{Align, bad, bar, bold, dim, fixed, good, indented, minus, table, wrapped};
 
 /// Entries of a list before the rest is counted.
 const MOST: usize = 4;
 
 /// Width of the bars.
 const BAR: usize = 20;
+
+/// Width of the screen.
+const WIDTH: usize = 100;
 
 /// What is to be shown.
 pub struct Screen<'a> {
@@ -29,24 +37,18 @@ pub struct Screen<'a> {
     pub arm: &'a Arm,
     /// Prefixes of the columns that were used as rivals.
     pub rivals: &'a [String],
+    /// Another file, predicted.
+    pub check: Option<&'a Check>,
 }
 
 impl Screen<'_> {
     /// The whole screen.
     pub fn text(&self) -> String {
-        let mut text = self.head();
-        text.push_str(&self.gap());
-        for (k, finding) in self.found.findings.iter().enumerate() {
-            text.push_str(&self.finding(k + 1, finding));
-        }
-        if self.found.findings.is_empty() {
-            let nothing =
-                "no single effect at any place closes the gap on poses that no fit has seen";
-            text.push_str(&format!("\n{}  {nothing}\n", bold("No finding")));
-        }
-        text.push_str(&self.places());
-        text.push_str(&self.compared());
-        text.push_str(&self.rest());
+        let sentence = wrapped(&self.sentence(), WIDTH, 0);
+        let parts =
+            [self.head(), format!("\n{sentence}\n"), self.gap(), self.findings(), self.compared()];
+        let mut text = parts.concat();
+        text.push_str(&self.notes(text.lines().count()));
         text
     }
 
@@ -67,7 +69,15 @@ impl Screen<'_> {
         let poses = counted(data.poses, "pose");
         let facts =
             format!("{}: {rows} of {} at {poses}, {held_out}", data.file, measured.join(" "));
-        format!("{}\n{}\n\n", bold(&found.robot), dim(facts))
+        let own = match data.sim_given.contains(&true) {
+            true => ", against the simulator of its sim_ columns",
+            false => "",
+        };
+        format!(
+            "{}\n{}\n",
+            bold(&found.robot),
+            dim(wrapped(&format!("{facts}{own}"), WIDTH, 2).trim_end())
+        )
     }
 
     fn gap(&self) -> String {
@@ -101,10 +111,17 @@ impl Screen<'_> {
         };
         let of =
             |s: &Statistics| [Some(s.position_rms), Some(s.position_p95), Some(s.position_max)];
-        let mut rows =
-            vec![heads, line("as the robot file is", of(&gap.before), gap.before.rotation_rms)];
+        let first = match self.found.nuisances.is_empty() {
+            true => "as the robot file is",
+            false => "with the unknown frames fitted",
+        };
+        let mut rows = vec![heads, line(first, of(&gap.before), gap.before.rotation_rms)];
         if !self.found.findings.is_empty() {
-            rows.push(line("with the finding, held out", of(&gap.after), gap.after.rotation_rms));
+            let name = match self.found.findings.len() {
+                1 => "with the finding, held out",
+                _ => "with the findings, held out",
+            };
+            rows.push(line(name, of(&gap.after), gap.after.rotation_rms));
         }
         let from = match gap.noise.from {
             "residual" => "noise, from what is left",
@@ -118,21 +135,6 @@ impl Screen<'_> {
         // The heading stands out to the left.
         let (head, rest) = lines.split_once('\n').unwrap_or((&lines, ""));
         format!("{}\n{}", head.replacen("  ", "    ", 1), indented(rest, 2))
-    }
-
-    fn places(&self) -> String {
-        let places = &self.found.places;
-        if places.len() < 2 {
-            return String::new();
-        }
-        let row = |s: &Share| {
-            let share = format!("{:.0} %", 100.0 * s.share);
-            vec![s.place.clone(), share, bar(s.share, BAR)]
-        };
-        let rows: Vec<_> = places.iter().take(MOST).map(row).collect();
-        let lines = indented(&table(&rows, &[Align::Left, Align::Right, Align::Left]), 2);
-        let what = dim("what each place alone takes of the mean square, held out; they overlap");
-        format!("\n{}  {what}\n{lines}{}", bold("Where"), more(places.len(), "place"))
     }
 
     fn compared(&self) -> String {
@@ -182,9 +184,15 @@ fn words(identifier: &str) -> String {
     identifier.replace('_', " ")
 }
 
-fn more(length: usize, what: &str) -> String {
-    match length.checked_sub(MOST) {
-        None | Some(0) => String::new(),
-        Some(rest) => format!("  and {}\n", counted(rest, &format!("more {what}"))),
+/// The first entries of a list, and how many more there are.
+fn listed(entries: &[String], most: usize) -> String {
+    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
+    match entries.len().checked_sub(most) {
+        None | Some(0) => shown,
+        Some(rest) => format!("{shown} and {rest} more"),
     }
+}
+
+fn percent(part: f64) -> String {
+    format!("{} %", fixed(100.0 * part, 0))
 }

@@ -1,0 +1,13 @@
+//! Remarks on standard error: what a user should know, and `--quiet` leaves out.
+
+use std::io::Write as _;
+
+use console::style;
+
+/// Prints a remark, unless `quiet`; where standard error is closed there is no one to tell.
+pub fn note(text: &str, quiet: bool) {
+    if !quiet {
+        let head = style("note").for_stderr().cyan().bold();
+        let _ = std::io::stderr().write_all(format!("{head}: {text}\n").as_bytes());
+    }
+}

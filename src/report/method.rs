@@ -1,0 +1,64 @@
+//! How the diagnosis was made, with what it was given.
+
+use stiffarm_gap::diagnose::Nuisance;
+
+use super::Report;
+
+/// What every diagnosis does.
+pub const METHOD: &str = "\
+The gap is what was measured minus what the robot file's model says at static equilibrium under the \
+row's load and the links' weight. Frames that are unknown are fitted first, and along with \
+everything after. Each effect of the catalogue, at each place, gives its change of every measured \
+number; the one with the most evidence is added, if it is significant among all that were tried and \
+makes the gap smaller on poses that its fit has not seen. All effects found are then fitted again \
+together, exactly, each as a true displacement at its place, and those that the others make \
+superfluous are taken back. Intervals of the gap come from resampling poses with all their rows, \
+those of parameters from least squares and Student’s t. Every candidate is tried in the place of each \
+finding: those that resampling the poses does not tell from it are named. What is left is tested for \
+structure with free-form displacements at every place.";
+
+/// Names and values of what the diagnosis was given.
+pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
+    let (found, data, options) = (report.found, report.data, report.options);
+    let folds = if found.held_out.folds == data.poses {
+        format!("{}: each {} in turn", found.held_out.folds, found.held_out.grouped_by)
+    } else {
+        format!("{}, grouped by {}", found.held_out.folds, found.held_out.grouped_by)
+    };
+    let noise = match found.gap.noise.from {
+        "option" => "as given by option",
+        "repeats" => "from repeats of poses",
+        _ => "from what is left",
+    };
+    let words = report.words;
+    let mut sizes = Vec::new();
+    if report.has_positions() {
+        sizes.push(words.length.with_unit(found.gap.noise.position_rms));
+    }
+    if data.kind.components()[3..].contains(&true) {
+        sizes.push(words.angle.with_unit(found.gap.noise.rotation_rms));
+    }
+    let nuisances: Vec<&str> = options.nuisances.iter().map(|n| Nuisance::identifier(*n)).collect();
+    let named = |names: &[String], none: &str| match names {
+        [] => none.to_owned(),
+        names => names.join(", "),
+    };
+    let simulator = match data.sim_given.contains(&true) {
+        true => "the file’s sim_ columns",
+        false => "stiffarm’s model of the robot file",
+    };
+    vec![
+        ("stiffarm", found.stiffarm.clone()),
+        ("robot", found.robot.clone()),
+        ("measurements", data.file.clone()),
+        ("rows", found.measurements.to_string()),
+        ("poses", data.poses.to_string()),
+        ("simulator", simulator.to_owned()),
+        ("folds", folds),
+        ("seed", options.seed.to_string()),
+        ("noise, rms", format!("{} ({noise})", sizes.join(", "))),
+        ("frames fitted along", if nuisances.is_empty() { "none".into() } else { nuisances.join(", ") }),
+        ("effects tried", named(options.effects.as_deref().unwrap_or_default(), "all")),
+        ("compared with", named(&options.rivals, "no other model")),
+    ]
+}

@@ -1,0 +1,70 @@
+//! The report of a diagnosis: one self-contained page, which opens with what to do and shows
+//! everything behind it.
+//!
+//! [`Report`] is what goes into it. The page is a template (`templates/report.html`) filled from
+//! [`page`]; what is drawn by the page's own scripts (the arm, residuals, fitted shapes) is embedded
+//! as JSON ([`embedded`]), and so are the tables that it offers as CSV ([`table`]). Nothing in the
+//! page refers to anything outside of it.
+
+mod embedded;
+mod method;
+mod page;
+mod rows;
+mod scene;
+mod shape;
+mod table;
+#[cfg(test)]
+mod tests;
+mod waterfall;
+mod words;
+
+use nalgebra::Vector6;
+use stiffarm_gap::diagnose::{Diagnosis, Prediction};
+use stiffarm_gap::{Measurements, Options};
+use stiffarm_kernels::generic::Arm;
+
+pub use words::{Told, Unit, Words};
+
+/// What a report is made of.
+pub struct Report<'a> {
+    /// The diagnosis.
+    pub found: &'a Diagnosis,
+    /// What it was made of.
+    pub data: &'a Measurements,
+    /// The arm of the robot file.
+    pub arm: &'a Arm,
+    /// The same with its tool where the measured frame was fitted.
+    pub placed: &'a Arm,
+    /// The gap of every row before and after, with the models fitted to all of them.
+    pub gaps: &'a Prediction,
+    /// How it was asked for.
+    pub options: &'a Options,
+    /// The diagnosis as it is said.
+    pub words: &'a Words,
+}
+
+impl Report<'_> {
+    /// The page.
+    ///
+    /// # Errors
+    /// [`askama::Error`] if the template cannot be filled.
+    pub fn html(&self) -> Result<String, askama::Error> {
+        page::html(self)
+    }
+
+    /// Whether positions are measured; else rotations are what is judged.
+    fn has_positions(&self) -> bool {
+        self.data.kind.components()[..3].contains(&true)
+    }
+
+    /// The part of a gap that is judged and drawn: the translation, or the rotation without one.
+    fn main_part(&self, gap: &Vector6<f64>) -> [f64; 3] {
+        let first = if self.has_positions() { 0 } else { 3 };
+        [gap[first], gap[first + 1], gap[first + 2]]
+    }
+
+    /// In what that part is shown.
+    fn main_unit(&self) -> &Unit {
+        if self.has_positions() { &self.words.length } else { &self.words.angle }
+    }
+}

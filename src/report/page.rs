@@ -1,0 +1,239 @@
+//! The page's text, filled into the template.
+
+use askama::Template;
+use stiffarm_gap::diagnose::{Finding, NuisanceReport};
+
+use super::waterfall::{Waterfall, waterfall};
+use super::{Report, embedded, method};
+
+/// Places or rivals that are named one by one.
+const MOST: usize = 8;
+
+/// A share below this is not shown.
+const LEAST: f64 = 0.005;
+
+/// The scripts, one matter each, in the order in which they stand in the page.
+const SCRIPT: &str = concat!(
+    include_str!("script/data.js"),
+    include_str!("script/theme.js"),
+    include_str!("script/plot.js"),
+    include_str!("script/residuals.js"),
+    include_str!("script/arm.js"),
+);
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    robot: &'a str,
+    file: &'a str,
+    rows: usize,
+    poses: usize,
+    version: &'a str,
+    sentence: &'a str,
+    waterfall: Waterfall,
+    findings: Vec<Found<'a>>,
+    parts: Vec<(&'static str, String)>,
+    places: Vec<Place<'a>>,
+    unexplained: Option<Left<'a>>,
+    hidden: &'a [String],
+    covers: Vec<String>,
+    frames: Vec<Frame<'a>>,
+    rivals: Vec<Compared<'a>>,
+    method: &'static str,
+    facts: Vec<(&'static str, String)>,
+    style: &'static str,
+    script: &'static str,
+    data: String,
+}
+
+/// A finding.
+struct Found<'a> {
+    name: String,
+    said: String,
+    numbers: &'a [String],
+    shrink: String,
+    evidence: String,
+    /// What this data does not tell from it.
+    same: Vec<String>,
+    more: usize,
+    /// The best of what it does.
+    next: Option<String>,
+    advice: Option<&'a str>,
+}
+
+/// A place with its share.
+struct Place<'a> {
+    name: &'a str,
+    /// In percent: as text, and for the bar.
+    share: String,
+    width: String,
+}
+
+/// What no effect explains.
+struct Left<'a> {
+    size: String,
+    places: Vec<Place<'a>>,
+    depends_on: &'a [String],
+}
+
+/// A frame that was fitted along.
+struct Frame<'a> {
+    name: &'a str,
+    translation: String,
+    rotation: String,
+}
+
+/// Another model's predictions.
+struct Compared<'a> {
+    name: &'a str,
+    theirs: String,
+    ours: String,
+    verdict: &'static str,
+}
+
+/// The page.
+pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
+    let found = report.found;
+    let left = &found.unexplained;
+    let size = report.main_unit().with_unit(left.position_rms);
+    let page = Page {
+        robot: &found.robot,
+        file: &report.data.file,
+        rows: found.measurements,
+        poses: report.data.poses,
+        version: &found.stiffarm,
+        sentence: &report.words.sentence,
+        waterfall: waterfall(report),
+        findings: findings(report),
+        parts: found.parts.iter().map(|p| (p.part, percent(p.share))).collect(),
+        places: places(&found.places),
+        unexplained: left.present.then(|| Left {
+            size,
+            places: places(&left.places),
+            depends_on: &left.depends_on,
+        }),
+        hidden: &report.words.hidden,
+        covers: covers(report),
+        frames: found.nuisances.iter().map(frame).collect(),
+        rivals: rivals(report),
+        method: method::METHOD,
+        facts: method::facts(report),
+        style: include_str!("style.css"),
+        script: SCRIPT,
+        data: embedded::json(report).map_err(askama::Error::custom)?,
+    };
+    page.render()
+}
+
+fn findings<'a>(report: &Report<'a>) -> Vec<Found<'a>> {
+    let told = report.found.findings.iter().zip(&report.words.findings);
+    let each = told.map(|(finding, told)| {
+        let leaves = |a: &stiffarm_gap::diagnose::Alternative| {
+            let left = report.main_unit().with_unit(a.held_out_after);
+            format!("{} at {}, which leaves {left}", a.effect.replace('_', " "), a.place)
+        };
+        let (same, other): (Vec<_>, Vec<_>) =
+            finding.alternatives.iter().partition(|a| !a.separable);
+        Found {
+            name: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
+            said: capital(&told.said),
+            numbers: &told.numbers,
+            shrink: shrink(report, finding),
+            evidence: evidence(finding),
+            more: same.len().saturating_sub(MOST),
+            same: same.into_iter().take(MOST).map(leaves).collect(),
+            next: other.first().map(|a| leaves(a)),
+            advice: finding.to_separate.as_deref(),
+        }
+    });
+    each.collect()
+}
+
+fn shrink(report: &Report<'_>, finding: &Finding) -> String {
+    let (held, unit) = (&finding.held_out, report.main_unit());
+    let [low, high] = held.shrink_ci95.map(percent);
+    format!(
+        "{} → {}, {} less [{low} to {high}]",
+        unit.number(held.before),
+        unit.with_unit(held.after),
+        percent(held.shrink)
+    )
+}
+
+/// The chance of it without cause, and how often it is found again.
+fn evidence(finding: &Finding) -> String {
+    let chance = match finding.p_value {
+        p if p < 1e-15 => "p < 1e-15".to_owned(),
+        p => format!("p = {p:.1e}"),
+    };
+    let again = percent(finding.stability);
+    format!("{chance}; found again on {again} of random halves of the poses")
+}
+
+fn places(shares: &[stiffarm_gap::diagnose::Share]) -> Vec<Place<'_>> {
+    let there = shares.iter().filter(|s| s.share >= LEAST);
+    let place = |s: &'_ stiffarm_gap::diagnose::Share| (100.0 * s.share).clamp(0.0, 100.0);
+    there
+        .map(|s| Place {
+            name: &s.place,
+            share: percent(s.share),
+            width: format!("{:.1}", place(s)),
+        })
+        .collect()
+}
+
+/// Where the data has been.
+fn covers(report: &Report<'_>) -> Vec<String> {
+    let covers = &report.found.covers;
+    let joints = covers.joints.iter().zip(&report.arm.joints).enumerate();
+    let mut lines: Vec<String> = joints
+        .map(|(j, ([low, high], joint))| {
+            let (unit, si) = match joint.motion {
+                stiffarm_kernels::Motion::Revolute => ("°", 1_f64.to_radians()),
+                stiffarm_kernels::Motion::Prismatic => (" mm", 1e-3),
+            };
+            let [low, high] = [low, high].map(|q| format!("{:.0}", q / si).replacen('-', "−", 1));
+            format!("joint {}: {low}{unit} to {high}{unit}", j + 1)
+        })
+        .collect();
+    lines.push(format!("force: up to {:.0} N", covers.force));
+    lines.push(format!("moment: up to {:.0} N·m", covers.moment));
+    lines
+}
+
+fn frame(found: &NuisanceReport) -> Frame<'_> {
+    let list = |v: [f64; 3]| v.map(|x| format!("{:.3}", 1e3 * x).replacen('-', "−", 1)).join(", ");
+    Frame {
+        name: &found.name,
+        translation: list(found.translation),
+        rotation: list(found.rotation),
+    }
+}
+
+fn rivals<'a>(report: &Report<'a>) -> Vec<Compared<'a>> {
+    let unit = report.main_unit();
+    let rivals = report.found.rivals.as_deref().unwrap_or_default().iter();
+    let compared = rivals.map(|r| Compared {
+        name: &r.name,
+        theirs: unit.with_unit(r.rms),
+        ours: unit.with_unit(r.held_out_rms),
+        verdict: match (r.significant, r.mean_square_gain > 0.0) {
+            (true, true) => "ours is significantly better",
+            (true, false) => "ours is significantly worse",
+            (false, true) => "ours is not significantly better",
+            (false, false) => "ours is not better",
+        },
+    });
+    compared.collect()
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.0} %", 100.0 * part).replacen('-', "−", 1)
+}
+
+/// With a capital letter at its beginning.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}

@@ -1,0 +1,200 @@
+//! What was found at a joint as a function of its angle, torque or direction, with the rows around
+//! it.
+//!
+//! A row's point is a partial residual: the fitted shape there, plus what the row's remaining gap
+//! is as a motion of the joint (its projection on the joint's Jacobian column, at the measured
+//! point). Points that lie along the curve say that the shape is right; a bend says what it lacks.
+
+use nalgebra::{Vector3, Vector6};
+use serde::Serialize;
+use serde_json::Value;
+use stiffarm_gap::diagnose::Finding;
+use stiffarm_gap::measurement::{Kind, Row};
+use stiffarm_gap::simulate::equilibrium;
+use stiffarm_kernels::Motion;
+
+use super::Report;
+use super::scene::{base, offset};
+use super::table::{Table, number};
+
+/// Points of a curve.
+const STEPS: usize = 96;
+
+/// A joint that moves the point by less than this part of the most it does tells nothing of itself.
+const LEAST_LEVER: f64 = 0.1;
+
+/// Below this a thousandth of the unit is shown, rad or m.
+const SMALL: f64 = 2e-4;
+
+/// A fitted shape.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shape {
+    title: String,
+    x: Axis,
+    y: Axis,
+    /// Whether x is a direction.
+    classes: bool,
+    /// Through these, SI.
+    curve: Vec<[Value; 2]>,
+    /// Line, x, partial residual, fitted: SI.
+    table: Table,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Axis {
+    name: String,
+    si: f64,
+}
+
+/// Over what a finding is a function.
+#[derive(Clone, Copy, PartialEq)]
+enum Over {
+    Torque,
+    Reading,
+    Direction,
+}
+
+/// The shapes of all findings that are a function of one thing.
+pub fn shapes(report: &Report<'_>) -> Vec<Shape> {
+    report.found.findings.iter().filter_map(|finding| shape(report, finding)).collect()
+}
+
+fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
+    let joint = finding.place.strip_prefix("joint ")?.parse::<usize>().ok()?.checked_sub(1)?;
+    let over = over(report, finding.effect)?;
+    let motion = report.arm.joints.get(joint)?.motion;
+    let value = |x: f64| value(finding, x);
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    let levers = report.data.rows.iter().map(|row| lever(report, row, joint));
+    let levers: Vec<Vector6<f64>> = levers.collect();
+    let longest = levers.iter().map(|l| l.norm_squared()).fold(0.0, f64::max);
+    let rows = report.data.rows.iter().zip(&report.gaps.after).zip(&levers);
+    for ((row, gap), lever) in rows {
+        let size = lever.norm_squared();
+        if size <= LEAST_LEVER.powi(2) * longest {
+            continue;
+        }
+        let x = match over {
+            Over::Torque => torque(report, row, joint)?,
+            Over::Reading => row.q[joint],
+            Over::Direction => f64::from(row.direction.as_ref()?[joint]),
+        };
+        points.push([row.line as f64, x, value(x) + lever.dot(gap) / size]);
+    }
+    let low = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let high = points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+    if low >= high {
+        return None;
+    }
+    let (x, head) = names(over, motion, joint);
+    let most = points.iter().map(|p| p[2].abs()).fold(0.0, f64::max);
+    let (file, y) = shown(motion, most);
+    let mut table = Table::new(&["line"]);
+    table.columns.extend([head, format!("partial_residual[{file}]"), format!("fitted[{file}]")]);
+    let cells = |p: &[f64; 3]| {
+        vec![Value::from(p[0] as u64), number(p[1]), number(p[2]), number(value(p[1]))]
+    };
+    table.rows = points.iter().map(cells).collect();
+    let at = |k: usize| low + (high - low) * k as f64 / STEPS as f64;
+    Some(Shape {
+        title: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
+        x,
+        y,
+        classes: over == Over::Direction,
+        curve: (0..=STEPS).map(|k| [number(at(k)), number(value(at(k)))]).collect(),
+        table,
+    })
+}
+
+/// Of a displacement only what is in proportion to the load is a function of one state.
+fn over(report: &Report<'_>, effect: &str) -> Option<Over> {
+    let displaced = matches!(report.data.kind, Kind::Displacement { .. });
+    match effect {
+        "joint_compliance" => Some(Over::Torque),
+        "joint_hardening" if !displaced => Some(Over::Torque),
+        "joint_ratio" | "transmission_error" if !displaced => Some(Over::Reading),
+        "backlash" if !displaced => Some(Over::Direction),
+        _ => None,
+    }
+}
+
+/// The joint's motion by the finding, rad (m).
+fn value(finding: &Finding, x: f64) -> f64 {
+    let first = finding.parameters.first().map_or(0.0, |p| p.value);
+    match finding.effect {
+        "joint_hardening" => first * x.powi(3),
+        // Half the dead band to either side, against the approach.
+        "backlash" => -0.5 * first * x,
+        "transmission_error" => finding.parameters.iter().map(|p| wave(&p.name, x) * p.value).sum(),
+        _ => first * x,
+    }
+}
+
+/// `cos 2` and `sin 2` at an angle; what is no wave is 0.
+fn wave(name: &str, angle: f64) -> f64 {
+    let Some((function, order)) = name.split_once(' ') else { return 0.0 };
+    let Ok(order) = order.parse::<f64>() else { return 0.0 };
+    match function {
+        "cos" => (order * angle).cos(),
+        "sin" => (order * angle).sin(),
+        _ => 0.0,
+    }
+}
+
+/// What load and weight do to a joint of the robot file's arm; for a displacement, what the load
+/// adds. None where it has no equilibrium.
+fn torque(report: &Report<'_>, row: &Row, joint: usize) -> Option<f64> {
+    let under = |wrench: &Vector6<f64>| {
+        equilibrium(report.arm, &row.q, wrench).ok().map(|state| state.torque[joint])
+    };
+    let loaded = under(&row.wrench)?;
+    match report.data.kind {
+        Kind::Pose { .. } => Some(loaded),
+        Kind::Displacement { .. } => Some(loaded - under(&Vector6::zeros())?),
+    }
+}
+
+/// Motion of the measured components per motion of a joint: translations if there are any, else
+/// rotations; measuring frame.
+fn lever(report: &Report<'_>, row: &Row, joint: usize) -> Vector6<f64> {
+    let column: Vector6<f64> = report.placed.jacobian(&row.q).column(joint).into_owned();
+    let turn: Vector3<f64> = column.fixed_rows::<3>(3).into_owned();
+    let arm = report.placed.pose(&row.q).rotation * Vector3::from(offset(report, row));
+    let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
+    let frame = base(report).rotation;
+    let measured = report.data.kind.components();
+    let positions = report.has_positions();
+    let mut lever = Vector6::zeros();
+    let parts = [(0, positions, frame * moved), (3, !positions, frame * turn)];
+    for (from, _, part) in parts.into_iter().filter(|(_, counts, _)| *counts) {
+        for k in (0..3).filter(|k| measured[from + k]) {
+            lever[from + k] = part[k];
+        }
+    }
+    lever
+}
+
+/// The axis, and the column's head.
+fn names(over: Over, motion: Motion, joint: usize) -> (Axis, String) {
+    let number = joint + 1;
+    let (name, si, head) = match (over, motion) {
+        (Over::Torque, Motion::Revolute) => ("torque, N·m", 1.0, "torque[Nm]".to_owned()),
+        (Over::Torque, Motion::Prismatic) => ("force, N", 1.0, "force[N]".to_owned()),
+        (Over::Reading, Motion::Revolute) => {
+            ("reading, °", 1_f64.to_radians(), format!("q{number}[rad]"))
+        }
+        (Over::Reading, Motion::Prismatic) => ("reading, mm", 1e-3, format!("q{number}[m]")),
+        (Over::Direction, _) => ("direction of approach", 1.0, format!("s{number}")),
+    };
+    (Axis { name: name.to_owned(), si }, head)
+}
+
+/// The file's unit of a joint's motion, and in what motions up to `most` are shown.
+fn shown(motion: Motion, most: f64) -> (&'static str, Axis) {
+    let (file, names) = match motion {
+        Motion::Revolute => ("rad", ["µrad", "mrad"]),
+        Motion::Prismatic => ("m", ["µm", "mm"]),
+    };
+    let (unit, si) = if most < SMALL { (names[0], 1e-6) } else { (names[1], 1e-3) };
+    (file, Axis { name: format!("joint moves, {unit}"), si })
+}

@@ -1,0 +1,130 @@
+//! `stiffarm compensate`.
+
+use nalgebra::Vector6;
+use stiffarm_gap::simulate::equilibrium;
+
+use crate::support::{Folder, arm, stiffarm, text};
+
+const LOAD: &str = "0,0,-2kN,0,0,0";
+
+/// Poses of the unloaded KR 240-2 at some postures, in mm and degrees.
+fn targets(extra: &str) -> String {
+    let arm = arm("kuka_kr240");
+    let mut rows = "pose,x[mm],y[mm],z[mm],rx[deg],ry[deg],rz[deg]\n".to_owned();
+    for k in 0..6 {
+        let turn = f64::from(k) / 10.0;
+        let q = [turn - 0.2, 1.1 + turn / 2.0, -1.8 + turn, 0.3, 0.9 - turn, 0.2];
+        let pose = arm.pose(&q);
+        let (p, r) = (pose.translation.vector * 1e3, pose.rotation.scaled_axis());
+        let r = r.map(f64::to_degrees);
+        rows.push_str(&format!("p{k},{},{},{},{},{},{}\n", p.x, p.y, p.z, r.x, r.y, r.z));
+    }
+    rows + extra
+}
+
+/// The columns of a result by name, as text.
+fn column<'a>(csv: &'a str, name: &str) -> Vec<&'a str> {
+    let header: Vec<&str> = csv.lines().next().expect("a header").split(',').collect();
+    let at = header.iter().position(|h| *h == name).unwrap_or_else(|| panic!("no {name}: {csv}"));
+    csv.lines().skip(1).map(|line| line.split(',').nth(at).expect("a cell")).collect()
+}
+
+fn numbers(csv: &str, name: &str) -> Vec<f64> {
+    column(csv, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+}
+
+/// The set-points are put into the simulator: the loaded tool stands at the targets.
+#[test]
+fn the_loaded_arm_stands_at_the_targets() {
+    let folder = Folder::new();
+    let (file, out) = (folder.file("path.csv", targets("")), text(&folder.path("out.csv")));
+    let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--wrench", LOAD, "--out"];
+    let screen = stiffarm(&[&arguments[..], &[&out]].concat()).good();
+    assert!(screen.contains("reached  6 of 6"), "{screen}");
+    let csv = std::fs::read_to_string(&out).expect("written");
+    assert_eq!(column(&csv, "pose"), ["p0", "p1", "p2", "p3", "p4", "p5"]);
+    assert!(column(&csv, "status").iter().all(|status| *status == "reached"), "{csv}");
+    assert!(!csv.contains(",-0.000000"), "{csv}");
+    let arm = arm("kuka_kr240");
+    let joints: Vec<Vec<f64>> = (1..=6).map(|j| numbers(&csv, &format!("q{j}[deg]"))).collect();
+    let place = ["x[mm]", "y[mm]", "z[mm]"].map(|name| numbers(&csv, name));
+    let load = Vector6::new(0.0, 0.0, -2000.0, 0.0, 0.0, 0.0);
+    for row in 0..6 {
+        let q: Vec<f64> = joints.iter().map(|values| values[row].to_radians()).collect();
+        let tool = equilibrium(&arm, &q, &load).expect("stable").tool.translation.vector;
+        for k in 0..3 {
+            // To a micrometre, and the digits written.
+            assert!((1e3 * tool[k] - place[k][row]).abs() < 1.1e-3, "{row} {tool} {csv}");
+        }
+        let before = numbers(&csv, "before[mm]")[row];
+        assert!((0.01..20.0).contains(&before), "{csv}");
+        assert!(numbers(&csv, "error_rotation[mrad]")[row] <= 1e-3);
+    }
+    let printed = stiffarm(&[&arguments[..], &["-"]].concat()).good();
+    assert_eq!(printed, csv);
+}
+
+#[test]
+fn what_is_not_reached_is_marked_and_kept() {
+    let folder = Folder::new();
+    let file = folder.file("path.csv", targets("far,9000,0,0,0,0,0\n"));
+    let out = text(&folder.path("out.csv"));
+    let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", &out];
+    let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat());
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("1 of 7 targets are not reached"), "{}", run.err);
+    assert!(run.out.contains("line 8: nearest") && run.out.contains("mm away"), "{}", run.out);
+    let csv = std::fs::read_to_string(&out).expect("written");
+    let status = column(&csv, "status");
+    assert!(status[..6].iter().all(|s| *s == "reached") && status[6].starts_with("nearest"));
+    assert!(numbers(&csv, "error[mm]")[6] > 5000.0, "{csv}");
+    let crushed = stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat());
+    assert_eq!(crushed.status, 1);
+    let csv = std::fs::read_to_string(&out).expect("written");
+    assert!(column(&csv, "status").iter().all(|s| *s == "unstable"), "{csv}");
+    assert!(column(&csv, "q1[deg]").iter().all(|s| s.is_empty()), "{csv}");
+}
+
+/// Starts and loads of each row; positions alone.
+#[test]
+fn rows_may_have_starts_and_loads_of_their_own() {
+    let folder = Folder::new();
+    let rows = "q1,q2,q3,q4,q5,q6,fz[kN],x,y,z\n0.1,1.2,-1.7,0,0.5,0,-2,1.7,0.2,0.9\n\
+                0.1,1.2,-1.7,0,0.5,0,0,1.7,0.2,0.9\n";
+    let file = folder.file("path.csv", rows);
+    let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", "-"];
+    let csv = stiffarm(&arguments).good();
+    let before = numbers(&csv, "before[mm]");
+    assert!(before[0] > 0.1 && before[1] < 2e-3, "{csv}");
+    assert!(!csv.contains("rotation"), "{csv}");
+    let err = stiffarm(&[&arguments[..], &["--wrench", LOAD]].concat()).refused();
+    assert!(err.contains("has loads of its own"), "{err}");
+}
+
+#[test]
+fn targets_that_cannot_be_used_are_refused() {
+    let folder = Folder::new();
+    let refused = |content: &str, extra: &[&str], expected: &str| {
+        let file = folder.file("path.csv", content);
+        let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", "-"];
+        let err = stiffarm(&[&arguments[..], extra].concat()).refused();
+        assert!(err.contains(expected), "no `{expected}` in\n{err}");
+    };
+    refused("x,y,z\n1,a,0\n", &[], "path.csv:2:3\n");
+    refused("x,y\n1,0\n", &[], "found `x` without z");
+    refused("dx,dy,dz\n1,0,0\n", &[], "found displacements, expected poses");
+    refused("q1,x,y,z\n0,1,0,0\n", &[], "found no column q2");
+    refused("x,y,z\n1,0,0\n", &["--tolerance", "3"], "expected a positive number and its unit");
+    refused("x,y,z\n1,0,0\n", &["--wrench", "3"], "--wrench: found 1 value");
+    let err = stiffarm(&["compensate", "ur5", "--targets", "no.csv", "--out", "-"]).refused();
+    assert!(err.contains("cannot read no.csv"), "{err}");
+}
+
+#[test]
+fn a_rigid_arm_is_remarked_on() {
+    let folder = Folder::new();
+    let file = folder.file("path.csv", "x,y,z\n0.4,0.2,0.3\n");
+    let run = stiffarm(&["compensate", "ur5", "--targets", &file, "--out", "-"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("nothing in the robot file gives way"), "{}", run.err);
+}

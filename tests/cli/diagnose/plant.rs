@@ -1,0 +1,323 @@
+//! Diagnoses of plants: arms with effects that only the test knows.
+
+use serde_json::Value;
+use stiffarm_gap::measurement::Kind;
+use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
+
+use super::{flat, line};
+use crate::support::{Folder, stiffarm, text};
+
+const ROBOT: &str = r#"
+name = "shoulder and elbow"
+convention = "standard"
+[[joint]]
+type = "revolute"
+d = 0.4
+alpha = "pi/2"
+stiffness = 4e5
+mass = 30.0
+com = [0.0, -0.2, 0.0]
+[[joint]]
+type = "revolute"
+theta = "-pi/2"
+a = 0.7
+mass = 20.0
+com = [-0.35, 0.0, 0.0]
+[[joint]]
+type = "revolute"
+a = 0.6
+d = 0.1
+alpha = "-pi/2"
+stiffness = 3e5
+mass = 8.0
+com = [-0.3, 0.0, 0.0]
+[tool]
+translation = [0.05, 0.0, 0.15]
+rotation = [0.0, 0.0, "pi/4"]
+"#;
+
+const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
+const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
+const SLACK: &str = "backlash@joint 3=0.5 mrad";
+
+/// The robot file, and measurements of it with these truths.
+struct Bench {
+    folder: Folder,
+    robot: String,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let folder = Folder::new();
+        let robot = folder.file("arm.toml", ROBOT);
+        Bench { folder, robot }
+    }
+
+    fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
+        let (robot, _) =
+            stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
+        let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
+        let truths: Vec<Truth> =
+            truths.iter().map(|t| Truth::parse(t, &arm).expect("an effect of this arm")).collect();
+        let design = Design {
+            shape: Shape::Payload,
+            poses: 16,
+            repeats: 1,
+            payload: 15.0,
+            kind: Kind::Pose { orientation: true },
+            seed,
+        };
+        let mut plant = Plant::new(&arm, &truths).expect("a plant");
+        if unknown_frames {
+            plant = plant.with_frames(Frames::unknown(seed));
+        }
+        let noise = Noise { position: 2e-5, rotation: 4e-5 };
+        let measured = plant.measure(&design.rows(&arm), noise, seed).expect("it stands");
+        self.folder.file(name, csv(&arm, &measured, &[]))
+    }
+
+    fn diagnose(&self, robot: &str, data: &str, extra: &[&str]) -> String {
+        stiffarm(&[&["diagnose", robot, data], extra].concat()).good()
+    }
+
+    fn json(&self, robot: &str, data: &str, extra: &[&str]) -> Value {
+        let out = self.diagnose(robot, data, &[extra, &["--json", "-"]].concat());
+        serde_json::from_str(&out).expect("JSON")
+    }
+}
+
+/// `effect at place`, in order.
+fn findings(found: &Value) -> Vec<String> {
+    let all = found["findings"].as_array().expect("a list");
+    let name = |f: &Value| {
+        let word = |key: &str| f[key].as_str().expect("a word").to_owned();
+        format!("{} at {}", word("effect"), word("place"))
+    };
+    all.iter().map(name).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn two_effects_are_told_in_one_screen() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING, ZERO], 1, false);
+    let out = bench.diagnose(&bench.robot, &run, &[]);
+    let lines: Vec<&str> = out.lines().collect();
+    assert!(lines.len() <= 40 && lines.iter().all(|l| l.chars().count() <= 100), "{out}");
+    assert_eq!(lines[0], "shoulder and elbow");
+    let whole = flat(&out);
+    for sentence in [
+        "oint 2 twists 6.0",
+        " µrad/(N·m) more than modelled",
+        "he zero of joint 3 is off by 0.79",
+        "; modelling both removes ",
+        " % of the gap, ",
+        "stiffness 1.6",
+    ] {
+        assert!(whole.contains(sentence), "{sentence} in {out}");
+    }
+    for number in ["1", "2"] {
+        let title = line(&out, &format!("{number}  "));
+        assert!(title.contains(&"→") && title.contains(&"less"), "{out}");
+        assert!(title.iter().any(|word| word.contains('░')), "{out}");
+    }
+    assert!(out.contains("joint compliance at joint 2") && out.contains("joint offset at joint 3"));
+    assert!(out.contains("with the findings, held out"), "{out}");
+    assert!(out.contains("Where  ") && out.contains("Cannot see  "), "{out}");
+    assert!(out.contains("Goes with     "), "{out}");
+}
+
+#[test]
+fn what_is_found_adds_to_what_the_file_has() {
+    let bench = Bench::new();
+    // Joint 3 is three times as soft as its file says.
+    let run = bench.measured("run.csv", &["joint_compliance@joint 3=6.667e-6"], 10, false);
+    let text = std::fs::read_to_string(&run).expect("there");
+    let lines = text.lines().enumerate();
+    let longer = lines.map(|(k, l)| format!("{l},{}\n", if k == 0 { "temprature" } else { "21" }));
+    let run = bench.folder.file("run.csv", longer.collect::<String>());
+    let noise = ["--noise-position", "20um", "--noise-rotation", "0.04mrad", "--folds", "4"];
+    let out = bench.diagnose(&bench.robot, &run, &noise);
+    assert!(out.contains("held out in 4 folds of poses"), "{out}");
+    assert!(out.contains("noise, as given"), "{out}");
+    assert!(out.contains("joint compliance at joint 3"), "{out}");
+    let said = flat(&out);
+    let after = |begins: &str| {
+        let found = said.split(begins).nth(1).unwrap_or_else(|| panic!("no {begins} in {out}"));
+        found.split(' ').next().and_then(|n| n.parse::<f64>().ok()).expect("a number")
+    };
+    assert!((after("compliance, added ") - 6.667).abs() < 0.1, "{out}");
+    assert!((after("; stiffness ") / 1e5 - 1.0).abs() < 0.02, "{out}");
+    assert!(said.contains(" µrad/(N·m) [") && !out.contains("lbf"), "{out}");
+    assert!(said.contains("Unexplained nothing beyond the noise"), "{out}");
+    assert!(said.contains("columns temprature (did you mean temperature?)"), "{out}");
+}
+
+#[test]
+fn unknown_frames_are_fitted_along() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING], 2, true);
+    let frames = ["--nuisance", "base_frame,tool_frame"];
+    let out = bench.diagnose(&bench.robot, &run, &frames);
+    assert!(out.contains("with the unknown frames fitted"), "{out}");
+    assert!(out.contains("Fitted along  base frame at ("), "{out}");
+    let found = bench.json(&bench.robot, &run, &frames);
+    assert_eq!(findings(&found), ["joint_compliance at joint 2"]);
+    assert_eq!(found["nuisances"][1]["name"], "tool_frame");
+
+    // The tool goes into the robot file, the base does not: it is named again.
+    let better = text(&bench.folder.path("better.toml"));
+    bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
+    let written = std::fs::read_to_string(&better).expect("written");
+    let (put_in, left_out) = written.split_once("# Found, and not in this file:\n").expect("both");
+    assert!(put_in.contains("#   tool_frame, fitted along: at ["), "{written}");
+    assert!(left_out.starts_with("#   base_frame, fitted along: at ["), "{written}");
+    assert_eq!(findings(&bench.json(&better, &run, &["--nuisance", "base_frame"])), [""; 0]);
+}
+
+#[test]
+fn the_corrected_robot_has_no_gap_left() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING, ZERO], 3, false);
+    let better = bench.folder.file("better.toml", "before");
+    let first = bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
+    assert!(first.contains("Findings"), "{first}");
+    let written = std::fs::read_to_string(&better).expect("written");
+    assert!(written.starts_with("# Corrected by stiffarm "), "{written}");
+    assert!(written.contains("#   joint_compliance at joint 2: compliance "), "{written}");
+    assert!(written.contains(", in stiffness of joint 2\n"), "{written}");
+    assert!(written.contains(", in theta of joint 3\n"), "{written}");
+    assert!(written.contains("# Found, and not in this file:\n#   nothing\n"), "{written}");
+    // What was not found stays as it was, exact angles and all.
+    for kept in ["alpha = \"pi/2\"", "theta = \"-pi/2\"", "stiffness = 400000.0", "\"pi/4\"]"] {
+        assert!(written.contains(kept), "{kept} in {written}");
+    }
+    let again = bench.json(&better, &run, &[]);
+    assert_eq!(findings(&again), [""; 0]);
+    assert_eq!(again["unexplained"]["present"], false);
+    // The same from other measurements of the arm.
+    let other = bench.measured("other.csv", &[SPRING, ZERO], 4, false);
+    assert_eq!(findings(&bench.json(&better, &other, &[])), [""; 0]);
+    let said = bench.diagnose(&better, &other, &["--noise-position", "20um"]);
+    let said = flat(&said);
+    assert!(said.contains("is noise (") && said.contains("nothing is missing"), "{said}");
+
+    let twice = text(&bench.folder.path("twice.toml"));
+    bench.diagnose(&bench.robot, &run, &["--write-robot", &twice]);
+    assert_eq!(std::fs::read_to_string(&twice).expect("written"), written);
+    assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", &twice, "--quiet"]), "");
+    assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", "-"]), written);
+}
+
+#[test]
+fn what_a_robot_file_cannot_hold_stands_at_its_top() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SLACK], 5, false);
+    let better = text(&bench.folder.path("better.toml"));
+    bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
+    let written = std::fs::read_to_string(&better).expect("written");
+    assert!(written.contains("# Put in, with 95 % intervals:\n#   nothing\n"), "{written}");
+    let left = "#   backlash at joint 3: width ";
+    assert!(written.contains(left), "{written}");
+    assert!(written.contains("], left out: a robot file has no entry for it\n"), "{written}");
+    assert_eq!(findings(&bench.json(&better, &run, &[])), ["backlash at joint 3"]);
+}
+
+#[test]
+fn another_file_is_predicted() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING, ZERO], 6, false);
+    let other = bench.measured("other.csv", &[SPRING, ZERO], 7, false);
+    let found = bench.json(&bench.robot, &run, &["--check", &other]);
+    let check = &found["check"];
+    let keys: Vec<&String> = check.as_object().expect("an object").keys().collect();
+    assert_eq!(keys, ["file", "rows", "inside", "before", "after"]);
+    assert_eq!((check["file"].as_str(), check["rows"].as_u64()), (Some(&*other), Some(48)));
+    let inside = check["inside"].as_u64().expect("a number");
+    assert!(0 < inside && inside < 48, "{check}");
+    let rms = |which: &str| number(&check[which]["position_rms"]);
+    // Three coordinates with a standard deviation of 20 µm.
+    let noise = 2e-5 * 3.0_f64.sqrt();
+    assert!(rms("before") > 10.0 * noise && rms("after") < 1.3 * noise, "{check}");
+    let out = bench.diagnose(&bench.robot, &run, &["--check", &other]);
+    let said = flat(&out);
+    let part = format!("on {inside} of the 48 rows of ");
+    let outside = format!("{} outside are not judged", 48 - inside);
+    assert!(said.contains(&part) && said.contains(&outside), "{out}");
+
+    // Rows that all lie elsewhere are not judged at all.
+    let far = "q1,q2,q3,x,y,z,rx,ry,rz\n50,0,0,1,0,0,0,0,0\n51,0,0,1,0,0,0,0,0\n";
+    let far = bench.folder.file("far.csv", far);
+    let found = bench.json(&bench.robot, &run, &["--check", &far]);
+    assert_eq!(found["check"]["inside"], 0);
+    assert_eq!(found["check"]["after"], Value::Null);
+    let out = bench.diagnose(&bench.robot, &run, &["--check", &far]);
+    assert!(out.contains("none is judged"), "{out}");
+    assert!(bench.json(&bench.robot, &run, &[]).get("check").is_none());
+}
+
+#[test]
+fn the_same_files_give_the_same_bytes() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING, ZERO], 8, true);
+    let frames = ["--nuisance", "tool_frame,base_frame", "--check", &run, "--json", "-"];
+    let first = bench.diagnose(&bench.robot, &run, &frames);
+    assert_eq!(bench.diagnose(&bench.robot, &run, &frames), first);
+    let screen = bench.diagnose(&bench.robot, &run, &frames[..4]);
+    assert_eq!(bench.diagnose(&bench.robot, &run, &frames[..4]), screen);
+}
+
+#[test]
+fn what_cannot_be_is_refused_and_nothing_written() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING], 9, false);
+    let out = text(&bench.folder.path("out.toml"));
+    let refused = |extra: &[&str], expected: &str| {
+        let all = [&["diagnose", &bench.robot, &run, "--write-robot", &out], extra].concat();
+        let err = stiffarm(&all).refused();
+        assert!(err.contains(expected), "{err}");
+    };
+    refused(&["--nuisance", "base_fram"], "expected base_frame or tool_frame; did you mean");
+    refused(&["--effects", "backlosh"], "did you mean `backlash`?");
+    refused(&["--effects", "x"], "expected one of joint_offset, joint_compliance, backlash");
+    refused(&["--check", "no.csv"], "cannot read no.csv: no such file");
+    refused(&["--report", "out.html"], "--report is not in this version");
+    let marked = "q1,q2,q3,marker,x,y,z\n0,0,0,smr,1,0,0\n0,0,1,smr,1,0,0\n";
+    let marked = bench.folder.file("marked.csv", marked);
+    refused(&["--check", &marked], "smr");
+    let arguments = ["diagnose", &bench.robot, &run, "--json", "-", "--write-robot", "-"];
+    let err = stiffarm(&arguments).refused();
+    assert!(err.contains("--json and --write-robot cannot both go to standard output"), "{err}");
+    assert_eq!(bench.folder.names(), ["arm.toml", "marked.csv", "run.csv"]);
+}
+
+#[test]
+fn a_marker_without_a_place_is_fitted() {
+    let folder = Folder::new();
+    let robot = folder.file("arm.toml", format!("{ROBOT}\n[[marker]]\nname = \"smr\"\n"));
+    let (robot_read, _) =
+        stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
+    let arm = stiffarm_gap::robot::arm(&robot_read).expect("with numbers");
+    // The marker stands at (40, −10, 25) mm of the tool; the arm is as its file says.
+    let marker = nalgebra::Point3::new(0.04, -0.01, 0.025);
+    let mut rows = "marker,q1,q2,q3,x[mm],y[mm],z[mm]\n".to_owned();
+    for k in 0..20 {
+        let angle = |by: f64| (f64::from(k) * by).sin() * 1.5;
+        let q = [angle(1.3), angle(2.1), angle(0.7)];
+        let loaded = stiffarm_gap::simulate::equilibrium(&arm, &q, &nalgebra::Vector6::zeros());
+        let at = loaded.expect("it stands").tool * marker;
+        let jitter = |by: f64| 0.01 * (f64::from(k) * by).sin();
+        let [x, y, z] = [at.x, at.y, at.z].map(|x| 1e3 * x);
+        let [x, y, z] = [x + jitter(12.9), y + jitter(78.2), z + jitter(37.7)];
+        rows.push_str(&format!("smr,{},{},{},{x},{y},{z}\n", q[0], q[1], q[2]));
+    }
+    let run = folder.file("run.csv", rows);
+    let out = stiffarm(&["diagnose", &robot, &run]).good();
+    assert!(!out.contains("Findings"), "{out}");
+    let fitted = line(&out, "Fitted along").join(" ");
+    assert!(fitted.starts_with("Fitted along smr at (40.0, −"), "{fitted}");
+}

@@ -1,0 +1,114 @@
+//! `stiffarm import`.
+
+use crate::support::{Folder, stiffarm, text};
+
+#[test]
+fn the_robot_file_can_be_used_at_once() {
+    let folder = Folder::new();
+    let out = text(&folder.path("panda.toml"));
+    let run = stiffarm(&["import", "tests/data/urdf/panda.urdf", "--toml", &out]);
+    assert_eq!((run.status, run.out.as_str()), (0, ""));
+    assert!(run.err.starts_with("note: forward kinematics as in the URDF to "), "{}", run.err);
+    let toml = std::fs::read_to_string(&out).expect("written");
+    assert!(toml.starts_with("# Imported by stiffarm from tests/data/urdf/panda.urdf"), "{toml}");
+    let printed = stiffarm(&["--quiet", "import", "tests/data/urdf/panda.urdf"]).good();
+    assert_eq!(printed, toml);
+    let q = "0.1,-0.2,0.3,-1.4,0.5,1.6,0.7";
+    let evaluated = |robot: &str| {
+        let out = stiffarm(&["eval", robot, "--q", q, "--gravity", "--json", "-"]).good();
+        serde_json::from_str::<serde_json::Value>(&out).expect("JSON")
+    };
+    let (ours, built_in) = (evaluated(&out), evaluated("panda"));
+    for key in ["position", "joint_torque"] {
+        let list = |v: &serde_json::Value| -> Vec<f64> {
+            v[key].as_array().expect("a list").iter().filter_map(|x| x.as_f64()).collect()
+        };
+        for (a, b) in list(&ours).iter().zip(list(&built_in)) {
+            assert!((a - b).abs() < 1e-12, "{key}: {a} is not {b}");
+        }
+    }
+}
+
+#[test]
+fn what_a_user_must_know_is_said_and_written() {
+    let arguments = ["import", "tests/data/urdf/oblique.urdf", "--tip", "needle"];
+    let run = stiffarm(&arguments);
+    assert_eq!(run.status, 0, "{}", run.err);
+    for said in [
+        "the base frame of this table is that of link `floor` turned by 0.27061956778",
+        "left out: link `grip_left` and what hangs on it, 0.1 kg",
+    ] {
+        assert!(run.err.contains(said), "no `{said}` in\n{}", run.err);
+        assert!(run.out.contains(said), "no `{said}` in\n{}", run.out);
+    }
+    let quiet = stiffarm(&[&["--quiet"], &arguments[..]].concat()).good();
+    assert_eq!(quiet, run.out);
+}
+
+const ARM: &str = r#"<robot name="a"><link name="l0"/><link name="l1"/><link name="l2"/>
+<joint name="j1" type="revolute">
+  <parent link="l0"/><child link="l1"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/>
+</joint>
+<joint name="j2" type="revolute">
+  <origin xyz="0.5 0 0" rpy="1.5708 0 0"/>
+  <parent link="l1"/><child link="l2"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/>
+</joint></robot>"#;
+
+#[test]
+fn roundings_are_told_or_kept() {
+    let folder = Folder::new();
+    let file = folder.file("arm.urdf", ARM);
+    let run = stiffarm(&["import", &file]);
+    assert!(run.out.contains("alpha = \"pi/2\""), "{}", run.out);
+    assert!(run.err.contains("joint `j2`: 1.5708 rad is read as pi/2 (off by 4e-6"), "{}", run.err);
+    let kept = stiffarm(&["--quiet", "import", &file, "--as-written"]).good();
+    assert!(kept.contains("alpha = 1.5708\n"), "{kept}");
+}
+
+#[test]
+fn mistakes_are_shown_where_they_stand() {
+    let folder = Folder::new();
+    let cases = [
+        (
+            ARM.replace("type=\"revolute\">\n  <origin", "type=\"planar\">\n  <origin"),
+            "joint `j2` is planar, expected one that turns or slides",
+            "arm.urdf:6:1\n",
+        ),
+        (ARM.replace("0.5 0 0", "0.5 0"), "xyz: found `0.5 0`, expected 3 numbers", ":7:3\n"),
+        (ARM.replace("</joint></robot>", "</joint>"), "this is no XML", "arm.urdf"),
+        (ARM.replace(" velocity=\"1\"", ""), "this is no URDF", "arm.urdf"),
+        (String::new(), "this is no XML", "arm.urdf"),
+        (
+            ARM.replace("<robot name=\"a\">", "<robot name=\"a\"><link name=\"l2\"/>"),
+            "two links are called `l2`",
+            "arm.urdf:1:",
+        ),
+    ];
+    let out = text(&folder.path("arm.toml"));
+    for (content, message, place) in cases {
+        let file = folder.file("arm.urdf", content);
+        let err = stiffarm(&["import", &file, "--toml", &out]).refused();
+        assert!(
+            err.contains(message) && err.contains(place),
+            "no `{message}` at `{place}`:\n{err}"
+        );
+    }
+    assert_eq!(folder.names(), ["arm.urdf"]);
+    let err = stiffarm(&["import", "tests/data/urdf/oblique.urdf"]).refused();
+    assert!(err.contains("choose the tip with --tip: "), "{err}");
+    assert!(err.contains("needle (5 moving)"), "{err}");
+    let err = stiffarm(&["import", "no.urdf"]).refused();
+    assert!(err.contains("cannot read no.urdf: no such file"), "{err}");
+}
+
+/// Axes that are parallel but for a billionth of a radian meet a million kilometres away.
+#[test]
+fn what_double_precision_cannot_hold_is_refused() {
+    let folder = Folder::new();
+    let nearly = ARM.replace("rpy=\"1.5708 0 0\"", "rpy=\"1e-9 3e-10 0\" ");
+    let nearly = nearly.replace("xyz=\"0.5 0 0\"", "xyz=\"0.5 0.1 0\"");
+    let err = stiffarm(&["import", &folder.file("arm.urdf", nearly)]).refused();
+    assert!(err.contains("so nearly parallel that they meet 5e7 m away"), "{err}");
+}

@@ -1,0 +1,129 @@
+//! `stiffarm simulate`.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::support::{Folder, stiffarm, text};
+
+const SPRING: &str = "joint_compliance@joint 2=3e-6 rad/(N·m)";
+
+fn simulated(extra: &[&str]) -> String {
+    stiffarm(&[&["simulate", "ur5", "--csv", "-"], extra].concat()).good()
+}
+
+fn header(csv: &str) -> &str {
+    csv.lines().find(|line| !line.starts_with('#')).expect("a header")
+}
+
+#[test]
+fn a_file_says_what_it_is() {
+    let csv = simulated(&["--effect", SPRING, "--poses", "3"]);
+    let comments: Vec<&str> = csv.lines().take_while(|line| line.starts_with('#')).collect();
+    assert_eq!(
+        comments,
+        [
+            "# UR5, simulated: the payload design, 9 rows at 3 poses",
+            "# noise 30.0 um in each coordinate, 0.0873 mrad in each rotation; seed 0",
+            "# effect joint_compliance@joint 2:compliance=3e-6 (SI)",
+        ]
+    );
+    assert_eq!(csv.lines().count(), 3 + 1 + 9);
+    let columns: Vec<&str> = header(&csv).split(',').collect();
+    for column in ["time[s]", "temperature[degC]", "q6[rad]", "s1", "fz[N]", "mx[Nm]", "rz[rad]"] {
+        assert!(columns.contains(&column), "{columns:?}");
+    }
+    let blind = simulated(&["--effect", SPRING, "--poses", "3", "--withhold"]);
+    assert!(blind.contains("# effects withheld") && !blind.contains("compliance"), "{blind}");
+    let rows = |csv: &str| csv.lines().skip(3).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(rows(&blind), rows(&csv));
+}
+
+#[test]
+fn the_seed_decides() {
+    let of = |seed: &str| simulated(&["--seed", seed, "--poses", "2", "--design", "force"]);
+    assert_eq!(of("5"), of("5"));
+    assert_ne!(of("5"), of("6"));
+}
+
+#[test]
+fn what_is_measured_can_be_chosen() {
+    let position = simulated(&["--measure", "position", "--poses", "2"]);
+    assert!(header(&position).ends_with("x[m],y[m],z[m]"), "{position}");
+    let moved = simulated(&["--measure", "displacement", "--poses", "2", "--first-order-sim"]);
+    assert!(header(&moved).contains("drz[rad],sim_dx[m]"), "{moved}");
+    let repeated = simulated(&["--repeats", "4", "--poses", "2", "--design", "force"]);
+    assert_eq!(repeated.lines().count(), 3 + 1 + 4 * 2 * 4);
+    let narrow = simulated(&["--design", "narrow", "--frames", "unknown", "--poses", "2"]);
+    assert!(narrow.contains("base_frame and tool_frame are nuisances"), "{narrow}");
+}
+
+/// The rows of a file are measured again; another arm's answer differs only by the effect.
+#[test]
+fn a_files_rows_are_measured_again() {
+    let run = "robots/data/lin1991_table3.csv";
+    let of = |effects: &[&str]| {
+        let noiseless = ["--noise-position", "0m", "--csv", "-"];
+        stiffarm(&[&["simulate", "lin_planar", run], effects, &noiseless].concat()).good()
+    };
+    let nominal = of(&[]);
+    assert!(nominal.contains("12 rows at 12 poses"), "{nominal}");
+    let soft = of(&["--effect", "joint_compliance@joint 1=4.14e-5"]);
+    let last = |csv: &str, line: usize| -> f64 {
+        let line = csv.lines().filter(|l| !l.starts_with('#')).nth(line).expect("a row");
+        line.rsplit(',').next().expect("a cell").parse().expect("a number")
+    };
+    // Stretched out by 48 in under 1.02 lbf, the spring adds F·L²·C.
+    let (force, reach) = (1.02 * 4.4482216152605, 48.0 * 0.0254);
+    let added = -force * reach * reach * 4.14e-5;
+    assert!((last(&soft, 1) - last(&nominal, 1) - added).abs() < 1e-3 * added.abs());
+}
+
+/// What is put in is what the diagnosis finds.
+#[test]
+fn the_diagnosis_finds_what_was_put_in() {
+    let folder = Folder::new();
+    let run = text(&folder.path("run.csv"));
+    let made = ["simulate", "ur5", "--effect", SPRING, "--poses", "12", "--csv", &run];
+    assert_eq!(stiffarm(&made).good(), "");
+    let only = ["--effects", "joint_compliance", "--json", "-"];
+    let found = stiffarm(&[&["diagnose", "ur5", &run], &only[..]].concat()).good();
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let first = &found["findings"][0];
+    assert_eq!(
+        (&first["effect"], &first["place"]),
+        (&"joint_compliance".into(), &"joint 2".into())
+    );
+    let ends = &first["parameters"][0]["ci95"];
+    let end = |k: usize| ends[k].as_f64().expect("a number");
+    assert!(end(1) - end(0) < 1e-6 && end(0) < 3.3e-6 && end(1) > 2.7e-6, "{ends}");
+}
+
+#[test]
+fn mistakes_are_named_and_nothing_is_written() {
+    let folder = Folder::new();
+    let out = text(&folder.path("out.csv"));
+    let refused = |extra: &[&str]| {
+        let error = stiffarm(&[&["simulate", "ur5", "--csv", &out], extra].concat()).refused();
+        assert!(!Path::new(&out).exists());
+        error
+    };
+    let cases: [(&[&str], &str); 9] = [
+        (&["--effect", "backlsh@joint 2=1mrad"], "did you mean `backlash`?"),
+        (&["--effect", "backlash@joint 9=1mrad"], "found the place `joint 9`, expected one of"),
+        (&["--effect", "joint_compliance@joint 2=-1"], "expected at least 0"),
+        (&["--poses", "0"], "--poses: found 0, expected at least 1"),
+        (&["--poses", "400000"], "expected at most 1000000 rows"),
+        (&["--payload", "heavy"], "--payload: found `heavy`, expected a mass in kg, or a force"),
+        (&["--noise-position", "3"], "--noise-position: found `3`"),
+        (&["--measure", "displacement", "--payload", "0kg"], "found no load, expected one"),
+        (
+            &["--effect", "joint_compliance@joint 2=1", "--payload", "500kg"],
+            "not in stable equilibrium",
+        ),
+    ];
+    for (extra, expected) in cases {
+        let error = refused(extra);
+        assert!(error.contains(expected), "{error}");
+    }
+}
