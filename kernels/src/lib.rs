@@ -3,13 +3,21 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "generic")]
+#[cfg(feature = "batch")]
+extern crate alloc;
+#[cfg(any(feature = "fma", feature = "generic"))]
 extern crate std;
 
+#[cfg(feature = "batch")]
+pub mod batch;
 #[cfg(feature = "generic")]
 pub mod generic;
 mod kernel;
+#[cfg(feature = "lanes")]
+pub mod lanes;
 mod scalar;
+#[cfg(any(feature = "lanes", not(feature = "libm")))]
+mod sin_cos;
 mod solve;
 
 pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, fill};

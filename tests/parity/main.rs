@@ -2,12 +2,15 @@
 //!
 //! The kernels are compared with `kernels::generic`, which shares no code with the generator, on the
 //! arms of `stiffarm-robots`, on a zoo of odd tables written for this test, and (through the graph's
-//! own evaluation) on random tables. The dual numbers are num-dual's.
+//! own evaluation) on random tables. The dual numbers are num-dual's. Lanes and batches of poses are
+//! compared with one pose at a time, bit for bit.
 
+mod batch;
 #[macro_use]
 mod compare;
 mod dual;
 mod known;
+mod lanes;
 mod random;
 mod symbolic;
 mod zoo;

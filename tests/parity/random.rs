@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use stiffarm::kernels::Output;
-use stiffarm_codegen::derive::{Output as Derived, derive, derive_in};
+use stiffarm_codegen::derive::{Output as Derived, Passes, derive, derive_in, derive_with};
 use stiffarm_codegen::robot::Robot;
 
 use crate::compare::{CANCELLED, Draws, relative, terms};
@@ -119,6 +119,31 @@ proptest! {
         for ((a, b), output) in there.iter().zip(&base).zip(kinds) {
             let worst = relative(a, b, CANCELLED * terms(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{worst:e}\n{text}");
+        }
+    }
+
+    #[test]
+    fn passes_change_nothing_but_the_cost(
+        text in robot(), off in 0usize..5, output in 0usize..14, seed in any::<u64>()
+    ) {
+        let (robot, _) = Robot::from_toml(&text, "random").unwrap();
+        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
+        let mut draws = Draws::new(seed);
+        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
+        let passes = match off {
+            0 => Passes { frame: false, ..Passes::ALL },
+            1 => Passes { sums: false, ..Passes::ALL },
+            2 => Passes { runs: false, ..Passes::ALL },
+            3 => Passes { parallel: false, ..Passes::ALL },
+            _ => Passes::NONE,
+        };
+        let (output, derived) = (Output::EACH[output], Derived::EACH[output]);
+        let all = derive(&robot, &[derived]).evaluate(&q, &wrench, |_| f64::NAN);
+        let some = derive_with(&robot, &[derived], passes).evaluate(&q, &wrench, |_| f64::NAN);
+        if let (Ok(all), Ok(some)) = (all, some) {
+            let floor = CANCELLED * terms(&arm, output, &q, &wrench);
+            let worst = relative(&some[0], &all[0], floor);
+            prop_assert!(worst <= 1e-11, "{} {passes:?} {worst:e}\n{text}", output.name());
         }
     }
 }

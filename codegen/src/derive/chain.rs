@@ -2,6 +2,8 @@
 //! along it in the working frame.
 
 use super::jacobian::Twist;
+use super::passes::Passes;
+use super::runs::{ByRun, by_run};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
 use crate::number::Number;
 use crate::robot::{Convention, Motion, Robot, Value};
@@ -21,15 +23,19 @@ pub(super) enum Step {
 /// The orientation at a place of the chain: axes in the working frame, then a turn about z that is
 /// only carried out when x or y is needed. Turns of parallel joints thus add up to one angle.
 #[derive(Clone, Debug)]
-struct Place {
-    axes: [Vec3; 3],
-    turn: Turn,
+pub(super) struct Place {
+    pub axes: [Vec3; 3],
+    pub turn: Turn,
 }
 
 /// An arm laid out in one working frame.
 pub(super) struct Chain<'r> {
     pub g: Graph,
     pub robot: &'r Robot,
+    /// What may be done to save operations.
+    pub passes: Passes,
+    /// Boundary of the working frame.
+    pub cut: usize,
     steps: Vec<Step>,
     /// Orientation before step `s`; one more than there are steps.
     places: Vec<Place>,
@@ -38,11 +44,13 @@ pub(super) struct Chain<'r> {
     tool: [Vec3; 3],
     /// The joints' twists, once they were asked for.
     pub twists: Option<Vec<Twist>>,
+    /// What was worked out run by run, where it is.
+    by_run: Option<ByRun>,
 }
 
 impl<'r> Chain<'r> {
     /// Lays out the arm with the working frame at boundary `cut` (before step `cut`).
-    pub fn new(robot: &'r Robot, cut: usize) -> Self {
+    pub fn new(robot: &'r Robot, cut: usize, passes: Passes) -> Self {
         let mut g = Graph::new();
         // In the order of the table, so that products of parameters look alike in every graph.
         for symbol in robot.symbols() {
@@ -50,21 +58,20 @@ impl<'r> Chain<'r> {
         }
         let steps: Vec<Step> =
             (0..robot.dof()).flat_map(|row| row_steps(&mut g, robot, row)).collect();
-        let identity = Place {
-            axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-                .map(|axis| axis.map(|c| if c == 1 { Expr::ONE } else { Expr::ZERO })),
-            turn: Turn::ZERO,
-        };
-        let mut places = vec![identity; steps.len() + 1];
+        let mut places = vec![Place::base(); steps.len() + 1];
         for s in cut..steps.len() {
-            places[s + 1] = places[s].after(&mut g, &steps[s]);
+            places[s + 1] = places[s].after(&mut g, &steps[s]).at_once(&mut g, !passes.sums);
         }
         for s in (0..cut).rev() {
-            places[s] = places[s + 1].before(&mut g, &steps[s]);
+            places[s] = places[s + 1].before(&mut g, &steps[s]).at_once(&mut g, !passes.sums);
         }
         let axes = vec![None; places.len()];
         let tool = [[Expr::ZERO; 3]; 3];
-        let mut chain = Chain { g, robot, steps, places, axes, tool, twists: None };
+        let (twists, by_run) = (None, None);
+        let mut chain = Chain { g, robot, passes, cut, steps, places, axes, tool, twists, by_run };
+        if passes.runs {
+            chain.by_run = Some(self::by_run(&mut chain));
+        }
         chain.tool = chain.turned_tool();
         // The tool's axes in base axes are Paul's n, o, a; in another frame they are not.
         chain.name_axes(if cut == 0 { ["n", "o", "a"] } else { ["xt", "yt", "zt"] });
@@ -110,7 +117,16 @@ impl<'r> Chain<'r> {
 
     /// The joint's axis.
     pub fn joint_axis(&self, row: usize) -> Vec3 {
-        self.z(self.joint_step(row))
+        match &self.by_run {
+            Some(known) if self.revolute(row) => known.twists[row].1,
+            Some(known) => known.twists[row].0,
+            None => self.z(self.joint_step(row)),
+        }
+    }
+
+    /// The joints' twists and the tool's origin, where they were worked out run by run.
+    pub fn by_run(&self) -> Option<&ByRun> {
+        self.by_run.as_ref()
     }
 
     /// The z axis before step `s`.
@@ -204,7 +220,15 @@ impl<'r> Chain<'r> {
 }
 
 impl Place {
-    fn after(&self, g: &mut Graph, step: &Step) -> Place {
+    /// The working frame itself.
+    pub fn base() -> Place {
+        let axis =
+            |k: usize| core::array::from_fn(|row| if row == k { Expr::ONE } else { Expr::ZERO });
+        Place { axes: core::array::from_fn(axis), turn: Turn::ZERO }
+    }
+
+    /// The orientation behind a step.
+    pub fn after(&self, g: &mut Graph, step: &Step) -> Place {
         match step {
             Step::SlideZ(_) | Step::SlideX(_) => self.clone(),
             Step::TurnZ(turn) => Place { axes: self.axes, turn: self.turn.plus(g, turn) },
@@ -231,14 +255,31 @@ impl Place {
         }
     }
 
-    fn carried_out(self, g: &mut Graph) -> [Vec3; 3] {
+    /// The same with its turn carried out if `now`.
+    pub fn at_once(self, g: &mut Graph, now: bool) -> Place {
+        if now { Place { axes: self.carried_out(g), turn: Turn::ZERO } } else { self }
+    }
+
+    /// A vector in the axes of this place, in the working frame.
+    pub fn turned(&self, g: &mut Graph, v: Vec3) -> Vec3 {
+        let (s, c) = self.turn.sin_cos(g);
+        let [x, y, z] = v;
+        let products = [(c, x), (s, y), (s, x), (c, y)].map(|(a, b)| g.mul(a, b));
+        let (x, y) = (g.sub(products[0], products[1]), g.add(products[2], products[3]));
+        let parts = [(x, 0), (y, 1), (z, 2)].map(|(part, k)| g.scale3(part, self.axes[k]));
+        let sum = g.add3(parts[0], parts[1]);
+        g.add3(sum, parts[2])
+    }
+
+    /// The axes, the pending turn carried out.
+    pub fn carried_out(self, g: &mut Graph) -> [Vec3; 3] {
         let [x, y, z] = self.axes;
         let (s, c) = self.turn.sin_cos(g);
         [g.combine3(c, x, s, y), g.combine3(-s, x, c, y), z]
     }
 }
 
-fn expression(g: &mut Graph, value: &Value) -> Expr {
+pub(super) fn expression(g: &mut Graph, value: &Value) -> Expr {
     match value {
         Value::Number(n) => g.number(*n),
         Value::Symbol(name) => g.symbol(Symbol::Parameter(name.clone())),
@@ -246,7 +287,7 @@ fn expression(g: &mut Graph, value: &Value) -> Expr {
 }
 
 /// The four steps of a row in the order of its convention.
-fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
+pub(super) fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
     let joint = &robot.joints[row];
     let mut theta = Turn::constant(g, &joint.theta);
     let mut d = expression(g, &joint.d);

@@ -4,7 +4,7 @@ use super::beam;
 use super::chain::Chain;
 use super::jacobian::{Twist, base_twists};
 use super::lever::Levers;
-use crate::expr::{Expr, Vec3};
+use crate::expr::{Expr, Vec3, parallel3};
 
 /// A compliance with the twist that it gives the tool, base axes.
 struct Element {
@@ -28,20 +28,62 @@ pub(super) fn joint_compliances(chain: &mut Chain) -> Vec<Option<Expr>> {
 }
 
 /// `Σ c t tᵀ` over joints and the springs of beams; 6×6, base axes, at the tool origin.
+///
+/// Twists with one rotation w in common are taken together: their part is `[Σ c v vᵀ, (Σ c v) wᵀ;
+/// w (Σ c v)ᵀ, (Σ c) w wᵀ]`, so only the translations cost something by twist.
 pub(super) fn compliance(chain: &mut Chain) -> Vec<Expr> {
     let elements = elements(chain);
     let mut lower = [Expr::ZERO; 36];
-    for Element { compliance, twist } in elements {
-        for (column, component) in twist.into_iter().enumerate() {
-            let scaled = chain.g.mul(compliance, component);
-            for (row, other) in twist.into_iter().enumerate().skip(column) {
-                let product = chain.g.mul(scaled, other);
-                let at = 6 * column + row;
-                lower[at] = chain.g.add(lower[at], product);
+    for group in groups(elements, chain.passes.parallel) {
+        let rotation = [group[0].twist[3], group[0].twist[4], group[0].twist[5]];
+        let (mut first, mut total) = ([Expr::ZERO; 3], Expr::ZERO);
+        for Element { compliance, twist } in &group {
+            let v = [twist[0], twist[1], twist[2]];
+            let scaled = chain.g.scale3(*compliance, v);
+            for (column, a) in scaled.into_iter().enumerate() {
+                for (row, b) in v.into_iter().enumerate().skip(column) {
+                    add(chain, &mut lower, (column, row), (a, b));
+                }
+            }
+            first = chain.g.add3(first, scaled);
+            total = chain.g.add(total, *compliance);
+        }
+        let scaled = chain.g.scale3(total, rotation);
+        for (row, b) in rotation.into_iter().enumerate() {
+            for (column, a) in first.into_iter().enumerate() {
+                add(chain, &mut lower, (column, 3 + row), (a, b));
+            }
+            for (column, a) in scaled.into_iter().enumerate().take(row + 1) {
+                add(chain, &mut lower, (3 + column, 3 + row), (a, b));
             }
         }
     }
     (0..36).map(|at| (at / 6, at % 6)).map(|(c, r)| lower[6 * c.min(r) + c.max(r)]).collect()
+}
+
+/// Adds a product to an entry.
+fn add(chain: &mut Chain, sums: &mut [Expr; 36], (column, row): (usize, usize), of: (Expr, Expr)) {
+    let at = 6 * column + row;
+    let term = chain.g.mul(of.0, of.1);
+    sums[at] = chain.g.add(sums[at], term);
+}
+
+/// Elements whose twists have one rotation, known by its expressions being equal up to one sign; turned
+/// round, an element is the same. Each by itself unless `together`.
+fn groups(elements: Vec<Element>, together: bool) -> Vec<Vec<Element>> {
+    let mut groups: Vec<Vec<Element>> = Vec::new();
+    for element in elements {
+        let rotation = |e: &Element| [e.twist[3], e.twist[4], e.twist[5]];
+        let own = rotation(&element);
+        let alike = groups.iter().position(|group| parallel3(rotation(&group[0]), own));
+        match alike.filter(|_| together) {
+            None => groups.push(vec![element]),
+            Some(at) if rotation(&groups[at][0]) == own => groups[at].push(element),
+            Some(at) => groups[at]
+                .push(Element { twist: element.twist.map(|component| -component), ..element }),
+        }
+    }
+    groups
 }
 
 fn elements(chain: &mut Chain) -> Vec<Element> {

@@ -7,7 +7,10 @@ use crate::expr::{Expr, Vec3};
 /// Tool pose, base axes: columns x, y, z, origin.
 pub(super) fn pose(chain: &mut Chain) -> Vec<Expr> {
     let axes = chain.tool_axes();
-    let levers = Levers::to_tool(chain);
+    let levers = match chain.by_run().map(|known| known.tip) {
+        Some(tip) => Levers::inside(chain, chain.cut, tip),
+        None => Levers::to_tool(chain),
+    };
     let origin = levers.from(&mut chain.g, From::Boundary(0), None);
     columns(chain, axes, origin, "n", "o", "a", "p")
 }

@@ -13,6 +13,14 @@ pub(super) fn twists(chain: &mut Chain) -> Vec<Twist> {
     if let Some(known) = &chain.twists {
         return known.clone();
     }
+    if let Some(known) = chain.by_run() {
+        let twists = known.twists.clone();
+        for (j, (v, _)) in twists.iter().enumerate() {
+            chain.name3(*v, &format!("v{}", j + 1));
+        }
+        chain.twists = Some(twists.clone());
+        return twists;
+    }
     let levers = Levers::to_tool(chain);
     let twists: Vec<Twist> = (0..chain.dof())
         .map(|j| {

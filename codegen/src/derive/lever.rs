@@ -20,6 +20,8 @@ struct Segment {
 #[derive(Clone, Debug)]
 pub(super) struct Levers {
     segments: Vec<Segment>,
+    /// What every lever begins with.
+    beyond: Vec3,
 }
 
 /// A point from which a lever is taken.
@@ -54,6 +56,13 @@ impl Levers {
         Levers::sorted(chain, segments)
     }
 
+    /// The slides before boundary `cut`, continued by `beyond` from there on.
+    pub fn inside(chain: &mut Chain, cut: usize, beyond: Vec3) -> Levers {
+        let mut segments = slides(chain, |_, _, length| length);
+        segments.retain(|segment| segment.at < 2 * cut);
+        Levers { beyond, ..Levers::sorted(chain, segments) }
+    }
+
     /// First moments of mass: each slide weighted by the mass beyond it, and the masses' own offsets.
     pub fn of_mass(chain: &mut Chain) -> Levers {
         let points = super::gravity::masses(chain);
@@ -84,7 +93,7 @@ impl Levers {
             run.last().map_or(segment.at, |(at, _)| *at)
         };
         segments.sort_by_key(|s| core::cmp::Reverse((reach(s), s.at)));
-        Levers { segments }
+        Levers { segments, beyond: [Expr::ZERO; 3] }
     }
 
     /// The sum of all slides beyond `from`, without those along `except`.
@@ -102,7 +111,7 @@ impl Levers {
     ) -> Vec3 {
         let outer = self.segments.iter().filter(|s| s.at >= from.place());
         let slides = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
-        let mut sum = [Expr::ZERO; 3];
+        let mut sum = self.beyond;
         let mut pending: Option<(Expr, Vec3)> = None;
         for (length, axis) in slides {
             if length.is_zero() || except.is_some_and(|z| parallel3(z, axis)) {

@@ -5,6 +5,7 @@ use core::fmt;
 
 use super::chain::{Chain, ROW};
 use super::output::Output;
+use super::passes::Passes;
 use super::{compliance, deflection, frames, gravity, jacobian, parameters, stiffness, torque};
 use crate::expr::{Expr, Graph, OpCount, Symbol};
 use crate::robot::Robot;
@@ -61,43 +62,75 @@ impl core::error::Error for Unstable {}
 /// More joints than this, and only a few working frames are tried.
 const EXHAUSTIVE: usize = 8;
 
-/// Derives `outputs` in the working frame in which they cost least.
+/// Derives `outputs` in the way in which they cost least.
 pub fn derive(robot: &Robot, outputs: &[Output]) -> Program {
-    let cut = best_cuts(robot, &[outputs])[0];
-    derive_in(robot, outputs, cut)
+    derive_with(robot, outputs, Passes::ALL)
 }
 
-/// Derives each of several sets of outputs in the working frame in which it costs least.
+/// The same with some of the passes switched off.
+pub fn derive_with(robot: &Robot, outputs: &[Output], passes: Passes) -> Program {
+    let way = best_ways(robot, &[outputs], passes)[0];
+    derive_by(robot, outputs, way)
+}
+
+/// Derives each of several sets of outputs in the way in which it costs least.
 pub fn derive_each(robot: &Robot, sets: &[&[Output]]) -> Vec<Program> {
-    let cuts = best_cuts(robot, sets);
-    sets.iter().zip(cuts).map(|(outputs, cut)| derive_in(robot, outputs, cut)).collect()
+    let ways = best_ways(robot, sets, Passes::ALL);
+    sets.iter().zip(ways).map(|(outputs, way)| derive_by(robot, outputs, way)).collect()
 }
 
-/// The cheapest working frame of each set: every frame is laid out once, with all outputs in it.
-fn best_cuts(robot: &Robot, sets: &[&[Output]]) -> Vec<usize> {
-    let cuts = Chain::cuts(robot);
+/// Derives `outputs` with the working frame at boundary `cut`, twists from the axes of the frames.
+pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
+    derive_by(robot, outputs, Way { cut, passes: Passes { runs: false, ..Passes::ALL } })
+}
+
+/// One way to work things out: in which frame, and twists run by run or not.
+#[derive(Clone, Copy)]
+struct Way {
+    cut: usize,
+    passes: Passes,
+}
+
+/// The cheapest way for each set: every frame is laid out once, with all outputs in it; run by run only
+/// those that are then the cheapest of some set.
+fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
+    let cuts = if passes.frame { Chain::cuts(robot) } else { vec![0] };
     let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
+    let plain = Passes { runs: false, ..passes };
+    let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets.len()];
+    for cut in cuts.into_iter().step_by(stride) {
+        try_way(robot, sets, Way { cut, passes: plain }, &mut best);
+    }
+    if passes.runs {
+        let mut cuts: Vec<usize> = best.iter().map(|(_, way)| way.cut).collect();
+        cuts.sort_unstable();
+        cuts.dedup();
+        for cut in cuts {
+            try_way(robot, sets, Way { cut, passes }, &mut best);
+        }
+    }
+    best.into_iter().map(|(_, way)| way).collect()
+}
+
+/// Takes a way for the sets that cost less in it. The first of equals stays: the frame nearest the base.
+/// Run by run is for the sets whose frame it is already, so that a set's way does not depend on the
+/// other sets.
+fn try_way(robot: &Robot, sets: &[&[Output]], way: Way, best: &mut [(u32, Way)]) {
     let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
     wanted.sort_unstable();
     wanted.dedup();
-    let mut best = vec![(u32::MAX, 0); sets.len()];
-    for cut in cuts.into_iter().step_by(stride) {
-        let laid_out = derive_in(robot, &wanted, cut);
-        let free = laid_out.graph.parameter_only();
-        for (set, best) in sets.iter().zip(&mut best) {
-            let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
-            // The first of equals wins: the frame nearest the base.
-            if cost < best.0 {
-                *best = (cost, cut);
-            }
+    let laid_out = derive_by(robot, &wanted, way);
+    let free = laid_out.graph.parameter_only();
+    for (set, best) in sets.iter().zip(best) {
+        let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
+        if cost < best.0 && (!way.passes.runs || way.cut == best.1.cut) {
+            *best = (cost, way);
         }
     }
-    best.into_iter().map(|(_, cut)| cut).collect()
 }
 
-/// Derives `outputs` with the working frame at boundary `cut`.
-pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
-    let mut chain = Chain::new(robot, cut);
+fn derive_by(robot: &Robot, outputs: &[Output], Way { cut, passes }: Way) -> Program {
+    let mut chain = Chain::new(robot, cut, passes);
     let mut solves = Vec::new();
     let mut blocks = Vec::new();
     for &output in outputs {
@@ -171,6 +204,8 @@ impl Program {
             Symbol::Joint(joint) => q[*joint],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
+            // An undisplaced chain; no output of a table has displacements.
+            Symbol::Displacement { .. } => 0.0,
             Symbol::Deflection { .. } => {
                 let known = solved.iter().find(|(e, _)| {
                     matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)

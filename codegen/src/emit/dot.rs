@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::derive::{Output, derive};
+use crate::derive::{COMPONENTS, Output, derive};
 use crate::expr::{Expr, Graph, Node, Symbol};
 use crate::robot::Robot;
 
@@ -56,6 +56,9 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
             Symbol::Joint(joint) => (format!("q{}", joint + 1), "box"),
             Symbol::Wrench(k) => (super::plan::WRENCH[*k].to_string(), "box"),
             Symbol::Parameter(name) => (name.clone(), "box"),
+            Symbol::Displacement { place, component } => {
+                (format!("{}{place}", COMPONENTS[*component]), "box")
+            }
             Symbol::Deflection { joint, .. } => (format!("dq{}", joint + 1), "box"),
         },
         Node::Add(..) => ("+".to_string(), "circle"),

@@ -34,6 +34,10 @@ pub(super) trait Style {
     fn recip(&self, a: &str) -> String;
     /// `√a`, `a` bare.
     fn sqrt(&self, a: &str) -> String;
+    /// `a·b + c`, each bare, where the text asks for one rounding.
+    fn fused(&self, _a: &str, _b: &str, _c: &str) -> Option<String> {
+        None
+    }
 }
 
 /// A printed expression: how strongly it binds decides whether it needs brackets.
@@ -119,6 +123,9 @@ impl Printer<'_> {
     }
 
     fn sum(&self, a: Expr, b: Expr, negative: bool) -> Text {
+        if let Some(text) = self.fused(a.signed(negative), b.signed(negative)) {
+            return Text { text, binds: Binds::Atom };
+        }
         let text = match (negative, b.is_negative()) {
             (false, false) if self.is_inline_sum(b) && !self.is_inline_sum(a) => {
                 self.plus(b, a, "+")
@@ -133,6 +140,18 @@ impl Printer<'_> {
             }
         };
         Text { text, binds: Binds::Sum }
+    }
+
+    /// `a + b` with the product that is one of them taken into the sum, where the style has that.
+    fn fused(&self, a: Expr, b: Expr) -> Option<String> {
+        let (product, other) = match (self.is_inline_product(a), self.is_inline_product(b)) {
+            (_, true) => (b, a),
+            (true, false) => (a, b),
+            (false, false) => return None,
+        };
+        let Node::Mul(x, y) = self.plan.program.graph.node(product) else { return None };
+        let x = x.signed(product.is_negative());
+        self.style.fused(&self.print(x), &self.print(y), &self.print(other))
     }
 
     /// `a + b` or `a - b`; a sum on the right is bracketed, which keeps the order of the operations.

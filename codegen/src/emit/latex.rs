@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::constants::Constants;
 use super::expression::{Printer, Style};
 use super::plan::{Plan, Target, angle_terms};
-use crate::derive::{Output, Program, derive};
+use crate::derive::{COMPONENTS, Displacements, Form, Output, Program, derive, flexible};
 use crate::expr::{Binding, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::robot::Robot;
@@ -13,6 +13,23 @@ use crate::robot::Robot;
 /// A document with the closed form of each of `outputs`: what is shared first, then every entry that
 /// is not structurally zero. Rows and columns count from 1, as on paper.
 pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
+    let sections = outputs
+        .iter()
+        .map(|output| section(&derive(robot, &[*output]), &output.name().replace('_', " ")));
+    document(robot, sections)
+}
+
+/// A document with the flexible kinematics of a table (Jweeg & Al-Khafaji 2012, eq. 20) in each of
+/// its forms: exact, as published, and to the strict first order.
+pub fn flexible_latex(robot: &Robot, displacements: &Displacements) -> String {
+    let sections = Form::EACH.into_iter().map(|form| {
+        let title = format!("flexible pose, {}", form.name().replace('_', " "));
+        section(&flexible(robot, displacements, form), &title)
+    });
+    document(robot, sections)
+}
+
+fn document(robot: &Robot, sections: impl Iterator<Item = String>) -> String {
     let mut text = String::from(
         "\\documentclass{article}\n\\usepackage[a4paper,margin=20mm]{geometry}\n\
          \\usepackage{amsmath}\n\\allowdisplaybreaks\n\\setlength{\\parindent}{0pt}\n\
@@ -20,18 +37,15 @@ pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
     );
     let _ = writeln!(text, "\\section*{{{}}}", escaped(&robot.name));
     text.push_str("$s_{23}=\\sin(q_2+q_3)$, $c_{23}=\\cos(q_2+q_3)$, and so on.\n");
-    for output in outputs {
-        text.push_str(&section(&derive(robot, &[*output])));
-    }
+    text.extend(sections);
     text.push_str("\\end{document}\n");
     text
 }
 
-fn section(program: &Program) -> String {
+fn section(program: &Program, title: &str) -> String {
     let plan = Plan::new(program, &mut Constants::written_in_place());
     let printer = Printer { plan: &plan, style: &Latex };
     let output = program.blocks[0].output;
-    let title = output.name().replace('_', " ");
     let mut out = format!("\\subsection*{{{title}}}\nWorked out in {}.\n", program.frame());
     for angle in plan.angles.iter().filter(|a| has_offset(program, a.sum)) {
         let name = &angle.suffix;
@@ -162,12 +176,19 @@ fn angle_text(program: &Program, sum: Expr) -> String {
             Node::Symbol(s) => match g.symbol_of(s) {
                 Symbol::Joint(joint) => format!("q_{{{}}}", joint + 1),
                 Symbol::Parameter(name) => Latex.name(name),
+                Symbol::Displacement { place, component } => displacement(*place, *component),
                 _ => String::new(),
             },
             _ => String::new(),
         });
     }
     text
+}
+
+/// A displacement in the letters of Jweeg & Al-Khafaji.
+fn displacement(place: usize, component: usize) -> String {
+    let letters = ["\\delta x", "\\delta y", "\\delta z", "d\\psi", "d\\beta", "d\\varphi"];
+    format!("{}_{{{place}}}", letters[component])
 }
 
 fn escaped(text: &str) -> String {
@@ -196,6 +217,11 @@ impl Style for Latex {
 
     /// `s23` as `s_{23}`, `z3x` as `z_{3x}`, `kc_31` as `kc_{31}`.
     fn name(&self, name: &str) -> String {
+        let at = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
+        let component = COMPONENTS.iter().position(|known| *known == &name[..at]);
+        if let (Some(component), Ok(place)) = (component, name[at..].parse()) {
+            return displacement(place, component);
+        }
         let name = name.strip_prefix("constants.").unwrap_or(name);
         let split = name.find(|c: char| c.is_ascii_digit() || c == '_').unwrap_or(name.len());
         let axis = name.len() == 2 && "fmnoap".contains(&name[..1]);

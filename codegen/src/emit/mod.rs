@@ -8,5 +8,5 @@ mod plan;
 mod rust;
 
 pub use dot::dot;
-pub use latex::latex;
-pub use rust::{RustOptions, rust};
+pub use latex::{flexible_latex, latex};
+pub use rust::{RustOptions, flexible_rust, rust, rust_fused};

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::constants::Constants;
-use crate::derive::Program;
+use crate::derive::{COMPONENTS, Program};
 use crate::expr::{Binding, Expr, Graph, Item, Node, Schedule, Symbol};
 
 /// One function, ready to be printed.
@@ -116,6 +116,9 @@ impl<'p> Plan<'p> {
                         self.slides.push(*joint);
                         self.names.insert(node, format!("q{}", joint + 1));
                     }
+                    Symbol::Displacement { place, component } => {
+                        self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
+                    }
                     Symbol::Wrench(k) => drop(self.names.insert(node, WRENCH[*k].to_string())),
                     Symbol::Deflection { joint, weights } => {
                         let prefix = if *weights { "dqg" } else { "dq" };
@@ -135,6 +138,7 @@ impl<'p> Plan<'p> {
         let mut taken = HashSet::new();
         for (sum, (sine, cosine)) in sums {
             let mut suffix = suffix(&joints_of(g, sum));
+            suffix.push_str(&displaced(g, sum, suffix.is_empty()));
             if suffix.is_empty() {
                 suffix = parameters_of(g, sum).join("_");
             }
@@ -272,6 +276,23 @@ fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
         _ => None,
     };
     angle_terms(g, sum).into_iter().filter_map(parameter).collect()
+}
+
+/// What displacements add to an angle's name: `d1` behind joints for dφ1, alone `phi1`.
+fn displaced(g: &Graph, sum: Expr, alone: bool) -> String {
+    let mut places = Vec::new();
+    for e in angle_terms(g, sum) {
+        if let Node::Symbol(s) = g.node(e)
+            && let Symbol::Displacement { place, component } = g.symbol_of(s)
+        {
+            places.push((*place, COMPONENTS[*component].trim_start_matches('d')));
+        }
+    }
+    let each = places.iter().map(|(place, letter)| match alone {
+        true => format!("{letter}{place}"),
+        false => format!("d{place}"),
+    });
+    each.collect()
 }
 
 /// `23` for θ2 + θ3, `2m3` for θ2 − θ3, `9_10` where a joint's number has two digits.

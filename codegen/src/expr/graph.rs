@@ -66,6 +66,13 @@ pub enum Symbol {
     Wrench(usize),
     /// A parameter of the table that stays symbolic.
     Parameter(String),
+    /// A component of the displacement at a place of the flexible chain.
+    Displacement {
+        /// 0 is the base, i stands behind row i, n + 1 behind the tool.
+        place: usize,
+        /// 0..6: `δx δy δz`, m, and the turns `dψ dβ dφ` about x, y, z, rad.
+        component: usize,
+    },
     /// An unknown of a deflection's linear system.
     Deflection {
         /// The joint, from 0.

@@ -41,6 +41,11 @@ impl Turn {
         Turn { variable: g.symbol(Symbol::Joint(joint)), ..Turn::ZERO }
     }
 
+    /// An angle that is an expression of its own.
+    pub fn variable(angle: Expr) -> Turn {
+        Turn { variable: angle, ..Turn::ZERO }
+    }
+
     /// `self + other`.
     pub fn plus(&self, g: &mut Graph, other: &Turn) -> Turn {
         let variable = g.add(self.variable, other.variable);

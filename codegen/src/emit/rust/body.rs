@@ -11,7 +11,7 @@ use crate::expr::{Binding, Block, Expr, Node, Symbol};
 use crate::number::Number;
 
 /// Names in one scope; rustc's recursion over a scope's statements overflows at a few thousand.
-const BLOCK: usize = 256;
+pub(super) const BLOCK: usize = 256;
 /// Blocks in one function.
 const BLOCKS: usize = 7;
 
@@ -25,7 +25,8 @@ pub(super) struct Body<'a> {
 
 impl<'a> Body<'a> {
     pub fn new(function: &Function, plan: &'a Plan<'a>) -> Self {
-        let printer = Printer { plan, style: &Rust };
+        let style: &dyn Style = if function.fused_products { &FusedRust } else { &Rust };
+        let printer = Printer { plan, style };
         let negations = function.program.roots().iter().map(|e| printer.negations(*e)).sum();
         Body { plan, printer, negations }
     }
@@ -306,7 +307,8 @@ struct Part {
     whole: Block,
 }
 
-struct Rust;
+/// Rust over the scalar trait.
+pub(super) struct Rust;
 
 impl Style for Rust {
     fn number(&self, n: Number) -> String {
@@ -326,5 +328,32 @@ impl Style for Rust {
     }
     fn sqrt(&self, a: &str) -> String {
         format!("({a}).sqrt()")
+    }
+}
+
+/// The same with products fused into sums.
+struct FusedRust;
+
+impl Style for FusedRust {
+    fn number(&self, n: Number) -> String {
+        Rust.number(n)
+    }
+    fn name(&self, name: &str) -> String {
+        Rust.name(name)
+    }
+    fn product(&self, a: &str, b: &str) -> String {
+        Rust.product(a, b)
+    }
+    fn bracket(&self, inner: &str) -> String {
+        Rust.bracket(inner)
+    }
+    fn recip(&self, a: &str) -> String {
+        Rust.recip(a)
+    }
+    fn sqrt(&self, a: &str) -> String {
+        Rust.sqrt(a)
+    }
+    fn fused(&self, a: &str, b: &str, c: &str) -> Option<String> {
+        Some(format!("S::mul_add({a}, {b}, {c})"))
     }
 }

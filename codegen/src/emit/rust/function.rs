@@ -16,17 +16,21 @@ pub(super) struct Function<'p> {
     name: &'static str,
     outputs: Vec<Output>,
     symbolic: bool,
+    /// Whether products are fused into sums.
+    pub(super) fused_products: bool,
 }
 
 impl<'p> Function<'p> {
     /// The function of one output.
     pub fn single(program: &'p Program, output: Output, symbolic: bool) -> Self {
-        Function { program, name: output.name(), outputs: vec![output], symbolic }
+        let (name, outputs) = (output.name(), vec![output]);
+        Function { program, name, outputs, symbolic, fused_products: false }
     }
 
     /// The fused function.
     pub fn all(program: &'p Program, symbolic: bool) -> Self {
-        Function { program, name: "all", outputs: Output::ALL.to_vec(), symbolic }
+        let outputs = Output::ALL.to_vec();
+        Function { program, name: "all", outputs, symbolic, fused_products: false }
     }
 
     /// The function and its module.

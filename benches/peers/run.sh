@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Pose and Jacobian of the KUKA KR 240-2 by what one would pick instead of generated kernels, each fed the
+# same joint vectors, compared with the textbook's results and then timed, all in one run.
+#
+#   benches/peers/run.sh                 # what is installed
+#   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (CasADi, Pinocchio)
+#
+# A peer that is not installed is skipped with a sentence. FLAGS and RUSTFLAGS choose the target; the
+# default is the machine's own processor for all.
+set -euo pipefail
+cd "$(dirname "$0")"
+flags=${FLAGS:--O3 -march=native}
+export RUSTFLAGS=${RUSTFLAGS:--C target-cpu=native}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python=${PYTHON:-python3}
+
+if [ "${1:-}" = --install ]; then
+    apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
+    "$python" -m pip install --quiet casadi pin
+fi
+
+say() { printf '%s\n' "$*" >&2; }
+
+cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin peers --features fma -- "$work" \
+    > "$work/times"
+
+if "$python" -c 'import casadi' 2>/dev/null; then
+    (cd "$work" && "$python" "$OLDPWD/casadi_peer.py" kernels.c)
+    gcc $flags -c "$work/kernels.c" -o "$work/kernels.o"
+    g++ -std=c++17 $flags -I. casadi_peer.cpp "$work/kernels.o" -o "$work/casadi"
+    "$work/casadi" "$work" >> "$work/times"
+else
+    say "CasADi is skipped: the Python package casadi is not installed"
+fi
+
+if [ -e /usr/include/kdl/chain.hpp ]; then
+    g++ -std=c++17 $flags -I. -I/usr/include/eigen3 kdl_peer.cpp -lorocos-kdl -o "$work/kdl"
+    "$work/kdl" "$work" >> "$work/times"
+else
+    say "Orocos KDL is skipped: liborocos-kdl-dev is not installed"
+fi
+
+prefix=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib") + "/cmeel.prefix")')
+if [ -e "$prefix/include/pinocchio/multibody.hpp" ] && [ -e /usr/include/eigen3 ]; then
+    g++ -w -std=c++17 $flags -DNDEBUG -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
+        -DBOOST_MPL_LIMIT_LIST_SIZE=30 -I. -I"$prefix/include" -I/usr/include/eigen3 \
+        pinocchio_peer.cpp -L"$prefix/lib" -Wl,-rpath,"$prefix/lib" -lpinocchio_default \
+        -o "$work/pinocchio"
+    "$work/pinocchio" "$work" >> "$work/times"
+else
+    say "Pinocchio is skipped: the Python package pin or libeigen3-dev is not installed"
+fi
+
+if cargo build --quiet --release --manifest-path k/Cargo.toml --target-dir "$work/k" 2> "$work/k.log"; then
+    "$work/k/release/k-peer" "$work" >> "$work/times"
+else
+    say "k is skipped: the crate could not be built; $(tail -n 1 "$work/k.log")"
+fi
+
+# Nanoseconds, and how many times that of the fused kernel of one pose.
+awk '{ times[$1, $2, $3] = $4; if (!seen[$1]++) peers[++count] = $1 }
+     END {
+         split("pose jacobian", outputs); split("random smooth", paths)
+         for (i = 1; i <= count; i++) {
+             printf "%-16s", peers[i]
+             for (o = 1; o <= 2; o++) for (p = 1; p <= 2; p++) {
+                 time = times[peers[i], outputs[o], paths[p]]
+                 printf "  %s, %s %7.1f ns (%.2f)", outputs[o], paths[p], time, \
+                     time / times["stiffarm-fused", outputs[o], paths[p]]
+             }
+             print ""
+         }
+     }' "$work/times"

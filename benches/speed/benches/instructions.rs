@@ -1,0 +1,139 @@
+//! Instructions per call, counted by callgrind: the same on every run, so that a change of a few per cent
+//! shows.
+//!
+//! ```text
+//! cargo bench -p stiffarm-bench --bench instructions               # compares with instructions.txt
+//! UPDATE=1 cargo bench -p stiffarm-bench --bench instructions      # rewrites it
+//! ```
+//!
+//! Fails where a kernel takes 5 % more than is written there. The counts belong to one compiler and to
+//! plain x86-64; with another one, or without valgrind, it says so and compares nothing.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+use stiffarm_bench::arms;
+use stiffarm_bench::draws::Draws;
+use stiffarm_bench::lanes::by_four;
+
+const SNAPSHOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.txt");
+/// Calls that are counted, and four poses in each call of lanes.
+const CALLS: usize = 1000;
+
+type Work = (&'static str, Box<dyn Fn(usize)>);
+
+macro_rules! work {
+    ($works:ident $arm:ident $($function:ident |$q:ident, $w:ident| $args:tt),+) => {$(
+        $works.push((concat!(stringify!($arm), " ", stringify!($function)), Box::new(|calls| {
+            let mut draws = Draws::new(1);
+            let (wrenches, poses) = (draws.wrenches(CALLS), draws.random(CALLS));
+            for ($q, $w) in poses.iter().zip(&wrenches).take(calls) {
+                black_box($w);
+                let _ = black_box(arms::$arm::plain::$function $args);
+            }
+        })));
+        $works.push((concat!(stringify!($arm), " ", stringify!($function), " x4"), Box::new(|calls| {
+            let mut draws = Draws::new(1);
+            let (wrenches, poses) = (draws.wrenches(4 * CALLS), draws.random(4 * CALLS));
+            let (poses, wrenches) = (by_four(&poses), by_four(&wrenches));
+            for ($q, $w) in poses.iter().zip(&wrenches).take(calls) {
+                black_box($w);
+                let _ = black_box(arms::$arm::plain::$function $args);
+            }
+        })));
+    )+};
+}
+
+macro_rules! works {
+    ($works:ident $($arm:ident),+) => {$(
+        work!($works $arm
+            pose |q, w| (q),
+            jacobian |q, w| (q),
+            complementary_stiffness |q, w| (q, w),
+            deflection_first_order |q, w| (q, w),
+            compliance |q, w| (q),
+            deflection |q, w| (q, w)
+        );
+    )+};
+}
+
+fn works() -> Vec<Work> {
+    let mut works: Vec<Work> = Vec::new();
+    works!(works planar_2r, ur10, kuka_kr240, iiwa14);
+    works
+}
+
+/// Instructions of this program when it does `name` so many times; `None` if callgrind does not run.
+fn instructions(name: &str, calls: usize) -> Option<u64> {
+    let program = std::env::current_exe().ok()?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(program)
+        .args(["--count", name, &calls.to_string()])
+        .output()
+        .ok()?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    let line = text.lines().find(|line| line.contains("Collected :"))?;
+    line.rsplit(' ').next()?.parse().ok()
+}
+
+/// The table as it is now.
+fn count() -> Option<String> {
+    let mut table = format!("# {}, instructions per call\n", env!("STIFFARM_RUSTC"));
+    for (name, _) in works() {
+        let (none, all) = (instructions(name, 0)?, instructions(name, CALLS)?);
+        let per_call = (all - none) as f64 / CALLS as f64;
+        table.push_str(&format!("{name:<44} {per_call:>6.0}\n"));
+    }
+    Some(table)
+}
+
+/// Lines that are more than 5 % above the snapshot's.
+fn slower(table: &str, snapshot: &str) -> Vec<String> {
+    let read = |line: &str| -> Option<(String, f64)> {
+        let (name, count) = line.rsplit_once(' ')?;
+        Some((name.trim().to_owned(), count.parse().ok()?))
+    };
+    let known: Vec<(String, f64)> = snapshot.lines().filter_map(read).collect();
+    let mut slower = Vec::new();
+    for (name, now) in table.lines().filter_map(read) {
+        match known.iter().find(|(other, _)| *other == name) {
+            Some((_, before)) if now > 1.05 * before => {
+                slower.push(format!("{name}: {now} instructions, the snapshot has {before}"));
+            }
+            Some(_) => {}
+            None => slower.push(format!("{name}: not in the snapshot")),
+        }
+    }
+    slower
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let [_, flag, name, calls] = &arguments[..]
+        && flag == "--count"
+    {
+        let works = works();
+        let work = works.iter().find(|(known, _)| known == name).expect("one of the works");
+        work.1(calls.parse().expect("a number"));
+        return ExitCode::SUCCESS;
+    }
+    let Some(table) = count() else {
+        println!("instructions are not counted: valgrind is not installed");
+        return ExitCode::SUCCESS;
+    };
+    print!("{table}");
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(Path::new(SNAPSHOT), table).expect("the snapshot can be written");
+        return ExitCode::SUCCESS;
+    }
+    let snapshot = std::fs::read_to_string(SNAPSHOT).unwrap_or_default();
+    if snapshot.lines().next() != table.lines().next() {
+        println!("nothing is compared: the snapshot was made with another compiler");
+        return ExitCode::SUCCESS;
+    }
+    let slower = slower(&table, &snapshot);
+    slower.iter().for_each(|line| eprintln!("{line}"));
+    if slower.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

@@ -1,0 +1,165 @@
+//! Every output by every way there is to it: nanoseconds per pose, and the ratio to the plain kernel.
+//!
+//! ```text
+//! cargo bench -p stiffarm-bench --bench speed
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p stiffarm-bench --bench speed --features fma
+//! cargo bench -p stiffarm-bench --bench speed --features dispatch
+//! ```
+//!
+//! `plain` and `fused` are the generated functions of one pose, `given` those that are handed sines and
+//! cosines, `x4` and `x8` four and eight poses in lanes, `batch` the same through slices (`cores` on all
+//! of them), `textbook` the generic runtime on nalgebra, `ideal` the hand-unrolled arm. All results are
+//! compared with the textbook's before anything is timed.
+
+use std::hint::black_box;
+
+use stiffarm_bench::arms::{self, textbook};
+use stiffarm_bench::draws::Draws;
+use stiffarm_bench::ideal;
+use stiffarm_bench::lanes::{by_eight, by_four};
+use stiffarm_bench::timing::{Candidate, print};
+use stiffarm_kernels::batch::{Layout, Wrenches, evaluate, evaluate_parallel};
+use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Kernels, Output};
+
+const POSES: usize = 2048;
+const ROUNDS: usize = 41;
+
+/// Refuses to time what is not right.
+fn compare(kernels: &dyn Kernels<f64>, arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) {
+    let expected = arm.evaluate(output, q, w).expect("the arm is stable");
+    let mut got = vec![0.0; expected.len()];
+    kernels.evaluate(output, q, w, &mut got).expect("the arm is stable");
+    let scale = expected.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+    for (a, b) in got.iter().zip(&expected) {
+        assert!((a - b).abs() <= 1e-11 * scale, "{} of {}: {a} {b}", output.name(), arm.name);
+    }
+}
+
+/// One output of one arm: random poses, a smooth path, and each call waiting for the last.
+macro_rules! output {
+    ($arm:ident $function:ident $kind:ident |$q:ident, $w:ident| $args:tt $($ideal:ident)?) => {{
+        let arm = textbook(stringify!($arm));
+        let mut draws = Draws::new(1);
+        let wrenches = draws.wrenches(POSES);
+        let (random, smooth) = (draws.random(POSES), draws.smooth(POSES));
+        let (rows, columns) = Output::$kind.shape(arm.dof());
+        for (q, w) in random.iter().zip(&wrenches).take(64) {
+            compare(&arms::$arm::plain::Robot, &arm, Output::$kind, q, w);
+            compare(&arms::$arm::fused::Robot, &arm, Output::$kind, q, w);
+        }
+        for (path, poses) in [("", &random), (", smooth", &smooth)] {
+            let input = (&poses[..], &wrenches[..]);
+            let (q4, w4) = (by_four(poses), by_four(&wrenches));
+            let (q8, w8) = (by_eight(poses), by_eight(&wrenches));
+            let (x4, x8) = ((&q4[..], &w4[..]), (&q8[..], &w8[..]));
+            let postures: Vec<_> =
+                poses.iter().map(arms::$arm::plain::$function::Posture::new).collect();
+            let given = (&postures[..], &wrenches[..]);
+            let robot = &arms::$arm::plain::Robot;
+            let (q_flat, w_flat) = (poses.as_flattened(), wrenches.as_flattened());
+            let batch = |cores: bool| {
+                let mut out = vec![0.0; rows * columns * POSES];
+                move || {
+                    let wrenches = Wrenches::Each(w_flat);
+                    let (kind, layout) = (Output::$kind, Layout::Poses);
+                    let done = match cores {
+                        false => evaluate(robot, kind, layout, q_flat, wrenches, &mut out),
+                        true => evaluate_parallel(robot, kind, layout, q_flat, wrenches, &mut out),
+                    };
+                    done.expect("the arm is stable");
+                    black_box(&mut out);
+                }
+            };
+            let mut out = vec![0.0; rows * columns];
+            let generic = || {
+                for (q, w) in poses.iter().zip(&wrenches) {
+                    out = arm.evaluate(Output::$kind, q, w).expect("the arm is stable");
+                    black_box(&mut out);
+                }
+            };
+            let mut candidates = vec![
+                Candidate::new("plain", 1, input, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::plain::$function $args
+                }),
+                Candidate::new("fused", 1, input, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::fused::$function $args
+                }),
+                Candidate::new("given", 1, given, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::plain::$function::given $args
+                }),
+                Candidate::new("x4", 4, x4, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::plain::$function $args
+                }),
+                Candidate::new("x8", 8, x8, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::plain::$function $args
+                }),
+                Candidate::new("fused x8", 8, x8, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::fused::$function $args
+                }),
+                Candidate::run("batch", POSES, batch(false)),
+                Candidate::run("cores", POSES, batch(true)),
+                Candidate::run("textbook", POSES, generic),
+            ];
+            $(
+                candidates.push(Candidate::new("ideal", 1, input, |$q, $w| {
+                    let _ = $w;
+                    $ideal::$function $args
+                }));
+                candidates.push(Candidate::new("ideal x8", 8, x8, |$q, $w| {
+                    let _ = $w;
+                    $ideal::$function $args
+                }));
+            )?
+            print(&format!("{}{path}", stringify!($function)), &mut candidates, ROUNDS);
+        }
+    }};
+}
+
+macro_rules! arm {
+    ($arm:ident $($ideal:ident)?) => {
+        println!("{}: ns per pose (ratio to plain)", stringify!($arm));
+        output!($arm pose Pose |q, w| (q) $($ideal)?);
+        output!($arm jacobian Jacobian |q, w| (q) $($ideal)?);
+        output!($arm complementary_stiffness ComplementaryStiffness |q, w| (q, w) $($ideal)?);
+        output!($arm deflection_first_order DeflectionFirstOrder |q, w| (q, w) $($ideal)?);
+        output!($arm compliance Compliance |q, w| (q) $($ideal)?);
+        output!($arm deflection Deflection |q, w| (q, w));
+    };
+}
+
+/// Each call waits for the last.
+fn latency() {
+    use arms::kuka_kr240::{fused, plain};
+    let mut draws = Draws::new(1);
+    let wrenches = draws.wrenches(POSES);
+    let poses = draws.random(POSES);
+    let input = (&poses[..], &wrenches[..]);
+    println!("kuka_kr240, each call waiting for the last");
+    let mut candidates = [
+        Candidate::serial("plain", input, |q, _| plain::jacobian(q)),
+        Candidate::serial("fused", input, |q, _| fused::jacobian(q)),
+        Candidate::serial("ideal", input, |q, _| ideal::jacobian(q)),
+    ];
+    print("jacobian", &mut candidates, ROUNDS);
+    let mut candidates = [
+        Candidate::serial("plain", input, plain::complementary_stiffness),
+        Candidate::serial("fused", input, fused::complementary_stiffness),
+        Candidate::serial("ideal", input, ideal::complementary_stiffness),
+    ];
+    print("complementary_stiffness", &mut candidates, ROUNDS);
+}
+
+fn main() {
+    arm!(kuka_kr240 ideal);
+    latency();
+    arm!(ur10);
+    arm!(iiwa14);
+    arm!(planar_2r);
+}

@@ -1,0 +1,36 @@
+//! The kernels that are timed, generated plain and fused, every joint with a spring.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::Command;
+
+use stiffarm_codegen::emit::{RustOptions, rust, rust_fused};
+use stiffarm_codegen::number::Number;
+use stiffarm_codegen::robot::{Robot, Value};
+
+const ARMS: [&str; 4] = [
+    "planar_2r.toml",
+    "../../robots/arms/ur10.toml",
+    "../../robots/arms/kuka_kr240.toml",
+    "../../robots/arms/iiwa14.toml",
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let out = std::env::var("OUT_DIR")?;
+    let rustc = Command::new(std::env::var("RUSTC")?).arg("--version").output()?;
+    let version = String::from_utf8(rustc.stdout)?;
+    println!("cargo::rustc-env=STIFFARM_RUSTC={}", version.trim());
+    let options = RustOptions { kernels: "::stiffarm_kernels".to_owned() };
+    for file in ARMS {
+        println!("cargo::rerun-if-changed={file}");
+        let (mut robot, _) = Robot::from_toml(&std::fs::read_to_string(file)?, file)?;
+        for joint in &mut robot.joints {
+            joint.stiffness.get_or_insert(Value::Number(Number::integer(100_000)));
+        }
+        let name = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+        let target = |way: &str| Path::new(&out).join(format!("{name}_{way}.rs"));
+        std::fs::write(target("plain"), rust(&robot, &options))?;
+        std::fs::write(target("fused"), rust_fused(&robot, &options))?;
+    }
+    Ok(())
+}

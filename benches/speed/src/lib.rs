@@ -1,0 +1,8 @@
+//! What the benches time: generated kernels, a hand-unrolled ideal, the textbook, and the draws that go
+//! into them.
+
+pub mod arms;
+pub mod draws;
+pub mod ideal;
+pub mod lanes;
+pub mod timing;

@@ -1,0 +1,49 @@
+//! The angles of one pose, side by side in lanes.
+
+use wide::{f32x4, f64x2};
+
+use crate::sin_cos::{double, single};
+
+/// A run of angles through one set of lanes: those from `first` on, as many as there are.
+macro_rules! through {
+    ($lanes:ty, $sin_cos:path, $angles:ident, $first:expr, $sines:ident, $cosines:ident) => {{
+        let mut run = <$lanes>::ZERO.to_array();
+        let count = ($angles.len() - $first).min(run.len());
+        run[..count].copy_from_slice(&$angles[$first..$first + count]);
+        let (s, c) = $sin_cos(<$lanes>::from(run));
+        $sines[$first..$first + count].copy_from_slice(&s.to_array()[..count]);
+        $cosines[$first..$first + count].copy_from_slice(&c.to_array()[..count]);
+    }};
+}
+
+/// All angles of one pose, four at a time; one or two that are left go through half as many lanes.
+#[inline(always)]
+pub(crate) fn f64<const M: usize>(angles: [f64; M]) -> ([f64; M], [f64; M]) {
+    let (mut sines, mut cosines) = (angles, angles);
+    let mut first = 0;
+    while first < M {
+        if M - first > 2 {
+            through!(wide::f64x4, double::sin_cos, angles, first, sines, cosines);
+        } else {
+            through!(f64x2, double::sin_cos, angles, first, sines, cosines);
+        }
+        first += 4;
+    }
+    (sines, cosines)
+}
+
+/// All angles of one pose, eight at a time; up to four that are left go through half as many lanes.
+#[inline(always)]
+pub(crate) fn f32<const M: usize>(angles: [f32; M]) -> ([f32; M], [f32; M]) {
+    let (mut sines, mut cosines) = (angles, angles);
+    let mut first = 0;
+    while first < M {
+        if M - first > 4 {
+            through!(wide::f32x8, single::sin_cos, angles, first, sines, cosines);
+        } else {
+            through!(f32x4, single::sin_cos, angles, first, sines, cosines);
+        }
+        first += 8;
+    }
+    (sines, cosines)
+}

@@ -1,0 +1,4 @@
+//! Sines and cosines of the scalars against more precise ones.
+
+mod double;
+mod single;
