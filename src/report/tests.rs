@@ -93,11 +93,11 @@ impl Bench {
 
 const POSE: Kind = Kind::Pose { orientation: true };
 const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
-const WAVE: &str = "transmission_error@joint 3=0.4 mrad, order 2";
+const WAVE: &str = "transmission_error@joint 3: cos 2 = 0.4 mrad";
 
 #[test]
 fn dev() {
-    let bench = Bench::new(POSE, 60, &[SPRING], &["joint_compliance", "transmission_error", "backlash", "joint_offset"], true);
+    let bench = Bench::new(POSE, 60, &[SPRING, WAVE], &["joint_compliance", "transmission_error", "backlash", "joint_offset"], true);
     let html = bench.html();
     std::fs::write("/tmp/report.html", &html).unwrap();
     println!("{}", html.len());

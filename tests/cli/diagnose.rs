@@ -32,8 +32,8 @@ fn lins_gap_is_closed_by_a_spring_at_joint_1() {
     assert_eq!(line(&out, "with the finding, held out")[5], "0.89");
     assert!(out.contains("rms mil"), "{out}");
     let said = flat(&out);
-    let sentence = "Joint 1 twists 41.4 µrad/(N·m) more than modelled; modelling it removes 88 % of \
-                    the gap, 7.41 mil → 0.89 mil.";
+    let sentence = "Joint 1 twists 41.4 µrad/(N·m) more than modelled; modelling it removes 88 % \
+                    of the gap, 7.41 mil → 0.89 mil.";
     assert!(said.contains(sentence), "{out}");
     assert!(out.contains("joint compliance at joint 1  7.41 → 0.89 mil"), "{out}");
     assert!(said.contains("stiffness 2.42e4 N·m/rad ["), "{out}");
@@ -51,6 +51,14 @@ fn lins_gap_is_closed_by_a_spring_at_joint_1() {
     assert!(!out.contains("Not used"), "{out}");
     let lines: Vec<&str> = out.lines().collect();
     assert!(lines.len() <= 40 && lines.iter().all(|l| l.chars().count() <= 100), "{out}");
+}
+
+#[test]
+fn the_readme_shows_what_is_printed() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(file).expect("there is one");
+    let out = lin(&RIVALS);
+    assert!(readme.contains(&format!("```text\n{out}```\n")), "put this into README.md:\n{out}");
 }
 
 #[test]

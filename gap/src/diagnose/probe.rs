@@ -58,6 +58,7 @@ impl Probe {
                 add(place, About::Direction(joint), 3);
             }
             add(Place::Link(joint + 1), About::Constant, 6);
+            add(Place::Link(joint + 1), About::Load, 6);
         }
         for place in [Place::Base, Place::Tool] {
             add(place, About::Constant, 6);

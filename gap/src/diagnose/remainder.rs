@@ -23,6 +23,7 @@ impl Search<'_, '_> {
     /// seen, m (rad without positions).
     pub(crate) fn remainder(
         &self,
+        start: &Explained,
         now: &Explained,
         held_out_rms: f64,
     ) -> Result<Unexplained, DiagnoseError> {
@@ -65,6 +66,18 @@ impl Search<'_, '_> {
         let present = now.noise.exceeded(gaps, parameters) || significant;
         if !present {
             return Ok(Unexplained::default());
+        }
+        // Effects that stand in for an unknown one scatter what is left of it. Where it lay is seen
+        // best when displacements of any form may stand in for it from the start.
+        for (probe, share) in self.free_forms(start) {
+            let first = places.values().copied().fold(0.0, f64::max);
+            let ahead = if places.contains_key(&probe.place) { share } else { share + first };
+            let place = places.entry(probe.place).or_insert(0.0);
+            *place = place.max(ahead.min(1.0));
+            if probe.about != About::Constant {
+                let depends = about.entry(probe.about).or_insert(0.0);
+                *depends = depends.max(share);
+            }
         }
         let noise = now.noise.report();
         let floor =

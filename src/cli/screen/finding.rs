@@ -61,19 +61,18 @@ impl Screen<'_> {
         numbers.extend(self.stiffness(finding));
         let mut text = paragraph(&numbers.join("; "));
         let (p, again) = (chance(finding.p_value), percent(finding.stability));
-        let mut evidence = format!("{p}, found again on {again} of random halves");
+        let mut evidence = format!("{p}, found again on {again} of halves");
         let (same, other): (Vec<_>, Vec<_>) =
             finding.alternatives.iter().partition(|a| !a.separable);
-        let leaves = |a: &Alternative| {
-            let left = self.main().with_unit(a.held_out_after);
-            format!("{} (leaves {left})", Self::named(a.effect, &a.place))
-        };
+        let name = |a: &Alternative| Self::named(a.effect, &a.place);
+        let left = |a: &Alternative| self.main().with_unit(a.held_out_after);
         if let (true, Some(next)) = (same.is_empty(), other.first()) {
-            evidence.push_str(&format!("; next best: {}", leaves(next)));
+            evidence.push_str(&format!("; next best: {} ({})", name(next), left(next)));
         }
         text.push_str(&paragraph(&evidence));
         if !same.is_empty() {
-            let names: Vec<String> = same.into_iter().map(leaves).collect();
+            let names: Vec<String> =
+                same.into_iter().map(|a| format!("{} (leaves {})", name(a), left(a))).collect();
             let verdict = bad("this data cannot tell it from");
             text.push_str(&paragraph(&format!("{verdict}: {}", listed(&names, MOST))));
         }

@@ -6,8 +6,8 @@ use super::{Screen, words};
 type Hidden<'a> = (&'a str, Vec<&'a str>);
 
 impl Screen<'_> {
-    /// `joint compliance at joints 1, 6: no load of this data reaches the joint`; one entry for each
-    /// reason. What was found in spite of it is left out.
+    /// `joint compliance at joints 1, 6: no load of this data reaches the joint`; one entry for
+    /// each reason. What was found in spite of it is left out.
     pub(super) fn hidden(&self) -> Vec<String> {
         let mut reasons: Vec<(&str, Vec<Hidden<'_>>)> = Vec::new();
         for one in &self.found.cannot_see {

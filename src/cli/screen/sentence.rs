@@ -84,8 +84,8 @@ impl Screen<'_> {
                 format!("The gap of {size} is more than noise, and {known}.{place}")
             }
             (false, "residual") => format!(
-                "Nothing is found: no effect that was tried makes the gap of {size} smaller on poses \
-                 that no fit has seen."
+                "Nothing is found: no effect that was tried makes the gap of {size} smaller on \
+                 poses that no fit has seen."
             ),
             (false, _) => format!(
                 "The gap of {size} is noise ({}): of what this data could show, nothing is missing \

@@ -20,6 +20,8 @@ const NARROW: f64 = 0.1;
 
 /// Joint readings, one posture each.
 pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
+    // The part of the range is the arm's and not the seed's: another session stays within it.
+    let mut part = Dice::new(0, Stream::Poses);
     let mut dice = Dice::new(design.seed, Stream::Poses);
     let ranges: Vec<[f64; 2]> = arm
         .joints
@@ -29,7 +31,7 @@ pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
             match design.shape {
                 Shape::Narrow => {
                     let width = NARROW * (high - low);
-                    let from = dice.between(low, high - width);
+                    let from = part.between(low, high - width);
                     [from, from + width]
                 }
                 _ => [low, high],
