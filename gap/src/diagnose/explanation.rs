@@ -16,8 +16,9 @@ const EDGE: f64 = 1e-6;
 
 /// What a diagnosis knows of the arm.
 pub struct Explanation {
+    nominal: Arm,
     arm: Arm,
-    placed: Arm,
+    file: String,
     before: Model,
     after: Model,
     nuisances: Vec<Nuisance>,
@@ -51,12 +52,13 @@ pub struct Prediction {
 
 impl Explanation {
     pub(super) fn new(problem: &Problem<'_>, before: Model, after: Model, covers: &Cover) -> Self {
-        let mut placed = problem.arm.clone();
-        placed.tool *= after.reflector;
-        placed.tool_rotation_vector = placed.tool.rotation.scaled_axis();
+        let mut arm = problem.arm.clone();
+        arm.tool *= after.reflector;
+        arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
         Self {
-            arm: problem.arm.clone(),
-            placed,
+            nominal: problem.arm.clone(),
+            arm,
+            file: problem.data.file.clone(),
             before,
             after,
             nuisances: problem.nuisances.clone(),
@@ -78,18 +80,18 @@ impl Explanation {
 
     /// The arm with its tool where the measured frame was fitted, or as the robot file has it.
     pub fn arm(&self) -> &Arm {
-        &self.placed
+        &self.arm
     }
 
-    /// What the models make of other measurements of the arm. Frames and markers stay where they
-    /// were fitted.
+    /// What the models make of measurements of the arm. Frames and markers stay where they were
+    /// fitted. What happened at a time (`slip`, `drift`) is carried to no other file.
     ///
     /// # Errors
     /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
     /// never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
         let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
-        let problem = Problem::new(&self.arm, data, &options)?;
+        let problem = Problem::new(&self.nominal, data, &options)?;
         let mut places = Vec::with_capacity(problem.markers.len());
         for name in &problem.markers {
             let known = self.markers.iter().position(|known| known == name);
@@ -101,6 +103,9 @@ impl Explanation {
         let gaps = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
+            if data.file != self.file {
+                model.found.retain(|f| !matches!(f.effect.identifier(), "slip" | "drift"));
+            }
             model.predict(&problem, None).map(|p| p.gaps)
         };
         let (before, after) = (gaps(&self.before)?, gaps(&self.after)?);

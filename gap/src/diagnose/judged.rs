@@ -21,10 +21,11 @@ pub(crate) struct Judged {
 }
 
 impl Search<'_, '_> {
-    /// Judges what was found; `before` are the gaps of the robot file as it is, and `is_there` says
+    /// Judges what was found beyond `start`; `before` are the gaps of the robot file as it is, and `is_there` says
     /// whether they are more than rounding.
     pub(crate) fn judged(
         &self,
+        start: &Explained,
         mut now: Explained,
         before: &[Vector6<f64>],
         is_there: bool,
@@ -43,7 +44,7 @@ impl Search<'_, '_> {
             let positions = self.problem.measures_position();
             let main = if positions { size.position_rms } else { size.rotation_rms };
             let unexplained =
-                if is_there { self.remainder(&now, main)? } else { Unexplained::default() };
+                if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
             let findings = self.findings(&now, &groups, before, &held_out, !unexplained.present)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))

@@ -135,8 +135,9 @@ pub fn diagnose_with(
     }
     let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
     let first = begun.fit.model.clone();
+    let start = begun.clone();
     let explained = search.explain(begun, &|found| progress(Stage::Search(found)))?;
-    let (explained, judged) = search.judged(explained, &before, is_there, progress)?;
+    let (explained, judged) = search.judged(&start, explained, &before, is_there, progress)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
     let statistics = Statistics::of(&after);
     let compared = compared.iter().map(|r| r.compare(data, &after, options.seed)).collect();

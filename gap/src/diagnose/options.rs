@@ -23,7 +23,7 @@ impl Nuisance {
             "tool_frame" => Ok(Self::ToolFrame),
             _ => Err(DiagnoseError::UnknownNuisance {
                 found: found.to_owned(),
-                suggestion: nearest(found, ["base_frame", "tool_frame"].into_iter()),
+                suggestion: nearest(found, ["base_frame", "tool_frame"]),
             }),
         }
     }

@@ -149,7 +149,7 @@ fn bounded(
             step[*at] = *value;
         }
         let leaves = |at: &usize| *at >= nuisances && step[*at] < room[at - nuisances];
-        let Some(position) = free.iter().position(|at| leaves(at)) else {
+        let Some(position) = free.iter().position(leaves) else {
             let promised = 2.0 * step.dot(&right) - step.dot(&(&normal * &step));
             return (step, promised);
         };

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::candidate::Source;
+use super::candidate::{Candidate, Source};
 use super::evidence::flipped;
 use super::options::DiagnoseError;
 use super::probe::{About, Probe};
@@ -14,6 +14,9 @@ use crate::effects::Place;
 
 /// A dependence that noise alone shows this often, over all that was tried, is none.
 const LEVEL: f64 = 0.01;
+
+/// Displacements of free form that are tried beside each other.
+const MOST_FORMS: usize = 6;
 
 /// Dependences that are named.
 const MOST_NAMED: usize = 6;
@@ -57,9 +60,7 @@ impl Search<'_, '_> {
             significant = true;
             let largest = |map: &mut f64| *map = map.max(share);
             largest(places.entry(probe.place).or_insert(0.0));
-            if probe.about != About::Constant {
-                largest(about.entry(probe.about).or_insert(0.0));
-            }
+            largest(about.entry(probe.about).or_insert(0.0));
         }
         let gaps = &now.fit.predicted.gaps;
         let parameters = now.fit.model.parameters(self.problem);
@@ -69,33 +70,53 @@ impl Search<'_, '_> {
         }
         // Effects that stand in for an unknown one scatter what is left of it. Where it lay is seen
         // best when displacements of any form may stand in for it from the start.
+        let mut lies: Vec<(Place, f64)> = Vec::new();
+        let mut on: Vec<(About, f64)> = Vec::new();
         for (probe, share) in self.free_forms(start) {
-            let first = places.values().copied().fold(0.0, f64::max);
-            let ahead = if places.contains_key(&probe.place) { share } else { share + first };
-            let place = places.entry(probe.place).or_insert(0.0);
-            *place = place.max(ahead.min(1.0));
-            if probe.about != About::Constant {
-                let depends = about.entry(probe.about).or_insert(0.0);
-                *depends = depends.max(share);
-            }
+            add(&mut lies, probe.place, share);
+            add(&mut on, probe.about, share);
         }
+        largest_first(places).into_iter().for_each(|(place, share)| add(&mut lies, place, share));
+        largest_first(about).into_iter().for_each(|(about, share)| add(&mut on, about, share));
+        on.retain(|(about, _)| *about != About::Constant);
         let noise = now.noise.report();
         let floor =
             if self.problem.measures_position() { noise.position_rms } else { noise.rotation_rms };
         let beyond = held_out_rms.powi(2) - if now.noise.is_known() { floor.powi(2) } else { 0.0 };
-        let mut places: Vec<Share> = places
-            .into_iter()
-            .map(|(place, share)| Share { place: place.to_string(), share })
-            .collect();
-        places.sort_by(|a, b| b.share.total_cmp(&a.share));
-        let mut about: Vec<(About, f64)> = about.into_iter().collect();
-        about.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let place = |(place, share): (Place, f64)| Share { place: place.to_string(), share };
         Ok(Unexplained {
             present,
             position_rms: beyond.max(0.0).sqrt(),
-            places,
-            depends_on: about.into_iter().take(MOST_NAMED).map(|(a, _)| a.name()).collect(),
+            places: lies.into_iter().map(place).collect(),
+            depends_on: on.into_iter().take(MOST_NAMED).map(|(a, _)| a.name()).collect(),
         })
+    }
+
+    /// The probes that explain the whole gap best beside the effects of the catalogue, and their
+    /// shares of it: added one by one, to first order, from the robot file on.
+    fn free_forms(&self, start: &Explained) -> Vec<(Probe, f64)> {
+        let mut all = self.candidates.to_vec();
+        all.extend(Probe::all(self.problem));
+        let scale = self.scale(start);
+        let mut along: Vec<Candidate> = Vec::new();
+        let mut probes = Vec::new();
+        let mut whole = None;
+        for _ in 0..MOST_FORMS {
+            let kept = Kept { along: &along, coarse: true, ..Kept::all(&start.fit) };
+            let screen = Screen::new(self.problem, self.folds, &kept, &all, &start.weights);
+            let left = screen.left();
+            let whole = *whole.get_or_insert(left);
+            let ranked = self.ranked(&screen, start);
+            let Some(best) = ranked.first().filter(|best| best.gain > 0.0) else { break };
+            if scale.chance(&best.score, left, screen.basis.rank(), ranked.len()) > LEVEL {
+                break;
+            }
+            if let Source::Probe(probe) = &all[best.candidate].source {
+                probes.push((*probe, best.score.drop / whole));
+            }
+            along.push(all[best.candidate].clone());
+        }
+        probes
     }
 
     /// The held-out part of the gap that a displacement at each place alone explains: free-form, or
@@ -122,4 +143,17 @@ impl Search<'_, '_> {
         shares.sort_by(|a, b| b.share.total_cmp(&a.share));
         shares
     }
+}
+
+/// Adds to a list that has each name once, in the order in which they come.
+fn add<T: PartialEq>(list: &mut Vec<(T, f64)>, name: T, share: f64) {
+    if !list.iter().any(|(known, _)| *known == name) {
+        list.push((name, share));
+    }
+}
+
+fn largest_first<T>(map: BTreeMap<T, f64>) -> Vec<(T, f64)> {
+    let mut list: Vec<(T, f64)> = map.into_iter().collect();
+    list.sort_by(|a, b| b.1.total_cmp(&a.1));
+    list
 }

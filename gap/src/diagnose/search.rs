@@ -61,6 +61,7 @@ pub(crate) struct Search<'s, 'p> {
 }
 
 /// A fit and the noise by which it was weighted.
+#[derive(Clone)]
 pub(crate) struct Explained {
     pub(crate) fit: Fit,
     pub(crate) noise: Noise,
@@ -115,7 +116,7 @@ impl<'s> Search<'s, '_> {
             now = self.weigh(next);
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
-            if count <= SMALL || count % SMALL == 0 {
+            if count <= SMALL || count.is_multiple_of(SMALL) {
                 now = self.pruned(now)?;
             }
         }
@@ -349,10 +350,10 @@ impl<'s> Search<'s, '_> {
             }
             let refined = self.refined(now, &without, best, &screen)?;
             let refined = refined.into_iter().collect();
-            if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)? {
-                if squares(&fit.predicted.gaps, &now.weights) / variance + its < own {
-                    return Ok(Some(fit));
-                }
+            if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
+                && squares(&fit.predicted.gaps, &now.weights) / variance + its < own
+            {
+                return Ok(Some(fit));
             }
         }
         Ok(None)

@@ -52,7 +52,7 @@ impl Search<'_, '_> {
         let here = format!("{} at {}", found.effect.identifier(), found.spot.place);
         let Some((effect, spot)) = rival.effect() else { return String::new() };
         let there = format!("{} at {}", effect.identifier(), spot.place);
-        let Some((white, index, wrench, plain)) = best.filter(|b| b.0 > 0.0) else {
+        let Some((white, index, wrench, plain)) = best.filter(|b| b.0 > 1.0) else {
             return format!("no load at a pose of this data tells {here} from {there}");
         };
         let size = if self.problem.measures_position() {

@@ -6,6 +6,7 @@ use super::report::CannotSee;
 use super::screen::{Kept, Screen};
 use super::search::{Explained, OWN, Search};
 use crate::effects::{Effect, Place};
+use crate::measurement::Kind;
 
 /// An effect that moves what is measured by less than this part of what it does at its strongest
 /// place is idle there.
@@ -30,6 +31,9 @@ impl Search<'_, '_> {
         let geometry: Vec<Candidate> =
             self.candidates.iter().filter(|c| is_geometry(c)).cloned().collect();
         let beside = screen(&geometry);
+        // Between two readings of one pose lengths and angles cancel, but for what a mistake of
+        // many times the usual size would do.
+        let geometry_shows = matches!(self.problem.data.kind, Kind::Pose { .. });
         let mut unseen = Vec::new();
         for &effect in effects {
             let places = effect.places(self.problem.arm);
@@ -48,7 +52,7 @@ impl Search<'_, '_> {
                 } else if look.own < OWN.max(SEEN) {
                     let because = "the frames that are fitted along do the same";
                     unseen.push(entry(effect, place, look.own, because));
-                } else if look.beside < SEEN && !effect.is_geometry() {
+                } else if geometry_shows && look.beside < SEEN && !effect.is_geometry() {
                     unseen.push(entry(effect, place, look.beside, effect.hidden()));
                 } else if look.parameters > room {
                     let because = "too few measurements for its parameters";

@@ -45,8 +45,11 @@ fn chain(reality: &Reality) -> Chain {
     reality.chain(&situation, &Matrix4::identity())
 }
 
+/// Forces and where they act, and the tool.
+type Loaded = (Vec<(Vector3<f64>, Vector3<f64>)>, Matrix4<f64>);
+
 /// Positions of all loaded points and the tool's rotation, by multiplying out.
-fn loaded_points(chain: &Chain, u: &[f64]) -> (Vec<(Vector3<f64>, Vector3<f64>)>, Matrix4<f64>) {
+fn loaded_points(chain: &Chain, u: &[f64]) -> Loaded {
     let shape = chain.shape(u);
     let mut points = vec![(carried(&shape.tool, &chain.payload), chain.force)];
     // The chain up to each weight is a chain of its own.

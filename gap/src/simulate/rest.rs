@@ -249,7 +249,7 @@ impl<'a> Walk<'a> {
         if index >= 1 && index % 2 == 1 && index / 2 < n {
             sum += self.actual.spring(index / 2, load);
         } else if index >= 2
-            && index % 2 == 0
+            && index.is_multiple_of(2)
             && let Some(link) = &self.links[index / 2 - 1]
         {
             let gravity = frames.before.rotation.inverse() * self.actual.arm.gravity;
