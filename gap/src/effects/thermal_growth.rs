@@ -47,7 +47,9 @@ impl Effect for ThermalGrowth {
         let shift = |v: Vector3<f64>| Vector6::new(v.x, v.y, v.z, 0.0, 0.0, 0.0);
         let row = |row: usize| {
             let (before, behind) = scene.actual.row(row);
-            scene.state.carry(Site::Link(row), &shift(chord(&(before * behind))))
+            // What grows before the joint does not move the load against its axis.
+            scene.state.carry(Site::Joint(row), &shift(chord(&before)))
+                + scene.state.carry(Site::Link(row), &shift(chord(&behind)))
         };
         let rows: Vector6<f64> = (0..arm.dof()).map(row).sum();
         let tool = scene.state.carry(Site::Tool, &shift(chord(&arm.tool)));
