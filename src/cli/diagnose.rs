@@ -20,6 +20,7 @@ use super::quantity::{self, counted};
 use super::screen::Screen;
 use super::source::RobotArgs;
 use super::{Verdict, data, json};
+use crate::report::Report;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,9 +74,9 @@ pub struct Args {
     /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
-    /// Write a report (not in this version)
+    /// Write the diagnosis as one self-contained page
     #[arg(long, value_name = "OUT.html")]
-    report: Option<PathBuf>,
+    report: Option<Target>,
 }
 
 /// The diagnosis as it is written.
@@ -118,11 +119,27 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             );
         }
     }
-    let written: Vec<_> = [&args.json, &args.write_robot].into_iter().flatten().collect();
+    let screen =
+        Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check: check.as_ref() };
+    if let Some(target) = &args.report {
+        let (explanation, words) = (&diagnosed.explanation, screen.words());
+        let report = Report {
+            found,
+            data: &data,
+            arm: &arm,
+            placed: explanation.arm(),
+            gaps: &explanation.predict(&data).map_err(plain)?,
+            options: &options,
+            words: &words,
+        };
+        let page = report.html();
+        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
+        target.write(&page)?;
+    }
+    let written: Vec<_> =
+        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        let check = check.as_ref();
-        let screen = Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check };
         print(&screen.text())?;
     }
     Ok(Verdict::Good)
@@ -142,13 +159,15 @@ fn plain(error: DiagnoseError) -> Failure {
 
 impl Args {
     fn refuse_what_cannot_be(&self) -> Result<(), Failure> {
-        if self.report.is_some() {
-            let message = "--report is not in this version: --json writes everything that a \
-                           report would show";
-            return Err(Failure::new(message));
-        }
-        if self.json == Some(Target::Stdout) && self.write_robot == Some(Target::Stdout) {
-            let message = "--json and --write-robot cannot both go to standard output";
+        let all = [
+            ("--json", &self.json),
+            ("--write-robot", &self.write_robot),
+            ("--report", &self.report),
+        ];
+        let printed = all.into_iter().filter(|(_, to)| **to == Some(Target::Stdout));
+        let printed: Vec<&str> = printed.map(|(option, _)| option).collect();
+        if let [first, second, ..] = printed[..] {
+            let message = format!("{first} and {second} cannot both go to standard output");
             return Err(Failure::new(message));
         }
         Ok(())

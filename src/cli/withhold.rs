@@ -17,7 +17,7 @@ use super::{Verdict, json};
 
 const EXAMPLES: &str = "\
 Examples:
-  stiffarm withhold ur5 --cases 40
+  stiffarm withhold ur5 --cases 40 --report check.html
   stiffarm withhold arm.toml run1.csv --noise-position 30um --json check.json
   stiffarm withhold arm.toml --design force --payload 500N --effects backlash,joint_compliance
 
@@ -52,6 +52,9 @@ pub struct Args {
     /// Write everything as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
+    /// Write a self-contained page
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<Target>,
 }
 
 /// Cases of the full form.
@@ -104,7 +107,12 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(target) = &args.json {
         target.write(&json::text(&report)?)?;
     }
-    if args.json != Some(Target::Stdout) && !(quiet && args.json.is_some()) {
+    if let Some(target) = &args.report {
+        let page = crate::report::withheld::html(&report);
+        target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
+    }
+    let piped = [&args.json, &args.report].contains(&&Some(Target::Stdout));
+    if !piped && !(quiet && args.json.is_some()) {
         print(&screen(&report))?;
     }
     Ok(Verdict::Good)

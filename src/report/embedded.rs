@@ -108,12 +108,7 @@ fn alternatives(report: &Report<'_>) -> Table {
 fn cannot_see(report: &Report<'_>) -> Table {
     let mut table = Table::new(&["effect", "place", "visible", "because"]);
     let row = |one: &stiffarm_gap::diagnose::CannotSee| {
-        vec![
-            one.effect.into(),
-            one.place.as_str().into(),
-            number(one.visible),
-            one.because.into(),
-        ]
+        vec![one.effect.into(), one.place.as_str().into(), number(one.visible), one.because.into()]
     };
     table.rows = report.found.cannot_see.iter().map(row).collect();
     table

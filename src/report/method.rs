@@ -6,16 +6,16 @@ use super::Report;
 
 /// What every diagnosis does.
 pub const METHOD: &str = "\
-The gap is what was measured minus what the robot file's model says at static equilibrium under the \
-row's load and the links' weight. Frames that are unknown are fitted first, and along with \
+The gap is what was measured minus what the robot file's model says at static equilibrium under \
+the row's load and the links' weight. Frames that are unknown are fitted first, and along with \
 everything after. Each effect of the catalogue, at each place, gives its change of every measured \
-number; the one with the most evidence is added, if it is significant among all that were tried and \
-makes the gap smaller on poses that its fit has not seen. All effects found are then fitted again \
-together, exactly, each as a true displacement at its place, and those that the others make \
+number; the one with the most evidence is added, if it is significant among all that were tried \
+and makes the gap smaller on poses that its fit has not seen. All effects found are then fitted \
+again together, exactly, each as a true displacement at its place, and those that the others make \
 superfluous are taken back. Intervals of the gap come from resampling poses with all their rows, \
-those of parameters from least squares and Student’s t. Every candidate is tried in the place of each \
-finding: those that resampling the poses does not tell from it are named. What is left is tested for \
-structure with free-form displacements at every place.";
+those of parameters from least squares and Student’s t. Every candidate is tried in the place of \
+each finding: those that resampling the poses does not tell from it are named. What is left is \
+tested for structure with free-form displacements at every place.";
 
 /// Names and values of what the diagnosis was given.
 pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
@@ -57,7 +57,10 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
         ("folds", folds),
         ("seed", options.seed.to_string()),
         ("noise, rms", format!("{} ({noise})", sizes.join(", "))),
-        ("frames fitted along", if nuisances.is_empty() { "none".into() } else { nuisances.join(", ") }),
+        (
+            "frames fitted along",
+            if nuisances.is_empty() { "none".into() } else { nuisances.join(", ") },
+        ),
         ("effects tried", named(options.effects.as_deref().unwrap_or_default(), "all")),
         ("compared with", named(&options.rivals, "no other model")),
     ]

@@ -2,8 +2,8 @@
 //! everything behind it.
 //!
 //! [`Report`] is what goes into it. The page is a template (`templates/report.html`) filled from
-//! [`page`]; what is drawn by the page's own scripts (the arm, residuals, fitted shapes) is embedded
-//! as JSON ([`embedded`]), and so are the tables that it offers as CSV ([`table`]). Nothing in the
+//! [`page`]; what is drawn by the page's own scripts (the arm, residuals, fitted shapes) is
+//! embedded as JSON ([`embedded`]), and so are the tables that it offers as CSV ([`table`]). Nothing in the
 //! page refers to anything outside of it.
 
 mod embedded;
@@ -16,9 +16,9 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod waterfall;
+pub mod withheld;
 mod words;
 
-use nalgebra::Vector6;
 use stiffarm_gap::diagnose::{Diagnosis, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
@@ -57,13 +57,7 @@ impl Report<'_> {
         self.data.kind.components()[..3].contains(&true)
     }
 
-    /// The part of a gap that is judged and drawn: the translation, or the rotation without one.
-    fn main_part(&self, gap: &Vector6<f64>) -> [f64; 3] {
-        let first = if self.has_positions() { 0 } else { 3 };
-        [gap[first], gap[first + 1], gap[first + 2]]
-    }
-
-    /// In what that part is shown.
+    /// In what the part of the gap is shown that is judged and drawn.
     fn main_unit(&self) -> &Unit {
         if self.has_positions() { &self.words.length } else { &self.words.angle }
     }

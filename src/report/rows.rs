@@ -7,7 +7,7 @@ use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES, Row};
 use stiffarm_kernels::Motion;
 
 use super::Report;
-use super::table::{Table, number};
+use super::table::{Table, number, residual};
 
 /// Something that residuals are drawn against.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,6 +42,9 @@ pub struct Rows {
     pub against: Vec<Against>,
     /// The first is shown first.
     pub components: Vec<Component>,
+    /// Columns of the gap's vector that is drawn in space, before and after; none where nothing is
+    /// measured.
+    pub vectors: [[Option<usize>; 3]; 2],
 }
 
 /// A table that grows by columns.
@@ -76,7 +79,8 @@ pub fn rows(report: &Report<'_>) -> Rows {
     let mut against = readings(report, &mut columns);
     against.extend(circumstances(rows, &mut columns));
     let components = gaps(report, &mut columns);
-    Rows { table: columns.table(rows.len()), against, components }
+    let vectors = vectors(report, &components);
+    Rows { table: columns.table(rows.len()), against, components, vectors }
 }
 
 /// Joint readings.
@@ -136,19 +140,35 @@ fn circumstances(rows: &[Row], columns: &mut Columns) -> Vec<Against> {
     against
 }
 
+/// The names of the six components.
+fn names(report: &Report<'_>) -> [&'static str; 6] {
+    match report.data.kind {
+        Kind::Pose { .. } => POSE_NAMES,
+        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
+    }
+}
+
+/// Where the translation stands, or the rotation without one.
+fn vectors(report: &Report<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
+    let first = if report.has_positions() { 0 } else { 3 };
+    let names = &names(report)[first..first + 3];
+    let find = |k: usize| components.iter().find(|c| c.name == names[k]);
+    [
+        std::array::from_fn(|k| find(k).map(|c| c.before)),
+        std::array::from_fn(|k| find(k).map(|c| c.after)),
+    ]
+}
+
 /// The measured components of the gap and their norms, the one that is judged first.
 fn gaps(report: &Report<'_>, columns: &mut Columns) -> Vec<Component> {
     let words = report.words;
-    let names = match report.data.kind {
-        Kind::Pose { .. } => POSE_NAMES,
-        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-    };
+    let names = names(report);
     let measured = report.data.kind.components();
     let mut components = Vec::new();
     let mut add = |name: String, head: &str, is_turn: bool, of: &dyn Fn(&Vector6<f64>) -> f64| {
         let (file, unit) = if is_turn { ("rad", &words.angle) } else { ("m", &words.length) };
         let mut column = |when: &str, gaps: &[Vector6<f64>]| {
-            let cells = gaps.iter().map(|g| number(of(g)));
+            let cells = gaps.iter().map(|g| residual(of(g)));
             columns.add(format!("{head}_{when}[{file}]"), cells)
         };
         let before = column("before", &report.gaps.before);

@@ -32,9 +32,6 @@ pub struct Scene {
     places: Vec<Place>,
     /// Measured points, m, one per row.
     points: Vec<[Value; 3]>,
-    /// The gap there, m (rad without positions).
-    before: Vec<[Value; 3]>,
-    after: Vec<[Value; 3]>,
     /// Unit of the gap.
     unit: &'static str,
     si: f64,
@@ -47,14 +44,11 @@ pub fn scene(report: &Report<'_>) -> Scene {
     let rows = &report.data.rows;
     let base = base(report);
     let middle = &rows[middle(rows)];
-    let gaps = |gaps: &[_]| gaps.iter().map(|g| point(report.main_part(g))).collect();
     let unit = report.main_unit();
     Scene {
         line: middle.line,
         places: places(report, &base, &middle.q),
         points: rows.iter().map(|row| point(measured(report, &base, row).into())).collect(),
-        before: gaps(&report.gaps.before),
-        after: gaps(&report.gaps.after),
         unit: unit.name,
         si: unit.si,
         gap: if report.has_positions() { "position" } else { "rotation" },
@@ -138,4 +132,3 @@ fn places(report: &Report<'_>, base: &Isometry3<f64>, q: &[f64]) -> Vec<Place> {
     places.push(place("tool".to_owned(), vec![last, tool]));
     places
 }
-

@@ -15,7 +15,7 @@ use stiffarm_kernels::Motion;
 
 use super::Report;
 use super::scene::{base, offset};
-use super::table::{Table, number};
+use super::table::{Table, number, residual};
 
 /// Points of a curve.
 const STEPS: usize = 96;
@@ -64,11 +64,11 @@ fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
     let over = over(report, finding.effect)?;
     let motion = report.arm.joints.get(joint)?.motion;
     let value = |x: f64| value(finding, x);
+    let rows = &report.data.rows;
+    let levers: Vec<Vector6<f64>> = rows.iter().map(|row| lever(report, row, joint)).collect();
+    let longest = levers.iter().map(Vector6::norm_squared).fold(0.0, f64::max);
+    let rows = rows.iter().zip(&report.gaps.after).zip(&levers);
     let mut points: Vec<[f64; 3]> = Vec::new();
-    let levers = report.data.rows.iter().map(|row| lever(report, row, joint));
-    let levers: Vec<Vector6<f64>> = levers.collect();
-    let longest = levers.iter().map(|l| l.norm_squared()).fold(0.0, f64::max);
-    let rows = report.data.rows.iter().zip(&report.gaps.after).zip(&levers);
     for ((row, gap), lever) in rows {
         let size = lever.norm_squared();
         if size <= LEAST_LEVER.powi(2) * longest {
@@ -92,7 +92,7 @@ fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
     let mut table = Table::new(&["line"]);
     table.columns.extend([head, format!("partial_residual[{file}]"), format!("fitted[{file}]")]);
     let cells = |p: &[f64; 3]| {
-        vec![Value::from(p[0] as u64), number(p[1]), number(p[2]), number(value(p[1]))]
+        vec![Value::from(p[0] as u64), number(p[1]), residual(p[2]), residual(value(p[1]))]
     };
     table.rows = points.iter().map(cells).collect();
     let at = |k: usize| low + (high - low) * k as f64 / STEPS as f64;
@@ -162,14 +162,11 @@ fn lever(report: &Report<'_>, row: &Row, joint: usize) -> Vector6<f64> {
     let arm = report.placed.pose(&row.q).rotation * Vector3::from(offset(report, row));
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
     let frame = base(report).rotation;
+    let (from, part) = if report.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
     let measured = report.data.kind.components();
-    let positions = report.has_positions();
     let mut lever = Vector6::zeros();
-    let parts = [(0, positions, frame * moved), (3, !positions, frame * turn)];
-    for (from, _, part) in parts.into_iter().filter(|(_, counts, _)| *counts) {
-        for k in (0..3).filter(|k| measured[from + k]) {
-            lever[from + k] = part[k];
-        }
+    for k in (0..3).filter(|k| measured[from + k]) {
+        lever[from + k] = part[k];
     }
     lever
 }

@@ -20,14 +20,19 @@ impl Table {
     }
 }
 
-/// Significant digits of a number in the page.
-const DIGITS: usize = 8;
-
 /// A number as it is embedded: with eight significant digits, which no measurement exceeds. One
 /// that is not finite is an empty cell.
 pub fn number(x: f64) -> Value {
-    let rounded: f64 = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
-    Value::from(rounded)
+    rounded(x, 8)
+}
+
+/// A difference of such numbers: with six.
+pub fn residual(x: f64) -> Value {
+    rounded(x, 6)
+}
+
+fn rounded(x: f64, digits: usize) -> Value {
+    Value::from(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
 }
 
 /// Three numbers.

@@ -6,7 +6,7 @@ use super::Report;
 use crate::plot::{number, ticks};
 
 /// Width of the picture, px.
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 880.0;
 /// Bars stand between these, px.
 const LEFT: f64 = 250.0;
 const RIGHT: f64 = 600.0;

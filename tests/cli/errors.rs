@@ -155,7 +155,8 @@ fn options_of_diagnose_that_do_not_fit() {
         refused(&[&lin[..], extra].concat(), expected);
     };
     with(&["--nuisance", "base_fram"], &["expected base_frame or tool_frame; did you mean"]);
-    with(&["--report", "out.html"], &["--report is not in this version"]);
+    let both = ["--json", "-", "--report", "-"];
+    with(&both, &["--json and --report cannot both go to standard output"]);
     with(&["--rival", "foo"], &["expected `foo_dy`", "the file has predictions of `ycd`, `ytd`"]);
     with(&["--noise-position", "30"], &["--noise-position: found `30`", "m, mm, um, in"]);
     with(&["--noise-position", "-3um"], &["found `-3um`, expected a positive number"]);

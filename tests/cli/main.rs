@@ -13,6 +13,7 @@ mod others;
 mod papers;
 mod pinocchio;
 mod poses;
+mod report;
 mod simulate;
 mod support;
 mod withhold;

@@ -55,11 +55,14 @@ impl Screen<'_> {
         ]
     }
 
+    /// All numbers with their intervals, the joint's spring as a whole behind them.
+    pub(super) fn numbers(&self, finding: &Finding) -> Vec<String> {
+        let each = finding.parameters.iter().map(|p| self.parameter(finding, p));
+        each.chain(self.stiffness(finding)).collect()
+    }
+
     fn details(&self, finding: &Finding) -> String {
-        let mut numbers: Vec<String> =
-            finding.parameters.iter().map(|p| self.parameter(finding, p)).collect();
-        numbers.extend(self.stiffness(finding));
-        let mut text = paragraph(&numbers.join("; "));
+        let mut text = paragraph(&self.numbers(finding).join("; "));
         let (p, again) = (chance(finding.p_value), percent(finding.stability));
         let mut evidence = format!("{p}, found again on {again} of halves");
         let (same, other): (Vec<_>, Vec<_>) =

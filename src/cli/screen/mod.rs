@@ -7,6 +7,7 @@ mod notes;
 mod sentence;
 mod size;
 mod unit;
+mod words;
 
 use stiffarm_gap::diagnose::Rival;
 use stiffarm_gap::gap::Statistics;

@@ -9,10 +9,8 @@ impl Screen<'_> {
     pub fn words(&self) -> Words {
         let gap = &self.found.gap;
         let told = |finding: &_| Told { said: self.said(finding), numbers: self.numbers(finding) };
-        let length = self.length(
-            gap.before.position_rms.min(gap.after.position_rms),
-            gap.before.position_rms,
-        );
+        let length = self
+            .length(gap.before.position_rms.min(gap.after.position_rms), gap.before.position_rms);
         let angle = self
             .angle(gap.before.rotation_rms.min(gap.after.rotation_rms), gap.before.rotation_rms);
         Words {

@@ -1,6 +1,6 @@
 // The arm in space, turned by mouse, keys and buttons.
 {
-  const HOME = { turn: -0.9, tilt: 0.35, zoom: 1 };
+  const HOME = { turn: -0.9, tilt: 0.35, zoom: 1.1 };
   const [WIDTH, HEIGHT, MARGIN] = [640, 520, 46];
   const svg = document.getElementById("arm");
   const picture = document.getElementById("arm-picture");
@@ -14,11 +14,11 @@
   const middle = low.map((l, k) => (l + high[k]) / 2);
   const size = Math.hypot(...low.map((l, k) => high[k] - l)) || 1;
 
-  // Nine of ten vectors before are at most an eighth of the picture long: a round factor.
-  const lengths = page.scene.before.map((g) => Math.hypot(...g)).sort((a, b) => a - b);
+  // Nine of ten vectors before are at most a tenth of the picture long: a round factor.
+  const lengths = gaps("before").map((g) => Math.hypot(...g)).sort((a, b) => a - b);
   const usual = lengths[Math.floor(0.9 * (lengths.length - 1))] || lengths.at(-1);
   const round = (x) => Number(x.toPrecision(1));
-  const standard = usual > 0 ? round(size / 8 / usual) : 1;
+  const standard = usual > 0 ? round(size / 10 / usual) : 1;
 
   // Orthographic: x to the right, z up, seen along a horizontal direction that tilts.
   function project([x, y, z]) {
@@ -53,7 +53,8 @@
       const to = from.map((p, j) => p + (j === k ? size / 10 : 0));
       const [x, y] = project(from.map((p, j) => p + (j === k ? size / 8 : 0)));
       return `<path class="axis-${name}" d="${path([from, to])}"/>` +
-        `<text class="tick" text-anchor="middle" x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}">${name}</text>`;
+        `<text class="tick" text-anchor="middle" x="${x.toFixed(1)}" ` +
+        `y="${(y + 4).toFixed(1)}">${name}</text>`;
     }).join("");
   }
 
@@ -71,35 +72,62 @@
       `cy="${y.toFixed(1)}" r="${(5 + 5 * part).toFixed(1)}">${title}</circle>`;
   }
 
-  // Joints at one point have one label.
+  // `base, joints 1, 2`.
+  function together(names) {
+    const joints = names.filter((name) => name.startsWith("joint "));
+    const others = names.filter((name) => !joints.includes(name));
+    const numbers = joints.map((name) => name.slice("joint ".length));
+    const joint = joints.length > 1 ? "joints" : "joint";
+    if (joints.length > 0) others.push(`${joint} ${numbers.join(", ")}`);
+    return others.join(", ");
+  }
+
+  // Places at one point have one label.
   function labels() {
     const groups = new Map();
     for (const { name, through, found } of places) {
       if (name.startsWith("link") && !found) continue;
-      const p = name.startsWith("link") ? through[0].map((x, k) => (x + through[2][k]) / 2) : through.at(-1);
+      const halfway = () => through[0].map((x, k) => (x + through[2][k]) / 2);
+      const p = name.startsWith("link") ? halfway() : through.at(-1);
       const [x, y] = project(p);
       const key = [...groups.keys()].find((k) => Math.hypot(k[0] - x, k[1] - y) < 12) ?? [x, y];
       groups.set(key, [...(groups.get(key) ?? []), name + (found ? " ●" : "")]);
     }
+    const taken = [];
     return [...groups].map(([[x, y], names]) => {
-      const text = names.join(", ").replace(/, joint /g, ", ");
-      return `<text class="on" x="${(x + 13).toFixed(1)}" y="${(y - 9).toFixed(1)}">${escaped(text)}</text>`;
+      const text = together(names);
+      const [u, v, anchor] = free(x, y, text, taken);
+      return `<text class="on" text-anchor="${anchor}" x="${u.toFixed(1)}" y="${v.toFixed(1)}">` +
+        `${escaped(text)}</text>`;
     }).join("");
+  }
+
+  // The first place beside a point where a label lies on no other; above it if there is none.
+  function free(x, y, text, taken) {
+    const [wide, high] = [8 * text.length, 16];
+    const rows = [-9, 13, -26, 30, -43, 47, -60, 64];
+    const tried = rows.flatMap((dy) => [[x + 13, y + dy, "start"], [x - 13, y + dy, "end"]]);
+    const box = ([u, v, anchor]) => [anchor === "end" ? u - wide : u, v - high];
+    const apart = ([a, b, w], [c, d]) => a + w < c || c + wide < a || Math.abs(b - d) >= high;
+    const found = tried.find((at) => taken.every((other) => apart(other, box(at)))) ?? tried[0];
+    taken.push([...box(found), wide]);
+    return found;
   }
 
   function draw() {
     const when = document.querySelector('input[name="when"]:checked').value;
     const factor = standard * 10 ** Number(document.getElementById("magnify").value);
-    const gaps = page.scene[when];
+    const drawn = gaps(when);
     const tip = (p, g) => p.map((x, k) => x + factor * g[k]);
-    const lines = points.map((p, k) => path([p, tip(p, gaps[k])])).join("");
+    const lines = points.map((p, k) => path([p, tip(p, drawn[k])])).join("");
     const tails = points.map((p) => `M${at(p)}h0`).join("");
     const links = places.filter((p) => p.through.length > 1);
     const joints = places.filter((p) => p.through.length === 1);
-    picture.innerHTML = floor() + axes() + links.map(place).join("") + joints.map(place).join("") +
+    picture.innerHTML = floor() + axes() +
       `<path class="vectors ${when}" d="${lines}"/><path class="tails ${when}" d="${tails}"/>` +
-      labels() + legend(factor);
-    document.getElementById("magnified").textContent = `${shown(Number(factor.toPrecision(2)))} times`;
+      links.map(place).join("") + joints.map(place).join("") + labels() + legend(factor);
+    const magnified = document.getElementById("magnified");
+    magnified.textContent = `${shown(Number(factor.toPrecision(2)))} times`;
   }
 
   // How long a round gap is in the picture.
@@ -146,7 +174,9 @@
     held = [event.clientX, event.clientY];
     draw();
   });
-  for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { held = null; });
+  for (const end of ["pointerup", "pointercancel"]) {
+    svg.addEventListener(end, () => { held = null; });
+  }
   for (const button of document.querySelectorAll("[data-turn]")) {
     button.addEventListener("click", () => move(button.dataset.turn));
   }

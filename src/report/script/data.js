@@ -11,13 +11,20 @@ function csv({ columns, rows }) {
   return [columns, ...rows].map((row) => row.map(cell).join(",")).join("\n") + "\n";
 }
 
+// The gap of each row in space, `before` or `after`.
+function gaps(when) {
+  const columns = page.rows.vectors[when === "before" ? 0 : 1];
+  return page.rows.table.rows.map((row) => columns.map((c) => (c === null ? 0 : row[c])));
+}
+
 function vectors() {
   const unit = page.scene.gap === "position" ? "m" : "rad";
   const columns = ["line", "x[m]", "y[m]", "z[m]"];
   for (const when of ["before", "after"]) {
     for (const axis of "xyz") columns.push(`${when}_${axis}[${unit}]`);
   }
-  const { points, before, after } = page.scene;
+  const points = page.scene.points;
+  const [before, after] = [gaps("before"), gaps("after")];
   const line = (k) => page.rows.table.rows[k][0];
   const rows = points.map((p, k) => [line(k), ...p, ...before[k], ...after[k]]);
   return { columns, rows };

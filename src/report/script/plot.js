@@ -13,7 +13,9 @@ function ticks([low, high], count) {
   const power = 10 ** Math.floor(Math.log10(wanted));
   const step = [1, 2, 5, 10].find((m) => m * power >= wanted * 0.999) * power;
   const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) found.push(k * step);
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) {
+    found.push(k * step);
+  }
   return found;
 }
 
@@ -42,7 +44,8 @@ function dots(points, x, y) {
 }
 
 function curve(points, x, y) {
-  return points.map(([u, v], k) => `${k ? "L" : "M"}${x(u).toFixed(1)} ${y(v).toFixed(1)}`).join("");
+  const at = ([u, v], k) => `${k ? "L" : "M"}${x(u).toFixed(1)} ${y(v).toFixed(1)}`;
+  return points.map(at).join("");
 }
 
 // `series` holds {class, points}; `lines` curves; all in the units of the axes.
@@ -60,8 +63,9 @@ function plot({ id, title, description, x, y, series, lines }) {
   }
   for (const tick of ticks(y.domain, 4)) {
     const px = atY(tick).toFixed(1);
-    text += `<line class="${tick === 0 ? "zero" : "mark"}" x1="${left}" x2="${right}" y1="${px}" y2="${px}"/>` +
-      `<text class="tick" text-anchor="end" x="${left - 6}" y="${Number(px) + 4}">${shown(tick)}</text>`;
+    text += `<line class="${tick === 0 ? "zero" : "mark"}" x1="${left}" x2="${right}" ` +
+      `y1="${px}" y2="${px}"/><text class="tick" text-anchor="end" x="${left - 6}" ` +
+      `y="${Number(px) + 4}">${shown(tick)}</text>`;
   }
   for (const { name, points } of series) {
     text += `<path class="many ${name}" d="${dots(points, atX, atY)}"/>`;
@@ -69,9 +73,11 @@ function plot({ id, title, description, x, y, series, lines }) {
     if (name === "before") text += `<path class="many inside" d="${dots(points, atX, atY)}"/>`;
   }
   for (const line of lines) text += `<path class="trend" d="${curve(line, atX, atY)}"/>`;
-  text += `<rect class="frame" x="${left}" y="${top}" width="${right - left}" height="${bottom - top}"/>` +
-    `<text class="name" text-anchor="middle" x="${(left + right) / 2}" y="${bottom + 34}">${escaped(x.name)}</text>` +
-    `<text class="name" text-anchor="middle" transform="translate(12 ${(top + bottom) / 2}) rotate(-90)">${escaped(y.name)}</text>`;
+  const [across, down] = [(left + right) / 2, (top + bottom) / 2];
+  text += `<rect class="frame" x="${left}" y="${top}" width="${right - left}" ` +
+    `height="${bottom - top}"/><text class="name" text-anchor="middle" x="${across}" ` +
+    `y="${bottom + 34}">${escaped(x.name)}</text><text class="name" text-anchor="middle" ` +
+    `transform="translate(12 ${down}) rotate(-90)">${escaped(y.name)}</text>`;
   return `<svg class="plot" viewBox="0 0 ${width} ${height}" role="img" ` +
     `aria-labelledby="${id}-t ${id}-d">${text}</svg>`;
 }

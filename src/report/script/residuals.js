@@ -9,16 +9,17 @@
   // Classes are drawn beside one another, each row at a place of its own.
   const spread = (v, k) => v + 0.36 * (((k * 0.618034) % 1) - 0.5);
 
-  // Mean of y over bins of x with as many points each; classes are their own bins.
+  // Mean of y over equal bins of x; classes are their own bins.
   function trend(points, classes) {
-    const sorted = points.toSorted((a, b) => a[0] - b[0]);
+    const [low, high] = around(points.map((p) => p[0]), 1e-9);
     const groups = new Map();
-    sorted.forEach((point, k) => {
-      const key = classes ? point[0] : Math.floor((k * BINS) / sorted.length);
+    for (const point of points) {
+      const key = classes ? point[0] : Math.floor((BINS * (point[0] - low)) / (high - low));
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push(point);
-    });
-    return [...groups.values()].map((g) => [mean(g.map((p) => p[0])), mean(g.map((p) => p[1]))]);
+    }
+    const inOrder = [...groups].sort((a, b) => a[0] - b[0]).map(([, group]) => group);
+    return inOrder.map((g) => [mean(g.map((p) => p[0])), mean(g.map((p) => p[1]))]);
   }
 
   function panel(thing, k, component, domain) {
@@ -35,7 +36,7 @@
       id: `r${k}`,
       title,
       description: `${component.name} of the gap ${title}, ${drawn.length} rows: rms ` +
-        `${shown(rms(before))} ${component.unit} before, ${shown(rms(after))} ${component.unit} after`,
+        `${shown(rms(before))} before, ${shown(rms(after))} after, ${component.unit}`,
       x: {
         name: thing.name,
         domain: thing.classes ? [-1.3, 1.3] : around(x.filter((v) => v !== null)),

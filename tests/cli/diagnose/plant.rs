@@ -285,7 +285,7 @@ fn what_cannot_be_is_refused_and_nothing_written() {
     refused(&["--effects", "backlosh"], "did you mean `backlash`?");
     refused(&["--effects", "x"], "expected one of joint_offset, joint_compliance, backlash");
     refused(&["--check", "no.csv"], "cannot read no.csv: no such file");
-    refused(&["--report", "out.html"], "--report is not in this version");
+    refused(&["--json", "-", "--report", "-"], "--json and --report cannot both go to");
     let marked = "q1,q2,q3,marker,x,y,z\n0,0,0,smr,1,0,0\n0,0,1,smr,1,0,0\n";
     let marked = bench.folder.file("marked.csv", marked);
     refused(&["--check", &marked], "smr");
