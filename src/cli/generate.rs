@@ -1,10 +1,13 @@
 //! `stiffarm generate`: the closed form as text.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
-use stiffarm_codegen::emit::{RustOptions, dot, flexible_latex, flexible_rust, latex, rust};
+use stiffarm_codegen::emit::{
+    CFiles, COptions, Precision, RustOptions, Sines, c, c_name, dot, flexible_latex, flexible_rust,
+    latex, rust,
+};
 
 use super::Verdict;
 use super::failure::Failure;
@@ -16,13 +19,16 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm generate ur5 --emit rust --out src/ur5.rs
   stiffarm generate ur5 --emit rust --check src/ur5.rs     (exit status 1 if it differs)
+  stiffarm generate ur5 --emit c --precision f32 --out firmware/
+  stiffarm generate ur5 --emit c --precision f32 --check firmware/
   stiffarm generate arm.toml --emit latex --output jacobian --output deflection > arm.tex
   stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
   stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
-/// The kernels as Rust, or the closed form as LaTeX or as a graph
+/// The kernels as Rust or C, or the closed form as LaTeX or as a graph
 ///
-/// The Rust text is what the macro `robot!` compiles; the same table always gives the same bytes.
+/// The Rust text is what the macro `robot!` compiles; the C text gives the same bits. The same table
+/// always gives the same bytes.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -43,11 +49,20 @@ pub struct Args {
     /// Path of the kernels crate in the Rust text [default: ::stiffarm::kernels]
     #[arg(long, value_name = "PATH")]
     kernels: Option<String>,
-    /// Write into this file (`-`: to standard output)
-    #[arg(long, value_name = "FILE")]
+    /// Type of the numbers in C [default: f64]
+    #[arg(long, value_enum)]
+    precision: Option<Real>,
+    /// Where sines and cosines come from in C [default: polynomial]
+    #[arg(long, value_enum)]
+    sines: Option<SinesFrom>,
+    /// What the names and both files in C begin with [default: the robot's id or file name]
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Write into this file (`-`: to standard output); C: both files into this folder
+    #[arg(long, value_name = "PATH")]
     out: Option<Target>,
-    /// Compare with this file, byte by byte, and write nothing
-    #[arg(long, value_name = "FILE", conflicts_with = "out")]
+    /// Compare with this file, byte by byte, and write nothing; C: with both files of this folder
+    #[arg(long, value_name = "PATH", conflicts_with = "out")]
     check: Option<PathBuf>,
 }
 
@@ -55,10 +70,30 @@ pub struct Args {
 enum Emit {
     /// A module with a function per output
     Rust,
+    /// A header and a source, C99, with a function per output
+    C,
     /// A document to lay beside a paper
     Latex,
     /// The expression graph, for Graphviz
     Dot,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Real {
+    /// float
+    F32,
+    /// double
+    F64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SinesFrom {
+    /// The Rust kernels' own, written along: no library
+    Polynomial,
+    /// math.h
+    Math,
+    /// The caller: only the functions that take sines and cosines
+    Given,
 }
 
 fn outputs() -> Vec<&'static str> {
@@ -72,44 +107,101 @@ fn outputs() -> Vec<&'static str> {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
     let source = source::open(&args.robot, quiet)?;
-    let text = match &args.flexible {
-        Some(list) => args.flexible(list, &source)?,
-        None => args.text(&source),
-    };
-    match (&args.check, &args.out) {
-        (Some(file), _) => args.check(file, &text, quiet),
-        (None, Some(target)) => target.write(&text).map(|()| Verdict::Good),
-        (None, None) => print(&text).map(|()| Verdict::Good),
+    let mut verdict = Verdict::Good;
+    for (name, text) in args.files(&source)? {
+        // One text is the file that was named, several are in the folder that was named.
+        let place = |path: &Path| name.as_ref().map_or(path.to_path_buf(), |n| path.join(n));
+        match (&args.check, &args.out) {
+            (Some(path), _) if args.check(&place(path), &text, quiet)? == Verdict::Failed => {
+                verdict = Verdict::Failed;
+            }
+            (Some(_), _) => {}
+            (None, Some(Target::File(path))) => Target::File(place(path)).write(&text)?,
+            (None, Some(Target::Stdout) | None) => print(&text)?,
+        }
     }
+    Ok(verdict)
 }
 
 impl Args {
     fn go_together(&self) -> Result<(), Failure> {
+        let of_c = self.precision.is_some() || self.sines.is_some() || self.name.is_some();
         match self.emit {
-            Emit::Rust if !self.outputs.is_empty() => {
-                Err(Failure::new("--output is for latex and dot: the Rust module has every output"))
+            Emit::Rust | Emit::Latex | Emit::Dot if of_c => {
+                Err(Failure::new("--precision, --sines and --name are for c"))
             }
-            Emit::Dot if self.flexible.is_some() => {
+            Emit::Rust | Emit::C if !self.outputs.is_empty() => Err(Failure::new(
+                "--output is for latex and dot: the Rust module and the C files have every output",
+            )),
+            Emit::C | Emit::Dot if self.flexible.is_some() => {
                 Err(Failure::new("--flexible is for rust and latex"))
             }
-            Emit::Latex | Emit::Dot if self.kernels.is_some() => {
-                Err(Failure::new("--kernels is for rust: latex and dot use no crate"))
+            Emit::C | Emit::Latex | Emit::Dot if self.kernels.is_some() => {
+                Err(Failure::new("--kernels is for rust: c, latex and dot use no crate"))
+            }
+            Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
+                Err(Failure::with_help(
+                    "found no folder to write into: C is two files, a header and a source",
+                    "name the folder: --out FOLDER",
+                ))
             }
             _ => Ok(()),
         }
     }
 
-    fn text(&self, Source { robot, .. }: &Source) -> String {
+    /// What is to be written; C has two files, with names of their own.
+    fn files(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
+        let robot = &source.robot;
         let asked = Output::EACH.into_iter();
         let asked = asked.filter(|o| self.outputs.iter().any(|name| name == o.name()));
         let asked: Vec<Output> = asked.collect();
         let or =
             |default: &[Output]| if asked.is_empty() { default.to_vec() } else { asked.clone() };
-        match self.emit {
-            Emit::Latex => latex(robot, &or(&Output::EACH)),
-            Emit::Dot => dot(robot, &or(&[Output::Jacobian])),
-            Emit::Rust => rust(robot, &self.options()),
-        }
+        let text = match (self.emit, &self.flexible) {
+            (Emit::C, _) => return self.c(source),
+            (_, Some(list)) => self.flexible(list, source)?,
+            (Emit::Latex, None) => latex(robot, &or(&Output::EACH)),
+            (Emit::Dot, None) => dot(robot, &or(&[Output::Jacobian])),
+            (Emit::Rust, None) => rust(robot, &self.options()),
+        };
+        Ok(vec![(None, text)])
+    }
+
+    /// The header and the source.
+    fn c(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
+        let options = self.c_options(source)?;
+        let CFiles { header, source: text } = c(&source.robot, &options).map_err(|error| {
+            let message = format!("{}: {error}", source.robot.name);
+            Failure::with_help(message, "write the numbers into a copy of the robot file")
+        })?;
+        let file = |end: &str| Some(format!("{}.{end}", options.name));
+        Ok(vec![(file("c"), text), (file("h"), header)])
+    }
+
+    fn c_options(&self, source: &Source) -> Result<COptions, Failure> {
+        let name = match &self.name {
+            Some(name) if *name != c_name(name) => {
+                return Err(Failure::with_help(
+                    format!("--name: found `{name}`, expected lower-case letters, digits and _"),
+                    format!("`{}` would do", c_name(name)),
+                ));
+            }
+            Some(name) => name.clone(),
+            None => {
+                let stem = Path::new(&source.given).file_stem().unwrap_or_default();
+                c_name(&stem.to_string_lossy())
+            }
+        };
+        let precision = match self.precision {
+            Some(Real::F32) => Precision::F32,
+            Some(Real::F64) | None => Precision::F64,
+        };
+        let sines = match self.sines {
+            Some(SinesFrom::Polynomial) | None => Sines::Polynomial,
+            Some(SinesFrom::Math) => Sines::Math,
+            Some(SinesFrom::Given) => Sines::Given,
+        };
+        Ok(COptions { name, precision, sines })
     }
 
     fn options(&self) -> RustOptions {
@@ -124,11 +216,11 @@ impl Args {
         };
         Ok(match self.emit {
             Emit::Rust => flexible_rust(robot, &displacements, &self.options()),
-            Emit::Latex | Emit::Dot => flexible_latex(robot, &displacements),
+            Emit::C | Emit::Latex | Emit::Dot => flexible_latex(robot, &displacements),
         })
     }
 
-    fn check(&self, file: &PathBuf, text: &str, quiet: bool) -> Result<Verdict, Failure> {
+    fn check(&self, file: &Path, text: &str, quiet: bool) -> Result<Verdict, Failure> {
         let found = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
         let name = file.display();
         if found == text.as_bytes() {

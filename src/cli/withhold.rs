@@ -112,7 +112,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
     }
     let piped = [&args.json, &args.report].contains(&&Some(Target::Stdout));
-    if !piped && !(quiet && args.json.is_some()) {
+    let unasked = quiet && args.json.is_some();
+    if !(piped || unasked) {
         print(&screen(&report))?;
     }
     Ok(Verdict::Good)

@@ -49,9 +49,9 @@ impl Search<'_, '_> {
             }
         }
         let found = &now.fit.model.found[group[0]];
-        let here = format!("{} at {}", found.effect.identifier(), found.spot.place);
+        let here = format!("{} at {}", words(found.effect.identifier()), found.spot.place);
         let Some((effect, spot)) = rival.effect() else { return String::new() };
-        let there = format!("{} at {}", effect.identifier(), spot.place);
+        let there = format!("{} at {}", words(effect.identifier()), spot.place);
         let Some((white, index, wrench, plain)) = best.filter(|b| b.0 > 1.0) else {
             return format!("no load at a pose of this data tells {here} from {there}");
         };
@@ -132,10 +132,20 @@ fn loads(row: &Row, force: f64) -> Vec<Vector6<f64>> {
     loads
 }
 
+/// An identifier as it is said.
+fn words(identifier: &str) -> String {
+    identifier.replace('_', " ")
+}
+
+fn sign(value: f64) -> &'static str {
+    if value < 0.0 { "−" } else { "" }
+}
+
 fn load_in_words(wrench: &Vector6<f64>) -> String {
     let names = ["x", "y", "z"];
     let forces = (0..3).filter(|&k| wrench[k].abs() > 0.0);
-    let parts: Vec<String> =
-        forces.map(|k| format!("{:.0} N along {}", wrench[k], names[k])).collect();
+    let parts: Vec<String> = forces
+        .map(|k| format!("{:.0} N along {}{}", wrench[k].abs(), sign(wrench[k]), names[k]))
+        .collect();
     if parts.is_empty() { "no load".to_owned() } else { parts.join(", ") }
 }
