@@ -40,6 +40,25 @@ fn completions_know_the_commands() {
     assert!(stiffarm(&["completions", "csh"]).refused().contains("bash"));
 }
 
+/// In the order of the alphabet.
+const COMMANDS: [&str; 15] = [
+    "check",
+    "compensate",
+    "completions",
+    "diagnose",
+    "eval",
+    "generate",
+    "identify",
+    "import",
+    "man",
+    "map",
+    "papers",
+    "poses",
+    "robots",
+    "simulate",
+    "withhold",
+];
+
 #[test]
 fn manual_pages_are_written() {
     let page = stiffarm(&["man"]).good();
@@ -52,9 +71,7 @@ fn manual_pages_are_written() {
         .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    let commands =
-        ["check", "completions", "diagnose", "eval", "generate", "man", "papers", "robots"];
-    let mut expected: Vec<String> = commands.map(|c| format!("stiffarm-{c}.1")).to_vec();
+    let mut expected: Vec<String> = COMMANDS.map(|c| format!("stiffarm-{c}.1")).to_vec();
     expected.push("stiffarm.1".to_owned());
     assert_eq!(names, expected);
     let eval = std::fs::read_to_string(folder.path("man1/stiffarm-eval.1")).expect("written");
@@ -63,8 +80,7 @@ fn manual_pages_are_written() {
 
 #[test]
 fn help_has_examples() {
-    for name in ["eval", "check", "robots", "generate", "diagnose", "papers", "completions", "man"]
-    {
+    for name in COMMANDS {
         let out = stiffarm(&[name, "--help"]).good();
         assert!(out.contains("Example") && out.contains(&format!("  stiffarm {name}")), "{out}");
     }

@@ -1,5 +1,6 @@
-//! Printers of the derived graph: Rust, LaTeX, dot. Each is one file or folder.
+//! Printers of the derived graph: Rust, C, LaTeX, dot. Each is one file or folder.
 
+mod c;
 mod constants;
 mod dot;
 mod expression;
@@ -7,6 +8,7 @@ mod latex;
 mod plan;
 mod rust;
 
+pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
 pub use rust::{RustOptions, flexible_rust, rust, rust_fused};

@@ -1,0 +1,137 @@
+//! The C printer: one header and one source per robot, C99, for firmware.
+//!
+//! The text is the Rust module's, operation by operation: the same plan, the same order, the same
+//! polynomial for sines and cosines. Compiled without fused products and without fast-math it gives the
+//! same bits.
+
+mod docs;
+mod function;
+mod hash;
+mod header;
+mod lines;
+mod name;
+mod posture;
+mod solve;
+mod source;
+mod style;
+mod trigonometry;
+
+pub use name::c_name;
+
+use core::fmt;
+
+use self::function::Function;
+use self::posture::Posture;
+use super::constants::Constants;
+use super::plan::Plan;
+use crate::derive::{Output, derive_each};
+use crate::robot::Robot;
+
+/// How the C text is to be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct COptions {
+    /// What every name begins with, and what the two files are called: see [`c_name`].
+    pub name: String,
+    /// The numbers' type.
+    pub precision: Precision,
+    /// Where sines and cosines come from.
+    pub sines: Sines,
+}
+
+/// The type of all numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// `float`.
+    F32,
+    /// `double`.
+    #[default]
+    F64,
+}
+
+/// Where sines and cosines come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sines {
+    /// The polynomial of the Rust kernels, as a function of the source: no branch, no library.
+    #[default]
+    Polynomial,
+    /// `sin` and `cos` of `math.h`.
+    Math,
+    /// The caller: only the functions that take sines and cosines are written.
+    Given,
+}
+
+/// The text of both files.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CFiles {
+    /// `<name>.h`.
+    pub header: String,
+    /// `<name>.c`.
+    pub source: String,
+}
+
+/// The table has parameters without numbers: C is written of numbers only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SymbolicTable {
+    /// The parameters' names.
+    pub parameters: Vec<String>,
+}
+
+impl fmt::Display for SymbolicTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = self.parameters.join(", ");
+        write!(f, "found no number for {names}, expected a table of numbers: C has no parameters")
+    }
+}
+
+impl core::error::Error for SymbolicTable {}
+
+/// The kernels of a robot as C99. The same table and options always give the same bytes.
+///
+/// # Errors
+/// [`SymbolicTable`] where a cell of the table is no number.
+pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
+    let symbols = robot.symbols();
+    if !symbols.is_empty() {
+        return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
+    }
+    let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
+    let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
+    let programs = derive_each(robot, &sets);
+    let plans = programs.iter().map(|program| Plan::new(program, &mut Constants::default()));
+    let plans: Vec<Plan> = plans.collect();
+    let language = style::C { precision: options.precision };
+    let mut posture = Posture::default();
+    let fields: Vec<Vec<posture::Use>> =
+        plans.iter().map(|plan| posture.admit(plan, &language)).collect();
+    let functions: Vec<Function> = plans
+        .iter()
+        .zip(&sets)
+        .zip(&fields)
+        .map(|((plan, outputs), uses)| Function { plan, outputs, uses, language: &language })
+        .collect();
+    let module = Module { robot, options, language: &language, posture, functions };
+    let table = hash::table(robot);
+    let source = source::source(&module, &table);
+    let header = header::header(&module, &table, &source);
+    Ok(CFiles { header, source })
+}
+
+/// Everything that both files are written from.
+struct Module<'a> {
+    robot: &'a Robot,
+    options: &'a COptions,
+    language: &'a style::C,
+    posture: Posture,
+    functions: Vec<Function<'a>>,
+}
+
+impl Module<'_> {
+    fn name(&self) -> &str {
+        &self.options.name
+    }
+
+    /// A macro of the header: `UR10_JOINTS`.
+    fn constant(&self, suffix: &str) -> String {
+        format!("{}_{suffix}", self.name().to_uppercase())
+    }
+}

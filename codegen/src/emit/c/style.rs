@@ -1,0 +1,82 @@
+//! How C spells numbers and operations.
+
+use super::super::expression::{Style, constant};
+use super::Precision;
+use crate::number::Number;
+
+/// C99 in one precision.
+pub(super) struct C {
+    pub precision: Precision,
+}
+
+impl C {
+    /// The numbers' type.
+    pub fn real(&self) -> &'static str {
+        match self.precision {
+            Precision::F32 => "float",
+            Precision::F64 => "double",
+        }
+    }
+
+    /// What stands behind a literal and behind a function of `math.h`.
+    pub fn suffix(&self) -> &'static str {
+        match self.precision {
+            Precision::F32 => "f",
+            Precision::F64 => "",
+        }
+    }
+
+    /// `0.0` or `0.0f`.
+    pub fn zero(&self) -> String {
+        format!("0.0{}", self.suffix())
+    }
+}
+
+impl Style for C {
+    /// The value that the Rust text gives: a `float` is the rounded `double`.
+    fn number(&self, n: Number) -> String {
+        let text = constant(n);
+        let single = text.parse::<f64>().map(|x| x as f32).ok().filter(|x| x.is_finite());
+        match (self.precision, single) {
+            (Precision::F32, Some(x)) if x < 0.0 => format!("({x:?}f)"),
+            (Precision::F32, Some(x)) => format!("{x:?}f"),
+            (Precision::F32, None) => format!("((float)({text}))"),
+            (Precision::F64, _) if text.contains('/') || text.starts_with('-') => {
+                format!("({text})")
+            }
+            (Precision::F64, _) => text,
+        }
+    }
+    fn name(&self, name: &str) -> String {
+        name.to_string()
+    }
+    fn product(&self, a: &str, b: &str) -> String {
+        format!("{a} * {b}")
+    }
+    fn bracket(&self, inner: &str) -> String {
+        format!("({inner})")
+    }
+    fn recip(&self, a: &str) -> String {
+        format!("(1.0{} / ({a}))", self.suffix())
+    }
+    fn sqrt(&self, a: &str) -> String {
+        format!("sqrt{}({a})", self.suffix())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_value() {
+        let (double, single) = (C { precision: Precision::F64 }, C { precision: Precision::F32 });
+        let third = Number::ratio(1, 3);
+        assert_eq!(double.number(third), "(1.0 / 3.0)");
+        assert_eq!(single.number(third), "((float)(1.0 / 3.0))");
+        assert_eq!(double.number(Number::ratio(-1, 8)), "(-0.125)");
+        assert_eq!(single.number(Number::ratio(-1, 8)), "(-0.125f)");
+        assert_eq!(single.number(Number::ratio(1, 10)), "0.1f");
+        assert_eq!(double.number(Number::ratio(1, 350_000)), "(1.0 / 350000.0)");
+    }
+}

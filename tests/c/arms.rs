@@ -1,0 +1,122 @@
+//! The arms whose bits are compared, with the kernels that the macro made of them.
+
+use stiffarm::kernels::{DhRow, Error, Kernels, Output, Pose, Scalar};
+use stiffarm_codegen::derive::Output as Derived;
+use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::robot::Robot;
+use stiffarm_robots::ARMS;
+
+use crate::compiler::{Folder, compile};
+use crate::program::program;
+
+stiffarm::robot! {
+    /// Something of everything.
+    pub mod various from "tests/c/arm.toml";
+}
+
+/// What a fused function computes, output by output in its order, or that there is no equilibrium.
+pub type All<S> = Result<Vec<Vec<S>>, Error>;
+
+/// An arm with its kernels in one precision.
+pub struct Arm<S: 'static> {
+    pub id: &'static str,
+    pub toml: &'static str,
+    pub rows: &'static [DhRow],
+    pub kernels: &'static dyn Kernels<S>,
+    pub all: fn(&[S], &[S; 6]) -> All<S>,
+}
+
+macro_rules! arm {
+    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty) => {
+        Arm::<$scalar> {
+            id: stringify!($id),
+            toml: $toml,
+            rows: &$($path)::+::DH,
+            kernels: &$($path)::+::Robot,
+            all: |q, wrench| {
+                let q = q.try_into().map_err(|_| Error::Length)?;
+                let all = $($path)::+::all(q, wrench)?;
+                Ok(vec![
+                    flat(all.pose),
+                    all.jacobian.as_flattened().to_vec(),
+                    all.complementary_stiffness.as_flattened().to_vec(),
+                    all.joint_torque.to_vec(),
+                    all.compliance.as_flattened().to_vec(),
+                    all.deflection.to_vec(),
+                ])
+            },
+        }
+    };
+}
+
+macro_rules! arms {
+    ($scalar:ty; $($id:ident),*) => {
+        vec![
+            $(arm!($id, stiffarm_robots::$id, toml(stringify!($id)), $scalar),)*
+            arm!(various, various, include_str!("arm.toml"), $scalar),
+        ]
+    };
+}
+
+pub fn doubles() -> Vec<Arm<f64>> {
+    arms!(f64; lin_planar, ur5, ur10, kuka_kr240, iiwa14, stanford)
+}
+
+pub fn singles() -> Vec<Arm<f32>> {
+    arms!(f32; lin_planar, ur5, ur10, kuka_kr240, iiwa14, stanford)
+}
+
+fn flat<S: Copy>(pose: Pose<S>) -> Vec<S> {
+    pose.columns().as_flattened().to_vec()
+}
+
+impl<S: Scalar> Arm<S> {
+    /// Whether no joint gives, so that every load is borne.
+    pub fn is_rigid(&self) -> bool {
+        self.rows.iter().all(|row| row.stiffness == "rigid")
+    }
+
+    /// Every output, then those of the fused function; `None` where there is no equilibrium.
+    pub fn outputs(&self, q: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
+        let single = |output: Output| {
+            let (rows, columns) = output.shape(self.kernels.dof());
+            let mut out = vec![S::lit(0.0); rows * columns];
+            let done = self.kernels.evaluate(output, q, wrench, &mut out);
+            done.is_ok().then_some(out)
+        };
+        let mut outputs: Vec<Option<Vec<S>>> = Output::EACH.into_iter().map(single).collect();
+        match (self.all)(q, wrench) {
+            Ok(all) => outputs.extend(all.into_iter().map(Some)),
+            Err(_) => outputs.extend(Derived::ALL.map(|_| None)),
+        }
+        outputs
+    }
+}
+
+/// The file of a robot of the collection.
+fn toml(id: &str) -> &'static str {
+    ARMS.iter().find(|arm| arm.id == id).expect("an arm of the collection").toml
+}
+
+/// A robot of the collection.
+pub fn robot(id: &str) -> Robot {
+    Robot::from_toml(toml(id), id).expect("a valid file").0
+}
+
+/// Writes an arm's C and the program around it, and compiles both.
+pub fn build<S: Scalar>(
+    compiler: &str,
+    folder: &Folder,
+    arm: &Arm<S>,
+    precision: Precision,
+    level: &str,
+) {
+    let (robot, _) = Robot::from_toml(arm.toml, arm.id).expect("a valid file");
+    let id = arm.id;
+    let options = COptions { name: id.to_owned(), precision, sines: Sines::Polynomial };
+    let files = c(&robot, &options).expect("numbers only");
+    folder.write(&format!("{id}.h"), &files.header);
+    folder.write(&format!("{id}.c"), &files.source);
+    folder.write("main.c", &program(id, robot.dof(), precision));
+    compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id]);
+}

@@ -1,0 +1,173 @@
+//! Bit for bit: what C computes against what the Rust kernels compute.
+
+use core::fmt::{Debug, LowerHex};
+
+use stiffarm::kernels::{Motion, Scalar};
+use stiffarm_codegen::emit::Precision;
+
+use crate::arms::{Arm, build, doubles, singles};
+use crate::compiler::{Folder, compilers, run};
+
+/// Joint vectors and wrenches of each arm.
+const COUNT: usize = 250;
+
+/// A number that has bits.
+trait Bits: Scalar + Debug + PartialEq + 'static {
+    type Word: LowerHex + Copy;
+    const PRECISION: Precision;
+    fn word(self) -> Self::Word;
+    fn read(hex: &str) -> Self;
+    fn same(self, other: Self) -> bool;
+}
+
+macro_rules! bits {
+    ($float:ty, $word:ty, $precision:expr) => {
+        impl Bits for $float {
+            type Word = $word;
+            const PRECISION: Precision = $precision;
+            fn word(self) -> $word {
+                self.to_bits()
+            }
+            fn read(hex: &str) -> Self {
+                <$float>::from_bits(<$word>::from_str_radix(hex, 16).expect("bits in hex"))
+            }
+            /// Which NaN it is is nobody's business.
+            fn same(self, other: Self) -> bool {
+                self.to_bits() == other.to_bits() || self.is_nan() && other.is_nan()
+            }
+        }
+    };
+}
+
+bits!(f64, u64, Precision::F64);
+bits!(f32, u32, Precision::F32);
+
+/// A draw: joint values, wrench.
+type Draw<S> = (Vec<S>, [S; 6]);
+
+/// Postures within ±3 rad, a few up to ±100 rad; loads up to 100 N, a few that no arm bears; an angle
+/// beyond all reason, and one that is none.
+fn draws<S: Scalar>(n: usize) -> Vec<Draw<S>> {
+    let mut state = 0x9e37_79b9_7f4a_7c15u64;
+    let mut unit = move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let mut each = |k: usize| {
+        let turn = if k % 10 == 7 { 100.0 } else { 3.0 };
+        let load = if k % 25 == 3 { 1e9 } else { 100.0 };
+        let mut q: Vec<f64> = (0..n).map(|_| turn * unit()).collect();
+        match k {
+            0 => q.fill(0.0),
+            1 => q[0] = 1e12,
+            2 => q[0] = f64::INFINITY,
+            3 => q[n - 1] = f64::NAN,
+            _ => {}
+        }
+        (q.into_iter().map(S::lit).collect(), core::array::from_fn(|_| S::lit(load * unit())))
+    };
+    (0..COUNT).map(&mut each).collect()
+}
+
+/// What C says to each draw: the outputs in the order of [`Arm::outputs`].
+fn by_c<S: Bits>(
+    folder: &Folder,
+    id: &str,
+    draws: &[Draw<S>],
+    outputs: usize,
+) -> Vec<Vec<Option<Vec<S>>>> {
+    let line = |(q, wrench): &Draw<S>| {
+        let words = q.iter().chain(wrench).map(|x| format!("{:x}", x.word()));
+        words.collect::<Vec<_>>().join(" ") + "\n"
+    };
+    let text = run(folder, id, &draws.iter().map(line).collect::<String>());
+    let read = |line: &str| {
+        let (status, bits) = line.split_once(' ').unwrap_or((line, ""));
+        (status == "0").then(|| bits.split_whitespace().map(S::read).collect())
+    };
+    let lines: Vec<Option<Vec<S>>> = text.lines().map(read).collect();
+    assert_eq!(lines.len(), draws.len() * outputs, "{id}: a line for every output of every draw");
+    lines.chunks(outputs).map(<[_]>::to_vec).collect()
+}
+
+/// The first output that is not the same.
+fn difference<S: Bits>(
+    expected: &[Vec<Option<Vec<S>>>],
+    found: &[Vec<Option<Vec<S>>>],
+) -> Option<String> {
+    for (draw, (expected, found)) in expected.iter().zip(found).enumerate() {
+        for (output, (expected, found)) in expected.iter().zip(found).enumerate() {
+            let same = match (expected, found) {
+                (None, None) => true,
+                (Some(a), Some(b)) => {
+                    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.same(*b))
+                }
+                _ => false,
+            };
+            if !same {
+                return Some(format!("draw {draw}, output {output}: {expected:?} {found:?}"));
+            }
+        }
+    }
+    None
+}
+
+fn expected<S: Bits>(arm: &Arm<S>, draws: &[Draw<S>]) -> Vec<Vec<Option<Vec<S>>>> {
+    draws.iter().map(|(q, wrench)| arm.outputs(q, wrench)).collect()
+}
+
+fn check<S: Bits>(arms: &[Arm<S>]) {
+    for compiler in compilers() {
+        for arm in arms {
+            let name = format!("{compiler}-{}-{:?}", arm.id, S::PRECISION);
+            let folder = Folder::new(&name);
+            build(compiler, &folder, arm, S::PRECISION, "-O2");
+            let draws = draws::<S>(arm.kernels.dof());
+            let expected = expected(arm, &draws);
+            let refused = expected.iter().flatten().filter(|out| out.is_none()).count();
+            assert_eq!(refused == 0, arm.is_rigid(), "{name}");
+            assert!(refused < COUNT, "{name}: {refused} loads are not borne");
+            let found = by_c(&folder, arm.id, &draws, expected[0].len());
+            assert_eq!(difference(&expected, &found), None, "{name}");
+        }
+    }
+}
+
+#[test]
+fn doubles_are_the_rust_kernels_bits() {
+    check(&doubles());
+}
+
+#[test]
+fn singles_are_the_rust_kernels_bits() {
+    check(&singles());
+}
+
+#[test]
+fn a_reference_that_was_tampered_with_is_found() {
+    let Some(compiler) = compilers().first().copied() else { return };
+    let arms = doubles();
+    let arm = arms.first().expect("an arm");
+    let folder = Folder::new("tampered");
+    build(compiler, &folder, arm, Precision::F64, "-O0");
+    let draws = draws::<f64>(arm.kernels.dof());
+    let mut expected = expected(arm, &draws);
+    let found = by_c(&folder, arm.id, &draws, expected[0].len());
+    assert_eq!(difference(&expected, &found), None);
+    // The last bit of one number of one output of one draw.
+    let number = &mut expected[COUNT - 1][2].as_mut().expect("a Jacobian")[1];
+    *number = f64::from_bits(number.to_bits() ^ 1);
+    let told = difference(&expected, &found).expect("a difference");
+    assert!(told.starts_with(&format!("draw {}, output 2:", COUNT - 1)), "{told}");
+}
+
+/// Arms in a plane and in space, one that slides, some that give.
+#[test]
+fn the_arms_are_of_every_kind() {
+    let arms = doubles();
+    let slides = |arm: &&Arm<f64>| arm.rows.iter().any(|row| row.motion == Motion::Prismatic);
+    assert_eq!(arms.iter().filter(slides).count(), 2);
+    assert_eq!(arms.iter().filter(|arm| !arm.is_rigid()).count(), 2);
+    assert!(arms.iter().map(|arm| arm.id).eq(singles().iter().map(|arm| arm.id)));
+}

@@ -1,0 +1,103 @@
+//! A C program around generated kernels: joint values and a wrench as the bits of numbers from standard
+//! input, every output as bits to standard output.
+
+use stiffarm::kernels::Output;
+use stiffarm_codegen::derive::Output as Derived;
+use stiffarm_codegen::emit::Precision;
+
+/// The program for the kernels called `name` with `n` joints.
+///
+/// Every function of the joint values is called, and every function of the posture after it: where the
+/// two differ in a byte, the program ends with status 2.
+pub fn program(name: &str, n: usize, precision: Precision) -> String {
+    let (real, word, scan, print) = match precision {
+        Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
+        Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
+    };
+    let mut calls = String::new();
+    for (output, derived) in Output::EACH.into_iter().zip(Derived::EACH) {
+        let (rows, columns) = output.shape(n);
+        let (function, size) = (output.name(), rows * columns);
+        let wrench = if derived.needs_wrench() { "wrench, " } else { "" };
+        let assigned = |to: &str| if derived.is_fallible() { to.to_owned() } else { String::new() };
+        calls.push_str(&format!(
+            "
+        {{
+            static {real} out[{size}];
+            static {real} again[{size}];
+            int status = 0;
+            int second = 0;
+            {first}{name}_{function}(q, {wrench}out);
+            {repeat}{name}_given_{function}(&posture, {wrench}again);
+            put(status, out, {size}U);
+            if ((status != second) || (memcmp(out, again, sizeof out) != 0))
+            {{
+                return 2;
+            }}
+        }}
+",
+            first = assigned("status = (int)"),
+            repeat = assigned("second = (int)"),
+        ));
+    }
+    let all: String = Derived::ALL
+        .iter()
+        .map(|o| {
+            let size = o.shape(n).0 * o.shape(n).1;
+            format!("            put(status, all.{}, {size}U);\n", o.name())
+        })
+        .collect();
+    format!(
+        "#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include \"{name}.h\"
+
+static void put(int status, const {real} *x, unsigned int size)
+{{
+    unsigned int k;
+
+    (void)printf(\"%d\", status);
+    for (k = 0U; (status == 0) && (k < size); k++)
+    {{
+        {word} bits;
+        (void)memcpy(&bits, &x[k], sizeof bits);
+        (void)printf(\" %\" {print}, bits);
+    }}
+    (void)printf(\"\\n\");
+}}
+
+static int get({real} *x, unsigned int size)
+{{
+    unsigned int k;
+    int good = 1;
+
+    for (k = 0U; (good == 1) && (k < size); k++)
+    {{
+        {word} bits = 0U;
+        good = (scanf(\"%\" {scan}, &bits) == 1) ? 1 : 0;
+        (void)memcpy(&x[k], &bits, sizeof bits);
+    }}
+    return good;
+}}
+
+int main(void)
+{{
+    {real} q[{n}];
+    {real} wrench[6];
+    {name}_posture_t posture;
+
+    while ((get(q, {n}U) == 1) && (get(wrench, 6U) == 1))
+    {{
+        {name}_posture(q, &posture);
+{calls}
+        {{
+            static {name}_all_t all;
+            const int status = (int){name}_all(q, wrench, &all);
+{all}        }}
+    }}
+    return 0;
+}}
+"
+    )
+}
