@@ -3,17 +3,17 @@
 //! seen.
 //!
 //! 1. Frames that are known to be unknown are fitted first, and along with everything after
-//!    ([`align`], [`refit`]).
-//! 2. One pass over the data ([`screen`]) gathers what every candidate (an effect at a place, in one
+//!    (`align`, `refit`).
+//! 2. One pass over the data (`screen`) gathers what every candidate (an effect at a place, in one
 //!    form) does to the measured quantities. What this data cannot show is told before anything is
-//!    fitted ([`visible`]).
-//! 3. Effects are added one by one ([`search`]): the one with the most evidence ([`evidence`]), if
+//!    fitted (`visible`).
+//! 3. Effects are added one by one (`search`): the one with the most evidence (`evidence`), if
 //!    it is significant among all that were tried and shrinks the held-out gap; then fitted
 //!    exactly, and the others taken back or exchanged where it makes them superfluous.
-//! 4. The findings are held out together ([`outcome`]), and every candidate is tried in the place of
-//!    each ([`rivals`]): those that this data does not tell from it are named, with the measurement
-//!    that would ([`separate`]).
-//! 5. What is left is tested for structure with free-form displacements ([`remainder`], [`probe`]).
+//! 4. The findings are held out together (`outcome`), and every candidate is tried in the place of
+//!    each (`rivals`): those that this data does not tell from it are named, with the measurement
+//!    that would (`separate`).
+//! 5. What is left is tested for structure with free-form displacements (`remainder`, `probe`).
 
 mod align;
 mod basis;
