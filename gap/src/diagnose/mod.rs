@@ -22,6 +22,7 @@ mod candidate;
 mod evidence;
 mod explanation;
 mod folds;
+mod gauge;
 mod judged;
 mod model;
 mod noise;
@@ -51,7 +52,7 @@ use stiffarm_kernels::generic::Arm;
 pub use explanation::{Explanation, FoundEffect, Prediction};
 pub use options::{DiagnoseError, Nuisance, Options};
 pub use report::{
-    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, HeldOut, NoiseReport,
+    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, NoiseReport,
     NuisanceReport, ParameterReport, Part, Rival, Share, Shrink, Slice, Unexplained,
 };
 
@@ -128,6 +129,7 @@ pub fn diagnose_with(
         size.position_max > ROUNDING * (1.0 + problem.reach) || size.rotation_rms > ROUNDING;
     let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
     let cannot_see = search.cannot_see(&effects, &begun);
+    let gauge = search.gauges(&begun);
     let shares = if is_there { search.shares(&begun) } else { Vec::new() };
     let parts = if is_there { search.parts(&begun) } else { Vec::new() };
     if !is_there {
@@ -151,6 +153,7 @@ pub fn diagnose_with(
         findings,
         cannot_see,
         unexplained,
+        gauge,
         parts,
         by: search.slices(&before, &after),
         nuisances: summary::nuisances(&problem, &explained.fit.model),

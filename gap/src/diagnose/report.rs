@@ -26,6 +26,9 @@ pub struct Diagnosis {
     pub cannot_see: Vec<CannotSee>,
     /// What is left.
     pub unexplained: Unexplained,
+    /// Numbers of the geometry that this data sees only together with others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gauge: Vec<Gauge>,
     /// The gap taken apart by what it goes with; empty where the data are too few.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Part>,
@@ -40,6 +43,15 @@ pub struct Diagnosis {
     /// Other models' predictions against this one's; only if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rivals: Option<Vec<Rival>>,
+}
+
+/// A number of the geometry that is one with others: only a sum of them is seen.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Gauge {
+    /// `d of link 3`.
+    pub parameter: String,
+    /// `d of link 2`, …
+    pub same_as: Vec<String>,
 }
 
 /// A part of the gap.

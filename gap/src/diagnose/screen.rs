@@ -247,7 +247,7 @@ impl Kept<'_> {
 
     /// Blocks of one row in plain units, 6×k and 6×all, and what is left of the gap with the effects
     /// that are taken out given back.
-    fn row(
+    pub(crate) fn row(
         &self,
         problem: &Problem<'_>,
         candidates: &[Candidate],

@@ -165,6 +165,13 @@ fn unknown_frames_and_markers_are_fitted_and_never_findings() {
     for (found, is) in offset.translation.iter().zip([0.05, 0.08, -0.02]) {
         assert!((found - is).abs() < 3e-5, "{:?}", d.nuisances);
     }
+    let one = |parameter: &str, with: &str| {
+        let is = |g: &&Gauge| g.parameter == parameter;
+        let gauge = d.gauge.iter().find(is).unwrap_or_else(|| panic!("{:?}", d.gauge));
+        assert!(gauge.same_as.iter().any(|s| s == with), "{gauge:?}");
+    };
+    one("offset of joint 1", "rz of base_frame");
+    one("offset of joint 3", "rz of tool_frame");
     let hidden: Vec<_> = d.cannot_see.iter().map(|c| (c.effect, c.place.as_str())).collect();
     assert!(hidden.contains(&("joint_offset", "joint 1")), "{hidden:?}");
     assert!(hidden.contains(&("joint_offset", "joint 3")), "{hidden:?}");
