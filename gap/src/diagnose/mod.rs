@@ -9,7 +9,7 @@
 //!    fitted (`visible`).
 //! 3. Effects are added one by one (`search`): the one with the most evidence (`evidence`), if
 //!    it is significant among all that were tried and shrinks the held-out gap; then fitted
-//!    exactly, and the others taken back or exchanged where it makes them superfluous.
+//!    exactly, and the others taken back or exchanged (`exchange`) where it makes them superfluous.
 //! 4. The findings are held out together (`outcome`), and every candidate is tried in the place of
 //!    each (`rivals`): those that this data does not tell from it are named, with the measurement
 //!    that would (`separate`).
@@ -20,6 +20,7 @@ mod basis;
 mod bootstrap;
 mod candidate;
 mod evidence;
+mod exchange;
 mod explanation;
 mod folds;
 mod gauge;

@@ -1,7 +1,6 @@
 //! Which effects: added one by one, each judged beside all that is already there, and each taken
 //! back or exchanged when what came later makes it superfluous or another better.
 
-use super::basis::Basis;
 use super::candidate::Candidate;
 use super::evidence::{Scale, flipped};
 use super::folds::Folds;
@@ -9,20 +8,17 @@ use super::model::{Fitted, Model};
 use super::noise::Noise;
 use super::options::{DiagnoseError, Options};
 use super::problem::Problem;
-use super::refit::{Fit, normal_equations, refit, squares};
+use super::refit::{Fit, refit, squares};
 use super::score::Score;
 use super::screen::{Kept, Screen};
 use crate::effects::Spot;
-use nalgebra::{DVector, Vector6};
+use nalgebra::Vector6;
 
 /// A finding's largest p value.
 pub(crate) const SIGNIFICANT: f64 = 0.05;
 
 /// Most effects that are added.
 const MOST_FOUND: usize = 40;
-
-/// An order of a periodic error that nothing else in the catalogue comes near to.
-const FINE: usize = 3;
 
 /// Effects that are compared with all others after each addition.
 const SMALL: usize = 4;
@@ -34,20 +30,11 @@ const MOST_ORDERS: usize = 5;
 /// Candidates that are tried in turn when the exact fit does not follow the linear one.
 const MOST_TRIED: usize = 3;
 
-/// Rounds of taking back and exchanging after each addition.
-const MOST_ROUNDS: usize = 12;
-
 /// A candidate of which less is left beside the model cannot be seen.
 pub(crate) const OWN: f64 = 0.01;
 
-/// One effect is exchanged for another only for this much more evidence: a factor of about five.
-const EXCHANGE: f64 = 3.0;
-
 /// A value beyond what is usual by more than this is none that an arm has.
 const IMPOSSIBLE: f64 = 100.0;
-
-/// An effect that leads all others by this much evidence is not compared with them again.
-const SURE: f64 = 60.0;
 
 /// At least this many measured numbers for each parameter.
 const NUMBERS_EACH: usize = 3;
@@ -79,7 +66,7 @@ pub(crate) struct Ranked {
 }
 
 impl<'s> Search<'s, '_> {
-    fn weigh(&self, fit: Fit) -> Explained {
+    pub(super) fn weigh(&self, fit: Fit) -> Explained {
         let parameters = fit.model.parameters(self.problem);
         let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
         let weights = noise.weights(&self.problem.mask);
@@ -224,7 +211,7 @@ impl<'s> Search<'s, '_> {
 
     /// The model without the effects `out` and with another; `None` if the exact fit does not
     /// follow what the linear one promised.
-    fn with(
+    pub(super) fn with(
         &self,
         now: &Explained,
         out: &[usize],
@@ -297,87 +284,5 @@ impl<'s> Search<'s, '_> {
         let scores = (0..near.len()).map(|c| (c, finer.score(c)));
         let best = scores.max_by(|a, b| a.1.drop.total_cmp(&b.1.drop));
         Ok(best.and_then(|(c, score)| near[c].effect().map(|(_, spot)| fitted(spot, &score))))
-    }
-
-    /// Takes back what is superfluous and exchanges what another explains better.
-    fn pruned(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
-        for _ in 0..MOST_ROUNDS {
-            if now.fit.model.found.len() < 2 {
-                break;
-            }
-            let Some(next) = self.changed(&mut now)? else { break };
-            now = self.weigh(next);
-        }
-        Ok(now)
-    }
-
-    fn changed(&self, now: &mut Explained) -> Result<Option<Fit>, DiagnoseError> {
-        let scale = self.scale(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
-        let fitted = now.fit.model.parameters(self.problem);
-        let variance = scale.variance(left, fitted);
-        if let Some(index) = self.superfluous(now, variance)
-            && let Some(fit) = self.with(now, &[index], Vec::new(), -f64::INFINITY)?
-        {
-            return Ok(Some(fit));
-        }
-        for index in 0..now.fit.model.found.len() {
-            let found = &now.fit.model.found[index];
-            let fine = found.effect.identifier() == "transmission_error" && found.spot.form >= FINE;
-            if fine || found.lead > SURE {
-                continue;
-            }
-            let without = [index];
-            let kept = Kept { without: &without, coarse: true, ..Kept::all(&now.fit) };
-            let screen =
-                Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
-            let own = left / variance + self.cost_of(&scale, found);
-            let ranked = self.ranked(&screen, now);
-            let is_it = |r: &&Ranked| {
-                self.candidates[r.candidate].effect().is_some_and(|(effect, spot)| {
-                    effect.identifier() == found.effect.identifier()
-                        && spot.place == found.spot.place
-                })
-            };
-            let Some(best) = ranked.iter().find(|r| !is_it(r)) else { continue };
-            let candidate = &self.candidates[best.candidate];
-            let values = best.score.values.iter().zip(&candidate.usual);
-            let its = scale.cost(best.score.rank, candidate.forms, values);
-            let lead = (screen.left() - best.score.drop) / variance + its - own;
-            if lead + EXCHANGE >= 0.0 {
-                now.fit.model.found[index].lead = lead;
-                continue;
-            }
-            let refined = self.refined(now, &without, best, &screen)?;
-            let refined = refined.into_iter().collect();
-            if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
-                && squares(&fit.predicted.gaps, &now.weights) / variance + its < own
-            {
-                return Ok(Some(fit));
-            }
-        }
-        Ok(None)
-    }
-
-    /// The effect that costs most beyond what it explains beside all the others, if one does.
-    fn superfluous(&self, now: &Explained, variance: f64) -> Option<usize> {
-        let (normal, _) = normal_equations(self.problem, &now.fit, &now.weights);
-        let basis = Basis::new(&normal);
-        let scale = self.scale(now);
-        let mut at = Model::nuisances(self.problem);
-        let mut worst: Option<(f64, usize)> = None;
-        for (index, found) in now.fit.model.found.iter().enumerate() {
-            let size = found.values.len();
-            let own = basis.t.rows(at, size);
-            at += size;
-            // Without it the squares rise by its values in the metric of their covariance.
-            let values = DVector::from_column_slice(&found.values);
-            let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
-            let excess = self.cost_of(&scale, found) - rise / variance;
-            if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
-                worst = Some((excess, index));
-            }
-        }
-        worst.map(|(_, index)| index)
     }
 }
