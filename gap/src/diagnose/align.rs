@@ -37,7 +37,7 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
             *left.to_rotation_matrix().matrix()
         });
         let mean = nearest_rotation(&left.sum());
-        model.reflector.rotation *= mean;
+        model.arm.tool.rotation *= mean;
     }
     Ok(model)
 }

@@ -52,8 +52,7 @@ pub struct Prediction {
 
 impl Explanation {
     pub(super) fn new(problem: &Problem<'_>, before: Model, after: Model, covers: &Cover) -> Self {
-        let mut arm = problem.arm.clone();
-        arm.tool *= after.reflector;
+        let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
         Self {
             nominal: problem.arm.clone(),

@@ -10,7 +10,7 @@ use super::problem::{LARGEST, Problem};
 use crate::chain::Displacement;
 use crate::effects::{Effect, Scene, Spot};
 use crate::gap::row_gap;
-use crate::simulate::{Actual, Sim, State};
+use crate::simulate::{Actual, Sim, Site, State};
 
 /// How loosely a value is held to what is usual.
 const LOOSE: f64 = 3.0;
@@ -33,12 +33,11 @@ pub(crate) struct Fitted {
 /// An exact model of the data.
 #[derive(Clone)]
 pub(crate) struct Model {
-    /// The arm of the robot file.
+    /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
+    /// loads act.
     pub(crate) arm: Arm,
     /// Where the base stands in the measuring frame.
     pub(crate) instrument: Isometry3<f64>,
-    /// The measured frame in the tool frame. Loads act at the tool all the same.
-    pub(crate) reflector: Isometry3<f64>,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
     pub(crate) found: Vec<Fitted>,
@@ -58,7 +57,6 @@ impl Model {
         Self {
             arm: problem.arm.clone(),
             instrument: Isometry3::identity(),
-            reflector: Isometry3::identity(),
             markers: vec![Vector3::zeros(); problem.markers.len()],
             found: Vec::new(),
         }
@@ -82,7 +80,7 @@ impl Model {
             Some(marker) => self.markers[marker],
             None => problem.data.rows[row].offset.unwrap_or_default().into(),
         };
-        self.reflector * Isometry3::translation(offset.x, offset.y, offset.z)
+        Isometry3::translation(offset.x, offset.y, offset.z)
     }
 
     /// Brings every row to rest; `near` is where to begin.
@@ -164,17 +162,17 @@ impl Model {
             block.columns_mut(column, part.ncols()).copy_from(part);
             column += part.ncols();
         };
+        let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
         for frame in &problem.nuisances {
             put(&match frame {
                 Nuisance::BaseFrame => s.state.base_moved(),
-                Nuisance::ToolFrame => self.reflector_moved(s),
+                Nuisance::ToolFrame => s.carried(Site::Tool, &units),
             });
         }
         for marker in 0..problem.markers.len() {
             let mut shifts = Matrix6xX::zeros(3);
             if problem.marker_of[row] == Some(marker) {
-                let turn = s.state.tool.rotation * self.reflector.rotation;
-                let turn = turn.to_rotation_matrix();
+                let turn = s.state.tool.rotation.to_rotation_matrix();
                 shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
             }
             put(&shifts);
@@ -183,19 +181,6 @@ impl Model {
             put(&found.effect.block(s, found.spot));
         }
         block
-    }
-
-    /// Twists of the tool origin by the six unit displacements of the measured frame on the tool.
-    fn reflector_moved(&self, s: &Scene<'_>) -> Matrix6xX<f64> {
-        let frame = s.state.tool * self.reflector;
-        let lever = s.state.tool.translation.vector - frame.translation.vector;
-        let columns: [Vector6<f64>; 6] = std::array::from_fn(|k| {
-            let axis = frame.rotation * Vector3::ith(k % 3, 1.0);
-            let (shift, turn) =
-                if k < 3 { (axis, Vector3::zeros()) } else { (axis.cross(&lever), axis) };
-            Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
-        });
-        Matrix6xX::from_columns(&columns)
     }
 
     /// Inverse of each parameter's loose scale; 0 where any value is as good.
@@ -222,7 +207,7 @@ impl Model {
             let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
             match frame {
                 Nuisance::BaseFrame => model.instrument *= by,
-                Nuisance::ToolFrame => model.reflector *= by,
+                Nuisance::ToolFrame => model.arm.tool *= by,
             }
         }
         for (marker, step) in model.markers.iter_mut().zip(markers.chunks_exact(3)) {

@@ -109,7 +109,7 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
     };
     let frames = problem.nuisances.iter().map(|nuisance| match nuisance {
         Nuisance::BaseFrame => frame(nuisance.identifier(), &model.instrument),
-        Nuisance::ToolFrame => frame(nuisance.identifier(), &(model.arm.tool * model.reflector)),
+        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.arm.tool),
     });
     let markers = problem.markers.iter().zip(&model.markers).map(|(name, at)| NuisanceReport {
         name: name.clone(),
