@@ -8,6 +8,7 @@ use super::options::Nuisance;
 use super::report::Gauge;
 use super::screen::Kept;
 use super::search::{Explained, Search};
+use crate::measurement::Kind;
 
 /// A number whose column has less than this part left beside those before it is one with them: the
 /// square of a ratio of sizes of 3e-3. What is left is how the loads follow the arm.
@@ -17,8 +18,12 @@ const SAME: f64 = 1e-5;
 const NAMED: f64 = 0.05;
 
 impl Search<'_, '_> {
-    /// The geometry's numbers that are one with others before them, each with those.
+    /// The geometry's numbers that are one with others before them, each with those. Between two
+    /// readings of one pose all of them cancel, and none is told.
     pub(crate) fn gauges(&self, now: &Explained) -> Vec<Gauge> {
+        if matches!(self.problem.data.kind, Kind::Displacement { .. }) {
+            return Vec::new();
+        }
         let geometry: Vec<Candidate> = self
             .candidates
             .iter()
