@@ -82,42 +82,51 @@ fn deviate(fall: f64, rank: usize) -> f64 {
     ((fall / p).max(0.0).cbrt() - (1.0 - spread)) / spread.sqrt()
 }
 
-/// The chance that the best of `tried` explains as much as `best` does of a gap whose signs are
-/// flipped at random, pose by pose. Whether all sign patterns were taken comes with it.
-pub(crate) fn flipped(
-    screen: &Screen<'_>,
-    tried: &[usize],
-    best: &Score,
-    scale: &Scale,
-    seed: u64,
-) -> (f64, bool) {
-    let blocks = screen.blocks.len();
-    let variance = scale.variance(screen.left(), screen.basis.rank());
-    let observed = deviate(best.drop / variance, best.rank.max(1));
-    let signs = sign_patterns(blocks, seed);
-    let mut highest = vec![f64::NEG_INFINITY; signs.ncols()];
-    for &candidate in tried {
-        let shares = screen.shares(candidate);
-        let rank = shares.nrows();
-        if rank == 0 {
-            continue;
+/// What the best of all that were tried explains of the gap when its signs are flipped at random,
+/// pose by pose: gathered once, asked for every score.
+pub(crate) struct Flips {
+    /// The highest deviate of each sign pattern.
+    highest: Vec<f64>,
+    variance: f64,
+    /// Whether all sign patterns were taken.
+    pub(crate) exhaustive: bool,
+}
+
+impl Flips {
+    pub(crate) fn new(screen: &Screen<'_>, tried: &[usize], scale: &Scale, seed: u64) -> Self {
+        let blocks = screen.blocks.len();
+        let variance = scale.variance(screen.left(), screen.basis.rank());
+        let signs = sign_patterns(blocks, seed);
+        let mut highest = vec![f64::NEG_INFINITY; signs.ncols()];
+        for &candidate in tried {
+            let shares = screen.shares(candidate);
+            let rank = shares.nrows();
+            if rank == 0 {
+                continue;
+            }
+            let sums = shares * &signs;
+            for (high, sum) in highest.iter_mut().zip(sums.column_iter()) {
+                *high = high.max(deviate(sum.norm_squared() / variance, rank));
+            }
         }
-        let sums = shares * &signs;
-        for (high, sum) in highest.iter_mut().zip(sums.column_iter()) {
-            *high = high.max(deviate(sum.norm_squared() / variance, rank));
+        let exhaustive = signs.ncols() == patterns(blocks);
+        Self { highest, variance, exhaustive }
+    }
+
+    /// The chance that a flipped gap lets the best explain as much as `best` does of the true one.
+    pub(crate) fn chance(&self, best: &Score) -> f64 {
+        let observed = deviate(best.drop / self.variance, best.rank.max(1));
+        // Rounding may put a pattern that equals the observed one just below it.
+        let reached =
+            self.highest.iter().filter(|h| **h >= observed - 1e-9 * observed.abs()).count();
+        let count = self.highest.len();
+        // All patterns include the observed one; drawn patterns do not.
+        if self.exhaustive {
+            reached.max(1) as f64 / count as f64
+        } else {
+            (reached + 1) as f64 / (count + 1) as f64
         }
     }
-    // Rounding may put a pattern that equals the observed one just below it.
-    let reached = highest.iter().filter(|h| **h >= observed - 1e-9 * observed.abs()).count();
-    let exhaustive = signs.ncols() == patterns(blocks);
-    let count = signs.ncols();
-    // All patterns include the observed one; drawn patterns do not.
-    let chance = if exhaustive {
-        reached.max(1) as f64 / count as f64
-    } else {
-        (reached + 1) as f64 / (count + 1) as f64
-    };
-    (chance, exhaustive)
 }
 
 /// Sign patterns that differ by more than all signs at once, at most `usize::MAX`.

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::candidate::{Candidate, Source};
-use super::evidence::flipped;
+use super::evidence::Flips;
 use super::options::DiagnoseError;
 use super::probe::{About, Probe};
 use super::report::{Share, Unexplained};
@@ -42,6 +42,7 @@ impl Search<'_, '_> {
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();
         let mut about: BTreeMap<About, f64> = BTreeMap::new();
         let mut significant = false;
+        let mut flips = None;
         for one in &ranked {
             let Source::Probe(probe) = &screen.candidates[one.candidate].source else { continue };
             let after = screen.held_out(&trained, Some(one.candidate)).white;
@@ -53,8 +54,9 @@ impl Search<'_, '_> {
             if chance > LEVEL {
                 continue;
             }
-            let (flips, _) = flipped(&screen, &tried, &one.score, &scale, self.options.seed);
-            if flips > LEVEL {
+            let flips =
+                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
+            if flips.chance(&one.score) > LEVEL {
                 continue;
             }
             significant = true;

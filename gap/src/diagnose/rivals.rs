@@ -2,7 +2,7 @@
 //! others.
 
 use super::candidate::Candidate;
-use super::evidence::flipped;
+use super::evidence::Flips;
 use super::options::DiagnoseError;
 use super::outcome::Group;
 use super::refit::squares;
@@ -146,7 +146,8 @@ impl Search<'_, '_> {
     ) -> f64 {
         let scale = self.scale(now);
         let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
-        let (flips, all) = flipped(screen, tried, finding, &scale, self.options.seed);
+        let flips = Flips::new(screen, tried, &scale, self.options.seed);
+        let (all, flips) = (flips.exhaustive, flips.chance(finding));
         // Drawn patterns tell no chance below one in their number.
         let least = 1.0 / 1000.0;
         if !all && flips <= least { chance.min(least) } else { chance.max(flips) }

@@ -2,7 +2,7 @@
 //! back or exchanged when what came later makes it superfluous or another better.
 
 use super::candidate::Candidate;
-use super::evidence::{Scale, flipped};
+use super::evidence::{Flips, Scale};
 use super::folds::Folds;
 use super::model::{Fitted, Model};
 use super::noise::Noise;
@@ -161,14 +161,16 @@ impl<'s> Search<'s, '_> {
         let trained = screen.trained();
         let before = screen.held_out(&trained, None);
         let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let mut flips = None;
         for one in ranked.iter().take(MOST_TRIED) {
             let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
             let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
             if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
                 continue;
             }
-            let (flips, _) = flipped(&screen, &tried, &one.score, &scale, self.options.seed);
-            if flips > SIGNIFICANT {
+            let flips =
+                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
+            if flips.chance(&one.score) > SIGNIFICANT {
                 continue;
             }
             let refined = self.refined(now, &[], one, &screen)?;
