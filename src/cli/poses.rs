@@ -1,15 +1,19 @@
 //! `stiffarm poses`: a measurement file that is still to be measured.
 
+mod file;
+mod screen;
+
 use clap::ValueEnum;
 use nalgebra::Vector6;
-use stiffarm_gap::dexterity::design::{Design, Expected, Plan, Planned, Purpose, design};
-use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENCH_NAMES};
+use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
+use stiffarm_gap::diagnose::Nuisance;
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::generic::Arm;
 
 use super::failure::Failure;
 use super::output::{Target, print};
 use super::progress::{PARTS, Progress};
-use super::source::{RobotArgs, Source};
-use super::text::{Align, bold, dim, indented, short, table};
+use super::source::RobotArgs;
 use super::wrench::wrench;
 use super::{Verdict, quantity};
 
@@ -18,11 +22,15 @@ Examples:
   stiffarm poses arm.toml --count 20 --load 0,0,-50kgf,0,0,0 --csv plan.csv
   stiffarm poses kuka_kr240 --count 15 --load 0,0,-2kN,0,0,0 --load 2kN,0,0,0,0,0 --csv plan.csv
   stiffarm poses arm.toml --count 30 --for diagnose --load 0,0,-100,0,0,0 --csv plan.csv
+  stiffarm poses arm.toml --count 10 --for separate 'joint_compliance@joint 2' \\
+      'link_compliance@link 2' --load 0,0,-2kN,0,0,0 --load 0,1kN,0,0,0,0 --csv plan.csv
 
 Postures are drawn within the joint limits; those that are not dexterous are left out, and those in
 which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
 are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
-loaded minus unloaded; for `diagnose` each is two poses, without a load and with one.
+loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. For `separate`
+those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
+`stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
 
 Fill in the empty columns, put the readings that the controller shows into q1 … qn, and give the
 file to `stiffarm identify` or `stiffarm diagnose`. Nothing here knows of floor, cables or cell:
@@ -40,6 +48,12 @@ pub struct Args {
     /// What the measurements are for
     #[arg(long = "for", value_enum, value_name = "PURPOSE", default_value_t = For::Identify)]
     purpose: For,
+    /// The two effects of `--for separate`, each effect@place
+    #[arg(value_name = "EFFECT")]
+    effects: Vec<String>,
+    /// Frames known to be unknown, fitted along by `--for separate`: base_frame, tool_frame
+    #[arg(long, value_name = "a,b", value_delimiter = ',')]
+    nuisance: Vec<String>,
     /// A load to choose from, given as often as there are loads; base axes, at the tool origin; N
     /// and N·m, or with a unit [default: pulls of 100 N along ±x, ±y and −z]
     #[arg(long = "load", value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
@@ -68,6 +82,8 @@ pub enum For {
     Identify,
     /// Zeros and stiffnesses of the joints, and whatever else shows
     Diagnose,
+    /// To tell two effects apart: give both behind it
+    Separate,
 }
 
 /// Runs the command.
@@ -75,22 +91,22 @@ pub enum For {
 /// # Errors
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let plan = args.plan()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
+    let plan = args.plan(&arm)?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let found = design(&arm, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
     let found = found.map_err(|error| Failure::new(error.to_string()))?;
-    args.csv.write(&file(&source, &plan, &found, args))?;
+    args.csv.write(&file::file(&source, &plan, &found))?;
     if args.csv != Target::Stdout && !quiet {
-        print(&screen(&source, &arm, &plan, &found))?;
+        print(&screen::screen(&source, &arm, &plan, &found))?;
     }
     Ok(Verdict::Good)
 }
 
 impl Args {
-    fn plan(&self) -> Result<Plan, Failure> {
+    fn plan(&self, arm: &Arm) -> Result<Plan, Failure> {
         let given = self.loads.iter().map(|text| wrench("--load", text));
         let mut loads: Vec<Vector6<f64>> = given.collect::<Result<_, _>>()?;
         if loads.is_empty() {
@@ -107,142 +123,45 @@ impl Args {
         let turned = quantity::with_unit("--noise-rotation", &self.noise_rotation, angle)?;
         Ok(Plan {
             count: usize::from(self.count),
-            purpose: match self.purpose {
-                For::Identify => Purpose::Identify,
-                For::Diagnose => Purpose::Diagnose,
-            },
+            purpose: self.purpose(arm)?,
+            along: self.along(arm)?,
             loads,
             noise_position: quantity::with_unit("--noise-position", &self.noise_position, length)?,
             noise_rotation: self.rotations.then_some(turned),
             seed: self.seed,
         })
     }
-}
 
-/// The measurement file, its measured columns empty.
-fn file(source: &Source, plan: &Plan, found: &Design, args: &Args) -> String {
-    let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
-    let mut heads = vec!["pose".to_owned()];
-    heads.extend(
-        revolute
-            .iter()
-            .enumerate()
-            .map(|(j, turns)| format!("q{}[{}]", j + 1, if *turns { "deg" } else { "mm" })),
-    );
-    let loaded: Vec<usize> =
-        (0..6).filter(|&k| plan.loads.iter().any(|load| load[k] != 0.0)).collect();
-    heads.extend(
-        loaded.iter().map(|&k| format!("{}[{}]", WRENCH_NAMES[k], if k < 3 { "N" } else { "Nm" })),
-    );
-    let names = match plan.purpose {
-        Purpose::Identify => DISPLACEMENT_NAMES,
-        Purpose::Diagnose => POSE_NAMES,
-    };
-    let measured = if args.rotations { 6 } else { 3 };
-    heads.extend((0..measured).map(|k| {
-        let unit = match (k < 3, plan.purpose) {
-            (true, _) => "mm",
-            (false, Purpose::Identify) => "mrad",
-            (false, Purpose::Diagnose) => "deg",
+    fn purpose(&self, arm: &Arm) -> Result<Purpose, Failure> {
+        let suspect = |text: &String| {
+            Suspect::parse(text, arm).map_err(|error| Failure::new(format!("--for: {error}")))
         };
-        format!("{}[{unit}]", names[k])
-    }));
-    let what = match plan.purpose {
-        Purpose::Identify => "loaded minus unloaded, of the tool origin",
-        Purpose::Diagnose => "of the tool in the base frame, before and under the load",
-    };
-    let mut text = format!(
-        "# {}: fill in {} to {}, {what}, base axes.\n{}\n",
-        source.robot.name.replace(char::is_control, " "),
-        names[0],
-        names[measured - 1],
-        heads.join(",")
-    );
-    for (k, test) in found.tests.iter().enumerate() {
-        let zero = Vector6::zeros();
-        let wrenches: &[&Vector6<f64>] = match plan.purpose {
-            Purpose::Identify => &[&test.wrench],
-            Purpose::Diagnose => &[&zero, &test.wrench],
-        };
-        for load in wrenches {
-            let mut cells = vec![format!("{}", k + 1)];
-            cells.extend(readings(test, &revolute));
-            cells.extend(loaded.iter().map(|&k| plain(load[k], 6)));
-            cells.extend((0..measured).map(|_| String::new()));
-            text.push_str(&cells.join(","));
-            text.push('\n');
+        let found = self.effects.len();
+        match (self.purpose, &self.effects[..]) {
+            (For::Identify, []) => Ok(Purpose::Identify),
+            (For::Diagnose, []) => Ok(Purpose::Diagnose),
+            (For::Separate, [a, b]) => Ok(Purpose::Separate([suspect(a)?, suspect(b)?])),
+            (For::Separate, _) => Err(Failure::with_help(
+                format!(
+                    "--for separate: found {}, expected two",
+                    quantity::counted(found, "effect")
+                ),
+                "name both: --for separate 'joint_compliance@joint 2' 'link_compliance@link 2'",
+            )),
+            (_, [first, ..]) => Err(Failure::new(format!(
+                "found `{first}`, expected an option: effects are named for --for separate"
+            ))),
         }
     }
-    text
-}
 
-/// To a thousandth of a degree or millimetre: finer than a controller is told.
-fn readings(test: &Planned, revolute: &[bool]) -> Vec<String> {
-    let shown = |(q, turns): (&f64, &bool)| plain(if *turns { q.to_degrees() } else { 1e3 * q }, 3);
-    test.q.iter().zip(revolute).map(shown).collect()
-}
-
-/// With so many digits behind the point at most.
-fn plain(x: f64, digits: usize) -> String {
-    let text = format!("{x:.digits$}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
-}
-
-fn screen(
-    source: &Source,
-    arm: &stiffarm_kernels::generic::Arm,
-    plan: &Plan,
-    found: &Design,
-) -> String {
-    let least = |value: fn(&Planned) -> f64| found.tests.iter().map(value).fold(1.0, f64::min);
-    let most = found.tests.iter().map(|t| t.nu_p).fold(0.0, f64::max);
-    let mut text = format!(
-        "{}\n{}\n\n",
-        bold(&source.robot.name),
-        dim(format!(
-            "{}; 1/κ of {} or more with L = {} m, K_C adds {} % or less",
-            quantity::counted(found.tests.len(), "posture"),
-            short(least(|t| t.inverse_condition)),
-            short(found.length),
-            short(100.0 * most),
-        ))
-    );
-    let mut heads = vec![bold("Expected"), dim("compliance ±"), dim("of the file's")];
-    if plan.purpose == Purpose::Diagnose {
-        heads.push(dim("zero ±"));
-    }
-    let mut rows = vec![heads];
-    let readings = source.readings();
-    for (expected, joint) in found.expected.iter().zip(&arm.joints) {
-        rows.push(line(expected, joint.compliance, readings.get(expected.joint - 1), plan));
-    }
-    let lines = table(&rows, &[Align::Left; 4]);
-    let (head, rest) = lines.split_once('\n').unwrap_or((&lines, ""));
-    text.push_str(&format!("{}\n{}", head.replacen("  ", "    ", 1), indented(rest, 2)));
-    text.push_str(&format!(
-        "\nas good as {} times as many random tests of the same kind\n",
-        short(found.efficiency)
-    ));
-    text
-}
-
-fn line(expected: &Expected, file: f64, reading: Option<&Dimension>, plan: &Plan) -> Vec<String> {
-    let slides = reading == Some(&Dimension::Length);
-    let unit = if slides { "µm/N" } else { "µrad/(N·m)" };
-    let mut cells = vec![format!("joint {}", expected.joint)];
-    match expected.compliance {
-        Some(sd) => {
-            cells.push(format!("{} {unit}", short(1e6 * sd)));
-            let part = || format!("{} %", short(100.0 * sd / file));
-            cells.push(if file > 0.0 { part() } else { dim("rigid") });
+    fn along(&self, arm: &Arm) -> Result<Vec<Suspect>, Failure> {
+        if self.purpose != For::Separate && !self.nuisance.is_empty() {
+            return Err(Failure::new("--nuisance is for --for separate"));
         }
-        None => cells.extend(["no load shows it".to_owned(), dim("–")]),
+        let each = self.nuisance.iter().map(|name| {
+            let known = Nuisance::parse(name).map_err(|error| Failure::new(error.to_string()))?;
+            Suspect::parse(known.identifier(), arm).map_err(|error| Failure::new(error.to_string()))
+        });
+        each.collect()
     }
-    if plan.purpose == Purpose::Diagnose {
-        let unit = if slides { "µm" } else { "µrad" };
-        let shown = |sd: f64| format!("{} {unit}", short(1e6 * sd));
-        cells.push(expected.zero.map_or_else(|| "nothing shows it".to_owned(), shown));
-    }
-    cells
 }

@@ -18,11 +18,11 @@ fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String
     (robot, std::fs::read_to_string(csv).expect("written"), screen)
 }
 
-/// The empty cells filled by simulating an arm with softer springs, in the units of the header.
-fn measured(plan: &str) -> String {
+/// The empty cells filled by simulating an arm with some softer springs, in the units of the header.
+fn measured(plan: &str, softer: &[usize]) -> String {
     let mut arm = arm("kuka_kr240");
     arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
-    arm.joints.iter_mut().for_each(|joint| joint.compliance *= 1.25);
+    softer.iter().for_each(|joint| arm.joints[joint - 1].compliance *= 1.25);
     let mut lines = plan.lines();
     let remark = lines.next().expect("a remark");
     let header = lines.next().expect("a header");
@@ -60,7 +60,7 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
         let empty: Vec<&str> = plan.lines().skip(2).collect();
         assert_eq!(empty.len(), rows, "{plan}");
         assert!(empty.iter().all(|row| row.ends_with(",,,")), "{plan}");
-        let run = folder.file("run.csv", measured(&plan));
+        let run = folder.file("run.csv", measured(&plan, &[1, 2, 3, 4, 5, 6]));
         let out = stiffarm(&["identify", &robot, &run, "--json", "-"]).good();
         let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
         for (parameter, file) in found["parameters"]
@@ -74,6 +74,34 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
             assert!((value / (1.25 * file) - 1.0).abs() < 1e-3, "{purpose}: {parameter}");
         }
     }
+}
+
+/// Measured as planned, the diagnosis names the one that is there and not the other.
+#[test]
+fn a_plan_that_separates_does() {
+    let folder = Folder::new();
+    let pair = ["--for", "separate", "joint_compliance@joint 2", "link_compliance@link2"];
+    let (robot, plan, screen) = plan(&folder, "12", &pair);
+    assert!(screen.contains("Told from the other") && screen.contains("µrad/(N·m)"), "{screen}");
+    assert!(plan.contains(",dx[mm],dy[mm],dz[mm]\n") && !plan.contains("s1"), "{plan}");
+    let run = folder.file("run.csv", measured(&plan, &[2]));
+    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).good();
+    let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    let finding = &found["findings"][0];
+    assert_eq!(finding["effect"], "joint_compliance", "{found}");
+    assert_eq!(finding["place"], "joint 2", "{found}");
+    let others = finding["alternatives"].as_array().expect("a list");
+    assert!(others.iter().all(|o| o["effect"] != "link_compliance"), "{others:?}");
+}
+
+/// What shows without a load is planned as poses, what depends on the side with sides.
+#[test]
+fn sides_are_planned_where_they_matter() {
+    let arguments = ["poses", "ur10", "--count", "4", "--csv", "-", "--nuisance", "base_frame"];
+    let pair = ["--for", "separate", "backlash@joint 2", "friction_hysteresis@joint 2"];
+    let out = stiffarm(&[&arguments[..], &pair].concat()).good();
+    assert!(out.contains("s1,s2,s3,s4,s5,s6,x[mm],y[mm],z[mm]\n"), "{out}");
+    assert_eq!(out.lines().filter(|line| !line.starts_with('#')).count(), 9, "{out}");
 }
 
 #[test]
@@ -106,6 +134,15 @@ fn plans_that_cannot_be_made_are_refused() {
     refused(&["--count", "0", "--csv", "-"], "--count");
     refused(&["--count", "3", "--csv", "-", "--load", "1,2"], "--load: found 2 values");
     refused(&["--count", "3", "--csv", "-", "--load", "0,0,0,0,0,0"], "number of loads");
-    refused(&["--count", "3", "--csv", "-", "--for", "fun"], "identify, diagnose");
+    refused(&["--count", "3", "--csv", "-", "--for", "fun"], "identify, diagnose, separate");
+    let separate = |more: &[&str], expected: &str| {
+        refused(&[&["--count", "3", "--csv", "-", "--for", "separate"], more].concat(), expected);
+    };
+    separate(&["backlash@joint 2"], "--for separate: found 1 effect, expected two");
+    separate(&["backlas@joint 2", "drift"], "did you mean `backlash`?");
+    separate(&["backlash@joint 2", "drift"], "no test of this plan shows drift at base");
+    separate(&["base_frame", "base_frame"], "no test of this plan tells base frame at base from");
+    separate(&["drift", "drift", "--nuisance", "frame"], "unknown nuisance `frame`");
+    refused(&["backlash", "--count", "3", "--csv", "-"], "found `backlash`, expected an option");
     refused(&["--count", "3", "--csv", "no/such.csv"], "no such file or folder");
 }

@@ -104,6 +104,31 @@ pub enum DexterityError {
         /// What it must be.
         expected: &'static str,
     },
+    /// An effect that no test shows.
+    #[error("no test of this plan shows {effect}: {why}")]
+    Idle {
+        /// In words.
+        effect: String,
+        /// Why.
+        why: &'static str,
+    },
+    /// An effect has no such form.
+    #[error("found no such form of {effect}: leave out what stands behind the colon")]
+    NoForm {
+        /// In words.
+        effect: String,
+    },
+    /// Two effects that do the same in all tests.
+    #[error(
+        "no test of this plan tells {first} from {second}: allow loads in more directions, moments \
+         too, or measure rotations"
+    )]
+    Alike {
+        /// In words.
+        first: String,
+        /// In words.
+        second: String,
+    },
     /// No posture of the search was regular.
     #[error("every posture that was tried is singular: the arm cannot move the tool in all ways")]
     AllSingular,

@@ -108,7 +108,7 @@ pub struct Row {
 }
 
 impl Row {
-    fn blank(line: u64, joints: usize) -> Row {
+    pub(crate) fn blank(line: u64, joints: usize) -> Row {
         Row {
             line,
             q: vec![0.0; joints],

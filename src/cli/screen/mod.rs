@@ -9,6 +9,8 @@ mod size;
 mod unit;
 mod words;
 
+pub use size::Size;
+
 use stiffarm_gap::diagnose::Rival;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};

@@ -7,10 +7,10 @@ use crate::cli::text::short;
 
 /// A unit of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Size {
-    pub(super) name: &'static str,
+pub struct Size {
+    pub name: &'static str,
     /// What one of it is in SI.
-    pub(super) si: f64,
+    pub si: f64,
 }
 
 /// Below this a thousandth of the unit is shown.
@@ -19,11 +19,37 @@ const SMALL: f64 = 2e-4;
 const HOUR: f64 = 3600.0;
 
 impl Size {
-    pub(super) fn number(self, si: f64) -> String {
+    /// The unit for numbers up to `most`; one that is not known here stays as it is.
+    pub fn of(unit: &'static str, most: f64) -> Size {
+        let size = |name, si| Size { name, si };
+        let by = |small, large| if most < SMALL { size(small, 1e-6) } else { size(large, 1e-3) };
+        match unit {
+            "m" => by("µm", "mm"),
+            "rad" => by("µrad", "mrad"),
+            "rad/rad" => by("µrad/rad", "mrad/rad"),
+            "rad/(N·m)" => by("µrad/(N·m)", "mrad/(N·m)"),
+            "m/N" => by("µm/N", "mm/N"),
+            "rad/m" => by("µrad/m", "mrad/m"),
+            "m/rad" => by("µm/rad", "mm/rad"),
+            "m/row" => by("µm/row", "mm/row"),
+            "rad/row" => by("µrad/row", "mrad/row"),
+            "m/s" => size("µm/h", 1e-6 / HOUR),
+            "rad/s" => size("µrad/h", 1e-6 / HOUR),
+            "1/K" => size("ppm/K", 1e-6),
+            "1" if most < 1e-3 => size("ppm", 1e-6),
+            "1" => size("%", 1e-2),
+            "rows" => size("", 1.0),
+            other => size(other, 1.0),
+        }
+    }
+
+    /// A number in SI.
+    pub fn number(self, si: f64) -> String {
         short(si / self.si)
     }
 
-    pub(super) fn with_unit(self, si: f64) -> String {
+    /// A number in SI, with the unit.
+    pub fn with_unit(self, si: f64) -> String {
         let space = if self.name.is_empty() { "" } else { " " };
         format!("{}{space}{}", self.number(si), self.name)
     }
@@ -37,30 +63,15 @@ impl Screen<'_> {
         self.unit(finding.effect, p.unit, most)
     }
 
-    /// The unit for numbers up to `most`; one that is not known here stays as it is.
+    /// The unit for numbers up to `most`, inches where the file has them.
     pub(super) fn unit(&self, effect: &str, unit: &'static str, most: f64) -> Size {
-        let size = |name, si| Size { name, si };
-        let by = |small, large| if most < SMALL { size(small, 1e-6) } else { size(large, 1e-3) };
         match unit {
             "m" => {
                 let shown = self.length(most, most);
-                size(shown.name, shown.size)
+                Size { name: shown.name, si: shown.size }
             }
-            "rad" => by("µrad", "mrad"),
-            "rad/(N·m)" => by("µrad/(N·m)", "mrad/(N·m)"),
-            "m/N" => by("µm/N", "mm/N"),
-            "rad/m" => by("µrad/m", "mrad/m"),
-            "m/rad" => by("µm/rad", "mm/rad"),
-            "m/row" => by("µm/row", "mm/row"),
-            "rad/row" => by("µrad/row", "mrad/row"),
-            "m/s" => size("µm/h", 1e-6 / HOUR),
-            "rad/s" => size("µrad/h", 1e-6 / HOUR),
-            "1/K" => size("ppm/K", 1e-6),
-            "1" if effect == "joint_coupling" => by("µrad/rad", "mrad/rad"),
-            "1" if most < 1e-3 => size("ppm", 1e-6),
-            "1" => size("%", 1e-2),
-            "rows" => size("", 1.0),
-            other => size(other, 1.0),
+            "1" if effect == "joint_coupling" => Size::of("rad/rad", most),
+            other => Size::of(other, most),
         }
     }
 }

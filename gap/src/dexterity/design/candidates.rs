@@ -1,4 +1,4 @@
-//! The postures and loads that tests are chosen from, and what each would say.
+//! The postures and loads that tests are chosen from, and what each would say of springs.
 
 use core::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Plan, Purpose};
+use super::Plan;
 use crate::dexterity::{
     DexterityError, Search, characteristic_length, influence, inverse_condition,
 };
@@ -35,17 +35,18 @@ pub(super) struct Posture {
 }
 
 /// A posture under a load, and its whitened regressors: rows are numbers measured, columns the
-/// compliances of all joints and, for a diagnosis, their zeros.
+/// compliances of all joints and, for a diagnosis, their zeros; or the numbers of effects.
 pub(super) struct Block {
     pub(super) posture: usize,
     pub(super) load: usize,
+    /// From which side each joint is to come to rest, if that matters.
+    pub(super) direction: Option<Vec<i8>>,
     pub(super) rows: DMatrix<f64>,
 }
 
-/// All that may be chosen.
+/// The postures that may be tested.
 pub(super) struct Pool {
     pub(super) postures: Vec<Posture>,
-    pub(super) blocks: Vec<Block>,
     pub(super) length: f64,
 }
 
@@ -75,15 +76,27 @@ pub(super) fn draw(arm: &Arm, plan: &Plan) -> Result<Pool, DexterityError> {
     // Ties are kept in the order drawn, so that the plan depends on nothing but its seed.
     keep(&mut postures, DEXTEROUS, plan.count, |p| -p.inverse_condition);
     keep(&mut postures, SMALL_K_C, plan.count, |p| p.nu_p);
-    let blocks = (0..postures.len())
-        .flat_map(|posture| (0..plan.loads.len()).map(move |load| (posture, load)))
-        .map(|(posture, load)| Block {
-            posture,
-            load,
-            rows: rows(arm, &postures[posture].q, &plan.loads[load], plan),
-        })
-        .collect();
-    Ok(Pool { postures, blocks, length })
+    Ok(Pool { postures, length })
+}
+
+/// Each posture with each load, by their numbers.
+pub(super) fn pairs(
+    postures: &[Posture],
+    plan: &Plan,
+) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let loads = plan.loads.len();
+    (0..postures.len() * loads).map(move |k| (k / loads, k % loads))
+}
+
+/// What each test says of springs, and of zeros if poses are measured.
+pub(super) fn blocks(arm: &Arm, plan: &Plan, postures: &[Posture], zeros: bool) -> Vec<Block> {
+    let each = pairs(postures, plan).map(|(posture, load)| Block {
+        posture,
+        load,
+        direction: None,
+        rows: rows(arm, &postures[posture].q, &plan.loads[load], plan, zeros),
+    });
+    each.collect()
 }
 
 /// The part of the postures with the lowest cost, no fewer than `least`.
@@ -122,31 +135,26 @@ fn length(arm: &Arm, drawn: &[Vec<f64>], seed: u64) -> Result<f64, DexterityErro
 }
 
 /// What a test measures per unit of each unknown, in units of the noise.
-fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan) -> DMatrix<f64> {
+fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan, zeros: bool) -> DMatrix<f64> {
     let n = arm.dof();
-    let measured = if plan.noise_rotation.is_some() { 6 } else { 3 };
-    let noise = |row: usize| match (row < 3, plan.noise_rotation) {
-        (false, Some(rotation)) => rotation,
-        _ => plan.noise_position,
-    };
+    let noise = plan.noises();
+    let measured = noise.len();
     let springs = arm.stiffness_regressor(q, load);
-    match plan.purpose {
-        // A displacement is the difference of two readings, each with its noise.
-        Purpose::Identify => DMatrix::from_fn(measured, n, |r, c| {
-            springs[(r, c)] / (core::f64::consts::SQRT_2 * noise(r))
-        }),
-        // Two poses: unloaded below, loaded above.
-        Purpose::Diagnose => {
-            let zeros = arm.jacobian(q);
-            DMatrix::from_fn(2 * measured, 2 * n, |r, c| {
-                let (row, loaded) = (r % measured, r < measured);
-                let value = match (c < n, loaded) {
-                    (true, true) => springs[(row, c)],
-                    (true, false) => 0.0,
-                    (false, _) => zeros[(row, c - n)],
-                };
-                value / noise(row)
-            })
-        }
+    // A displacement is the difference of two readings, each with its noise.
+    if !zeros {
+        return DMatrix::from_fn(measured, n, |r, c| {
+            springs[(r, c)] / (core::f64::consts::SQRT_2 * noise[r])
+        });
     }
+    // Two poses: unloaded below, loaded above.
+    let zeros = arm.jacobian(q);
+    DMatrix::from_fn(2 * measured, 2 * n, |r, c| {
+        let (row, loaded) = (r % measured, r < measured);
+        let value = match (c < n, loaded) {
+            (true, true) => springs[(row, c)],
+            (true, false) => 0.0,
+            (false, _) => zeros[(row, c - n)],
+        };
+        value / noise[row]
+    })
 }

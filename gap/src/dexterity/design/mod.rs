@@ -5,25 +5,37 @@
 //! [`super::inverse_condition`]), and of the rest those in which leaving K_C out would cost most
 //! ([`super::influence`]). Of these postures, each with one of the loads, those are chosen whose
 //! regressors `B` make `det Σ BᵀB` largest: D-optimality, by adding one test after the other and
-//! then exchanging as long as that helps (Fedorov).
+//! then exchanging as long as that helps (Fedorov). Two effects are told apart by T-optimality
+//! (`separate`).
 
 mod candidates;
 mod exchange;
+mod separate;
+mod suspect;
 #[cfg(test)]
 mod tests;
+mod trial;
+
+pub use separate::{DEVIATIONS, Told};
+pub use suspect::{Number, Suspect, SuspectError};
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use super::DexterityError;
+use candidates::{Block, Pool};
+use exchange::{Aim, Choices};
+use separate::Apart;
 
 /// What the tests are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
     /// The joints' compliances, from displacements under a load.
     Identify,
     /// Zeros and compliances of the joints, from poses: each posture without a load and under one.
     Diagnose,
+    /// To tell two effects apart: from displacements if both show in them, else from poses.
+    Separate([Suspect; 2]),
 }
 
 /// What to plan.
@@ -33,6 +45,8 @@ pub struct Plan {
     pub count: usize,
     /// What for.
     pub purpose: Purpose,
+    /// What is fitted along when two effects are told apart: frames that are not known.
+    pub along: Vec<Suspect>,
     /// The loads to choose from, base axes at the tool origin.
     pub loads: Vec<Vector6<f64>>,
     /// Standard deviation of a measured coordinate, m.
@@ -51,6 +65,8 @@ pub struct Planned {
     pub q: Vec<f64>,
     /// Base axes at the tool origin.
     pub wrench: Vector6<f64>,
+    /// From which side each joint is to come to rest, −1 or 1, if that matters.
+    pub direction: Option<Vec<i8>>,
     /// `1/κ_F(J_N)`.
     pub inverse_condition: f64,
     /// ν_p, the largest under any of the loads.
@@ -74,8 +90,13 @@ pub struct Expected {
 pub struct Design {
     /// In the order in which they were chosen.
     pub tests: Vec<Planned>,
-    /// One for each joint.
+    /// Whether displacements are to be measured, loaded minus unloaded; else poses, each posture
+    /// without a load and under one.
+    pub displacements: bool,
+    /// Of springs (and zeros): one for each joint; none where two effects are told apart.
     pub expected: Vec<Expected>,
+    /// Of the two effects that are told apart.
+    pub told: Vec<Told>,
     /// L of the condition numbers, m.
     pub length: f64,
     /// How many times as many tests drawn at random from the same postures and loads would say as
@@ -88,34 +109,85 @@ pub struct Design {
 /// # Errors
 /// [`DexterityError::Setting`] without tests or loads; [`DexterityError::Unlimited`] if a prismatic
 /// joint has no limits; [`DexterityError::AllSingular`]; [`DexterityError::Unstable`] if the arm
-/// buckles under every load in every posture drawn.
+/// buckles under every load in every posture drawn; of two effects [`DexterityError::Idle`] if no
+/// test shows one, and [`DexterityError::Alike`] if none tells them apart.
 pub fn design(arm: &Arm, plan: &Plan, done: &dyn Fn(f64)) -> Result<Design, DexterityError> {
     check(plan)?;
     let pool = candidates::draw(arm, plan)?;
-    let choices = exchange::Choices::new(&pool.blocks, arm.dof());
-    let chosen = choices.choose(plan.count, done);
-    let tests = chosen.iter().map(|&k| {
-        let (posture, load) = (&pool.postures[pool.blocks[k].posture], pool.blocks[k].load);
-        Planned {
-            q: posture.q.clone(),
-            wrench: plan.loads[load],
-            inverse_condition: posture.inverse_condition,
-            nu_p: posture.nu_p,
-        }
-    });
-    let deviations = choices.deviations(&chosen);
+    if let Purpose::Separate(pair) = &plan.purpose {
+        return apart(arm, plan, pair, &pool, done);
+    }
+    let zeros = plan.purpose == Purpose::Diagnose;
+    let blocks = candidates::blocks(arm, plan, &pool.postures, zeros);
     let n = arm.dof();
+    let kinds: Vec<usize> = (0..if zeros { 2 * n } else { n }).map(|c| c / n).collect();
+    let choices = Choices::new(&blocks, &kinds, &Aim::All);
+    let chosen = choices.choose(plan.count, done);
+    let deviations = choices.deviations(&chosen);
     let expected = (0..n).map(|j| Expected {
         joint: j + 1,
         compliance: deviations[j],
         zero: deviations.get(n + j).copied().flatten(),
     });
     Ok(Design {
-        tests: tests.collect(),
+        tests: tests(plan, &pool, &blocks, &chosen),
+        displacements: !zeros,
         expected: expected.collect(),
+        told: Vec::new(),
         length: pool.length,
         efficiency: choices.efficiency(&chosen, plan.seed),
     })
+}
+
+/// The same to tell two effects apart.
+fn apart(
+    arm: &Arm,
+    plan: &Plan,
+    pair: &[Suspect; 2],
+    pool: &Pool,
+    done: &dyn Fn(f64),
+) -> Result<Design, DexterityError> {
+    let apart = Apart::new(arm, plan, pair, &pool.postures)?;
+    let both = [apart.columns(0), apart.columns(1)];
+    let aim = Aim::Apart([&both[0], &both[1]]);
+    let choices = Choices::new(&apart.blocks, &apart.kinds(), &aim);
+    let chosen = choices.choose(plan.count, done);
+    let told = apart.told(plan, pair, &chosen);
+    if told.iter().all(|t| t.numbers.iter().all(|(_, deviation)| deviation.is_none())) {
+        let [first, second] = [&told[0].effect, &told[1].effect].map(Clone::clone);
+        return Err(DexterityError::Alike { first, second });
+    }
+    Ok(Design {
+        tests: tests(plan, pool, &apart.blocks, &chosen),
+        displacements: apart.displacements,
+        expected: Vec::new(),
+        told,
+        length: pool.length,
+        efficiency: choices.efficiency(&chosen, plan.seed),
+    })
+}
+
+fn tests(plan: &Plan, pool: &Pool, blocks: &[Block], chosen: &[usize]) -> Vec<Planned> {
+    let each = chosen.iter().map(|&k| {
+        let (posture, block) = (&pool.postures[blocks[k].posture], &blocks[k]);
+        Planned {
+            q: posture.q.clone(),
+            wrench: plan.loads[block.load],
+            direction: block.direction.clone(),
+            inverse_condition: posture.inverse_condition,
+            nu_p: posture.nu_p,
+        }
+    });
+    each.collect()
+}
+
+impl Plan {
+    /// Standard deviation of each number of a reading.
+    fn noises(&self) -> Vec<f64> {
+        let mut noises = vec![self.noise_position; 3];
+        noises.extend(self.noise_rotation.iter().flat_map(|rotation| [*rotation; 3]));
+        noises
+    }
 }
 
 fn check(plan: &Plan) -> Result<(), DexterityError> {

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Vector6};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Design, Plan, Purpose};
+use super::{Design, Plan, Purpose, Suspect};
 use crate::dexterity::{DexterityError, inverse_condition};
 use crate::identify::{Settings, Test, Weighting, identify};
 
@@ -25,6 +25,7 @@ fn plan(purpose: Purpose) -> Plan {
     Plan {
         count: 8,
         purpose,
+        along: vec![],
         loads: vec![pull(0.0, 0.0, -1000.0), pull(1000.0, 0.0, 0.0), pull(0.0, -1000.0, 0.0)],
         noise_position: 3e-5,
         noise_rotation: None,
@@ -79,6 +80,7 @@ fn no_single_exchange_is_better() {
     let plan = Plan { count: 4, ..plan(Purpose::Identify) };
     let found = design(&arm, &plan).unwrap();
     let pool = super::candidates::draw(&arm, &plan).unwrap();
+    let blocks = super::candidates::blocks(&arm, &plan, &pool.postures, false);
     let determinant = |tests: &[(&[f64], Vector6<f64>)]| {
         let mut sum = DMatrix::<f64>::zeros(6, 6);
         for (q, wrench) in tests {
@@ -91,7 +93,7 @@ fn no_single_exchange_is_better() {
         found.tests.iter().map(|t| (t.q.as_slice(), t.wrench)).collect();
     let best = determinant(&own);
     for slot in 0..4 {
-        for block in &pool.blocks {
+        for block in &blocks {
             let q = pool.postures[block.posture].q.as_slice();
             if own.iter().any(|(other, _)| *other == q) {
                 continue;
@@ -126,6 +128,124 @@ fn what_no_test_shows_is_said() {
     let found = design(&arm, &hanging).unwrap();
     assert_eq!(found.expected[0].compliance, None);
     assert!(found.expected[1].compliance.is_some());
+}
+
+fn separate(arm: &Arm, texts: [&str; 2]) -> Plan {
+    let pair = texts.map(|text| Suspect::parse(text, arm).unwrap());
+    plan(Purpose::Separate(pair))
+}
+
+/// What a spring and a beam do in the tests by differences of the arm at rest, and from these the
+/// deviations and the smallest displacement: nothing of the effects' own blocks.
+#[test]
+fn what_is_told_apart_is_what_least_squares_tell() {
+    let arm = kr240();
+    let plan = separate(&arm, ["joint_compliance@joint 2", "joint_compliance@joint3"]);
+    let found = design(&arm, &plan).unwrap();
+    assert!(found.displacements && found.expected.is_empty());
+    within_limits(&arm, &found);
+    let at = |arm: &Arm, q: &[f64], w: &Vector6<f64>| {
+        crate::simulate::equilibrium(arm, q, w).unwrap().tool.translation.vector
+    };
+    let sagging = |joint: usize, change: f64, test: &super::Planned| {
+        let mut arm = arm.clone();
+        arm.joints[joint].compliance += change;
+        at(&arm, &test.q, &test.wrench) - at(&arm, &test.q, &Vector6::zeros())
+    };
+    let noise = 3e-5 * 2f64.sqrt();
+    let mut normal = DMatrix::<f64>::zeros(2, 2);
+    for test in &found.tests {
+        let step = 1e-9;
+        let column =
+            |j: usize| (sagging(j, step, test) - sagging(j, -step, test)) / (2.0 * step * noise);
+        let block = nalgebra::Matrix3x2::from_columns(&[column(1), column(2)]);
+        normal += DMatrix::from_iterator(2, 2, (block.transpose() * block).iter().copied());
+    }
+    let covariance = normal.clone().try_inverse().unwrap();
+    for (k, told) in found.told.iter().enumerate() {
+        let deviation = told.numbers[0].1.unwrap();
+        assert!((deviation / covariance[(k, k)].sqrt() - 1.0).abs() < 1e-5, "{told:?}");
+        let moved = (normal[(k, k)] / found.tests.len() as f64).sqrt() * noise;
+        let smallest = super::DEVIATIONS * deviation * moved;
+        assert!((told.smallest.unwrap() / smallest - 1.0).abs() < 1e-5, "{told:?} {smallest}");
+    }
+    assert_eq!(found.told[0].effect, "joint compliance at joint 2");
+    assert!(found.efficiency > 1.5, "{}", found.efficiency);
+}
+
+/// No other test in the place of one is better, by brute force on the two that are left of each.
+#[test]
+fn no_single_exchange_tells_more() {
+    let arm = kr240();
+    let plan = Plan { count: 3, ..separate(&arm, ["joint_compliance@joint 2", "wrench_scale"]) };
+    let found = design(&arm, &plan).unwrap();
+    let Purpose::Separate(pair) = &plan.purpose else { unreachable!() };
+    let pool = super::candidates::draw(&arm, &plan).unwrap();
+    let apart = super::Apart::new(&arm, &plan, pair, &pool.postures).unwrap();
+    let product = |tests: &[usize]| {
+        let rows: Vec<_> = tests.iter().map(|&k| apart.blocks[k].rows.clone()).collect();
+        let sum = rows.iter().fold(DMatrix::zeros(2, 2), |sum, b| sum + b.transpose() * b);
+        let shared = sum[(0, 1)] * sum[(1, 0)];
+        (sum[(0, 0)] - shared / sum[(1, 1)]) * (sum[(1, 1)] - shared / sum[(0, 0)])
+    };
+    let same = |k: &usize, test: &super::Planned| {
+        let block = &apart.blocks[*k];
+        pool.postures[block.posture].q == test.q && plan.loads[block.load] == test.wrench
+    };
+    let all = 0..apart.blocks.len();
+    let own: Vec<usize> =
+        found.tests.iter().map(|t| all.clone().find(|k| same(k, t)).unwrap()).collect();
+    let best = product(&own);
+    for slot in 0..3 {
+        for k in all.clone() {
+            let used =
+                |slot_of: usize| apart.blocks[own[slot_of]].posture == apart.blocks[k].posture;
+            if (0..3).any(|other| other != slot && used(other)) {
+                continue;
+            }
+            let mut tests = own.clone();
+            tests[slot] = k;
+            assert!(product(&tests) <= best * (1.0 + 1e-4));
+        }
+    }
+}
+
+/// What no load changes shows in poses; what depends on the side needs sides; a frame that is
+/// fitted along leaves less.
+#[test]
+fn poses_and_sides_are_planned_where_they_are_needed() {
+    let arm = kr240();
+    let plan = separate(&arm, ["backlash@joint 2", "joint_offset@joint 2"]);
+    let found = design(&arm, &plan).unwrap();
+    assert!(!found.displacements);
+    assert!(found.tests.iter().all(|t| t.direction.as_ref().unwrap().iter().all(|s| s.abs() == 1)));
+    let plain = found.told[1].smallest.unwrap();
+    let base = Suspect::parse("base_frame", &arm).unwrap();
+    let found = design(&arm, &Plan { along: vec![base], ..plan }).unwrap();
+    assert!(found.told[1].smallest.unwrap() > plain);
+    let plan = separate(&arm, ["joint_offset@joint 1", "joint_ratio@joint 2"]);
+    let found = design(&arm, &plan).unwrap();
+    assert!(found.tests.iter().all(|t| t.direction.is_none()));
+    let orders =
+        separate(&arm, ["transmission_error@joint 2:cos 1", "transmission_error@joint 2:sin  2"]);
+    let found = design(&arm, &orders).unwrap();
+    let names: Vec<&str> = found.told[1].numbers.iter().map(|n| n.0.name.as_str()).collect();
+    assert_eq!(names, ["cos 2", "sin 2"]);
+}
+
+#[test]
+fn what_cannot_be_told_apart_is_said() {
+    let arm = kr240();
+    let same = separate(&arm, ["base_frame", "base_frame"]);
+    let error = design(&arm, &same).unwrap_err().to_string();
+    assert!(error.contains("tells base frame at base from base frame at base"), "{error}");
+    let idle = separate(&arm, ["joint_compliance@joint 2", "drift"]);
+    let error = design(&arm, &idle).unwrap_err().to_string();
+    assert_eq!(error, "no test of this plan shows drift at base: no time passes");
+    let wrong = |text: &str| Suspect::parse(text, &arm).unwrap_err().to_string();
+    assert!(wrong("backlas@joint 2").contains("did you mean `backlash`?"));
+    assert!(wrong("backlash").contains("found no place, expected backlash@ with one of joint 1,"));
+    assert!(wrong("backlash@tool").contains("found the place `tool`"));
 }
 
 #[test]
