@@ -61,7 +61,7 @@ fn the_closed_forms_are_generated() {
     let text = include_str!("../../robots/arms/jweeg_two_link.toml");
     let (robot, _) = Robot::from_toml(text, "jweeg.toml").unwrap();
     let kept = Displacements::read("dx,dy,dphi", 2).unwrap();
-    let options = RustOptions { kernels: "::stiffarm_kernels".into() };
+    let options = RustOptions { kernels: "::stiffarm_kernels".into(), fused: false };
     let committed = include_str!("../src/chain/two_link/closed_form.rs");
     assert_eq!(flexible_rust(&robot, &kept, &options), committed);
 }

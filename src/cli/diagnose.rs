@@ -14,7 +14,7 @@ pub use check::Check;
 
 use super::failure::Failure;
 use super::note::note;
-use super::output::{Target, print};
+use super::output::{Target, one_to_stdout, print};
 use super::progress::Stages;
 use super::quantity::{self, counted};
 use super::screen::Screen;
@@ -93,7 +93,11 @@ struct Written<'a> {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    args.refuse_what_cannot_be()?;
+    one_to_stdout(&[
+        ("--json", &args.json),
+        ("--write-robot", &args.write_robot),
+        ("--report", &args.report),
+    ])?;
     let options = args.options()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
@@ -158,21 +162,6 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
-    fn refuse_what_cannot_be(&self) -> Result<(), Failure> {
-        let all = [
-            ("--json", &self.json),
-            ("--write-robot", &self.write_robot),
-            ("--report", &self.report),
-        ];
-        let printed = all.into_iter().filter(|(_, to)| **to == Some(Target::Stdout));
-        let printed: Vec<&str> = printed.map(|(option, _)| option).collect();
-        if let [first, second, ..] = printed[..] {
-            let message = format!("{first} and {second} cannot both go to standard output");
-            return Err(Failure::new(message));
-        }
-        Ok(())
-    }
-
     fn options(&self) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()

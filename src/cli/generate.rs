@@ -19,6 +19,7 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm generate ur5 --emit rust --out src/ur5.rs
   stiffarm generate ur5 --emit rust --check src/ur5.rs     (exit status 1 if it differs)
+  stiffarm generate ur5 --emit rust --fused --out src/ur5_fused.rs
   stiffarm generate ur5 --emit c --precision f32 --out firmware/
   stiffarm generate ur5 --emit c --precision f32 --check firmware/
   stiffarm generate arm.toml --emit latex --output jacobian --output deflection > arm.tex
@@ -49,6 +50,11 @@ pub struct Args {
     /// Path of the kernels crate in the Rust text [default: ::stiffarm::kernels]
     #[arg(long, value_name = "PATH")]
     kernels: Option<String>,
+    /// Fuse products into sums in Rust: faster where the target has the instruction and the kernels' feature
+    /// `fma` asks for it, and not the same bits everywhere
+    #[arg(long)]
+    #[arg(conflicts_with = "flexible")]
+    fused: bool,
     /// Type of the numbers in C [default: f64]
     #[arg(long, value_enum)]
     precision: Option<Real>,
@@ -139,6 +145,9 @@ impl Args {
             Emit::C | Emit::Latex | Emit::Dot if self.kernels.is_some() => {
                 Err(Failure::new("--kernels is for rust: c, latex and dot use no crate"))
             }
+            Emit::C | Emit::Latex | Emit::Dot if self.fused => {
+                Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
+            }
             Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
                 Err(Failure::with_help(
                     "found no folder to write into: C is two files, a header and a source",
@@ -205,8 +214,8 @@ impl Args {
     }
 
     fn options(&self) -> RustOptions {
-        let kernels = self.kernels.clone();
-        kernels.map_or_else(RustOptions::default, |kernels| RustOptions { kernels })
+        let kernels = self.kernels.clone().unwrap_or_else(|| RustOptions::default().kernels);
+        RustOptions { kernels, fused: self.fused }
     }
 
     fn flexible(&self, list: &str, Source { robot, .. }: &Source) -> Result<String, Failure> {

@@ -1,6 +1,8 @@
 //! `stiffarm identify`: stiffnesses from loaded measurements.
 
+mod page;
 mod screen;
+mod words;
 mod written;
 
 use std::path::PathBuf;
@@ -14,16 +16,18 @@ use stiffarm_gap::measurement::Dimension;
 
 use super::failure::Failure;
 use super::note::note;
-use super::output::{Target, print};
+use super::output::{Target, one_to_stdout, print};
 use super::progress::{PARTS, Progress};
 use super::source::{RobotArgs, Source};
 use super::{Verdict, data, json, quantity};
+use crate::report::identified::Identified;
 
 const EXAMPLES: &str = "\
 Examples:
   stiffarm identify arm.toml run1.csv
   stiffarm identify arm.toml run1.csv --noise-position 30um --write-robot arm_stiff.toml
   stiffarm identify arm.toml run1.csv --links --base --json -
+  stiffarm identify arm.toml run1.csv --report springs.html
 
 DATA is a measurement file with loads (fx … mz) and displacements dx dy dz [drx dry drz], any subset
 of them; or with poses x y z [rx ry rz], each pose under two loads or more: only the differences
@@ -66,6 +70,9 @@ pub struct Args {
     /// Write the robot file with what was found
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
+    /// Write what was found as one self-contained page
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<Target>,
 }
 
 /// Runs the command.
@@ -73,9 +80,11 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    if args.json == Some(Target::Stdout) && args.write_robot == Some(Target::Stdout) {
-        return Err(Failure::new("--json and --write-robot cannot both go to standard output"));
-    }
+    one_to_stdout(&[
+        ("--json", &args.json),
+        ("--write-robot", &args.write_robot),
+        ("--report", &args.report),
+    ])?;
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
@@ -94,10 +103,32 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(target) = &args.write_robot {
         target.write(&written::robot(&source, &answer, &data.file))?;
     }
-    let written: Vec<_> = [&args.json, &args.write_robot].into_iter().flatten().collect();
+    let (said, units) = (words::said(&source, &answer), page::units(&answer));
+    let positions = data.kind.components()[..3].contains(&true);
+    let main = &units[usize::from(!positions)];
+    let sentence = words::sentence(&source, &answer, main, positions);
+    if let Some(target) = &args.report {
+        let identified = Identified {
+            data: &data,
+            arm: &arm,
+            answer: &answer,
+            sentence: sentence.clone(),
+            said: said.clone(),
+            advice: words::advice(&answer),
+            facts: page::facts(&question, &source, &data, &answer),
+            units,
+            json: json::value(&result)?,
+            version: env!("CARGO_PKG_VERSION"),
+        };
+        let page = identified.html();
+        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
+        target.write(&page)?;
+    }
+    let written: Vec<_> =
+        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&screen::text(&source, &data, &answer))?;
+        print(&screen::text(&source, &data, &answer, &said, &sentence))?;
     }
     Ok(Verdict::Good)
 }

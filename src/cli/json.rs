@@ -10,12 +10,20 @@ use super::failure::Failure;
 /// # Errors
 /// [`Failure`] if the value cannot be written as JSON.
 pub fn text(value: &impl Serialize) -> Result<String, Failure> {
-    let value = serde_json::to_value(value)
-        .map_err(|error| Failure::new(format!("cannot write the result as JSON: {error}")))?;
+    let value = self::value(value)?;
     let mut text = String::new();
     write(&mut text, &value, 0);
     text.push('\n');
     Ok(text)
+}
+
+/// The same as a value.
+///
+/// # Errors
+/// [`Failure`] if it cannot be written as JSON.
+pub fn value(value: &impl Serialize) -> Result<Value, Failure> {
+    serde_json::to_value(value)
+        .map_err(|error| Failure::new(format!("cannot write the result as JSON: {error}")))
 }
 
 fn write(text: &mut String, value: &Value, depth: usize) {

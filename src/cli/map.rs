@@ -1,22 +1,24 @@
 //! `stiffarm map`: a quantity over two joints, as a picture or as numbers.
 
+mod learnt;
 mod picture;
 mod quantity_of;
 mod sweep;
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use stiffarm_gap::dexterity::{DexterityError, Map};
+use stiffarm_gap::dexterity::Map;
 
 use super::failure::Failure;
 use super::note::note;
-use super::output::{Target, print};
+use super::output::{Target, one_to_stdout, print};
 use super::progress::Progress;
 use super::source::RobotArgs;
 use super::text::{bold, dim, short};
 use super::{Verdict, quantity};
 use crate::plot::number;
-use quantity_of::{Of, Quantity};
+use learnt::{Learnt, LearntArgs};
+use quantity_of::{NoValue, Of, Quantity};
 use sweep::Sweep;
 
 const EXAMPLES: &str = "\
@@ -24,6 +26,7 @@ Examples:
   stiffarm map kuka_kr240 --over q2,q3 --of condition --at q4=45deg,q5=45deg --svg dexterity.svg
   stiffarm map arm.toml --over q2,q3 --of deflection --wrench 0,0,-500,0,0,0 --svg sag.svg
   stiffarm map arm.toml --over q2,q3 --of stiffness --wrench 100,0,0,0,0,0 --csv k.csv --steps 50
+  stiffarm map arm.toml --over q2,q3 --of shrink --data run.csv --wrench 0,0,-2kN,0,0,0 --svg s.svg
 
 The two joints go over their limits (a revolute joint without limits once around); the others stand
 where --at puts them, else at 0 or the limit next to it. Of the quantities
@@ -32,8 +35,10 @@ where --at puts them, else at 0 or the limit next to it. Of the quantities
   nu_p nu_r   what leaving the loaded geometry K_C out costs (Dumas et al. 2011, Fig. 4)
   deflection  how far the tool is moved, loaded geometry and links included
   stiffness   the force over the displacement in its direction
+  shrink      how much of the gap goes where the findings of a diagnosis of --data are put into the
+              model; what stays is their uncertainty, the noise and what the diagnosis leaves
 
-all but the first need a --wrench. A map stays empty where the arm has no stable rest.";
+all but the first and the last need a --wrench. A map stays empty where the arm has no stable rest.";
 
 /// A workspace map of dexterity, deflection or stiffness over two joints
 #[derive(clap::Args)]
@@ -59,6 +64,8 @@ pub struct Args {
     /// characteristic length, with which the best posture is conditioned best]
     #[arg(long, value_name = "LENGTH")]
     length: Option<String>,
+    #[command(flatten)]
+    learnt: LearntArgs,
     /// Values of each joint
     #[arg(long, value_name = "N", default_value_t = 100)]
     #[arg(value_parser = clap::value_parser!(u16).range(2..=1000))]
@@ -76,33 +83,33 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let targets: Vec<&Target> = [&args.svg, &args.csv].into_iter().flatten().collect();
-    if targets.len() == 2 && targets.iter().all(|t| **t == Target::Stdout) {
-        return Err(Failure::new("--svg and --csv cannot both go to standard output"));
-    }
+    one_to_stdout(&[("--svg", &args.svg), ("--csv", &args.csv)])?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
-    let asked = Quantity::new(args.of, args.wrench.as_deref(), args.length.as_deref(), &arm)?;
+    let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &arm, quiet)?;
+    let asked =
+        Quantity::new(args.of, args.wrench.as_deref(), args.length.as_deref(), &arm, learnt)?;
     if let (Of::Condition, None) = (args.of, &args.length) {
         note(&format!("characteristic length L = {} m", short(asked.length)), quiet);
     }
     let cells = sweep.plane.first.len() * sweep.plane.second.len();
     let progress = Progress::new(&source.given, cells, quiet);
-    let unstable = Cell::new(0_usize);
+    let unstable = AtomicUsize::new(0);
     let map = sweep.plane.map(|q| {
         progress.add(1);
         match asked.value(&arm, q) {
-            Err(DexterityError::Unstable(_)) => {
-                unstable.set(unstable.get() + 1);
+            Ok(value) => Ok(value),
+            Err(NoValue::Unstable) => {
+                unstable.fetch_add(1, Ordering::Relaxed);
                 Ok(f64::NAN)
             }
-            other => other,
+            Err(NoValue::Wrong(why)) => Err(Failure::new(why)),
         }
     });
     drop(progress);
-    let map: Map = map.map_err(|error| Failure::new(error.to_string()))?;
-    if unstable.get() == cells {
+    let (map, unstable) = (map?, unstable.into_inner());
+    if unstable == cells {
         return Err(Failure::with_help(
             "the arm is not stable under this load in any posture of the map",
             "check the load, its unit and the stiffness",
@@ -114,8 +121,9 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(target) = &args.csv {
         target.write(&numbers(&sweep, &asked, &map))?;
     }
-    if !quiet && !targets.contains(&&Target::Stdout) {
-        print(&screen(&source.robot.name, &sweep, &asked, &map, unstable.get()))?;
+    let printed = [&args.svg, &args.csv].into_iter().flatten().any(|to| *to == Target::Stdout);
+    if !quiet && !printed {
+        print(&screen(&source.robot.name, &sweep, &asked, &map, unstable))?;
     }
     Ok(Verdict::Good)
 }

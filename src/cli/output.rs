@@ -40,6 +40,21 @@ impl Target {
     }
 }
 
+/// Refuses two results that would both go to standard output.
+///
+/// # Errors
+/// [`Failure`] names both options.
+pub fn one_to_stdout(results: &[(&str, &Option<Target>)]) -> Result<(), Failure> {
+    let printed = results.iter().filter(|(_, to)| **to == Some(Target::Stdout));
+    let printed: Vec<&str> = printed.map(|(option, _)| *option).collect();
+    match printed[..] {
+        [first, second, ..] => {
+            Err(Failure::new(format!("{first} and {second} cannot both go to standard output")))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Prints to standard output. A reader that has seen enough (`| head`) is no mistake.
 ///
 /// # Errors

@@ -7,9 +7,10 @@ use serde_json::Value;
 use stiffarm_gap::diagnose::Diagnosis;
 
 use super::Report;
+use super::curves::curves;
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
-use super::shape::{Shape, shapes};
+use super::shape::{Shape, shape};
 use super::table::{Table, number};
 
 /// Everything.
@@ -27,14 +28,24 @@ struct Embedded<'a> {
 /// # Errors
 /// [`serde_json::Error`] if something in it is no JSON.
 pub fn json(report: &Report<'_>) -> Result<String, serde_json::Error> {
+    let experiment = report.experiment();
+    let curves = curves(report.found, report.data);
     let embedded = Embedded {
-        rows: rows(report),
-        scene: scene(report),
-        shapes: shapes(report),
+        rows: rows(&experiment),
+        scene: scene(&experiment),
+        shapes: curves.iter().filter_map(|curve| shape(&experiment, curve)).collect(),
         tables: tables(report),
         diagnosis: report.found,
     };
-    Ok(serde_json::to_string(&embedded)?.replace('<', "\\u003c"))
+    within_script(&embedded)
+}
+
+/// JSON that may stand within a script element.
+///
+/// # Errors
+/// [`serde_json::Error`] if it is no JSON.
+pub fn within_script(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
 }
 
 fn tables(report: &Report<'_>) -> BTreeMap<&'static str, Table> {

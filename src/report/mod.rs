@@ -6,12 +6,17 @@
 //! embedded as JSON ([`embedded`]), and so are the tables that it offers as CSV ([`table`]). Nothing in the
 //! page refers to anything outside of it.
 
+mod curves;
 mod embedded;
+mod experiment;
+mod forest;
+pub mod identified;
 mod method;
 mod page;
 mod rows;
 mod scene;
 mod shape;
+mod steps;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -19,10 +24,12 @@ mod waterfall;
 pub mod withheld;
 mod words;
 
-use stiffarm_gap::diagnose::{Diagnosis, Prediction};
+use nalgebra::Isometry3;
+use stiffarm_gap::diagnose::{Diagnosis, Nuisance, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
+use experiment::{Experiment, Share};
 pub use words::{Told, Unit, Words};
 
 /// What a report is made of.
@@ -43,7 +50,7 @@ pub struct Report<'a> {
     pub words: &'a Words,
 }
 
-impl Report<'_> {
+impl<'a> Report<'a> {
     /// The page.
     ///
     /// # Errors
@@ -55,6 +62,32 @@ impl Report<'_> {
     /// Whether positions are measured; else rotations are what is judged.
     fn has_positions(&self) -> bool {
         self.data.kind.components()[..3].contains(&true)
+    }
+
+    fn experiment(&self) -> Experiment<'a> {
+        let found = self.found;
+        let base = Nuisance::BaseFrame.identifier();
+        let base = found.nuisances.iter().find(|n| n.name == base);
+        let share = |place: &str| Share {
+            place: place.to_owned(),
+            share: found.places.iter().find(|s| s.place == place).map(|s| s.share),
+            found: found.findings.iter().any(|f| f.place == place),
+        };
+        let places = found.places.iter().map(|s| s.place.as_str());
+        let findings = found.findings.iter().map(|f| f.place.as_str());
+        Experiment {
+            data: self.data,
+            arm: self.arm,
+            placed: self.placed,
+            base: base.map_or_else(Isometry3::identity, |n| {
+                Isometry3::new(n.translation.into(), n.rotation.into())
+            }),
+            markers: found.nuisances.iter().map(|n| (n.name.as_str(), n.translation)).collect(),
+            gaps: [&self.gaps.before, &self.gaps.after],
+            shares: places.chain(findings).map(share).collect(),
+            length: &self.words.length,
+            angle: &self.words.angle,
+        }
     }
 
     /// In what the part of the gap is shown that is judged and drawn.

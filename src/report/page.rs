@@ -3,6 +3,7 @@
 use askama::Template;
 use stiffarm_gap::diagnose::{Finding, NuisanceReport};
 
+use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
 use super::{Report, embedded, method};
 
@@ -13,7 +14,7 @@ const MOST: usize = 8;
 const LEAST: f64 = 0.005;
 
 /// The scripts, one matter each, in the order in which they stand in the page.
-const SCRIPT: &str = concat!(
+pub(super) const SCRIPT: &str = concat!(
     include_str!("script/data.js"),
     include_str!("script/theme.js"),
     include_str!("script/plot.js"),
@@ -103,7 +104,7 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         poses: report.data.poses,
         version: &found.stiffarm,
         sentence: &report.words.sentence,
-        waterfall: waterfall(report),
+        waterfall: waterfall(steps(report), report.main_unit()),
         findings: findings(report),
         parts: found.parts.iter().map(|p| (p.part, percent(p.share))).collect(),
         places: places(&found.places),
@@ -227,13 +228,18 @@ fn rivals<'a>(report: &Report<'a>) -> Vec<Compared<'a>> {
     compared.collect()
 }
 
-fn percent(part: f64) -> String {
+pub(super) fn percent(part: f64) -> String {
     format!("{:.0} %", 100.0 * part).replacen('-', "−", 1)
 }
 
 /// With a capital letter at its beginning.
-fn capital(text: &str) -> String {
+pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
+}
+
+/// To a tenth of a pixel.
+pub(super) fn px(x: f64) -> String {
+    format!("{x:.1}")
 }

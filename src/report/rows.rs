@@ -6,7 +6,7 @@ use serde_json::Value;
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES, Row};
 use stiffarm_kernels::Motion;
 
-use super::Report;
+use super::experiment::Experiment;
 use super::table::{Table, number, residual};
 
 /// Something that residuals are drawn against.
@@ -68,29 +68,29 @@ impl Columns {
     }
 }
 
-/// The rows of a report.
-pub fn rows(report: &Report<'_>) -> Rows {
-    let rows = &report.data.rows;
+/// The rows of an experiment.
+pub fn rows(experiment: &Experiment<'_>) -> Rows {
+    let rows = &experiment.data.rows;
     let mut columns = Columns::default();
     columns.add("line", rows.iter().map(|r| Value::from(r.line)));
     if rows.iter().any(|r| r.marker.is_some()) {
         columns.add("marker", rows.iter().map(|r| Value::from(r.marker.clone())));
     }
-    let mut against = readings(report, &mut columns);
+    let mut against = readings(experiment, &mut columns);
     against.extend(circumstances(rows, &mut columns));
-    let components = gaps(report, &mut columns);
-    let vectors = vectors(report, &components);
+    let components = gaps(experiment, &mut columns);
+    let vectors = vectors(experiment, &components);
     Rows { table: columns.table(rows.len()), against, components, vectors }
 }
 
 /// Joint readings.
-fn readings(report: &Report<'_>, columns: &mut Columns) -> Vec<Against> {
-    let each = report.arm.joints.iter().enumerate().map(|(j, joint)| {
+fn readings(experiment: &Experiment<'_>, columns: &mut Columns) -> Vec<Against> {
+    let each = experiment.arm.joints.iter().enumerate().map(|(j, joint)| {
         let (file, shown, si) = match joint.motion {
             Motion::Revolute => ("rad", "°", 1_f64.to_radians()),
             Motion::Prismatic => ("m", "mm", 1e-3),
         };
-        let cells = report.data.rows.iter().map(|r| number(r.q[j]));
+        let cells = experiment.data.rows.iter().map(|r| number(r.q[j]));
         let column = columns.add(format!("q{}[{file}]", j + 1), cells);
         Against { name: format!("joint {}, {shown}", j + 1), column, si, classes: false }
     });
@@ -141,17 +141,17 @@ fn circumstances(rows: &[Row], columns: &mut Columns) -> Vec<Against> {
 }
 
 /// The names of the six components.
-fn names(report: &Report<'_>) -> [&'static str; 6] {
-    match report.data.kind {
+fn names(experiment: &Experiment<'_>) -> [&'static str; 6] {
+    match experiment.data.kind {
         Kind::Pose { .. } => POSE_NAMES,
         Kind::Displacement { .. } => DISPLACEMENT_NAMES,
     }
 }
 
 /// Where the translation stands, or the rotation without one.
-fn vectors(report: &Report<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
-    let first = if report.has_positions() { 0 } else { 3 };
-    let names = &names(report)[first..first + 3];
+fn vectors(experiment: &Experiment<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
+    let first = if experiment.has_positions() { 0 } else { 3 };
+    let names = &names(experiment)[first..first + 3];
     let find = |k: usize| components.iter().find(|c| c.name == names[k]);
     [
         std::array::from_fn(|k| find(k).map(|c| c.before)),
@@ -160,19 +160,19 @@ fn vectors(report: &Report<'_>, components: &[Component]) -> [[Option<usize>; 3]
 }
 
 /// The measured components of the gap and their norms, the one that is judged first.
-fn gaps(report: &Report<'_>, columns: &mut Columns) -> Vec<Component> {
-    let words = report.words;
-    let names = names(report);
-    let measured = report.data.kind.components();
+fn gaps(experiment: &Experiment<'_>, columns: &mut Columns) -> Vec<Component> {
+    let names = names(experiment);
+    let measured = experiment.data.kind.components();
     let mut components = Vec::new();
     let mut add = |name: String, head: &str, is_turn: bool, of: &dyn Fn(&Vector6<f64>) -> f64| {
-        let (file, unit) = if is_turn { ("rad", &words.angle) } else { ("m", &words.length) };
+        let (file, unit) =
+            if is_turn { ("rad", experiment.angle) } else { ("m", experiment.length) };
         let mut column = |when: &str, gaps: &[Vector6<f64>]| {
             let cells = gaps.iter().map(|g| residual(of(g)));
             columns.add(format!("{head}_{when}[{file}]"), cells)
         };
-        let before = column("before", &report.gaps.before);
-        let after = column("after", &report.gaps.after);
+        let before = column("before", experiment.gaps[0]);
+        let after = column("after", experiment.gaps[1]);
         components.push(Component { name, unit: unit.name, si: unit.si, before, after });
     };
     for (from, what) in [(0, "position"), (3, "rotation")] {

@@ -3,11 +3,10 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 use serde::Serialize;
 use serde_json::Value;
-use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_kernels::generic::Convention;
 
-use super::Report;
+use super::experiment::Experiment;
 use super::table::point;
 
 /// A place of the arm: joints, base and tool are points, links are lines.
@@ -39,19 +38,18 @@ pub struct Scene {
     gap: &'static str,
 }
 
-/// The scene of a report.
-pub fn scene(report: &Report<'_>) -> Scene {
-    let rows = &report.data.rows;
-    let base = base(report);
+/// The scene of an experiment.
+pub fn scene(experiment: &Experiment<'_>) -> Scene {
+    let rows = &experiment.data.rows;
     let middle = &rows[middle(rows)];
-    let unit = report.main_unit();
+    let unit = experiment.main_unit();
     Scene {
         line: middle.line,
-        places: places(report, &base, &middle.q),
-        points: rows.iter().map(|row| point(measured(report, &base, row).into())).collect(),
+        places: places(experiment, &middle.q),
+        points: rows.iter().map(|row| point(measured(experiment, row).into())).collect(),
         unit: unit.name,
         si: unit.si,
-        gap: if report.has_positions() { "position" } else { "rotation" },
+        gap: if experiment.has_positions() { "position" } else { "rotation" },
     }
 }
 
@@ -72,41 +70,24 @@ fn middle(rows: &[Row]) -> usize {
     (0..rows.len()).min_by(|a, b| far(&rows[*a]).total_cmp(&far(&rows[*b]))).unwrap_or(0)
 }
 
-/// The base in the measuring frame: as it was fitted, or the two are one.
-pub fn base(report: &Report<'_>) -> Isometry3<f64> {
-    let name = Nuisance::BaseFrame.identifier();
-    let fitted = report.found.nuisances.iter().find(|n| n.name == name);
-    fitted.map_or_else(Isometry3::identity, |n| {
-        Isometry3::new(n.translation.into(), n.rotation.into())
-    })
-}
-
 /// Where a row was measured: as measured, or for a displacement where the model has the point.
-fn measured(report: &Report<'_>, base: &Isometry3<f64>, row: &Row) -> Vector3<f64> {
-    match report.data.kind {
+fn measured(experiment: &Experiment<'_>, row: &Row) -> Vector3<f64> {
+    match experiment.data.kind {
         Kind::Pose { .. } => row.measured.fixed_rows::<3>(0).into_owned(),
         Kind::Displacement { .. } => {
-            let tool = base * report.placed.pose(&row.q);
-            (tool * Point3::from(offset(report, row))).coords
+            let tool = experiment.base * experiment.placed.pose(&row.q);
+            (tool * Point3::from(experiment.offset(row))).coords
         }
     }
 }
 
-/// The measured point of a row in the tool frame, m.
-pub fn offset(report: &Report<'_>, row: &Row) -> [f64; 3] {
-    let fitted = row.marker.as_ref().and_then(|marker| {
-        report.found.nuisances.iter().find(|n| n.name == *marker).map(|n| n.translation)
-    });
-    row.offset.or(fitted).unwrap_or_default()
-}
-
 /// Base, joints and links in their order, tool. A link runs along the lengths of its row.
-fn places(report: &Report<'_>, base: &Isometry3<f64>, q: &[f64]) -> Vec<Place> {
-    let arm = report.placed;
-    let found = report.found;
+fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
+    let (arm, base) = (experiment.placed, experiment.base);
+    let part = |name: &str| experiment.shares.iter().find(|s| s.place == name);
     let place = |name: String, through: Vec<Vector3<f64>>| Place {
-        share: found.places.iter().find(|p| p.place == name).map(|p| p.share),
-        found: found.findings.iter().any(|f| f.place == name),
+        share: part(&name).and_then(|s| s.share),
+        found: part(&name).is_some_and(|s| s.found),
         through: through.into_iter().map(|p| point(p.into())).collect(),
         name,
     };

@@ -1,5 +1,4 @@
-//! What was found at a joint as a function of its angle, torque or direction, with the rows around
-//! it.
+//! A joint's motion as a function of its angle, torque or direction, with the rows around it.
 //!
 //! A row's point is a partial residual: the fitted shape there, plus what the row's remaining gap
 //! is as a motion of the joint (its projection on the joint's Jacobian column, at the measured
@@ -8,13 +7,11 @@
 use nalgebra::{Vector3, Vector6};
 use serde::Serialize;
 use serde_json::Value;
-use stiffarm_gap::diagnose::Finding;
 use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::Motion;
 
-use super::Report;
-use super::scene::{base, offset};
+use super::experiment::Experiment;
 use super::table::{Table, number, residual};
 
 /// Points of a curve.
@@ -46,28 +43,38 @@ struct Axis {
     si: f64,
 }
 
-/// Over what a finding is a function.
-#[derive(Clone, Copy, PartialEq)]
-enum Over {
+/// Over what a joint's motion is a function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Over {
+    /// What load and weight do to it.
     Torque,
+    /// Its reading.
     Reading,
+    /// From which side it came to rest.
     Direction,
 }
 
-/// The shapes of all findings that are a function of one thing.
-pub fn shapes(report: &Report<'_>) -> Vec<Shape> {
-    report.found.findings.iter().filter_map(|finding| shape(report, finding)).collect()
+/// What was found at a joint as a function of one thing.
+pub struct Curve<'a> {
+    /// What it is.
+    pub title: String,
+    /// From 0.
+    pub joint: usize,
+    /// Its argument.
+    pub over: Over,
+    /// The joint's motion, rad (m).
+    pub value: Box<dyn Fn(f64) -> f64 + 'a>,
 }
 
-fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
-    let joint = finding.place.strip_prefix("joint ")?.parse::<usize>().ok()?.checked_sub(1)?;
-    let over = over(report, finding.effect)?;
-    let motion = report.arm.joints.get(joint)?.motion;
-    let value = |x: f64| value(finding, x);
-    let rows = &report.data.rows;
-    let levers: Vec<Vector6<f64>> = rows.iter().map(|row| lever(report, row, joint)).collect();
+/// A curve with the rows around it; none where its argument does not vary.
+pub fn shape(experiment: &Experiment<'_>, curve: &Curve<'_>) -> Option<Shape> {
+    let Curve { title, joint, over, value } = curve;
+    let (joint, over) = (*joint, *over);
+    let motion = experiment.arm.joints.get(joint)?.motion;
+    let rows = &experiment.data.rows;
+    let levers: Vec<Vector6<f64>> = rows.iter().map(|row| lever(experiment, row, joint)).collect();
     let longest = levers.iter().map(Vector6::norm_squared).fold(0.0, f64::max);
-    let rows = rows.iter().zip(&report.gaps.after).zip(&levers);
+    let rows = rows.iter().zip(experiment.gaps[1]).zip(&levers);
     let mut points: Vec<[f64; 3]> = Vec::new();
     for ((row, gap), lever) in rows {
         let size = lever.norm_squared();
@@ -75,7 +82,7 @@ fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
             continue;
         }
         let x = match over {
-            Over::Torque => torque(report, row, joint)?,
+            Over::Torque => torque(experiment, row, joint)?,
             Over::Reading => row.q[joint],
             Over::Direction => f64::from(row.direction.as_ref()?[joint]),
         };
@@ -97,7 +104,7 @@ fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
     table.rows = points.iter().map(cells).collect();
     let at = |k: usize| low + (high - low) * k as f64 / STEPS as f64;
     Some(Shape {
-        title: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
+        title: title.clone(),
         x,
         y,
         classes: over == Over::Direction,
@@ -106,49 +113,14 @@ fn shape(report: &Report<'_>, finding: &Finding) -> Option<Shape> {
     })
 }
 
-/// Of a displacement only what is in proportion to the load is a function of one state.
-fn over(report: &Report<'_>, effect: &str) -> Option<Over> {
-    let displaced = matches!(report.data.kind, Kind::Displacement { .. });
-    match effect {
-        "joint_compliance" => Some(Over::Torque),
-        "joint_hardening" if !displaced => Some(Over::Torque),
-        "joint_ratio" | "transmission_error" if !displaced => Some(Over::Reading),
-        "backlash" if !displaced => Some(Over::Direction),
-        _ => None,
-    }
-}
-
-/// The joint's motion by the finding, rad (m).
-fn value(finding: &Finding, x: f64) -> f64 {
-    let first = finding.parameters.first().map_or(0.0, |p| p.value);
-    match finding.effect {
-        "joint_hardening" => first * x.powi(3),
-        // Half the dead band to either side, against the approach.
-        "backlash" => -0.5 * first * x,
-        "transmission_error" => finding.parameters.iter().map(|p| wave(&p.name, x) * p.value).sum(),
-        _ => first * x,
-    }
-}
-
-/// `cos 2` and `sin 2` at an angle; what is no wave is 0.
-fn wave(name: &str, angle: f64) -> f64 {
-    let Some((function, order)) = name.split_once(' ') else { return 0.0 };
-    let Ok(order) = order.parse::<f64>() else { return 0.0 };
-    match function {
-        "cos" => (order * angle).cos(),
-        "sin" => (order * angle).sin(),
-        _ => 0.0,
-    }
-}
-
 /// What load and weight do to a joint of the robot file's arm; for a displacement, what the load
 /// adds. None where it has no equilibrium.
-fn torque(report: &Report<'_>, row: &Row, joint: usize) -> Option<f64> {
+pub(super) fn torque(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Option<f64> {
     let under = |wrench: &Vector6<f64>| {
-        equilibrium(report.arm, &row.q, wrench).ok().map(|state| state.torque[joint])
+        equilibrium(experiment.arm, &row.q, wrench).ok().map(|state| state.torque[joint])
     };
     let loaded = under(&row.wrench)?;
-    match report.data.kind {
+    match experiment.data.kind {
         Kind::Pose { .. } => Some(loaded),
         Kind::Displacement { .. } => Some(loaded - under(&Vector6::zeros())?),
     }
@@ -156,14 +128,15 @@ fn torque(report: &Report<'_>, row: &Row, joint: usize) -> Option<f64> {
 
 /// Motion of the measured components per motion of a joint: translations if there are any, else
 /// rotations; measuring frame.
-fn lever(report: &Report<'_>, row: &Row, joint: usize) -> Vector6<f64> {
-    let column: Vector6<f64> = report.placed.jacobian(&row.q).column(joint).into_owned();
+pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vector6<f64> {
+    let column: Vector6<f64> = experiment.placed.jacobian(&row.q).column(joint).into_owned();
     let turn: Vector3<f64> = column.fixed_rows::<3>(3).into_owned();
-    let arm = report.placed.pose(&row.q).rotation * Vector3::from(offset(report, row));
+    let arm = experiment.placed.pose(&row.q).rotation * Vector3::from(experiment.offset(row));
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
-    let frame = base(report).rotation;
-    let (from, part) = if report.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
-    let measured = report.data.kind.components();
+    let frame = experiment.base.rotation;
+    let (from, part) =
+        if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
+    let measured = experiment.data.kind.components();
     let mut lever = Vector6::zeros();
     for k in (0..3).filter(|k| measured[from + k]) {
         lever[from + k] = part[k];

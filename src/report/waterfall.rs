@@ -1,8 +1,7 @@
 //! The gap from before to the noise, step by step.
 
-use stiffarm_gap::diagnose::Finding;
-
-use super::Report;
+use super::page::px;
+use super::words::Unit;
 use crate::plot::{number, ticks};
 
 /// Width of the picture, px.
@@ -58,19 +57,18 @@ pub struct Waterfall {
 }
 
 /// What stands at a step before it is drawn, SI.
-struct Step {
-    label: String,
-    class: &'static str,
-    from: f64,
-    to: f64,
-    interval: Option<[f64; 2]>,
-    text: String,
+pub struct Step {
+    pub label: String,
+    /// `whole`, `removed`, `left` or `noise`.
+    pub class: &'static str,
+    pub from: f64,
+    pub to: f64,
+    pub interval: Option<[f64; 2]>,
+    pub text: String,
 }
 
-/// The waterfall of a report.
-pub fn waterfall(report: &Report<'_>) -> Waterfall {
-    let steps = steps(report);
-    let unit = report.main_unit();
+/// Steps as a picture.
+pub fn waterfall(steps: Vec<Step>, unit: &Unit) -> Waterfall {
     let largest = steps.iter().map(|s| s.to.max(s.interval.map_or(0.0, |i| i[1])));
     let largest = largest.fold(0.0, f64::max);
     let largest = if largest > 0.0 { largest } else { unit.si };
@@ -107,66 +105,4 @@ pub fn waterfall(report: &Report<'_>) -> Waterfall {
         below: bottom + 18.0,
         description,
     }
-}
-
-fn steps(report: &Report<'_>) -> Vec<Step> {
-    let gap = &report.found.gap;
-    let main = |position: f64, rotation: f64| {
-        if report.has_positions() { position } else { rotation }
-    };
-    let before = main(gap.before.position_rms, gap.before.rotation_rms);
-    let after = main(gap.after.position_rms, gap.after.rotation_rms);
-    let noise = main(gap.noise.position_rms, gap.noise.rotation_rms);
-    let unit = report.main_unit();
-    let plain = |label: &str, class, size: f64| Step {
-        label: label.to_owned(),
-        class,
-        from: 0.0,
-        to: size,
-        interval: None,
-        text: unit.with_unit(size),
-    };
-    let first = match report.found.nuisances.is_empty() {
-        true => "as the robot file is",
-        false => "with the unknown frames fitted",
-    };
-    let mut steps = vec![plain(first, "whole", before)];
-    steps.extend(report.found.findings.iter().map(|finding| taken(report, finding)));
-    if !report.found.findings.is_empty() {
-        steps.push(plain("left, held out", "left", after));
-    }
-    let from = match gap.noise.from {
-        "residual" => "noise, from what is left",
-        "repeats" => "noise, from repeats",
-        _ => "noise, as given",
-    };
-    steps.push(plain(from, "noise", noise));
-    steps
-}
-
-/// What a finding takes away, with the interval of what it leaves.
-fn taken(report: &Report<'_>, finding: &Finding) -> Step {
-    let held = &finding.held_out;
-    let [low, high] = held.shrink_ci95;
-    let percent = |x: f64| format!("{:.0}", 100.0 * x).replacen('-', "−", 1);
-    let unit = report.main_unit();
-    Step {
-        label: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
-        class: "removed",
-        from: held.after.min(held.before),
-        to: held.after.max(held.before),
-        interval: Some([held.before * (1.0 - high), held.before * (1.0 - low)]),
-        text: format!(
-            "→ {}, {} % less [{} to {}]",
-            unit.with_unit(held.after),
-            percent(held.shrink),
-            percent(low),
-            percent(high)
-        ),
-    }
-}
-
-/// To a tenth of a pixel.
-fn px(x: f64) -> String {
-    format!("{x:.1}")
 }

@@ -1,7 +1,4 @@
 //! What cannot be done is refused: a message with its place, status 2, nothing written.
-
-use std::process::Stdio;
-
 use crate::support::{Folder, command, stiffarm, text};
 
 const ROBOT: &str = "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\n\
@@ -196,23 +193,4 @@ fn what_was_there_stays_when_the_work_fails() {
     refused(&["diagnose", "lin_planar", "no.csv", "--json", &out], &["no.csv"]);
     assert_eq!(std::fs::read_to_string(&out).expect("there"), "before");
     assert_eq!(folder.names(), ["out.json"]);
-}
-
-#[test]
-fn a_closed_pipe_is_no_mistake() {
-    let commands: [&[&str]; 5] = [
-        &["generate", "iiwa14", "--emit", "rust"],
-        &["robots"],
-        &["eval", "ur5", "--q", "0,0,0,0,0,0", "--json", "-"],
-        &["completions", "bash"],
-        &["--help"],
-    ];
-    for arguments in commands {
-        let mut child =
-            command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("runs");
-        drop(child.stdout.take());
-        let output = child.wait_with_output().expect("ends");
-        let err = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!((output.status.code(), err.as_str()), (Some(0), ""), "{arguments:?}");
-    }
 }

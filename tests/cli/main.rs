@@ -5,6 +5,7 @@ mod compensate;
 mod diagnose;
 mod errors;
 mod eval;
+mod every;
 mod generate;
 mod identify;
 mod import;

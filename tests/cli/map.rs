@@ -1,6 +1,7 @@
 //! `stiffarm map`, and the maps of docs/maps.md.
 
 use nalgebra::Vector6;
+use stiffarm_gap::simulate::equilibrium;
 
 use crate::support::{Folder, arm, stiffarm, text};
 
@@ -34,7 +35,7 @@ fn the_maps_of_the_page_are_those_of_the_commands() {
         }
         maps += 1;
     }
-    assert_eq!(maps, 4);
+    assert_eq!(maps, 5);
 }
 
 fn cells(csv: &str) -> Vec<Vec<f64>> {
@@ -74,6 +75,39 @@ fn numbers_are_those_of_the_textbook() {
         near(stiffness[2], 1e-6 * force / along, "stiffness");
         let change = 100.0 * (size(&moved) - size(&first)).abs() / size(&moved).max(size(&first));
         assert!((nu_p[2] - change).abs() < 1e-8, "{nu_p:?} {change}");
+    }
+}
+
+/// The gap shrinks by what the corrected robot file moves, by the arm at rest of both files, and
+/// what stays is about what the diagnosis leaves.
+#[test]
+fn shrink_is_that_of_the_corrected_file() {
+    let folder = Folder::new();
+    let better = text(&folder.path("better.toml"));
+    let (robot, run) = ("docs/workbench/arm.toml", "docs/workbench/run.csv");
+    let out = stiffarm(&["diagnose", robot, run, "--json", "-", "--write-robot", &better]).good();
+    let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+    let after = found["gap"]["after"]["position_rms"].as_f64().expect("a number");
+    let arms = [robot, &better].map(|path| {
+        let text = std::fs::read_to_string(path).expect("there");
+        let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, path).expect("a robot");
+        stiffarm_gap::robot::arm(&robot).expect("numbers")
+    });
+    let w = Vector6::new(0.0, 0.0, -2000.0, 0.0, 0.0, 0.0);
+    let over =
+        ["--over", "q2,q3", "--at", "q5=45deg", "--wrench", "0,0,-2kN,0,0,0", "--steps", "5"];
+    let shrink = csv(&[&[robot, "--of", "shrink", "--data", run], &over[..]].concat());
+    assert!(shrink.starts_with("q2[deg],q3[deg],shrink[%]\n"), "{shrink}");
+    for cell in cells(&shrink) {
+        let q = [0.0, cell[0].to_radians(), cell[1].to_radians(), 0.0, 45_f64.to_radians(), 0.0];
+        let [was, is] = arms.each_ref().map(|arm| {
+            let at = |w: &Vector6<f64>| equilibrium(arm, &q, w).expect("stable").tool;
+            at(&w).translation.vector - at(&Vector6::zeros()).translation.vector
+        });
+        let moved = (is - was).norm();
+        let expected = 100.0 * (1.0 - after / moved.hypot(after));
+        // What is held out has the uncertainty of the fits in it: some per cent of what is left.
+        assert!((cell[2] - expected).abs() < 3.0, "{cell:?} {expected}");
     }
 }
 
@@ -124,6 +158,10 @@ fn maps_that_cannot_be_made_are_refused() {
     with(&["--csv", "-", "--at", "q9=1"], "found `q9`, expected a joint, q1 to q6");
     with(&["--csv", "-", "--at", "q1"], "found `q1`, expected qI=VALUE");
     with(&["--csv", "no/such.csv"], "no such file or folder");
+    with(&["--csv", "-", "--data", "run.csv"], "--data is for --of shrink");
+    let shrink = ["--over", "q2,q3", "--of", "shrink", "--csv", "-"];
+    refused(&shrink, "name the measurements that are to be diagnosed");
+    refused(&[&shrink[..], &["--data", "no/such.csv"]].concat(), "no/such.csv");
     let over = |joints: &str, expected: &str| {
         refused(&["--over", joints, "--of", "condition", "--csv", "-"], expected);
     };

@@ -1,4 +1,4 @@
-//! `stiffarm diagnose --report`: the page, and the page in a browser.
+//! `stiffarm diagnose --report` and `identify --report`: the pages, and the pages in a browser.
 
 mod browser;
 
@@ -95,11 +95,34 @@ fn a_report_that_cannot_be_written_is_said() {
     assert!(folder.names().is_empty());
 }
 
+const WORKBENCH: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
+
+#[test]
+fn the_page_of_an_identification_says_what_its_screen_says() {
+    let folder = Folder::new();
+    let path = text(&folder.path("out.html"));
+    let screen = stiffarm(&[&WORKBENCH[..], &["--report", &path]].concat()).good();
+    let page = std::fs::read_to_string(&path).expect("written");
+    let said = sentence(&page);
+    assert!(said.starts_with("Joint 2 is 1.83 times as soft as the robot file says, "), "{said}");
+    assert!(said.contains("0.797 → 0.034 mm"), "{said}");
+    let screen: Vec<&str> = screen.split_whitespace().collect();
+    assert!(screen.join(" ").contains(&said), "{said}");
+    assert!(page.contains("<td class=\"number\">3.61e6 N·m/rad</td>"));
+    assert!(!page.contains("http"));
+    let both = [&WORKBENCH[..], &["--report", "-", "--json", "-"]].concat();
+    let err = stiffarm(&both).refused();
+    assert!(err.contains("--json and --report cannot both go to standard output"), "{err}");
+}
+
 #[test]
 fn a_browser_turns_the_arm_and_follows_the_links() {
     let folder = Folder::new();
     let lin = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
-    for page in [plant(&folder), lin] {
+    let springs = stiffarm(&[&WORKBENCH[..], &["--report", "-"]].concat()).good();
+    for (page, json) in
+        [(plant(&folder), "diagnosis.json"), (lin, "diagnosis.json"), (springs, "identified.json")]
+    {
         let said = sentence(&page);
         let Some(seen) = browser::visit(&folder, &page) else {
             eprintln!("skipped: no Chromium in PATH to open the report with");
@@ -111,10 +134,28 @@ fn a_browser_turns_the_arm_and_follows_the_links() {
             assert_eq!(seen[what], true, "{what} in {seen}");
         }
         let files = seen["files"].as_object().expect("one for each link");
-        for name in ["rows.csv", "gap.csv", "places.csv", "vectors.csv", "diagnosis.json"] {
+        for name in ["rows.csv", "gap.csv", "places.csv", "vectors.csv", json] {
             let lines = files.get(name).and_then(serde_json::Value::as_u64);
             assert!(lines.is_some_and(|n| n >= 3), "{name} in {seen}");
         }
         assert!(seen["panels"].as_u64() >= Some(3), "{seen}");
+    }
+}
+
+#[test]
+fn a_browser_reads_the_ledger_and_the_withheld_check() {
+    let folder = Folder::new();
+    let ledger = stiffarm(&["papers", "--report"]).good();
+    let withheld = ["withhold", "lin_planar", "--cases", "4", "--poses", "8", "--report", "-"];
+    let withheld = stiffarm(&withheld).good();
+    for (page, file, least) in [(ledger, "ledger.csv", 800), (withheld, "withheld_cases.csv", 5)] {
+        let Some(seen) = browser::read(&folder, &page) else {
+            eprintln!("skipped: no Chromium in PATH to open the pages with");
+            return;
+        };
+        assert_eq!(seen["problems"], serde_json::json!([]));
+        assert_eq!(seen["sentence"], sentence(&page));
+        assert_eq!(seen["dark"], true, "{seen}");
+        assert!(seen["files"][file].as_u64() >= Some(least), "{seen}");
     }
 }

@@ -1,12 +1,13 @@
 //! docs/workbench.md: every command on the page prints what the page shows and writes the files
-//! that stand beside it. With STIFFARM_WRITE_DOCS set the files are written anew; what the page
-//! shows is edited by hand.
+//! that stand beside it. With STIFFARM_WRITE_DOCS set the page and the files are written anew.
 
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
 
 use crate::support::{Folder, stiffarm, text};
+
+const PAGE: &str = "docs/workbench.md";
 
 /// Options behind which the name of a file stands that the command writes.
 const WRITES: [&str; 5] = ["--csv", "--svg", "--out", "--toml", "--write-robot"];
@@ -49,7 +50,7 @@ fn same(committed: &str, made: &str) {
 
 #[test]
 fn the_page_shows_what_the_commands_do() {
-    let page = std::fs::read_to_string("docs/workbench.md").expect("the page is there");
+    let page = std::fs::read_to_string(PAGE).expect("the page is there");
     let folder = Folder::new();
     let blocks = blocks(&page);
     let mut commands = 0;
@@ -67,13 +68,21 @@ fn the_page_shows_what_the_commands_do() {
         let run = stiffarm(&words);
         let (language, shown) = &blocks[k + 1];
         assert_eq!(language, "text", "what {words:?} prints");
-        assert_eq!(*shown, format!("{}{}", run.out, run.err), "{words:?}");
+        let printed = format!("{}{}", run.out, run.err);
+        if write_anew() {
+            let behind = |shown: &str| format!("```sh\n{block}```\n\n```text\n{shown}```\n");
+            let page = std::fs::read_to_string(PAGE).expect("the page is there");
+            let page = page.replacen(&behind(shown), &behind(&printed), 1);
+            std::fs::write(PAGE, page).expect("the page can be written to");
+        } else {
+            assert_eq!(*shown, printed, "{words:?}");
+        }
         for (committed, made) in files {
             same(&committed, &std::fs::read_to_string(made).expect("written"));
         }
         commands += 1;
     }
-    assert_eq!(commands, 4, "import, poses, identify, compensate");
+    assert_eq!(commands, 6, "import, poses, identify, simulate, diagnose, compensate");
 }
 
 /// The arm that the page measures: joint 2 has little more than half of its file's stiffness.

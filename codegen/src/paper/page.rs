@@ -24,9 +24,28 @@ td.verdict { width: 8rem; } td > div { overflow: auto hidden; max-width: 100%; p
 code { font-size: .85em; overflow-wrap: anywhere; } summary { cursor: pointer; margin: .5rem 0; }
 math .bold { font-weight: bold; } math .lines > mtr > mtd { text-align: left; }
 .overview th { width: 30rem; max-width: 50%; }
+.sentence { font-size: 1.3rem; font-weight: 600; line-height: 1.35; text-wrap: pretty; }
+.skip { position: absolute; left: -100rem; } .skip:focus { left: 1rem; }
+button { font: inherit; float: right; } a { color: inherit; }
 .ok { color: var(--ok); } .bad { color: var(--bad); font-weight: 600; }
 .mute { color: var(--mute); }
+@media print { :root { color-scheme: light; } button, .skip { display: none; }
+  tr { break-inside: avoid; } }
 @media (max-width: 40rem) { td:first-child { width: 6rem; } td.verdict { width: 5rem; } }
+";
+
+/// Switches between light and dark.
+const SCRIPT: &str = "
+const theme = document.getElementById('theme');
+const media = window.matchMedia('(prefers-color-scheme: dark)');
+let dark = media.matches;
+const show = () => theme.setAttribute('aria-pressed', String(dark));
+theme.addEventListener('click', () => {
+  dark = !dark;
+  document.documentElement.style.colorScheme = dark ? 'dark' : 'light';
+  show();
+});
+show();
 ";
 
 /// The parts of the page below the misprints: a heading, and what stands under it.
@@ -49,11 +68,21 @@ impl Ledger {
             out,
             "<meta name=\"viewport\" content=\"width=device-width\">\n\
              <title>Printed equations against derived ones</title>\n\
-             <style>{STYLE}</style>\n</head>\n\
-             <body>\n<h1>Printed equations against derived ones</h1>\n"
+             <link rel=\"icon\" href=\"data:,\">\n<style>{STYLE}</style>\n</head>\n\
+             <body>\n<a class=\"skip\" href=\"#wrong\">Skip to what is wrong</a>\n\
+             <button id=\"theme\" type=\"button\" aria-pressed=\"false\">Dark</button>\n\
+             <h1>Printed equations against derived ones</h1>\n\
+             <p id=\"sentence\" class=\"sentence\">{}</p>\n",
+            self.sentence()
         );
         self.overview(&mut out);
-        out.push_str("<h2>What is wrong</h2>\n");
+        let _ = writeln!(
+            out,
+            "<p><a download=\"ledger.csv\" href=\"data:text/csv;charset=utf-8,{}\">All of it as \
+             CSV</a></p>",
+            percent_encoded(&self.to_csv())
+        );
+        out.push_str("<h2 id=\"wrong\">What is wrong</h2>\n");
         let none = |entry: &&Entry| !folded(entry);
         for (id, title) in &self.titles {
             let wrong: Vec<&Entry> = self.paper(id).filter(none).collect();
@@ -75,7 +104,38 @@ impl Ledger {
                 }
             }
         }
-        out.push_str("</body>\n</html>\n");
+        let _ = write!(out, "<script>{SCRIPT}</script>\n</body>\n</html>\n");
+        out
+    }
+
+    /// What a reader has to know.
+    fn sentence(&self) -> String {
+        let of = |kind: Kind| {
+            let all = self.entries.iter().filter(|e| e.kind == kind);
+            (all.clone().filter(|e| !folded(e)).count(), all.count())
+        };
+        let ((equations, printed), (cells, tables)) = (of(Kind::Equation), of(Kind::Cell));
+        format!(
+            "Not right as printed: {equations} of {printed} equations and {cells} of {tables} table \
+             cells. They come first, each with its correction or the reason."
+        )
+    }
+
+    /// A line for each entry.
+    fn to_csv(&self) -> String {
+        let mut out = "paper,number,kind,verdict,printed,details\n".to_owned();
+        for entry in &self.entries {
+            let kind = match entry.kind {
+                Kind::Equation => "equation",
+                Kind::Cell => "table cell",
+            };
+            let details: Vec<String> =
+                details(entry).iter().map(|(name, text)| format!("{name}: {text}")).collect();
+            let (verdict, details) = (entry.verdict.words(), details.join("; "));
+            let cells = [&entry.paper, &entry.number, kind, verdict, &entry.printed, &details];
+            out.push_str(&cells.map(quoted).join(","));
+            out.push('\n');
+        }
         out
     }
 
@@ -88,6 +148,24 @@ impl Ledger {
         }
         out.push_str("</table>\n");
     }
+}
+
+/// A cell of a CSV file.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
+/// Text as it may stand in an address.
+fn percent_encoded(text: &str) -> String {
+    let mut out = String::with_capacity(2 * text.len());
+    for byte in text.bytes() {
+        if byte.is_ascii_alphanumeric() || b"-._~,;:()=+*/".contains(&byte) {
+            out.push(char::from(byte));
+        } else {
+            let _ = write!(out, "%{byte:02X}");
+        }
+    }
+    out
 }
 
 /// Whether an entry stands below, folded away.
@@ -171,6 +249,10 @@ mod tests {
             [[equation]]\nnumber = '(2)'\nlatex = 'y = a - b'\ntruth = 'a + b'\n";
         let page = Ledger::of(&[read(text, "x").unwrap()]).to_html();
         assert!(page.contains("<h2>a &lt; b</h2>") && page.ends_with("</html>\n"));
+        assert!(page.contains(">Not right as printed: 1 of 2 equations and 0 of 0 table cells."));
+        assert!(
+            page.contains("%0A%22x%22,%22(2)%22,%22equation%22,%22misprint%22,%22y%20=%20a%20-")
+        );
         assert_eq!(page.matches("<tr class=\"entry\">").count(), 2);
         let (wrong, right) = (page.find("<td>(2)</td>"), page.find("<td>(1)</td>"));
         assert!(wrong < right, "{page}");

@@ -1,6 +1,7 @@
 //! A quantity over two joints, the others held: data, not a picture.
 
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::{DexterityError, check_posture};
@@ -89,18 +90,17 @@ impl Plane {
         q
     }
 
-    /// The map of `value`, which is given all joint values.
+    /// The map of `value`, which is given all joint values, on all cores.
     ///
     /// # Errors
-    /// The first that `value` gives.
-    pub fn map<E>(&self, value: impl Fn(&[f64]) -> Result<f64, E>) -> Result<Map, E> {
-        let mut values = DMatrix::zeros(self.first.len(), self.second.len());
-        for j in 0..self.second.len() {
-            for i in 0..self.first.len() {
-                values[(i, j)] = value(&self.at(i, j))?;
-            }
-        }
-        Ok(Map { plane: self.clone(), values })
+    /// That of the first cell that has one.
+    pub fn map<E: Send>(&self, value: impl Fn(&[f64]) -> Result<f64, E> + Sync) -> Result<Map, E> {
+        let (rows, columns) = (self.first.len(), self.second.len());
+        let cells = (0..rows * columns).into_par_iter();
+        let values: Vec<Result<f64, E>> =
+            cells.map(|k| value(&self.at(k % rows, k / rows))).collect();
+        let values = values.into_iter().collect::<Result<Vec<f64>, E>>()?;
+        Ok(Map { plane: self.clone(), values: DMatrix::from_vec(rows, columns, values) })
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::Matrix6xX;
 
 use super::probe::Probe;
 use super::problem::Problem;
-use crate::effects::{Effect, Place, Scene, Spot};
+use crate::effects::{Carrier, Effect, Place, Scene, Spot};
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]
@@ -69,8 +69,16 @@ impl Candidate {
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {
         match &self.source {
-            Source::Effect { effect, spot, .. } => effect.block(scene, *spot),
+            Source::Effect { effect, spot } => effect.block(scene, *spot),
             Source::Probe(probe) => probe.block(scene),
+        }
+    }
+
+    /// What it moves, if that is one thing.
+    pub(crate) fn carrier(&self) -> Option<Carrier> {
+        match &self.source {
+            Source::Effect { effect, spot } => effect.carrier(*spot),
+            Source::Probe(probe) => probe.carrier(),
         }
     }
 

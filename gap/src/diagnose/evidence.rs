@@ -1,8 +1,11 @@
 //! How much the data speak for a candidate: its cost in parameters weighed against what it
 //! explains, and the chance that noise alone explains as much.
 
+use std::collections::BTreeSet;
+
 use nalgebra::DMatrix;
 use rand_chacha::rand_core::Rng;
+use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::rng::{Stream, generator};
@@ -11,6 +14,9 @@ use super::screen::Screen;
 
 /// Random sign patterns; all of them are taken if there are no more.
 const FLIPS: usize = 999;
+
+/// Candidates whose sums over the blocks are taken together.
+const TOGETHER: usize = 64;
 
 /// A fall of squares beyond this, in units of the variance, is no chance with any number of
 /// parameters that an effect has; the distributions' tails are not asked there.
@@ -97,16 +103,17 @@ impl Flips {
         let blocks = screen.blocks.len();
         let variance = scale.variance(screen.left(), screen.basis.rank());
         let signs = sign_patterns(blocks, seed);
+        let shares: Vec<DMatrix<f64>> = tried.par_iter().map(|c| screen.shares(*c)).collect();
+        let ranks: BTreeSet<usize> = shares.iter().map(DMatrix::nrows).filter(|r| *r > 0).collect();
         let mut highest = vec![f64::NEG_INFINITY; signs.ncols()];
-        for &candidate in tried {
-            let shares = screen.shares(candidate);
-            let rank = shares.nrows();
-            if rank == 0 {
-                continue;
-            }
-            let sums = shares * &signs;
-            for (high, sum) in highest.iter_mut().zip(sums.column_iter()) {
-                *high = high.max(deviate(sum.norm_squared() / variance, rank));
+        for rank in ranks {
+            // Of one rank the largest fall has the highest deviate.
+            let same: Vec<_> = shares.iter().filter(|s| s.nrows() == rank).collect();
+            let falls: Vec<Vec<f64>> =
+                same.par_chunks(TOGETHER).map(|some| largest(some, rank, &signs)).collect();
+            for (pattern, high) in highest.iter_mut().enumerate() {
+                let fall = falls.iter().map(|f| f[pattern]).fold(0.0, f64::max);
+                *high = high.max(deviate(fall / variance, rank));
             }
         }
         let exhaustive = signs.ncols() == patterns(blocks);
@@ -127,6 +134,18 @@ impl Flips {
             (reached + 1) as f64 / (count + 1) as f64
         }
     }
+}
+
+/// The largest fall that one of some candidates of one rank makes under each sign pattern.
+fn largest(shares: &[&DMatrix<f64>], rank: usize, signs: &DMatrix<f64>) -> Vec<f64> {
+    let mut all = DMatrix::zeros(rank * shares.len(), signs.nrows());
+    for (index, shares) in shares.iter().enumerate() {
+        all.rows_mut(rank * index, rank).copy_from(shares);
+    }
+    let sums = all * signs;
+    let fall = |sums: &[f64]| sums.iter().map(|s| s * s).sum::<f64>();
+    let columns = sums.as_slice().chunks_exact(rank * shares.len());
+    columns.map(|sums| sums.chunks_exact(rank).map(fall).fold(0.0, f64::max)).collect()
 }
 
 /// Sign patterns that differ by more than all signs at once, at most `usize::MAX`.

@@ -6,8 +6,8 @@ use nalgebra::DVector;
 use super::basis::Basis;
 use super::model::Model;
 use super::options::DiagnoseError;
-use super::refit::{Fit, normal_equations, squares};
-use super::screen::{Kept, Screen};
+use super::refit::{Fit, squares};
+use super::screen::Kept;
 use super::search::{Explained, Ranked, Search};
 
 /// Rounds of taking back and exchanging after each addition.
@@ -52,9 +52,8 @@ impl Search<'_, '_> {
                 continue;
             }
             let without = [index];
-            let kept = Kept { without: &without, coarse: true, ..Kept::all(&now.fit) };
-            let screen =
-                Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
+            let kept = Kept { without: &without, whole: true, ..Kept::default() };
+            let screen = self.screen(now, kept);
             let own = left / variance + self.cost_of(&scale, found);
             let ranked = self.ranked(&screen, now);
             let is_it = |r: &&Ranked| {
@@ -72,7 +71,7 @@ impl Search<'_, '_> {
                 now.fit.model.found[index].lead = lead;
                 continue;
             }
-            let refined = self.refined(now, &without, best, &screen)?;
+            let refined = self.refined(now, &without, best, &screen);
             let refined = refined.into_iter().collect();
             if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
                 && squares(&fit.predicted.gaps, &now.weights) / variance + its < own
@@ -85,8 +84,7 @@ impl Search<'_, '_> {
 
     /// The effect that costs most beyond what it explains beside all the others, if one does.
     fn superfluous(&self, now: &Explained, variance: f64) -> Option<usize> {
-        let (normal, _) = normal_equations(self.problem, &now.fit, &now.weights);
-        let basis = Basis::new(&normal);
+        let basis = Basis::new(&self.normal(now));
         let scale = self.scale(now);
         let mut at = Model::nuisances(self.problem);
         let mut worst: Option<(f64, usize)> = None;

@@ -4,26 +4,29 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
+use super::expected::Spread;
 use super::model::Model;
 use super::options::{DiagnoseError, Nuisance, Options};
 use super::problem::Problem;
 use super::report::Cover;
 use crate::effects::Place;
-use crate::measurement::Measurements;
+use crate::measurement::{Kind, Measurements};
 
 /// A part of the range within which a value beyond it still counts as inside.
 const EDGE: f64 = 1e-6;
 
 /// What a diagnosis knows of the arm.
 pub struct Explanation {
-    nominal: Arm,
+    pub(super) nominal: Arm,
     arm: Arm,
     file: String,
-    before: Model,
-    after: Model,
-    nuisances: Vec<Nuisance>,
+    pub(super) kind: Kind,
+    pub(super) before: Model,
+    pub(super) after: Model,
+    pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
     covers: Cover,
+    pub(super) spread: Spread,
 }
 
 /// An effect that was found, with its values in the order of its parameters.
@@ -51,7 +54,13 @@ pub struct Prediction {
 }
 
 impl Explanation {
-    pub(super) fn new(problem: &Problem<'_>, before: Model, after: Model, covers: &Cover) -> Self {
+    /// The models before and after, and the spread of all that the one after has fitted.
+    pub(super) fn new(
+        problem: &Problem<'_>,
+        [before, after]: [Model; 2],
+        spread: Spread,
+        covers: &Cover,
+    ) -> Self {
         let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
         Self {
@@ -63,6 +72,8 @@ impl Explanation {
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
             covers: covers.clone(),
+            kind: problem.data.kind,
+            spread,
         }
     }
 

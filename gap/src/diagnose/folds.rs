@@ -60,15 +60,6 @@ impl Folds {
         rows
     }
 
-    /// The rows of each fold, in order.
-    pub(crate) fn rows_of_folds(&self, data: &Measurements) -> Vec<Vec<usize>> {
-        let mut rows = vec![Vec::new(); self.count];
-        for (index, row) in data.rows.iter().enumerate() {
-            rows[self.of_pose(row.group)].push(index);
-        }
-        rows
-    }
-
     /// The fold of a pose.
     pub(crate) fn of_pose(&self, pose: usize) -> usize {
         self.of_block[self.block_of_pose[pose]]

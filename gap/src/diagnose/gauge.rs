@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use super::candidate::Candidate;
 use super::options::Nuisance;
 use super::report::Gauge;
-use super::screen::Kept;
-use super::search::{Explained, Search};
+use super::search::Search;
+use super::visible::First;
 use crate::measurement::Kind;
 
 /// A number whose column has less than this part left beside those before it is one with them: the
@@ -20,26 +20,12 @@ const NAMED: f64 = 0.05;
 impl Search<'_, '_> {
     /// The geometry's numbers that are one with others before them, each with those. Between two
     /// readings of one pose all of them cancel, and none is told.
-    pub(crate) fn gauges(&self, now: &Explained) -> Vec<Gauge> {
+    pub(crate) fn gauges(&self, first: &First) -> Vec<Gauge> {
         if matches!(self.problem.data.kind, Kind::Displacement { .. }) {
             return Vec::new();
         }
-        let geometry: Vec<Candidate> = self
-            .candidates
-            .iter()
-            .filter(|c| c.effect().is_some_and(|(effect, _)| effect.is_geometry()))
-            .cloned()
-            .collect();
-        let names = self.names(&geometry);
-        let kept = Kept { along: &geometry, ..Kept::all(&now.fit) };
-        let count = names.len();
-        let mut normal = DMatrix::<f64>::zeros(count, count);
-        for row in 0..self.problem.data.rows.len() {
-            let (mut z, _, _) = kept.row(self.problem, &[], row, count);
-            z.column_iter_mut().for_each(|mut column| column.component_mul_assign(&now.weights));
-            normal.gemm_tr(1.0, &z, &z, 1.0);
-        }
-        dependent(&normal)
+        let names = self.names(&first.geometry);
+        dependent(&first.gathered.total.zz)
             .into_iter()
             .map(|(number, with)| Gauge {
                 parameter: names[number].clone(),

@@ -4,9 +4,9 @@
 //!
 //! 1. Frames that are known to be unknown are fitted first, and along with everything after
 //!    (`align`, `refit`).
-//! 2. One pass over the data (`screen`) gathers what every candidate (an effect at a place, in one
-//!    form) does to the measured quantities. What this data cannot show is told before anything is
-//!    fitted (`visible`).
+//! 2. One pass over the data (`gather`) sums up what every candidate (an effect at a place, in one
+//!    form) does to the measured quantities; all that is asked of it then is algebra (`screen`,
+//!    `score`). What this data cannot show is told before anything is fitted (`visible`).
 //! 3. Effects are added one by one (`search`): the one with the most evidence (`evidence`), if
 //!    it is significant among all that were tried and shrinks the held-out gap; then fitted
 //!    exactly, and the others taken back or exchanged (`exchange`) where it makes them superfluous.
@@ -17,14 +17,18 @@
 
 mod align;
 mod basis;
+mod beside;
 mod bootstrap;
 mod candidate;
 mod evidence;
 mod exchange;
+mod expected;
 mod explanation;
 mod folds;
+mod gather;
 mod gauge;
 mod judged;
+mod layout;
 mod model;
 mod noise;
 mod options;
@@ -32,6 +36,8 @@ mod outcome;
 mod parts;
 mod probe;
 mod problem;
+mod products;
+mod refined;
 mod refit;
 mod remainder;
 mod report;
@@ -43,6 +49,7 @@ mod screen;
 mod search;
 mod separate;
 mod stability;
+mod stack;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -50,6 +57,7 @@ mod visible;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use expected::Expected;
 pub use explanation::{Explanation, FoundEffect, Prediction};
 pub use options::{DiagnoseError, Nuisance, Options};
 pub use report::{
@@ -129,16 +137,20 @@ pub fn diagnose_with(
     let is_there =
         size.position_max > ROUNDING * (1.0 + problem.reach) || size.rotation_rms > ROUNDING;
     let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
-    let cannot_see = search.cannot_see(&effects, &begun);
-    let gauge = search.gauges(&begun);
-    let shares = if is_there { search.shares(&begun) } else { Vec::new() };
+    let seen = search.first(&begun);
+    let cannot_see = search.cannot_see(&effects, &begun, &seen);
+    let gauge = search.gauges(&seen);
+    let shares = if is_there { search.shares(&begun, &seen) } else { Vec::new() };
+    if is_there {
+        search.begin_with(&begun, seen);
+    }
     let parts = if is_there { search.parts(&begun) } else { Vec::new() };
     if !is_there {
         candidates.clear();
     }
     let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
     let first = begun.fit.model.clone();
-    let start = begun.clone();
+    let start = begun.without_states();
     let explained = search.explain(begun, &|found| progress(Stage::Search(found)))?;
     let (explained, judged) = search.judged(&start, explained, &before, is_there, progress)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
@@ -161,7 +173,9 @@ pub fn diagnose_with(
         covers: summary::cover(&problem),
         rivals: (!options.rivals.is_empty()).then_some(compared),
     };
-    let explanation = Explanation::new(&problem, first, explained.fit.model, &diagnosis.covers);
+    let spread = search.spread(&explained);
+    let explanation =
+        Explanation::new(&problem, [first, explained.fit.model], spread, &diagnosis.covers);
     Ok(Diagnosed { diagnosis, explanation })
 }
 

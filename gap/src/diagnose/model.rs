@@ -26,6 +26,8 @@ pub(crate) struct Fitted {
     /// What is usual of them: a value is held to it as loosely as by a measurement of that size, so
     /// that what the data hardly decide stays small.
     pub(crate) usual: Vec<f64>,
+    /// Forms that the effect has at its place.
+    pub(crate) forms: usize,
     /// By how much more evidence it had than any other when last compared; 0 before.
     pub(crate) lead: f64,
 }

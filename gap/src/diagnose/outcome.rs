@@ -1,80 +1,112 @@
 //! What was found, put in order and held out: each row predicted by fits that have not seen it.
 
-use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
+use rayon::prelude::*;
 
 use super::basis::Basis;
 use super::folds::Folds;
 use super::model::Model;
 use super::options::DiagnoseError;
 use super::problem::Problem;
+use super::products::Products;
 use super::refit::{Fit, block, squares};
 use super::search::{Explained, Search};
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
 
-/// The fit's rows, ready to be fitted again without some of its parts.
-pub(crate) struct Rows {
-    /// Weighted blocks, 6×k, one per row.
-    blocks: Vec<Matrix6xX<f64>>,
-    /// Weighted gaps with all effects given back.
-    gaps: Vec<Vector6<f64>>,
+/// The fit's products fold by fold, ready to be solved again without some of its parts.
+pub(crate) struct Held<'h> {
+    problem: &'h Problem<'h>,
+    folds: &'h Folds,
+    fit: &'h Fit,
+    /// Weighted, all effects given back.
+    of_fold: Vec<Normal>,
+    total: Normal,
     /// Which parameters belong to which effect; the nuisances to none.
     owner: Vec<Option<usize>>,
-    fold: Vec<usize>,
-    folds: usize,
-    weights: Vector6<f64>,
 }
 
-impl Rows {
-    pub(crate) fn new(
-        problem: &Problem<'_>,
-        folds: &Folds,
-        fit: &Fit,
-        weights: &Vector6<f64>,
-    ) -> Self {
-        let mut owner = vec![None; Model::nuisances(problem)];
-        let mut values = vec![0.0; owner.len()];
-        for (index, found) in fit.model.found.iter().enumerate() {
-            owner.extend(std::iter::repeat_n(Some(index), found.values.len()));
-            values.extend(&found.values);
-        }
-        let values = DVector::from_vec(values);
-        let rows = 0..problem.data.rows.len();
-        let blocks: Vec<_> = rows.map(|row| block(problem, fit, row, weights)).collect();
-        let gaps = fit.predicted.gaps.iter().zip(&blocks);
-        let gaps = gaps.map(|(g, b)| g.component_mul(weights) + b * &values).collect();
-        let fold = problem.data.rows.iter().map(|r| folds.of_pose(r.group)).collect();
-        Self { blocks, gaps, owner, fold, folds: folds.count, weights: *weights }
+/// A normal matrix, its right-hand side, and the squares to be explained.
+#[derive(Clone)]
+struct Normal {
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    squares: f64,
+}
+
+impl Normal {
+    fn zeros(k: usize) -> Self {
+        Self { matrix: DMatrix::zeros(k, k), right: DVector::zeros(k), squares: 0.0 }
     }
 
-    /// Gap of each row, m and rad, with the effects of `groups` fitted to the other folds.
-    pub(crate) fn held_out(&self, groups: &[&Group]) -> Vec<Vector6<f64>> {
+    /// Adds the products of some rows, the parameters' `values` given back to what is left.
+    fn add(&mut self, products: &Products, values: &DVector<f64>) {
+        let model = &products.zz * values;
+        self.squares += products.rr + values.dot(&model) + 2.0 * values.dot(&products.zr);
+        self.matrix += &products.zz;
+        self.right += &products.zr + model;
+    }
+}
+
+impl<'h> Held<'h> {
+    pub(crate) fn new(search: &Search<'h, 'h>, now: &'h Explained) -> Self {
+        let (problem, folds, fit) = (search.problem, search.folds, &now.fit);
+        let mut owner = vec![None; Model::nuisances(problem)];
+        for (index, found) in fit.model.found.iter().enumerate() {
+            owner.extend(std::iter::repeat_n(Some(index), found.values.len()));
+        }
+        let values = DVector::from_vec(fit.model.values(problem));
+        let mut of_fold = vec![Normal::zeros(owner.len()); folds.count];
+        let mut total = Normal::zeros(owner.len());
+        for (block, products) in search.gathered(now).blocks.iter().enumerate() {
+            of_fold[folds.of_block[block]].add(products, &values);
+            total.add(products, &values);
+        }
+        Self { problem, folds, fit, of_fold, total, owner }
+    }
+
+    /// The values of all parameters with the effects of `groups` fitted to the other folds, a
+    /// column for each fold; those of other effects are 0.
+    fn values(&self, groups: &[&Group]) -> DMatrix<f64> {
         let kept: Vec<usize> = (0..self.owner.len())
             .filter(|&c| self.owner[c].is_none_or(|o| groups.iter().any(|g| g.contains(&o))))
             .collect();
-        let k = kept.len();
-        let parts: Vec<Matrix6xX<f64>> =
-            self.blocks.iter().map(|b| Matrix6xX::from_fn(k, |r, c| b[(r, kept[c])])).collect();
-        let mut normal = vec![DMatrix::<f64>::zeros(k, k); self.folds];
-        let mut right = vec![DVector::<f64>::zeros(k); self.folds];
-        for ((part, gap), &fold) in parts.iter().zip(&self.gaps).zip(&self.fold) {
-            normal[fold].gemm_tr(1.0, part, part, 1.0);
-            right[fold].gemv_tr(1.0, part, gap, 1.0);
+        let mut values = DMatrix::zeros(self.owner.len(), self.of_fold.len());
+        for (fold, own) in self.of_fold.iter().enumerate() {
+            let others = (&self.total.matrix - &own.matrix).select_rows(&kept);
+            let right = (&self.total.right - &own.right).select_rows(&kept);
+            let found = Basis::new(&others.select_columns(&kept)).solve(&right);
+            for (at, value) in kept.iter().zip(found.iter()) {
+                values[(*at, fold)] = *value;
+            }
         }
-        let (all, target): (DMatrix<f64>, DVector<f64>) = (
-            normal.iter().fold(DMatrix::zeros(k, k), |sum, n| sum + n),
-            right.iter().fold(DVector::zeros(k), |sum, r| sum + r),
-        );
-        let values: Vec<DVector<f64>> = normal
-            .iter()
-            .zip(&right)
-            .map(|(n, r)| Basis::new(&(&all - n)).solve(&(&target - r)))
+        values
+    }
+
+    /// Weighted squares of the held-out rows with such values.
+    fn squares(&self, values: &DMatrix<f64>) -> f64 {
+        let each = self.of_fold.iter().zip(values.column_iter()).map(|(own, values)| {
+            own.squares + values.dot(&(&own.matrix * values)) - 2.0 * values.dot(&own.right)
+        });
+        each.sum()
+    }
+
+    /// Gap of each row, m and rad, with each of the given values.
+    fn gaps(&self, values: &[DMatrix<f64>]) -> Vec<Vec<Vector6<f64>>> {
+        let own = DVector::from_vec(self.fit.model.values(self.problem));
+        let unit = Vector6::repeat(1.0).component_mul(&self.problem.mask);
+        let rows = &self.problem.data.rows;
+        let each: Vec<Vec<Vector6<f64>>> = (0..rows.len())
+            .into_par_iter()
+            .map(|row| {
+                let block = block(self.problem, self.fit, row, &unit);
+                let gap = self.fit.predicted.gaps[row] + &block * &own;
+                let fold = self.folds.of_pose(rows[row].group);
+                values.iter().map(|values| gap - &block * values.column(fold)).collect()
+            })
             .collect();
-        let rows = parts.iter().zip(&self.gaps).zip(&self.fold);
-        let plain = self.weights.map(|w| if w > 0.0 { 1.0 / w } else { 0.0 });
-        rows.map(|((part, gap), &fold)| (gap - part * &values[fold]).component_mul(&plain))
-            .collect()
+        (0..values.len()).map(|k| each.iter().map(|gaps| gaps[k]).collect()).collect()
     }
 
     /// The groups in the order in which they shrink the held-out gap most, and the held-out gaps
@@ -82,24 +114,24 @@ impl Rows {
     pub(crate) fn ordered(&self, groups: Vec<Group>) -> (Vec<Group>, Vec<Vec<Vector6<f64>>>) {
         let mut rest = groups;
         let mut done: Vec<Group> = Vec::new();
-        let mut gaps = vec![self.held_out(&[])];
+        let mut values = vec![self.values(&[])];
         while !rest.is_empty() {
-            let tried = rest.iter().map(|next| {
-                let with: Vec<&Group> = done.iter().chain([next]).collect();
-                self.held_out(&with)
-            });
-            let tried: Vec<_> = tried.collect();
-            let size = |k: &usize| squares(&tried[*k], &self.weights);
-            let best = (0..rest.len()).min_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
+            let tried: Vec<DMatrix<f64>> = rest
+                .par_iter()
+                .map(|next| self.values(&done.iter().chain([next]).collect::<Vec<_>>()))
+                .collect();
+            let sizes: Vec<f64> = tried.iter().map(|values| self.squares(values)).collect();
+            let best = (0..rest.len()).min_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).unwrap_or(0);
             done.push(rest.remove(best));
-            gaps.push(tried.into_iter().nth(best).unwrap_or_default());
+            values.extend(tried.into_iter().nth(best));
         }
+        let gaps = self.gaps(&values);
         (done, gaps)
     }
 }
 
 impl Search<'_, '_> {
-    /// The findings in order, as [`Rows::ordered`]; those that do not shrink the held-out gap beside
+    /// The findings in order, as [`Held::ordered`]; those that do not shrink the held-out gap beside
     /// all the others are taken out of the model.
     #[allow(clippy::type_complexity, reason = "three parts of one answer")]
     pub(crate) fn shrinking(
@@ -107,8 +139,7 @@ impl Search<'_, '_> {
         mut now: Explained,
     ) -> Result<(Explained, Vec<Group>, Vec<Vec<Vector6<f64>>>), DiagnoseError> {
         loop {
-            let rows = Rows::new(self.problem, self.folds, &now.fit, &now.weights);
-            let (done, gaps) = rows.ordered(groups(&now.fit.model));
+            let (done, gaps) = Held::new(self, &now).ordered(groups(&now.fit.model));
             let size = |k: usize| squares(&gaps[k], &now.weights);
             let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
             let Some(idle) = idle else { return Ok((now, done, gaps)) };

@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::report::{Part, Slice};
-use super::screen::{Kept, Screen};
+use super::screen::Kept;
 use super::search::{Explained, Search};
 use crate::gap::rms;
 use nalgebra::Vector6;
@@ -32,24 +32,31 @@ impl Search<'_, '_> {
     /// Shares of the gap's mean square, held out, each beside those before it. Empty where the
     /// data are too few for all their columns.
     pub(crate) fn parts(&self, now: &Explained) -> Vec<Part> {
-        let screen = |along: &[Candidate]| {
-            let kept = Kept { along, ..Kept::all(&now.fit) };
-            let screen = Screen::new(self.problem, self.folds, &kept, &[], &now.weights);
+        let of_part = |effects: &[&str]| -> Vec<Candidate> {
+            let is_it = |c: &&Candidate| {
+                c.effect().is_some_and(|(effect, _)| effects.contains(&effect.identifier()))
+            };
+            self.candidates.iter().filter(is_it).cloned().collect()
+        };
+        let each = PARTS.map(|(_, effects)| of_part(effects));
+        let sizes = each.each_ref().map(|part| part.iter().map(|c| c.size).sum::<usize>());
+        if self.problem.numbers() < NUMBERS_EACH * sizes.iter().sum::<usize>() {
+            return Vec::new();
+        }
+        let gathered = self.gather(now, &each.concat(), &[]);
+        let left = |along: usize| {
+            let kept = Kept { along, ..Kept::default() };
+            let screen = self.screen_of(now, &gathered, kept, &[]);
             screen.held_out(&screen.trained(), None).white
         };
-        let whole = screen(&[]);
-        let mut along: Vec<Candidate> = Vec::new();
-        let (mut parts, mut last) = (Vec::new(), whole);
-        for (name, effects) in PARTS {
-            let more = self.candidates.iter().filter(|c| {
-                c.effect().is_some_and(|(effect, _)| effects.contains(&effect.identifier()))
-            });
-            along.extend(more.cloned());
-            let columns: usize = along.iter().map(|c| c.size).sum();
-            if self.problem.numbers() < NUMBERS_EACH * columns || whole <= 0.0 {
-                return Vec::new();
-            }
-            let left = screen(&along).min(last);
+        let whole = left(0);
+        if whole <= 0.0 {
+            return Vec::new();
+        }
+        let (mut parts, mut last, mut along) = (Vec::new(), whole, 0);
+        for ((name, _), columns) in PARTS.iter().zip(sizes) {
+            along += columns;
+            let left = left(along).min(last);
             parts.push(Part { part: name, share: (last - left) / whole });
             last = left;
         }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix6xX, Vector6};
 
 use super::candidate::Candidate;
 use super::problem::Problem;
-use crate::effects::{Place, Scene};
+use crate::effects::{Carrier, Place, Scene};
 use crate::simulate::Site;
 
 /// On what a displacement depends.
@@ -71,6 +71,14 @@ impl Probe {
         probes
     }
 
+    /// What it moves, if that is a joint.
+    pub(crate) fn carrier(&self) -> Option<Carrier> {
+        match self.place {
+            Place::Joint(number) => Some(Carrier::Joint(number - 1)),
+            _ => None,
+        }
+    }
+
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {
         let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
         let site = match self.place {
@@ -80,9 +88,10 @@ impl Probe {
             Place::Base | Place::Arm | Place::Instrument => Site::Base,
         };
         let whole = |part: f64| scene.carried(site, &units) * part;
-        if let Place::Joint(number) = self.place {
-            let joint = number - 1;
-            return scene.along_joint(joint, &self.motions(scene, joint));
+        if let Some(carrier) = self.carrier() {
+            let mut motions = Vec::new();
+            self.motions(scene, &mut motions);
+            return scene.moved(Some(carrier), &motions);
         }
         match self.about {
             About::Load => {
@@ -96,24 +105,24 @@ impl Probe {
         }
     }
 
-    fn motions(&self, scene: &Scene<'_>, joint: usize) -> Vec<f64> {
+    /// How far it moves its joint, per unit of each of its numbers.
+    pub(crate) fn motions(&self, scene: &Scene<'_>, motions: &mut Vec<f64>) {
         let q = &scene.row.q;
-        let torque = scene.state.torque[joint];
+        let torque = scene.state.torque[self.place.row()];
         match self.about {
-            About::Reading(j) => {
-                (1..=3).flat_map(|k| <[f64; 2]>::from((f64::from(k) * q[j]).sin_cos())).collect()
-            }
-            About::Others(j) => (0..q.len()).filter(|k| *k != j).map(|k| q[k]).collect(),
+            About::Reading(j) => motions
+                .extend((1..=3).flat_map(|k| <[f64; 2]>::from((f64::from(k) * q[j]).sin_cos()))),
+            About::Others(j) => motions.extend((0..q.len()).filter(|k| *k != j).map(|k| q[k])),
             About::Direction(j) => {
                 let s = scene.direction(j);
-                vec![s, s * torque.abs(), s * torque]
+                motions.extend([s, s * torque.abs(), s * torque]);
             }
             About::Move(j) => {
                 let moved = scene.when.last_move[j];
                 let way = if moved == 0.0 { 0.0 } else { moved.signum() };
-                vec![moved, moved.abs(), way]
+                motions.extend([moved, moved.abs(), way]);
             }
-            _ => vec![torque, torque * torque.abs(), torque.powi(3)],
+            _ => motions.extend([torque, torque * torque.abs(), torque.powi(3)]),
         }
     }
 }

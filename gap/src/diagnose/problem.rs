@@ -1,10 +1,11 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::options::{DiagnoseError, Nuisance, Options};
-use crate::measurement::Measurements;
+use crate::measurement::{Measurements, Row};
 use crate::simulate::{Moment, Reading, moments, simulate};
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
@@ -43,22 +44,24 @@ impl<'a> Problem<'a> {
         if data.rows.is_empty() {
             return Err(DiagnoseError::NoRows { file: file() });
         }
+        let wrong = data.rows.iter().map(|r| r.q.len()).find(|found| *found != arm.dof());
+        if let Some(found) = wrong {
+            return Err(DiagnoseError::Joints { file: file(), found, expected: arm.dof() });
+        }
         let mut markers: Vec<String> = Vec::new();
-        let mut marker_of = Vec::with_capacity(data.rows.len());
-        let mut readings = Vec::with_capacity(data.rows.len());
-        let mut reach = 0.0_f64;
-        for row in &data.rows {
-            let (line, found) = (row.line, row.q.len());
-            if found != arm.dof() {
-                return Err(DiagnoseError::Joints { file: file(), found, expected: arm.dof() });
-            }
-            let unknown = row.marker.as_ref().filter(|_| row.offset.is_none());
-            marker_of.push(unknown.map(|name| {
-                markers.iter().position(|known| known == name).unwrap_or_else(|| {
-                    markers.push(name.clone());
-                    markers.len() - 1
+        let marker_of = (data.rows.iter())
+            .map(|row| {
+                let unknown = row.marker.as_ref().filter(|_| row.offset.is_none());
+                unknown.map(|name| {
+                    markers.iter().position(|known| known == name).unwrap_or_else(|| {
+                        markers.push(name.clone());
+                        markers.len() - 1
+                    })
                 })
-            }));
+            })
+            .collect();
+        let seen = |row: &Row| -> Result<(Reading, f64), DiagnoseError> {
+            let line = row.line;
             let sim = simulate(arm, row, data.kind)
                 .map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
             let tool = sim.loaded.tool.translation.vector;
@@ -66,9 +69,14 @@ impl<'a> Problem<'a> {
             if !numbers.chain(row.measured.iter()).all(|x| x.abs() < LARGEST) {
                 return Err(DiagnoseError::TooLarge { file: file(), line });
             }
-            reach = reach.max(tool.norm());
-            readings.push(sim.reading());
-        }
+            Ok((sim.reading(), tool.norm()))
+        };
+        // The first row's error is told, however many rows are worked on at once.
+        let all: Vec<Result<(Reading, f64), DiagnoseError>> =
+            data.rows.par_iter().map(seen).collect();
+        let (readings, reaches): (Vec<Reading>, Vec<f64>) =
+            all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let reach = reaches.into_iter().fold(0.0, f64::max);
         let own = data.sim_given.contains(&true);
         Ok(Problem {
             arm,

@@ -3,7 +3,10 @@
 //! Gauss-Newton; a direction that the data do not decide stays where it is, and a value that wants
 //! to leave what is physical is held at its bound.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector, Vector6};
+use rayon::prelude::*;
 
 use super::basis::Basis;
 use super::model::{Model, Predicted};
@@ -22,11 +25,14 @@ const MOST_HALVINGS: usize = 8;
 /// noise, is the last.
 const LAST: f64 = 1e-9;
 
+/// Rows whose products are taken together.
+const CHUNK: usize = 64;
+
 /// A model and what it predicts.
 #[derive(Clone)]
 pub(crate) struct Fit {
     pub(crate) model: Model,
-    pub(crate) predicted: Predicted,
+    pub(crate) predicted: Arc<Predicted>,
 }
 
 /// Weighted sum of squares of gaps.
@@ -42,7 +48,7 @@ pub(crate) fn refit(
     weights: &Vector6<f64>,
 ) -> Result<Fit, DiagnoseError> {
     let predicted = model.predict(problem, near)?;
-    let mut fit = Fit { model, predicted };
+    let mut fit = Fit { model, predicted: Arc::new(predicted) };
     if fit.model.parameters(problem) == 0 {
         return Ok(fit);
     }
@@ -65,7 +71,7 @@ pub(crate) fn refit(
             if let Ok(predicted) = model.predict(problem, Some(&fit.predicted.sims)) {
                 let then = cost(&model, &predicted);
                 if then < now {
-                    better = Some((Fit { model, predicted }, then));
+                    better = Some((Fit { model, predicted: Arc::new(predicted) }, then));
                     break;
                 }
             }
@@ -88,12 +94,27 @@ pub(crate) fn normal_equations(
     weights: &Vector6<f64>,
 ) -> (DMatrix<f64>, DVector<f64>) {
     let k = fit.model.parameters(problem);
+    // Chunks of rows are worked on at once and added up in their order.
+    let rows: Vec<usize> = (0..fit.predicted.gaps.len()).collect();
+    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = rows
+        .par_chunks(CHUNK)
+        .map(|rows| {
+            let mut columns = DMatrix::zeros(6 * rows.len(), k);
+            let mut gaps = DVector::zeros(6 * rows.len());
+            for (index, &row) in rows.iter().enumerate() {
+                let block = block(problem, fit, row, weights);
+                columns.rows_mut(6 * index, 6).copy_from(&block);
+                let gap = fit.predicted.gaps[row].component_mul(weights);
+                gaps.rows_mut(6 * index, 6).copy_from(&gap);
+            }
+            let across = columns.transpose();
+            (&across * &columns, across * gaps)
+        })
+        .collect();
     let (mut normal, mut right) = (DMatrix::zeros(k, k), DVector::zeros(k));
-    for (row, gap) in fit.predicted.gaps.iter().enumerate() {
-        let block = block(problem, fit, row, weights);
-        let gap = gap.component_mul(weights);
-        normal.gemm_tr(1.0, &block, &block, 1.0);
-        right.gemv_tr(1.0, &block, &gap, 1.0);
+    for (products, with_gap) in &parts {
+        normal += products;
+        right += with_gap;
     }
     let held = fit.model.held(problem);
     for (at, (held, value)) in held.iter().zip(fit.model.values(problem)).enumerate() {

@@ -8,8 +8,9 @@ use super::evidence::Flips;
 use super::options::DiagnoseError;
 use super::probe::{About, Probe};
 use super::report::{Share, Unexplained};
-use super::screen::{Kept, Screen};
+use super::screen::Kept;
 use super::search::{Explained, Search};
+use super::visible::First;
 use crate::effects::Place;
 
 /// A dependence that noise alone shows this often, over all that was tried, is none.
@@ -31,8 +32,8 @@ impl Search<'_, '_> {
         held_out_rms: f64,
     ) -> Result<Unexplained, DiagnoseError> {
         let probes = Probe::all(self.problem);
-        let kept = Kept::all(&now.fit);
-        let screen = Screen::new(self.problem, self.folds, &kept, &probes, &now.weights);
+        let gathered = self.gather(now, &[], &probes);
+        let screen = self.screen_of(now, &gathered, Kept::default(), &probes);
         let scale = self.scale(now);
         let fitted = screen.basis.rank();
         let ranked = self.ranked(&screen, now);
@@ -74,7 +75,7 @@ impl Search<'_, '_> {
         // best when displacements of any form may stand in for it from the start.
         let mut lies: Vec<(Place, f64)> = Vec::new();
         let mut on: Vec<(About, f64)> = Vec::new();
-        for (probe, share) in self.free_forms(start) {
+        for (probe, share) in self.free_forms(start)? {
             add(&mut lies, probe.place, share);
             add(&mut on, probe.about, share);
         }
@@ -96,7 +97,8 @@ impl Search<'_, '_> {
 
     /// The probes that explain the whole gap best beside the effects of the catalogue, and their
     /// shares of it: added one by one, to first order, from the robot file on.
-    fn free_forms(&self, start: &Explained) -> Vec<(Probe, f64)> {
+    fn free_forms(&self, start: &Explained) -> Result<Vec<(Probe, f64)>, DiagnoseError> {
+        let start = &start.with_states(self.problem)?;
         let mut all = self.candidates.to_vec();
         all.extend(Probe::all(self.problem));
         let scale = self.scale(start);
@@ -104,8 +106,9 @@ impl Search<'_, '_> {
         let mut probes = Vec::new();
         let mut whole = None;
         for _ in 0..MOST_FORMS {
-            let kept = Kept { along: &along, coarse: true, ..Kept::all(&start.fit) };
-            let screen = Screen::new(self.problem, self.folds, &kept, &all, &start.weights);
+            let columns = along.iter().map(|c| c.size).sum();
+            let kept = Kept { along: columns, whole: true, ..Kept::default() };
+            let screen = self.screen_of(start, &self.gather(start, &along, &all), kept, &all);
             let left = screen.left();
             let whole = *whole.get_or_insert(left);
             let ranked = self.ranked(&screen, start);
@@ -118,16 +121,13 @@ impl Search<'_, '_> {
             }
             along.push(all[best.candidate].clone());
         }
-        probes
+        Ok(probes)
     }
 
     /// The held-out part of the gap that a displacement at each place alone explains: free-form, or
     /// by the best effect there.
-    pub(crate) fn shares(&self, now: &Explained) -> Vec<Share> {
-        let mut all = Probe::all(self.problem);
-        all.extend(self.candidates.iter().cloned());
-        let kept = Kept::all(&now.fit);
-        let screen = Screen::new(self.problem, self.folds, &kept, &all, &now.weights);
+    pub(crate) fn shares(&self, now: &Explained, first: &First) -> Vec<Share> {
+        let screen = self.screen_of(now, &first.gathered, Kept::default(), &first.candidates);
         let trained = screen.trained();
         let before = screen.held_out(&trained, None).white;
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();

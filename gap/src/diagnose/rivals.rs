@@ -37,8 +37,7 @@ impl Search<'_, '_> {
         group: &Group,
         at_noise: bool,
     ) -> Result<Rivals, DiagnoseError> {
-        let kept = Kept { without: group, plain: true, ..Kept::all(&now.fit) };
-        let screen = Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
+        let screen = self.screen(now, Kept { without: group, ..Kept::default() });
         let scale = self.scale(now);
         let left = squares(&now.fit.predicted.gaps, &now.weights);
         let variance = scale.variance(left, now.fit.model.parameters(self.problem));

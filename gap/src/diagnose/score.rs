@@ -2,7 +2,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::screen::{Products, Screen};
+use super::products::Products;
+use super::screen::Screen;
 
 /// A direction of a candidate whose part left beside the model is smaller than this is not its own:
 /// the square of a ratio of sizes of 1e-4.
@@ -29,7 +30,7 @@ pub(crate) struct Score {
 pub(crate) struct HeldOut {
     /// Weighted.
     pub(crate) white: f64,
-    /// Of what is measured first, m² (rad²); 0 where it was not wanted.
+    /// Of what is measured first, m² (rad²).
     pub(crate) plain: f64,
 }
 
@@ -175,9 +176,7 @@ impl Screen<'_> {
                 p.rr + model + own
             };
             sum.white += left(&self.folds[fold.fold]);
-            if self.has_plain {
-                sum.plain += left(&self.plain[fold.fold]);
-            }
+            sum.plain += left(&self.plain[fold.fold]);
         }
         HeldOut { white: sum.white.max(0.0), plain: sum.plain.max(0.0) }
     }

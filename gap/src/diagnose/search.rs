@@ -4,15 +4,16 @@
 use super::candidate::Candidate;
 use super::evidence::{Flips, Scale};
 use super::folds::Folds;
-use super::model::{Fitted, Model};
+use super::gather::Gathered;
+use super::model::{Fitted, Model, Predicted};
 use super::noise::Noise;
 use super::options::{DiagnoseError, Options};
 use super::problem::Problem;
 use super::refit::{Fit, refit, squares};
 use super::score::Score;
 use super::screen::{Kept, Screen};
-use crate::effects::Spot;
 use nalgebra::Vector6;
+use std::sync::{Arc, OnceLock};
 
 /// A finding's largest p value.
 pub(crate) const SIGNIFICANT: f64 = 0.05;
@@ -53,6 +54,25 @@ pub(crate) struct Explained {
     pub(crate) fit: Fit,
     pub(crate) noise: Noise,
     pub(crate) weights: Vector6<f64>,
+    /// Its parameters with all candidates, once they were asked for.
+    pub(super) gathered: OnceLock<Arc<Gathered>>,
+}
+
+impl Explained {
+    /// The same without the states of the rows, which are most of its memory.
+    pub(crate) fn without_states(&self) -> Explained {
+        let gaps = self.fit.predicted.gaps.clone();
+        let predicted = Arc::new(Predicted { sims: Vec::new(), gaps });
+        let fit = Fit { model: self.fit.model.clone(), predicted };
+        Explained { fit, gathered: OnceLock::new(), ..*self }
+    }
+
+    /// The same with the states of the rows again.
+    pub(crate) fn with_states(&self, problem: &Problem<'_>) -> Result<Explained, DiagnoseError> {
+        let model = self.fit.model.clone();
+        let fit = Fit { predicted: Arc::new(model.predict(problem, None)?), model };
+        Ok(Explained { fit, gathered: OnceLock::new(), ..*self })
+    }
 }
 
 /// A candidate beside a model; less `cost` is better.
@@ -65,23 +85,22 @@ pub(crate) struct Ranked {
     pub(crate) gain: f64,
 }
 
-impl<'s> Search<'s, '_> {
+impl Search<'_, '_> {
     pub(super) fn weigh(&self, fit: Fit) -> Explained {
         let parameters = fit.model.parameters(self.problem);
         let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
         let weights = noise.weights(&self.problem.mask);
-        Explained { fit, noise, weights }
+        Explained { fit, noise, weights, gathered: OnceLock::new() }
     }
 
     /// Fits the frames alone.
     pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
-        let first = Fit { predicted: model.predict(self.problem, None)?, model };
+        let first = Fit { predicted: Arc::new(model.predict(self.problem, None)?), model };
         let mut now = self.weigh(first);
         // Weights that come from the remainder are those of the fit after two rounds.
         for _ in 0..3 {
             let Explained { fit, weights, .. } = now;
-            let near = fit.predicted.sims;
-            let fit = refit(self.problem, fit.model, Some(&near), &weights)?;
+            let fit = refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?;
             now = self.weigh(fit);
             if self.problem.nuisances.is_empty() && self.problem.markers.is_empty() {
                 break;
@@ -116,11 +135,7 @@ impl<'s> Search<'s, '_> {
 
     /// Cost of the parameters of an effect that was found.
     pub(crate) fn cost_of(&self, scale: &Scale, found: &Fitted) -> f64 {
-        let (arm, data) = (self.problem.arm, self.problem.data);
-        let forms = found.effect.forms(arm, found.spot.place, data).len();
-        let parameters = found.effect.parameters(arm, found.spot, data);
-        let usual: Vec<f64> = parameters.iter().map(|p| p.usual).collect();
-        scale.cost(found.values.len(), forms, found.values.iter().zip(&usual))
+        scale.cost(found.values.len(), found.forms, found.values.iter().zip(&found.usual))
     }
 
     /// The candidates beside the model, best first.
@@ -154,8 +169,7 @@ impl<'s> Search<'s, '_> {
 
     /// The model with the best candidate added, if it is significant.
     fn added(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
-        let kept = Kept::all(&now.fit);
-        let screen = Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights);
+        let screen = self.screen(now, Kept::default());
         let scale = self.scale(now);
         let ranked = self.ranked(&screen, now);
         let trained = screen.trained();
@@ -173,7 +187,7 @@ impl<'s> Search<'s, '_> {
             if flips.chance(&one.score) > SIGNIFICANT {
                 continue;
             }
-            let refined = self.refined(now, &[], one, &screen)?;
+            let refined = self.refined(now, &[], one, &screen);
             let mut added: Vec<Fitted> = refined.into_iter().collect();
             let significant = |r: &&Ranked| {
                 let chance =
@@ -183,7 +197,7 @@ impl<'s> Search<'s, '_> {
             let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
             if periodic(&one) {
                 for other in ranked.iter().filter(periodic).filter(significant) {
-                    let next = self.refined(now, &[], other, &screen)?;
+                    let next = self.refined(now, &[], other, &screen);
                     added.extend(next.filter(|next| self.is_apart(next, &added)));
                     if added.len() > MOST_ORDERS {
                         break;
@@ -251,40 +265,5 @@ impl<'s> Search<'s, '_> {
         }
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
         Ok(self.weigh(fit))
-    }
-
-    /// The candidate as a part of the model; a jump at the best of all rows near its own.
-    pub(crate) fn refined(
-        &self,
-        now: &Explained,
-        without: &[usize],
-        one: &Ranked,
-        screen: &Screen<'_>,
-    ) -> Result<Option<Fitted>, DiagnoseError> {
-        let candidate = &screen.candidates[one.candidate];
-        let Some((effect, spot)) = candidate.effect() else { return Ok(None) };
-        let fitted = |spot: Spot, score: &Score| Fitted {
-            effect,
-            spot,
-            least: candidate.least.clone(),
-            values: score.values.iter().copied().collect(),
-            usual: candidate.usual.clone(),
-            lead: 0.0,
-        };
-        if effect.form_is().is_none() {
-            return Ok(Some(fitted(spot, &one.score)));
-        }
-        let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);
-        let at = forms.iter().position(|f| *f == spot.form).unwrap_or(0);
-        let from = at.checked_sub(1).map_or(1, |k| forms[k] + 1);
-        let to = forms.get(at + 1).copied().unwrap_or(self.problem.data.rows.len());
-        let near: Vec<Candidate> = (from..to)
-            .map(|form| Candidate::of(self.problem, effect, Spot { form, ..spot }, forms.len()))
-            .collect();
-        let kept = Kept { without, coarse: true, ..Kept::all(&now.fit) };
-        let finer = Screen::new(self.problem, self.folds, &kept, &near, &now.weights);
-        let scores = (0..near.len()).map(|c| (c, finer.score(c)));
-        let best = scores.max_by(|a, b| a.1.drop.total_cmp(&b.1.drop));
-        Ok(best.and_then(|(c, score)| near[c].effect().map(|(_, spot)| fitted(spot, &score))))
     }
 }

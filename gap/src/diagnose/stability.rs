@@ -4,9 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::basis::Basis;
+use super::products::Products;
 use super::rng::{Stream, generator, shuffled};
 use super::score::Own;
-use super::screen::{Products, Screen};
+use super::screen::Screen;
 use super::search::{Explained, OWN, Search};
 
 /// Random halves.

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::options::{DiagnoseError, Nuisance};
 use super::outcome::Group;
 use super::problem::Problem;
-use super::refit::{normal_equations, squares};
+use super::refit::squares;
 use super::report::{Cover, Finding, NuisanceReport, ParameterReport, Shrink};
 use super::search::{Explained, Search};
 use crate::gap::rms;
@@ -65,7 +65,7 @@ impl Search<'_, '_> {
     /// The values of each effect found, with 95 % intervals: least squares, the remainder's
     /// variance, Student's t.
     fn intervals(&self, now: &Explained) -> Vec<Vec<ParameterReport>> {
-        let (normal, _) = normal_equations(self.problem, &now.fit, &now.weights);
+        let normal = self.normal(now);
         let basis = Basis::new(&normal);
         let scale = self.scale(now);
         let parameters = normal.nrows();

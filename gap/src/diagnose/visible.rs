@@ -2,6 +2,8 @@
 //! nuisances, and all of the arm's geometry, have taken up what they can.
 
 use super::candidate::Candidate;
+use super::gather::Gathered;
+use super::probe::Probe;
 use super::report::CannotSee;
 use super::screen::{Kept, Screen};
 use super::search::{Explained, OWN, Search};
@@ -16,21 +18,41 @@ const IDLE: f64 = 1e-3;
 /// the noise to be told from it.
 const SEEN: f64 = 0.05;
 
+/// What the data show before anything is found: all of the catalogue, and displacements of free form,
+/// beside the frames and the geometry.
+pub(crate) struct First {
+    /// The catalogue's effects, then the free forms.
+    pub(crate) candidates: Vec<Candidate>,
+    /// Lengths, twists and zeros of the arm.
+    pub(crate) geometry: Vec<Candidate>,
+    /// The former with the latter along.
+    pub(crate) gathered: Gathered,
+}
+
 impl Search<'_, '_> {
+    /// Gathers what the data show before anything is found.
+    pub(crate) fn first(&self, now: &Explained) -> First {
+        let geometry: Vec<Candidate> =
+            self.candidates.iter().filter(|c| is_geometry(c)).cloned().collect();
+        let mut candidates = self.candidates.to_vec();
+        candidates.extend(Probe::all(self.problem));
+        let gathered = self.gather(now, &geometry, &candidates);
+        First { candidates, geometry, gathered }
+    }
+
     /// The effects, at their places, that this data could not have shown.
     pub(crate) fn cannot_see(
         &self,
         effects: &[&'static dyn Effect],
         now: &Explained,
+        first: &First,
     ) -> Vec<CannotSee> {
-        let screen = |along: &[Candidate]| {
-            let kept = Kept { along, ..Kept::all(&now.fit) };
-            Screen::new(self.problem, self.folds, &kept, self.candidates, &now.weights)
+        let screen = |along: usize| {
+            let kept = Kept { along, whole: true, ..Kept::default() };
+            self.screen_of(now, &first.gathered, kept, self.candidates)
         };
-        let alone = screen(&[]);
-        let geometry: Vec<Candidate> =
-            self.candidates.iter().filter(|c| is_geometry(c)).cloned().collect();
-        let beside = screen(&geometry);
+        let alone = screen(0);
+        let beside = screen(first.geometry.iter().map(|c| c.size).sum());
         // Between two readings of one pose lengths and angles cancel, but for what a mistake of
         // many times the usual size would do.
         let geometry_shows = matches!(self.problem.data.kind, Kind::Pose { .. });

@@ -4,12 +4,11 @@
 //! one side, and with friction if the joint's torque hardly changes: approach each pose from both
 //! sides, under more than one load.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::scene::direction;
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -38,8 +37,12 @@ impl Effect for Backlash {
         actual.turn(spot.row(), -0.5 * v[0] * direction(row, spot.row()));
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[-0.5 * scene.direction(spot.row())])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(-0.5 * scene.direction(spot.row()));
     }
 
     fn idle(&self) -> &'static str {

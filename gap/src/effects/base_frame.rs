@@ -3,10 +3,10 @@
 //! The same rigid motion at every pose. Its turn about the first axis is joint 1's offset. Where the
 //! frame is unknown from the start, name it a nuisance: it is then fitted and never a finding.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, displacement};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::chain::Displacement;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
@@ -32,8 +32,12 @@ impl Effect for BaseFrame {
         actual.base *= Displacement::new(&Vector6::from_column_slice(v)).transform();
     }
 
-    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
-        scene.state.base_moved()
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        Some(Carrier::Base)
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
     }
 
     fn idle(&self) -> &'static str {

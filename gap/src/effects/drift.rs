@@ -4,10 +4,10 @@
 //! growth where temperature rises evenly, and with whatever else the order of the poses follows:
 //! measure the first poses once more at the end.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, displacement};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::chain::Displacement;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
@@ -35,8 +35,12 @@ impl Effect for Drift {
         actual.base *= Displacement::new(&now).transform();
     }
 
-    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
-        scene.state.base_moved() * scene.when.clock
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        Some(Carrier::Base)
+    }
+
+    fn motions(&self, scene: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.when.clock);
     }
 
     fn idle(&self) -> &'static str {

@@ -4,12 +4,12 @@
 //! backlash, whose size does not depend on the torque, and with the joint's compliance if every
 //! pose is approached from one side: approach from both sides under small and large loads.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::scene::direction;
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site, axis};
 
@@ -41,9 +41,13 @@ impl Effect for FrictionHysteresis {
         actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
         let torque = scene.state.torque[spot.row()].abs();
-        scene.along_joint(spot.row(), &[-scene.direction(spot.row()) * torque])
+        motions.push(-scene.direction(spot.row()) * torque);
     }
 
     fn idle(&self) -> &'static str {

@@ -4,11 +4,10 @@
 //! comes from beyond the link's end, with the foundation (joint 1), and with a wrong weight: loads
 //! in several directions at folded and at stretched poses tell them apart.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -42,8 +41,12 @@ impl Effect for JointCompliance {
         joint.compliance = (joint.compliance + v[0]).max(0.0);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[scene.state.torque[spot.row()]])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.state.torque[spot.row()]);
     }
 
     fn idle(&self) -> &'static str {

@@ -4,11 +4,10 @@
 //! together, and with periodic errors of the other joint where axes are parallel: move the two
 //! independently.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -44,8 +43,12 @@ impl Effect for JointCoupling {
         actual.turn(spot.row(), v[0] * row.q[spot.form]);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[scene.row.q[spot.form]])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.row.q[spot.form]);
     }
 
     fn idle(&self) -> &'static str {

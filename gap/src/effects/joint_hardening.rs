@@ -3,11 +3,11 @@
 //! Strain-wave gears stiffen with load. Confused with the joint's compliance unless the torque
 //! takes several sizes: at least three levels of load at one pose, both signs if it can be.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site, axis};
 
@@ -39,8 +39,12 @@ impl Effect for JointHardening {
         actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[scene.state.torque[spot.row()].powi(3)])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.state.torque[spot.row()].powi(3));
     }
 
     fn idle(&self) -> &'static str {

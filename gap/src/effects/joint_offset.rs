@@ -4,11 +4,10 @@
 //! frame (the last joint), and with neighbours whose axes are parallel as long as these move
 //! little: poses in which the joint itself and the next one cover their ranges tell them apart.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -37,8 +36,12 @@ impl Effect for JointOffset {
         actual.turn(spot.row(), v[0]);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[1.0])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
     }
 
     fn idle(&self) -> &'static str {

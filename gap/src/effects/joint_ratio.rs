@@ -4,10 +4,9 @@
 //! little, and with a periodic error of low order over less than a turn: the whole range of the
 //! joint tells them apart.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -32,8 +31,12 @@ impl Effect for JointRatio {
         actual.turn(spot.row(), v[0] * row.q[spot.row()]);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[scene.row.q[spot.row()]])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.row.q[spot.row()]);
     }
 
     fn idle(&self) -> &'static str {

@@ -8,6 +8,7 @@ mod backlash;
 mod base_compliance;
 mod base_frame;
 mod bearing_compliance;
+mod carrier;
 mod drift;
 mod friction_hysteresis;
 mod geometric_stiffness;
@@ -44,6 +45,7 @@ pub use backlash::Backlash;
 pub use base_compliance::BaseCompliance;
 pub use base_frame::BaseFrame;
 pub use bearing_compliance::BearingCompliance;
+pub use carrier::Carrier;
 pub use drift::Drift;
 pub use friction_hysteresis::FrictionHysteresis;
 pub use geometric_stiffness::GeometricStiffness;
@@ -120,9 +122,28 @@ pub trait Effect: Sync {
     /// Puts the effect with these values into the arm of a row.
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment, spot: Spot, values: &[f64]);
 
+    /// What the effect moves, if that is one thing and all that it does is to move it: most effects
+    /// turn a joint or shift a frame, each by another law. Such an effect tells its [`Effect::motions`],
+    /// any other its [`Effect::block`].
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        None
+    }
+
+    /// Adds how far the carrier moves per unit of each parameter; of a frame, of each six.
+    fn motions(&self, _: &Scene<'_>, _: Spot, _: &mut Vec<f64>) {}
+
+    /// Adds the motions of several spots of one place.
+    fn motions_of(&self, scene: &Scene<'_>, spots: &[Spot], motions: &mut Vec<f64>) {
+        spots.iter().for_each(|spot| self.motions(scene, *spot, motions));
+    }
+
     /// Twist of the tool, base axes, at the tool origin, per unit of each parameter, 6×p, to first
     /// order at a state of the arm.
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64>;
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+        let mut motions = Vec::new();
+        self.motions(scene, spot, &mut motions);
+        scene.moved(self.carrier(spot), &motions)
+    }
 
     /// Why data shows nothing of it where its block is zero everywhere.
     fn idle(&self) -> &'static str;

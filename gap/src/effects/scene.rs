@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 
 use stiffarm_kernels::generic::Arm;
 
+use super::Carrier;
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, State};
 
@@ -33,10 +34,15 @@ impl Scene<'_> {
         Matrix6xX::from_columns(&columns)
     }
 
-    /// The twists that motions of one joint cause.
-    pub fn along_joint(&self, joint: usize, motions: &[f64]) -> Matrix6xX<f64> {
-        let twist = self.state.twist_of_joint(joint);
-        Matrix6xX::from_fn(motions.len(), |row, column| twist[row] * motions[column])
+    /// The twists that motions of a carrier cause, all its columns for each motion; none without
+    /// one.
+    pub fn moved(&self, carrier: Option<Carrier>, motions: &[f64]) -> Matrix6xX<f64> {
+        let Some(carrier) = carrier else { return Matrix6xX::zeros(0) };
+        let size = carrier.size();
+        let twists = carrier.twists(self.state);
+        Matrix6xX::from_fn(size * motions.len(), |row, column| {
+            twists[(row, column % size)] * motions[column / size]
+        })
     }
 
     /// Force on the tool, base axes, N.
@@ -58,9 +64,4 @@ impl Scene<'_> {
 /// Direction from which a joint came to rest; 0 where it is not known.
 pub(super) fn direction(row: &Row, joint: usize) -> f64 {
     row.direction.as_ref().map_or(0.0, |all| f64::from(all[joint]))
-}
-
-/// The six unit displacements.
-pub(super) fn units() -> [Vector6<f64>; 6] {
-    std::array::from_fn(|k| Vector6::ith(k, 1.0))
 }

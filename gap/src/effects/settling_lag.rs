@@ -4,10 +4,9 @@
 //! size, and with the joint's ratio where every move starts from one pose: moves of many sizes from
 //! many poses tell them apart; a longer wait makes it vanish.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -32,8 +31,12 @@ impl Effect for SettlingLag {
         actual.turn(spot.row(), -v[0] * when.last_move[spot.row()]);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        scene.along_joint(spot.row(), &[-scene.when.last_move[spot.row()]])
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(-scene.when.last_move[spot.row()]);
     }
 
     fn idle(&self) -> &'static str {

@@ -4,11 +4,10 @@
 //! whatever differs between the poses before and after it. Confused with drift where the jump is
 //! small: repeat an early pose now and then.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::scene::units;
-use super::{Effect, Parameter, Place, Scene, Spot, displacement};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::chain::Displacement;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
@@ -63,15 +62,12 @@ impl Effect for Slip {
         }
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        if scene.when.index < spot.form {
-            return Matrix6xX::zeros(6);
-        }
-        if spot.place == Place::Tool {
-            scene.carried(Site::Tool, &units())
-        } else {
-            scene.state.base_moved()
-        }
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(if spot.place == Place::Tool { Carrier::Tool } else { Carrier::Base })
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(if scene.when.index < spot.form { 0.0 } else { 1.0 });
     }
 
     fn idle(&self) -> &'static str {

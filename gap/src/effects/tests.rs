@@ -142,3 +142,22 @@ fn a_joint_is_at_most_rigid() {
     JointCompliance.alter(&mut actual, &data.rows[0], &moments(&data)[0], spot, &[-1.0]);
     assert_eq!(actual.arm.joints[1].compliance, 0.0);
 }
+
+#[test]
+fn orders_from_one_another_are_those_by_themselves() {
+    let (arm, data) = (bent(), data(Kind::Pose { orientation: true }));
+    let (row, when) = (&data.rows[6], &moments(&data)[6]);
+    let actual = Actual::new(&arm, &row.q, &row.wrench);
+    let state = crate::simulate::rest(&actual, None).unwrap();
+    let (point, base) = (state.tool.translation.vector, &actual.base);
+    let scene = Scene { nominal: &arm, row, when, actual: &actual, state: &state, point, base };
+    let place = Place::Joint(2);
+    let spots = [1, 2, 5, 40, 39, 3].map(|form| Spot { place, form });
+    let (mut together, mut each) = (Vec::new(), Vec::new());
+    TransmissionError.motions_of(&scene, &spots, &mut together);
+    spots.iter().for_each(|spot| TransmissionError.motions(&scene, *spot, &mut each));
+    assert_eq!(together.len(), 2 * spots.len());
+    // Forty steps of a few roundings each.
+    let apart = together.iter().zip(&each).map(|(a, b)| (a - b).abs());
+    assert!(apart.fold(0.0, f64::max) < 40.0 * 4.0 * f64::EPSILON);
+}

@@ -4,11 +4,10 @@
 //! offset, and its shift in that axis' plane the last link's lengths. Name it a nuisance where the
 //! reflector's place is unknown from the start.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::scene::units;
-use super::{Effect, Parameter, Place, Scene, Spot, displacement};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 
@@ -33,8 +32,12 @@ impl Effect for ToolFrame {
         *actual.fixed_at(Site::Tool) += Vector6::from_column_slice(v);
     }
 
-    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
-        scene.carried(Site::Tool, &units())
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        Some(Carrier::Tool)
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
     }
 
     fn idle(&self) -> &'static str {

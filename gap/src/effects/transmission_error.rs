@@ -5,11 +5,10 @@
 //! offset and ratio of the joint where it covers less than a turn, high orders with each other
 //! where poses are few: spread the joint's angles over its range, not on a grid.
 
-use nalgebra::Matrix6xX;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot};
+use super::{Carrier, Effect, Parameter, Place, Scene, Spot};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -53,9 +52,32 @@ impl Effect for TransmissionError {
         actual.turn(spot.row(), v[0] * cosine + v[1] * sine);
     }
 
-    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
         let (sine, cosine) = (spot.form as f64 * scene.row.q[spot.row()]).sin_cos();
-        scene.along_joint(spot.row(), &[cosine, sine])
+        motions.extend([cosine, sine]);
+    }
+
+    /// Each order from the one before it by the addition theorems: every step rounds once more, 40
+    /// at the most, where each cosine and sine by itself would cost as much as all else of a row.
+    fn motions_of(&self, scene: &Scene<'_>, spots: &[Spot], motions: &mut Vec<f64>) {
+        let Some(first) = spots.first() else { return };
+        let q = scene.row.q[first.row()];
+        let (s, c) = q.sin_cos();
+        let (mut order, (mut sine, mut cosine)) = (first.form, (first.form as f64 * q).sin_cos());
+        for spot in spots {
+            if spot.form < order {
+                (order, (sine, cosine)) = (spot.form, (spot.form as f64 * q).sin_cos());
+            }
+            while order < spot.form {
+                (sine, cosine) = (sine * c + cosine * s, cosine * c - sine * s);
+                order += 1;
+            }
+            motions.extend([cosine, sine]);
+        }
     }
 
     fn idle(&self) -> &'static str {

@@ -62,9 +62,10 @@ pub fn rest(actual: &Actual<'_>, near: Option<&[Vector6<f64>]>) -> Result<State,
             None => actual.fixed.clone(),
         };
         let mut last = f64::INFINITY;
+        let (mut frames, mut loads) = (Vec::new(), Vec::new());
         for _ in 0..MOST_STEPS {
-            let frames = walk.frames(&at);
-            let loads = walk.loads(&frames);
+            walk.put_frames(&at, &mut frames);
+            walk.put_loads(&frames, &mut loads);
             let mut change = 0.0_f64;
             let mut largest = 0.0_f64;
             for (index, now) in at.iter_mut().enumerate() {
@@ -192,6 +193,13 @@ impl<'a> Walk<'a> {
     }
 
     fn frames(&self, at: &[Vector6<f64>]) -> Vec<Frames> {
+        let mut frames = Vec::new();
+        self.put_frames(at, &mut frames);
+        frames
+    }
+
+    /// The same in the place of what `frames` has.
+    fn put_frames(&self, at: &[Vector6<f64>], frames: &mut Vec<Frames>) {
         let mut frame = Isometry3::identity();
         let each = self.steps.iter().zip(at).map(|(step, displacement)| {
             let before = frame * step;
@@ -202,12 +210,20 @@ impl<'a> Walk<'a> {
             };
             Frames { before, behind: frame }
         });
-        each.collect()
+        frames.clear();
+        frames.extend(each);
     }
 
     /// The wrench at each site, in its axes (those before its displacement) about its displaced
     /// origin, from everything beyond it.
     fn loads(&self, frames: &[Frames]) -> Vec<Vector6<f64>> {
+        let mut loads = Vec::new();
+        self.put_loads(frames, &mut loads);
+        loads
+    }
+
+    /// The same in the place of what `loads` has.
+    fn put_loads(&self, frames: &[Frames], loads: &mut Vec<Vector6<f64>>) {
         let arm = &self.actual.arm;
         let tool = &frames[self.sites - 1].behind;
         let wrench = &self.actual.wrench;
@@ -215,7 +231,8 @@ impl<'a> Walk<'a> {
         let lever = tool * nalgebra::Point3::from(self.actual.load_point);
         // About the base's origin.
         let mut moment = wrench.fixed_rows::<3>(3).into_owned() + lever.coords.cross(&force);
-        let mut loads = vec![Vector6::zeros(); self.sites];
+        loads.clear();
+        loads.resize(self.sites, Vector6::zeros());
         for index in (0..self.sites).rev() {
             let Frames { before, behind } = &frames[index];
             // Sites alternate: the link's stands behind row (index − 2) / 2.
@@ -240,7 +257,6 @@ impl<'a> Walk<'a> {
                 moment += at.cross(&weight);
             }
         }
-        loads
     }
 
     fn give(&self, index: usize, frames: &Frames, load: &Vector6<f64>) -> Vector6<f64> {

@@ -115,7 +115,7 @@ impl Sim {
     /// Change of the reading, 6×p, by changes of the tool that `twists` gives for a state, 6×p, base
     /// axes, at the tool origin: carried to the measured point, and of a displacement loaded minus
     /// unloaded.
-    pub fn change(&self, twists: impl Fn(&State, bool) -> Matrix6xX<f64>) -> Matrix6xX<f64> {
+    pub fn change(&self, mut twists: impl FnMut(&State, bool) -> Matrix6xX<f64>) -> Matrix6xX<f64> {
         let mut change = self.at_point(&self.loaded, twists(&self.loaded, true));
         if let Some(unloaded) = &self.unloaded {
             let mut before = self.at_point(unloaded, twists(unloaded, false));

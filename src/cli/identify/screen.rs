@@ -1,24 +1,39 @@
 //! What was identified, on one screen, in the units that people use.
 
 use stiffarm_gap::Measurements;
-use stiffarm_gap::identify::measured::{Answer, Parameter, Spread, Status, Unknown};
+use stiffarm_gap::identify::measured::{Answer, Spread, Unknown};
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 
-use super::{slides, stiffness};
+use super::words;
 use crate::cli::quantity::counted;
 use crate::cli::source::Source;
-use crate::cli::text::{Align, bar, bold, dim, indented, short, table};
+use crate::cli::text::{Align, bar, bold, dim, indented, short, table, wrapped};
+use crate::report::identified::Said;
+
+/// Width of a line.
+const WIDTH: usize = 100;
 
 /// Width of the bars.
 const BAR: usize = 20;
 
 /// The whole screen.
-pub fn text(source: &Source, data: &Measurements, answer: &Answer) -> String {
+pub fn text(
+    source: &Source,
+    data: &Measurements,
+    answer: &Answer,
+    said: &[Said],
+    sentence: &str,
+) -> String {
     let mut text = head(source, data, answer);
-    text.push_str(&springs(source, answer));
-    text.push_str(&links(answer));
+    text.push_str(&wrapped(sentence, WIDTH, 0));
+    text.push('\n');
+    text.push_str(&springs(answer, said));
+    text.push_str(&links(answer, said));
     text.push_str(&gap(answer));
-    text.push_str(&advice(answer));
+    let advice = words::advice(answer);
+    if !advice.is_empty() {
+        text.push_str(&format!("\n{}\n", advice.join("\n")));
+    }
     text
 }
 
@@ -41,73 +56,35 @@ fn head(source: &Source, data: &Measurements, answer: &Answer) -> String {
 }
 
 /// Joints and base: stiffnesses.
-fn springs(source: &Source, answer: &Answer) -> String {
+fn springs(answer: &Answer, said: &[Said]) -> String {
     let mut rows = vec![
         [bold("Stiffness"), dim("found"), dim("95 %"), dim("robot file"), String::new()].to_vec(),
     ];
-    for parameter in &answer.parameters {
+    for (parameter, said) in answer.parameters.iter().zip(said) {
         if matches!(parameter.unknown, Unknown::Link(_)) {
             continue;
         }
-        let (unit, size) =
-            if slides(source, parameter.unknown) { ("N/µm", 1e6) } else { ("N·m/rad", 1.0) };
-        let stiff = |c: f64| stiffness(c).map(|k| short(k / size));
-        let file = match parameter.unknown {
-            Unknown::Base(_) => dim("rigid"),
-            _ => stiff(parameter.file).unwrap_or_else(|| dim("rigid")),
+        let quiet = |text: &String, word: &str| {
+            if text == word { dim(text) } else { text.clone() }
         };
-        let name = parameter.unknown.to_string();
-        if let Status::Held { with, .. } = &parameter.status {
-            let why = match with[..] {
-                [] => "leaves no trace".to_owned(),
-                _ => format!("shows only together with {}", listing(with)),
-            };
-            rows.push(vec![name, dim("held"), String::new(), file, why]);
-            continue;
-        }
-        let [low, high] = parameter.interval;
-        let end = |c: f64| stiff(c).unwrap_or_else(|| "∞".to_owned());
-        let found = match (stiff(parameter.value), stiff(high)) {
-            (Some(k), _) => format!("{k} {unit}"),
-            // Of what does not give way a bound is known.
-            (None, Some(least)) => format!("at least {least} {unit}"),
-            (None, None) => "compliance below zero".to_owned(),
-        };
-        let verdict = if matches!(parameter.status, Status::Weak(_)) { "weak" } else { "" };
         rows.push(vec![
-            name,
-            found,
-            format!("[{} to {}]", end(high), end(low)),
-            file,
-            verdict.to_owned(),
+            said.place.clone(),
+            quiet(&said.found, "held"),
+            said.interval.clone(),
+            quiet(&said.file, "rigid"),
+            said.verdict.clone(),
         ]);
     }
     under_heading(&rows, &[Align::Left; 5])
 }
 
-/// `joint 1, joint 2`.
-fn listing(unknowns: &[Unknown]) -> String {
-    unknowns.iter().map(Unknown::to_string).collect::<Vec<_>>().join(", ")
-}
-
-fn links(answer: &Answer) -> String {
-    let of_links = |p: &&Parameter| matches!(p.unknown, Unknown::Link(_));
+fn links(answer: &Answer, said: &[Said]) -> String {
     let mut rows = vec![vec![bold("Flexibility"), dim("× the file's"), dim("95 %")]];
-    for parameter in answer.parameters.iter().filter(of_links) {
-        let [low, high] = parameter.interval;
-        rows.push(match &parameter.status {
-            Status::Held { with, .. } => {
-                let why = match with[..] {
-                    [] => "leaves no trace".to_owned(),
-                    _ => format!("shows only together with {}", listing(with)),
-                };
-                vec![parameter.unknown.to_string(), dim("held"), why]
-            }
-            _ => vec![
-                parameter.unknown.to_string(),
-                short(parameter.value),
-                format!("[{} to {}]", short(low), short(high)),
-            ],
+    for (parameter, said) in answer.parameters.iter().zip(said) {
+        let Unknown::Link(_) = parameter.unknown else { continue };
+        rows.push(match said.interval.as_str() {
+            "" => vec![said.place.clone(), dim(&said.found), said.verdict.clone()],
+            _ => vec![said.place.clone(), said.found.clone(), said.interval.clone()],
         });
     }
     if rows.len() == 1 {
@@ -162,28 +139,6 @@ fn gap(answer: &Answer) -> String {
     let mut align = align[..columns].to_vec();
     align.push(Align::Left);
     format!("\n{}", under_heading(&rows, &align))
-}
-
-/// What would show what is hidden or weak.
-fn advice(answer: &Answer) -> String {
-    let mut lines = Vec::new();
-    for parameter in &answer.parameters {
-        let Unknown::Joint(_) = parameter.unknown else { continue };
-        let (what, pull) = match &parameter.status {
-            Status::Determined => continue,
-            Status::Weak(pull) => ("to know it better", pull),
-            Status::Held { pull, .. } => ("to show it", pull),
-        };
-        lines.push(match pull {
-            Some(pull) => format!("{}: {what}, {pull}", parameter.unknown),
-            None => format!(
-                "{}: no load shows it in what is measured: measure rotations, or a point off its \
-                 axis",
-                parameter.unknown
-            ),
-        });
-    }
-    if lines.is_empty() { String::new() } else { format!("\n{}\n", lines.join("\n")) }
 }
 
 /// The heading stands out to the left of the lines below it.

@@ -2,12 +2,15 @@
 
 use clap::ValueEnum;
 use nalgebra::{Vector3, Vector6};
+use stiffarm_gap::DiagnoseError;
 use stiffarm_gap::dexterity::{
     DexterityError, Search, characteristic_length, influence, inverse_condition,
 };
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::Unstable;
 use stiffarm_kernels::generic::Arm;
 
+use super::learnt::Learnt;
 use crate::cli::failure::Failure;
 use crate::cli::quantity;
 use crate::cli::wrench::wrench;
@@ -27,11 +30,46 @@ pub enum Of {
     Deflection,
     /// Force over displacement in its direction
     Stiffness,
+    /// How much of the gap the findings of a diagnosis take away
+    Shrink,
+}
+
+/// Why a posture has no value.
+pub enum NoValue {
+    /// The arm is not stable there.
+    Unstable,
+    /// Anything else, in words.
+    Wrong(String),
+}
+
+impl From<DexterityError> for NoValue {
+    fn from(error: DexterityError) -> Self {
+        match error {
+            DexterityError::Unstable(_) => Self::Unstable,
+            error => Self::Wrong(error.to_string()),
+        }
+    }
+}
+
+impl From<Unstable> for NoValue {
+    fn from(_: Unstable) -> Self {
+        Self::Unstable
+    }
+}
+
+impl From<DiagnoseError> for NoValue {
+    fn from(error: DiagnoseError) -> Self {
+        match error {
+            DiagnoseError::Unstable { .. } => Self::Unstable,
+            error => Self::Wrong(error.to_string()),
+        }
+    }
 }
 
 /// A quantity with what it depends on.
 pub struct Quantity {
     of: Of,
+    learnt: Option<Learnt>,
     wrench: Vector6<f64>,
     /// L of the condition number, m.
     pub length: f64,
@@ -47,6 +85,7 @@ impl Quantity {
         load: Option<&str>,
         length: Option<&str>,
         arm: &Arm,
+        learnt: Option<Learnt>,
     ) -> Result<Quantity, Failure> {
         if length.is_some() && of != Of::Condition {
             return Err(Failure::new("--length is for --of condition"));
@@ -67,7 +106,10 @@ impl Quantity {
                         .length
                 }
             };
-            return Ok(Quantity { of, wrench: Vector6::zeros(), length });
+            return Ok(Quantity { of, wrench: Vector6::zeros(), length, learnt });
+        }
+        if let (Of::Shrink, None) = (of, load) {
+            return Ok(Quantity { of, wrench: Vector6::zeros(), length: 1.0, learnt });
         }
         let Some(text) = load else {
             return Err(Failure::new("--wrench is missing: the quantity is that of a loaded arm"));
@@ -82,14 +124,14 @@ impl Quantity {
         if wrench == Vector6::zeros() {
             return Err(Failure::new("--wrench: found no load, expected one"));
         }
-        Ok(Quantity { of, wrench, length: 1.0 })
+        Ok(Quantity { of, wrench, length: 1.0, learnt })
     }
 
     /// At a posture, in [`Quantity::unit`].
     ///
     /// # Errors
-    /// [`DexterityError`]; [`DexterityError::Unstable`] where there is no value.
-    pub fn value(&self, arm: &Arm, q: &[f64]) -> Result<f64, DexterityError> {
+    /// [`NoValue`]; [`NoValue::Unstable`] where there is no value.
+    pub fn value(&self, arm: &Arm, q: &[f64]) -> Result<f64, NoValue> {
         Ok(match self.of {
             Of::Condition => inverse_condition(arm, q, self.length)?,
             Of::NuP => 100.0 * influence(arm, q, &self.wrench)?.nu_p,
@@ -101,10 +143,14 @@ impl Quantity {
                 // A rigid direction has no finite stiffness, and no colour.
                 if along > 0.0 { 1e-6 * force.norm() / along } else { f64::NAN }
             }
+            Of::Shrink => match &self.learnt {
+                Some(learnt) => 100.0 * learnt.expected(q, &self.wrench)?.shrink(),
+                None => f64::NAN,
+            },
         })
     }
 
-    fn displacement(&self, arm: &Arm, q: &[f64]) -> Result<Vector3<f64>, DexterityError> {
+    fn displacement(&self, arm: &Arm, q: &[f64]) -> Result<Vector3<f64>, Unstable> {
         Ok(arm.deflection(q, &self.wrench)?.fixed_rows::<3>(0).into_owned())
     }
 
@@ -112,7 +158,7 @@ impl Quantity {
     pub fn unit(&self) -> &'static str {
         match self.of {
             Of::Condition => "",
-            Of::NuP => "%",
+            Of::NuP | Of::Shrink => "%",
             Of::NuR => "deg",
             Of::Deflection => "mm",
             Of::Stiffness => "N/µm",
@@ -127,6 +173,7 @@ impl Quantity {
             Of::NuR => "influence of K_C on the rotation, ν_r",
             Of::Deflection => "deflection",
             Of::Stiffness => "stiffness along the force",
+            Of::Shrink => "expected shrink of the gap",
         }
     }
 
@@ -138,6 +185,7 @@ impl Quantity {
             Of::NuR => "nu_r[deg]",
             Of::Deflection => "deflection[mm]",
             Of::Stiffness => "stiffness[N/um]",
+            Of::Shrink => "shrink[%]",
         }
     }
 
@@ -150,7 +198,9 @@ impl Quantity {
         let list = |at: usize| [w[at], w[at + 1], w[at + 2]].map(|x| x.to_string()).join(", ");
         let force = w.fixed_rows::<3>(0).norm() > 0.0;
         let moment = w.fixed_rows::<3>(3).norm() > 0.0;
+        let learnt = self.learnt.as_ref().map(Learnt::name);
         let parts = [
+            learnt,
             force.then(|| format!("force {} N", list(0))),
             moment.then(|| format!("moment {} N·m", list(3))),
         ];

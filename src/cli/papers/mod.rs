@@ -16,7 +16,7 @@ use crate::cli::source;
 const EXAMPLES: &str = "\
 Examples:
   stiffarm papers                        the ledger of the five built-in papers
-  stiffarm papers --html ledger.html
+  stiffarm papers --report ledger.html
   stiffarm papers my_paper/*.toml        another paper's equations
   stiffarm papers --figure growth --svg growth.svg";
 
@@ -34,7 +34,8 @@ pub struct Args {
     #[arg(conflicts_with_all = ["html", "json"])]
     markdown: Option<Target>,
     /// Write it as one self-contained page
-    #[arg(long, value_name = "OUT", num_args = 0..=1, default_missing_value = "-")]
+    #[arg(long = "report", visible_alias = "html", value_name = "OUT.html")]
+    #[arg(num_args = 0..=1, default_missing_value = "-")]
     #[arg(conflicts_with = "json")]
     html: Option<Target>,
     /// Write it as JSON

@@ -15,7 +15,30 @@ window.addEventListener("unhandledrejection", (e) => window.problems.push(String
 console.error = (...words) => window.problems.push(words.join(" "));
 </script>"#;
 
-/// Stands after everything.
+/// Stands after a page without an arm: the sentence, the theme, and the files behind its links.
+const READ: &str = r##"<script>
+(async () => {
+  const seen = { files: {} };
+  try {
+    seen.sentence = document.getElementById("sentence").textContent;
+    const colour = () => getComputedStyle(document.body).backgroundColor;
+    const theme = document.getElementById("theme");
+    const light = colour();
+    theme.click();
+    seen.dark = colour() !== light && theme.getAttribute("aria-pressed") === "true";
+    for (const link of document.querySelectorAll("a[download]")) {
+      const file = await (await fetch(link.href)).text();
+      seen.files[link.download] = file.trimEnd().split("\n").length;
+    }
+  } catch (error) {
+    window.problems.push(String(error));
+  }
+  seen.problems = window.problems;
+  document.documentElement.dataset.seen = JSON.stringify(seen);
+})();
+</script>"##;
+
+/// Stands after a page with an arm.
 const USE: &str = r##"<script>
 (async () => {
   const seen = { files: {} };
@@ -74,10 +97,19 @@ const USE: &str = r##"<script>
 })();
 </script>"##;
 
-/// What a reader sees; `None` where there is no Chromium.
+/// What a reader of a page with an arm sees; `None` where there is no Chromium.
 pub fn visit(folder: &Folder, page: &str) -> Option<Value> {
+    visited(folder, page, USE)
+}
+
+/// What a reader of any other page sees; `None` where there is no Chromium.
+pub fn read(folder: &Folder, page: &str) -> Option<Value> {
+    visited(folder, page, READ)
+}
+
+fn visited(folder: &Folder, page: &str, script: &str) -> Option<Value> {
     let page = page.replacen("<head>", &format!("<head>{WATCH}"), 1);
-    let page = page.replacen("</body>", &format!("{USE}</body>"), 1);
+    let page = page.replacen("</body>", &format!("{script}</body>"), 1);
     let file = folder.file("visited.html", page);
     let profile = text(&folder.path("profile"));
     let output = ["chromium", "chromium-browser"].into_iter().find_map(|name| {

@@ -1,10 +1,11 @@
 //! How large the gap is by the robot file, and on poses that the fit has not seen.
 
+use nalgebra::Vector6;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::fit::{FITTED, Fitted, step};
-use super::regress::{Line, Sheet};
+use super::regress::Sheet;
 use super::{MeasuredError, Question};
 use crate::identify::random::uniform;
 
@@ -27,12 +28,15 @@ pub struct Spread {
 }
 
 /// Before and after.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// By the robot file as it is.
     pub before: Spread,
     /// By what the other poses identify.
     pub held_out: Spread,
+    /// Measured minus simulated of each row, before and held out, m and rad; of poses less the mean
+    /// over the loads of the pose. 0 where a component is not measured.
+    pub rows: [Vec<Vector6<f64>>; 2],
     /// How many folds.
     pub folds: usize,
 }
@@ -50,8 +54,9 @@ pub(super) fn gap(
         let file = data.file.clone();
         return Err(MeasuredError::Folds { file, found: folds, poses });
     }
+    let mask = Vector6::from_iterator(data.kind.components().map(f64::from));
     let fold = shuffled(poses, folds, question.seed);
-    let (mut before, mut after) = (Vec::new(), Vec::new());
+    let mut gaps = [(); 2].map(|()| vec![Vector6::zeros(); data.rows.len()]);
     for held in 0..folds {
         done(FITTED + (1.0 - FITTED) * held as f64 / folds as f64);
         let (out, rest): (Vec<usize>, Vec<usize>) =
@@ -61,11 +66,14 @@ pub(super) fn gap(
         for _ in 0..STEPS {
             x = step(sheet, &rest, x, &fitted.choice.found, &fitted.noise)?.0;
         }
-        before.extend(sheet.lines(&out, &start)?);
-        after.extend(sheet.lines(&out, &x)?);
+        for (gaps, x) in gaps.iter_mut().zip([&start, &x]) {
+            for (&row, line) in out.iter().zip(sheet.lines(&out, x)?) {
+                gaps[row] = line.gap.component_mul(&mask);
+            }
+        }
     }
-    let components = data.kind.components();
-    Ok(Gap { before: spread(&before, components), held_out: spread(&after, components), folds })
+    let [before, held_out] = gaps.each_ref().map(|gaps| spread(gaps));
+    Ok(Gap { before, held_out, rows: gaps, folds })
 }
 
 /// The fold of each pose.
@@ -78,17 +86,13 @@ fn shuffled(poses: usize, folds: usize, seed: u64) -> Vec<usize> {
     fold
 }
 
-fn spread(lines: &[Line], components: [bool; 6]) -> Spread {
-    let size = |line: &Line, first: usize| {
-        let each = (first..first + 3).filter(|&k| components[k]);
-        each.map(|k| line.gap[k].powi(2)).sum::<f64>()
-    };
-    let mean = |first: usize| {
-        lines.iter().map(|line| size(line, first)).sum::<f64>() / lines.len().max(1) as f64
-    };
+fn spread(gaps: &[Vector6<f64>]) -> Spread {
+    let size = |gap: &Vector6<f64>, first: usize| gap.fixed_rows::<3>(first).norm_squared();
+    let mean =
+        |first: usize| gaps.iter().map(|g| size(g, first)).sum::<f64>() / gaps.len().max(1) as f64;
     Spread {
         position_rms: mean(0).sqrt(),
-        position_max: lines.iter().map(|line| size(line, 0).sqrt()).fold(0.0, f64::max),
+        position_max: gaps.iter().map(|g| size(g, 0).sqrt()).fold(0.0, f64::max),
         rotation_rms: mean(3).sqrt(),
     }
 }

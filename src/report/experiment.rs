@@ -1,0 +1,61 @@
+//! What a page draws of an experiment, whatever was made of it: the rows, the arm, and the gap
+//! before and after.
+
+use nalgebra::{Isometry3, Vector6};
+use stiffarm_gap::Measurements;
+use stiffarm_gap::measurement::Row;
+use stiffarm_kernels::generic::Arm;
+
+use super::words::Unit;
+
+/// An experiment and its gap.
+pub struct Experiment<'a> {
+    /// What was measured.
+    pub data: &'a Measurements,
+    /// The arm of the robot file.
+    pub arm: &'a Arm,
+    /// The same with its tool where the measured frame is.
+    pub placed: &'a Arm,
+    /// Where the base stands in the measuring frame.
+    pub base: Isometry3<f64>,
+    /// Where the markers that the file does not know were found, m, tool frame.
+    pub markers: Vec<(&'a str, [f64; 3])>,
+    /// Of each row, before and after, m and rad.
+    pub gaps: [&'a [Vector6<f64>]; 2],
+    /// Parts of the gap by place.
+    pub shares: Vec<Share>,
+    /// In what translations are shown.
+    pub length: &'a Unit,
+    /// In what rotations are shown.
+    pub angle: &'a Unit,
+}
+
+/// What has to do with a place.
+pub struct Share {
+    /// `joint 2`.
+    pub place: String,
+    /// Part of the gap's mean square.
+    pub share: Option<f64>,
+    /// Whether a finding lies there.
+    pub found: bool,
+}
+
+impl Experiment<'_> {
+    /// Whether positions are measured; else rotations are what is judged.
+    pub fn has_positions(&self) -> bool {
+        self.data.kind.components()[..3].contains(&true)
+    }
+
+    /// In what the part of the gap is shown that is judged and drawn.
+    pub fn main_unit(&self) -> &Unit {
+        if self.has_positions() { self.length } else { self.angle }
+    }
+
+    /// The measured point of a row in the tool frame, m.
+    pub fn offset(&self, row: &Row) -> [f64; 3] {
+        let fitted = row.marker.as_ref().and_then(|marker| {
+            self.markers.iter().find(|(name, _)| name == marker).map(|(_, at)| *at)
+        });
+        row.offset.or(fitted).unwrap_or_default()
+    }
+}
