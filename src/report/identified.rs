@@ -1,23 +1,24 @@
 //! The page of an identification: what the springs are, and what that does to the gap.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use askama::Template;
-use nalgebra::{Isometry3, Vector6};
+use nalgebra::Isometry3;
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::Measurements;
-use stiffarm_gap::identify::measured::{Answer, Parameter, Spread, Unknown};
+use stiffarm_gap::identify::measured::{Answer, Parameter, Spread};
 use stiffarm_gap::measurement::Kind;
 use stiffarm_kernels::generic::Arm;
 
+use super::corrections::{corrected, curve, shares};
 use super::embedded::within_script;
-use super::experiment::{Experiment, Share};
+use super::experiment::Experiment;
 use super::forest::{Forest, Multiple, forest};
 use super::page::{SCRIPT, percent};
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
-use super::shape::{Curve, Over, Shape, lever, shape, torque};
+use super::shape::{Curve, Shape, shape};
 use super::table::{Table, number};
 use super::waterfall::{Step, Waterfall, waterfall};
 use super::words::Unit;
@@ -115,7 +116,7 @@ impl Identified<'_> {
     pub fn html(&self) -> Result<String, askama::Error> {
         let mut experiment = self.experiment();
         experiment.shares = shares(&experiment, self.answer);
-        let curves: Vec<Curve<'_>> = self.corrected().map(curve).collect();
+        let curves: Vec<Curve<'_>> = corrected(self.answer).map(curve).collect();
         let embedded = Embedded {
             rows: rows(&experiment),
             scene: scene(&experiment),
@@ -163,11 +164,6 @@ impl Identified<'_> {
             length: &self.units[0],
             angle: &self.units[1],
         }
-    }
-
-    /// The joints whose springs were found, with what that adds to the file's compliance.
-    fn corrected(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        corrected(self.answer)
     }
 
     fn multiples(&self) -> Vec<Multiple> {
@@ -236,70 +232,6 @@ impl Identified<'_> {
             places.rows.push(vec![share.place.as_str().into(), part]);
         }
         BTreeMap::from([("parameters", parameters), ("gap", gap), ("places", places)])
-    }
-}
-
-fn corrected(answer: &Answer) -> impl Iterator<Item = (usize, f64)> + '_ {
-    answer.parameters.iter().filter(|p| p.usable()).filter_map(|p| match p.unknown {
-        Unknown::Joint(joint) => Some((joint - 1, p.value - p.file)),
-        Unknown::Link(_) | Unknown::Base(_) => None,
-    })
-}
-
-fn curve((joint, change): (usize, f64)) -> Curve<'static> {
-    Curve {
-        title: format!("compliance at joint {}", joint + 1),
-        joint,
-        over: Over::Torque,
-        value: Box::new(move |torque| change * torque),
-    }
-}
-
-/// What each joint's correction alone moves, as a part of the gap's mean square.
-fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
-    let first = if experiment.has_positions() { 0 } else { 3 };
-    let squares = |moves: &[Vector6<f64>]| -> f64 {
-        moves.iter().map(|m| m.fixed_rows::<3>(first).norm_squared()).sum()
-    };
-    let whole = squares(experiment.gaps[0]);
-    let share = |(joint, change): (usize, f64)| {
-        let rows = &experiment.data.rows;
-        let move_of = |row| {
-            let torque = torque(experiment, row, joint).unwrap_or(0.0);
-            lever(experiment, row, joint) * (torque * change)
-        };
-        let mut moves: Vec<Vector6<f64>> = rows.iter().map(move_of).collect();
-        if matches!(experiment.data.kind, Kind::Pose { .. }) {
-            subtract_means(&mut moves, experiment.data);
-        }
-        let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };
-        let place = format!("joint {}", joint + 1);
-        Share { place, share: Some(part), found: false }
-    };
-    let mut shares: Vec<Share> = corrected(answer).map(share).collect();
-    shares.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
-    for share in &mut shares {
-        share.found = answer.parameters.iter().any(|p| {
-            p.unknown.to_string() == share.place
-                && !(p.interval[0]..=p.interval[1]).contains(&p.file)
-        });
-    }
-    shares
-}
-
-/// Of poses only the differences between the loads of each, and of each marker in it, count.
-fn subtract_means(moves: &mut [Vector6<f64>], data: &Measurements) {
-    let key = |k: usize| (data.rows[k].group, data.rows[k].marker.clone());
-    let mut sums: HashMap<_, (f64, Vector6<f64>)> = HashMap::new();
-    for (k, moved) in moves.iter().enumerate() {
-        let sum = sums.entry(key(k)).or_default();
-        sum.0 += 1.0;
-        sum.1 += moved;
-    }
-    for (k, moved) in moves.iter_mut().enumerate() {
-        if let Some((count, sum)) = sums.get(&key(k)) {
-            *moved -= sum / *count;
-        }
     }
 }
 

@@ -12,7 +12,7 @@ const WITHHOLD: [&str; 6] = ["withhold", "lin_planar", "--cases", "2", "--poses"
 const SIMULATE: [&str; 4] = ["simulate", "ur5", "--poses", "2"];
 const POSES: [&str; 4] = ["poses", "ur10", "--count", "2"];
 const URDF: [&str; 2] = ["import", "tests/data/urdf/panda.urdf"];
-const PAPER: [&str; 2] = ["papers", "tests/papers/knapczyk/equations.toml"];
+const PAPER: [&str; 2] = ["papers", "tests/data/paper.toml"];
 const EVAL: [&str; 4] = ["eval", "ur5", "--q", "0,0,0,0,0,0"];
 const COMPENSATE: [&str; 6] = [
     "compensate",
