@@ -1,0 +1,116 @@
+//! The kernels whose cost is counted, each one function that is called and not inlined.
+
+use stiffarm::kernels::{Pose, Unstable};
+
+use crate::Real;
+use crate::robots::{iiwa14, kuka_kr240, ur5_springs, ur10};
+use crate::set_point::{Correction, Reading, Refusal, correct};
+
+/// A function of joint values and a wrench that writes its result.
+pub type Kernel<S, const N: usize, T> = fn(&[S; N], &[S; 6], &mut T);
+
+/// Who counts.
+pub trait Counter<S> {
+    /// Counts what a call costs; `out` is any value of the result's type.
+    fn count<const N: usize, T>(&mut self, name: &str, kernel: Kernel<S, N, T>, out: T);
+}
+
+/// Pose of the tool and Jacobian.
+pub type PoseAndJacobian<S, const N: usize> = (Pose<S>, [[S; 6]; N]);
+
+/// Pose and Jacobian by the sines and cosines that the pose needs; the Jacobian needs the named
+/// ones.
+macro_rules! pose_and_jacobian {
+    ($arm:ident, $q:ident, [$($shared:ident),*]) => {{
+        let posture = $arm::pose::Posture::new($q);
+        let $arm::pose::Posture { $($shared,)* .. } = posture;
+        let jacobian = $arm::jacobian::given(&$arm::jacobian::Posture { $($shared),* });
+        ($arm::pose::given(&posture), jacobian)
+    }};
+}
+
+macro_rules! kernels {
+    ($($(#[$doc:meta])* $name:ident($q:ident: $n:literal, $w:pat) -> $out:ty
+        $result:block from $initial:expr;)*) => {
+        $(
+            $(#[$doc])*
+            #[inline(never)]
+            pub fn $name<S: Real>($q: &[S; $n], $w: &[S; 6], out: &mut $out) {
+                *out = $result;
+            }
+        )*
+
+        /// Has every kernel counted.
+        pub fn each<S: Real>(counter: &mut impl Counter<S>) {
+            $(counter.count(stringify!($name), $name::<S>, $initial);)*
+        }
+    };
+}
+
+kernels! {
+    /// Sines and cosines of the six angles of [`pose`].
+    sines(q: 6, _) -> ur5_springs::pose::Posture<S> {
+        ur5_springs::pose::Posture::new(q)
+    } from ur5_springs::pose::Posture::new(&[S::of(0); 6]);
+    /// Pose of the UR5-like arm.
+    pose(q: 6, _) -> Pose<S> {
+        ur5_springs::pose(q)
+    } from ur5_springs::pose(&[S::of(0); 6]);
+    /// Jacobian of the UR5-like arm.
+    jacobian(q: 6, _) -> [[S; 6]; 6] {
+        ur5_springs::jacobian(q)
+    } from [[S::of(0); 6]; 6];
+    /// Both, by the same sines and cosines.
+    pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
+        pose_and_jacobian!(ur5_springs, q, [s1, c1, s2, c2, s23, c23, s234, c234, s5, c5])
+    } from (ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
+    /// Both and the compliance.
+    with_compliance(q: 6, _) -> (PoseAndJacobian<S, 6>, [[S; 6]; 6]) {
+        use ur5_springs::{compliance, jacobian, pose};
+        let posture = pose::Posture::new(q);
+        let pose::Posture { s1, c1, s2, c2, s23, c23, s234, c234, s5, c5, .. } = posture;
+        let jacobian = jacobian::given(&jacobian::Posture {
+            s1, c1, s2, c2, s23, c23, s234, c234, s5, c5
+        });
+        let compliance = compliance::given(&compliance::Posture {
+            s1, c1, s2, c2, s23, c23, s234, c234, s5, c5
+        });
+        ((pose::given(&posture), jacobian), compliance)
+    } from ((ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]), [[S::of(0); 6]; 6]);
+    /// Joint torques of the UR5-like arm.
+    joint_torque(q: 6, w) -> [S; 6] {
+        ur5_springs::joint_torque(q, w)
+    } from [S::of(0); 6];
+    /// Deflection of the UR5-like arm to first order in the load.
+    deflection_first_order(q: 6, w) -> [S; 6] {
+        ur5_springs::deflection_first_order(q, w)
+    } from [S::of(0); 6];
+    /// Deflection of the UR5-like arm with K_C, and its 6x6 solve.
+    deflection(q: 6, w) -> Result<[S; 6], Unstable> {
+        ur5_springs::deflection(q, w)
+    } from Err(Unstable);
+    /// Pose, Jacobian, K_C, joint torques, compliance and deflection of the UR5-like arm.
+    all(q: 6, w) -> Result<ur5_springs::all::All<S>, Unstable> {
+        ur5_springs::all(q, w)
+    } from Err(Unstable);
+    /// One period of the control loop on the UR5-like arm.
+    control_period(q: 6, w) -> Result<Correction<S>, Refusal> {
+        correct(&Reading { encoders: *q, wrench: *w }, q)
+    } from Err(Refusal::NotFinite);
+    /// Pose and Jacobian of the UR10.
+    ur10_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
+        pose_and_jacobian!(ur10, q, [s1, c1, s2, c2, s23, c23, s234, c234, s5, c5])
+    } from (ur10::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
+    /// Pose and Jacobian of the KR 240-2.
+    kuka_kr240_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
+        pose_and_jacobian!(kuka_kr240, q, [s1, c1, s2, c2, s23, c23, s4, c4, s5, c5])
+    } from (kuka_kr240::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
+    /// Deflection of the KR 240-2 with K_C, and its 6x6 solve.
+    kuka_kr240_deflection(q: 6, w) -> Result<[S; 6], Unstable> {
+        kuka_kr240::deflection(q, w)
+    } from Err(Unstable);
+    /// Pose and Jacobian of the iiwa 14.
+    iiwa14_pose_and_jacobian(q: 7, _) -> PoseAndJacobian<S, 7> {
+        pose_and_jacobian!(iiwa14, q, [s1, c1, s2, c2, s3, c3, s4, c4, s5, c5, s6, c6])
+    } from (iiwa14::pose(&[S::of(0); 7]), [[S::of(0); 6]; 7]);
+}

@@ -1,0 +1,24 @@
+//! The arms.
+
+use stiffarm::robot;
+
+robot! {
+    /// Universal Robots UR10, rigid.
+    pub mod ur10 from "../../../robots/arms/ur10.toml";
+}
+robot! {
+    /// KUKA KR 240-2 (Dumas et al. 2011), a spring in every joint.
+    pub mod kuka_kr240 from "../../../robots/arms/kuka_kr240.toml";
+}
+robot! {
+    /// KUKA LBR iiwa 14: seven joints.
+    pub mod iiwa14 from "../../../robots/arms/iiwa14.toml";
+}
+robot! {
+    /// UR5 with springs: what the figures are of.
+    pub mod ur5_springs from "ur5_springs.toml";
+}
+robot! {
+    /// Something of everything: a joint that slides, beams, weights, oblique twists, a turned tool.
+    pub mod various from "../../c/arm.toml";
+}
