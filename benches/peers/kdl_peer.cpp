@@ -19,7 +19,7 @@ int main(int, char **argv) {
     KDL::ChainJntToJacSolver solver(chain);
     KDL::JntArray joints(6);
     KDL::Jacobian columns(6);
-    drive(argv[1], "kdl", "pose", 12, [&](const double *q, double *out) {
+    drive(argv[1], "kdl", "pose", 12, [&](const double *q, const double *, double *out) {
         for (int i = 0; i < 6; ++i) joints(i) = q[i];
         KDL::Frame frame;
         forward.JntToCart(joints, frame);
@@ -27,7 +27,7 @@ int main(int, char **argv) {
             for (int r = 0; r < 3; ++r) out[3 * c + r] = frame.M(r, c);
         for (int r = 0; r < 3; ++r) out[9 + r] = frame.p(r);
     });
-    drive(argv[1], "kdl", "jacobian", 36, [&](const double *q, double *out) {
+    drive(argv[1], "kdl", "jacobian", 36, [&](const double *q, const double *, double *out) {
         for (int i = 0; i < 6; ++i) joints(i) = q[i];
         solver.JntToJac(joints, columns);
         Eigen::Map<Eigen::Matrix<double, 6, 6>>{out} = columns.data;

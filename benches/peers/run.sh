@@ -1,18 +1,24 @@
 #!/usr/bin/env bash
-# Pose and Jacobian of the KUKA KR 240-2 by what one would pick instead of generated kernels, each fed the
-# same joint vectors, compared with the textbook's results and then timed, all in one run.
+# The KUKA KR 240-2 by what one would pick instead of generated kernels, each fed the same joint vectors and
+# wrenches, compared with the textbook's results and then timed, all in one run: random poses, a smooth path,
+# and random ones where each call waits for the last. CasADi and Pinocchio are given the formulas of what
+# they have no function for; Pinocchio also takes K_C from its own second derivatives. What is called all is
+# pose, Jacobian, K_C, joint torques, compliance, and the deflection with its 6x6 solve.
 #
 #   benches/peers/run.sh                 # what is installed
 #   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (CasADi, Pinocchio)
 #
 # A peer that is not installed is skipped with a sentence. FLAGS and RUSTFLAGS choose the target; the
-# default is the machine's own processor for all.
+# default is the machine's own processor for all. Plain x86-64 instead:
+#
+#   FLAGS=-O3 RUSTFLAGS=-Ctarget-cpu=x86-64 FEATURES= benches/peers/run.sh
 set -euo pipefail
 cd "$(dirname "$0")"
 flags=${FLAGS:--O3 -march=native}
 export RUSTFLAGS=${RUSTFLAGS:--C target-cpu=native}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+features=${FEATURES-fma}
 python=${PYTHON:-python3}
 
 if [ "${1:-}" = --install ]; then
@@ -22,7 +28,7 @@ fi
 
 say() { printf '%s\n' "$*" >&2; }
 
-cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin peers --features fma -- "$work" \
+cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin peers --features "$features" -- "$work" \
     > "$work/times"
 
 if "$python" -c 'import casadi' 2>/dev/null; then
@@ -61,13 +67,15 @@ fi
 # Nanoseconds, and how many times that of the fused kernel of one pose.
 awk '{ times[$1, $2, $3] = $4; if (!seen[$1]++) peers[++count] = $1 }
      END {
-         split("pose jacobian", outputs); split("random smooth", paths)
-         for (i = 1; i <= count; i++) {
-             printf "%-16s", peers[i]
-             for (o = 1; o <= 2; o++) for (p = 1; p <= 2; p++) {
+         split("pose jacobian complementary_stiffness deflection_first_order compliance deflection all", outputs)
+         split("random smooth random-serial", paths)
+         for (o = 1; o <= 7; o++) for (p = 1; p <= 3; p++) {
+             own = times["stiffarm-fused", outputs[o], paths[p]]
+             if (!own) continue
+             printf "%s, %s:", outputs[o], paths[p]
+             for (i = 1; i <= count; i++) {
                  time = times[peers[i], outputs[o], paths[p]]
-                 printf "  %s, %s %7.1f ns (%.2f)", outputs[o], paths[p], time, \
-                     time / times["stiffarm-fused", outputs[o], paths[p]]
+                 if (time) printf "  %s %.1f (%.2f)", peers[i], time, time / own
              }
              print ""
          }

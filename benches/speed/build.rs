@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 use std::process::Command;
 
-use stiffarm_codegen::emit::{RustOptions, rust, rust_fused};
+use stiffarm_codegen::emit::{RustOptions, rust};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Robot, Value};
 
@@ -20,7 +20,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rustc = Command::new(std::env::var("RUSTC")?).arg("--version").output()?;
     let version = String::from_utf8(rustc.stdout)?;
     println!("cargo::rustc-env=STIFFARM_RUSTC={}", version.trim());
-    let options = RustOptions { kernels: "::stiffarm_kernels".to_owned() };
     for file in ARMS {
         println!("cargo::rerun-if-changed={file}");
         let (mut robot, _) = Robot::from_toml(&std::fs::read_to_string(file)?, file)?;
@@ -28,9 +27,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             joint.stiffness.get_or_insert(Value::Number(Number::integer(100_000)));
         }
         let name = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
-        let target = |way: &str| Path::new(&out).join(format!("{name}_{way}.rs"));
-        std::fs::write(target("plain"), rust(&robot, &options))?;
-        std::fs::write(target("fused"), rust_fused(&robot, &options))?;
+        for (way, fused) in [("plain", false), ("fused", true)] {
+            let options = RustOptions { kernels: "::stiffarm_kernels".to_owned(), fused };
+            let target = Path::new(&out).join(format!("{name}_{way}.rs"));
+            std::fs::write(target, rust(&robot, &options))?;
+        }
     }
     Ok(())
 }

@@ -35,7 +35,8 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
             return quote! { #errors #watched #stub };
         }
     };
-    let text = rust(&robot, &RustOptions { kernels: path_text(&kernels) });
+    let options = RustOptions { kernels: path_text(&kernels), fused: invocation.fused };
+    let text = rust(&robot, &options);
     match text.parse::<TokenStream>() {
         // A length or a cosine may happen to be near a well-known constant.
         Ok(items) => quote! {

@@ -22,4 +22,4 @@ mod solve;
 
 pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, fill};
 pub use scalar::Scalar;
-pub use solve::{Unstable, solve};
+pub use solve::{Unstable, solve, solve_fused, solve_leading, solve_leading_fused};

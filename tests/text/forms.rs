@@ -36,11 +36,56 @@ fn a_robot_file_expands_to_the_text_and_is_watched() {
     for (id, _, robot) in collection() {
         let invocation = format!("mod arm from \"robots/arms/{id}.toml\"; crate: ::here;");
         let expansion = expand(invocation.parse().expect("tokens"), Path::new("."));
-        let text = rust(&robot, &RustOptions { kernels: "::here".to_owned() });
+        let text = rust(&robot, &RustOptions { kernels: "::here".to_owned(), fused: false });
         let items = items(expansion);
         let watched = items.strip_suffix(&tokens(&text)).expect("the text ends the module");
         let file = format!("\"./robots/arms/{id}.toml\"");
         assert!(watched.contains("include_bytes") && watched.contains(&file), "{watched}");
+    }
+}
+
+#[test]
+fn fused_products_are_written_where_they_are_asked_for() {
+    let expansion = |settings: &str| {
+        let file = "robots/arms/kuka_kr240.toml";
+        let invocation = format!("mod arm from \"{file}\"; {settings} crate: ::here;");
+        items(expand(invocation.parse().expect("tokens"), Path::new(".")))
+    };
+    let (_, _, robot) =
+        collection().into_iter().find(|(id, _, _)| *id == "kuka_kr240").expect("in the collection");
+    let options = |fused| RustOptions { kernels: "::here".to_owned(), fused };
+    let [plain, fused] = [false, true].map(|fused| rust(&robot, &options(fused)));
+    assert!(!plain.contains("mul_add") && plain.contains(" solve_leading::<S, 6, 5>(stiffness"));
+    assert!(fused.contains("S::mul_add(") && fused.contains(" solve_leading_fused::<S, 6, 5>("));
+    assert!(fused.contains("`stiffarm generate ROBOT --fused --check FILE`"));
+    assert!(expansion("").ends_with(&tokens(&plain)));
+    assert!(expansion("products: separate;").ends_with(&tokens(&plain)));
+    assert!(expansion("products: fused;").ends_with(&tokens(&fused)));
+}
+
+/// The command is built with the feature `cli` only.
+#[cfg(feature = "cli")]
+#[test]
+fn the_command_fuses_rust_alone() {
+    let stiffarm = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_stiffarm"))
+            .args([&["generate", "robots/arms/ur10.toml"], arguments].concat())
+            .output()
+            .expect("the command runs")
+    };
+    let (_, _, robot) =
+        collection().into_iter().find(|(id, _, _)| *id == "ur10").expect("in the collection");
+    let text = rust(&robot, &RustOptions { fused: true, ..RustOptions::default() });
+    assert!(stiffarm(&["--emit", "rust", "--fused"]).stdout == text.into_bytes());
+    for (arguments, message) in [
+        (&["--emit", "c", "--fused", "--out", "nowhere"][..], "--fused is for rust"),
+        (&["--emit", "latex", "--fused"], "--fused is for rust"),
+        (&["--emit", "rust", "--fused", "--flexible"], "cannot be used with"),
+    ] {
+        let refused = stiffarm(arguments);
+        let said = String::from_utf8_lossy(&refused.stderr);
+        assert!(!refused.status.success() && said.contains(message), "{arguments:?}: {said}");
+        assert!(refused.stdout.is_empty());
     }
 }
 

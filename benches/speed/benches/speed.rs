@@ -99,6 +99,10 @@ macro_rules! output {
                     let _ = $w;
                     arms::$arm::plain::$function $args
                 }),
+                Candidate::new("fused x4", 4, x4, |$q, $w| {
+                    let _ = $w;
+                    arms::$arm::fused::$function $args
+                }),
                 Candidate::new("fused x8", 8, x8, |$q, $w| {
                     let _ = $w;
                     arms::$arm::fused::$function $args
@@ -109,6 +113,10 @@ macro_rules! output {
             ];
             $(
                 candidates.push(Candidate::new("ideal", 1, input, |$q, $w| {
+                    let _ = $w;
+                    $ideal::$function $args
+                }));
+                candidates.push(Candidate::new("ideal x4", 4, x4, |$q, $w| {
                     let _ = $w;
                     $ideal::$function $args
                 }));
@@ -130,35 +138,131 @@ macro_rules! arm {
         output!($arm complementary_stiffness ComplementaryStiffness |q, w| (q, w) $($ideal)?);
         output!($arm deflection_first_order DeflectionFirstOrder |q, w| (q, w) $($ideal)?);
         output!($arm compliance Compliance |q, w| (q) $($ideal)?);
-        output!($arm deflection Deflection |q, w| (q, w));
+        output!($arm deflection Deflection |q, w| (q, w) $($ideal)?);
     };
 }
 
-/// Each call waits for the last.
-fn latency() {
+/// Everything by the one function for it, by the six functions that it stands for, and by the textbook.
+fn together() {
     use arms::kuka_kr240::{fused, plain};
+    let arm = textbook("kuka_kr240");
     let mut draws = Draws::new(1);
     let wrenches = draws.wrenches(POSES);
     let poses = draws.random(POSES);
     let input = (&poses[..], &wrenches[..]);
+    let (q8, w8) = (by_eight(&poses), by_eight(&wrenches));
+    let x8 = (&q8[..], &w8[..]);
+    let outputs = [
+        Output::Pose,
+        Output::Jacobian,
+        Output::ComplementaryStiffness,
+        Output::JointTorque,
+        Output::Compliance,
+        Output::Deflection,
+    ];
+    let mut out = Vec::new();
+    let generic = || {
+        for (q, w) in poses.iter().zip(&wrenches) {
+            out = outputs.map(|o| arm.evaluate(o, q, w).expect("the arm is stable")).to_vec();
+            black_box(&mut out);
+        }
+    };
+    let mut candidates = [
+        Candidate::new("plain", 1, input, plain::all),
+        Candidate::new("fused", 1, input, fused::all),
+        Candidate::new("ideal", 1, input, ideal::all),
+        Candidate::new("six functions", 1, input, |q, w| {
+            let (pose, jacobian) = (fused::pose(q), fused::jacobian(q));
+            let torque = fused::joint_torque(q, w);
+            let stiffness = fused::complementary_stiffness(q, w);
+            (pose, jacobian, stiffness, torque, fused::compliance(q), fused::deflection(q, w))
+        }),
+        Candidate::new("x8", 8, x8, plain::all),
+        Candidate::new("fused x8", 8, x8, fused::all),
+        Candidate::new("ideal x8", 8, x8, ideal::all),
+        Candidate::run("textbook", POSES, generic),
+    ];
+    println!("kuka_kr240, everything together");
+    print("all", &mut candidates, ROUNDS);
+}
+
+/// Large batches on one core and on all of them.
+fn cores() {
+    use arms::kuka_kr240::fused::Robot;
+    const MANY: usize = 50 * POSES;
+    let mut draws = Draws::new(1);
+    let wrenches = draws.wrenches(MANY);
+    let poses = draws.random::<6>(MANY);
+    let (q, w) = (poses.as_flattened(), wrenches.as_flattened());
+    println!("kuka_kr240, {MANY} poses in one batch");
+    for (row, output) in [
+        ("pose", Output::Pose),
+        ("jacobian", Output::Jacobian),
+        ("deflection_first_order", Output::DeflectionFirstOrder),
+        ("deflection", Output::Deflection),
+    ] {
+        let (rows, columns) = output.shape(6);
+        let run = |layout: Layout, all: bool| {
+            let mut out = vec![0.0; rows * columns * MANY];
+            move || {
+                let wrenches = Wrenches::Each(w);
+                let done = match all {
+                    false => evaluate(&Robot, output, layout, q, wrenches, &mut out),
+                    true => evaluate_parallel(&Robot, output, layout, q, wrenches, &mut out),
+                };
+                done.expect("the arm is stable");
+                black_box(&mut out);
+            }
+        };
+        let mut candidates = [
+            Candidate::run("one core", MANY, run(Layout::Poses, false)),
+            Candidate::run("all cores", MANY, run(Layout::Poses, true)),
+            Candidate::run("by quantity", MANY, run(Layout::Quantities, false)),
+            Candidate::run("all cores", MANY, run(Layout::Quantities, true)),
+        ];
+        print(row, &mut candidates, ROUNDS);
+    }
+}
+
+/// Each call waits for the last. `called` is the ideal behind a call, as a function of that size is unless
+/// it is forced into the loop.
+fn latency() {
+    use arms::kuka_kr240::{fused, plain};
+    #[inline(never)]
+    fn jacobian(q: &[f64; 6]) -> [[f64; 6]; 6] {
+        ideal::jacobian(q)
+    }
+    #[inline(never)]
+    fn stiffness(q: &[f64; 6], w: &[f64; 6]) -> [[f64; 6]; 6] {
+        ideal::complementary_stiffness(q, w)
+    }
+    let mut draws = Draws::new(1);
+    let wrenches = draws.wrenches(POSES);
+    let poses = draws.random(POSES);
+    let input = (&poses[..], &wrenches[..]);
+    let entry = |matrix: &[[f64; 6]; 6]| matrix[4][3];
     println!("kuka_kr240, each call waiting for the last");
     let mut candidates = [
-        Candidate::serial("plain", input, |q, _| plain::jacobian(q)),
-        Candidate::serial("fused", input, |q, _| fused::jacobian(q)),
-        Candidate::serial("ideal", input, |q, _| ideal::jacobian(q)),
+        Candidate::serial("plain", input, |q, _| plain::jacobian(q), entry),
+        Candidate::serial("fused", input, |q, _| fused::jacobian(q), entry),
+        Candidate::serial("ideal", input, |q, _| ideal::jacobian(q), entry),
+        Candidate::serial("called", input, |q, _| jacobian(q), entry),
     ];
     print("jacobian", &mut candidates, ROUNDS);
     let mut candidates = [
-        Candidate::serial("plain", input, plain::complementary_stiffness),
-        Candidate::serial("fused", input, fused::complementary_stiffness),
-        Candidate::serial("ideal", input, ideal::complementary_stiffness),
+        Candidate::serial("plain", input, plain::complementary_stiffness, entry),
+        Candidate::serial("fused", input, fused::complementary_stiffness, entry),
+        Candidate::serial("ideal", input, ideal::complementary_stiffness, entry),
+        Candidate::serial("called", input, stiffness, entry),
     ];
     print("complementary_stiffness", &mut candidates, ROUNDS);
 }
 
 fn main() {
     arm!(kuka_kr240 ideal);
+    together();
     latency();
+    cores();
     arm!(ur10);
     arm!(iiwa14);
     arm!(planar_2r);

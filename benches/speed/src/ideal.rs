@@ -7,7 +7,15 @@
 //! `(-k, m, h)`, the wrist from the elbow `(0.055, 1.1, 0)`. Frame F is frame 1 with its y upright:
 //! `(radial, up, across)`.
 
-use stiffarm_kernels::{Pose, Scalar};
+mod compliance;
+mod deflection;
+
+use stiffarm_kernels::{Pose, Scalar, Unstable};
+
+pub use compliance::compliance;
+use compliance::compliance_of;
+pub use deflection::{deflection, deflection_first_order};
+use deflection::{displacement_of, torques_of, turns_of};
 
 /// Joint compliances, rad/(N·m) (Dumas et al. 2011, Table 2).
 const C: [f64; 5] = [1.0 / 3.8e6, 1.0 / 6.6e6, 1.0 / 3.9e6, 1.0 / 5.6e5, 1.0 / 6.6e5];
@@ -108,7 +116,12 @@ impl<S: Scalar> Arm<S> {
 pub fn pose<S: Scalar>(q: &[S; 6]) -> Pose<S> {
     let angles = [q[0], q[1], q[1] + q[2], q[3], q[4], q[5]];
     let ([s1, s2, s, s4, s5, s6], [c1, c2, c, c4, c5, c6]) = S::sin_cos_all(angles);
-    let a = Arm::new([s1, s2, s, s4, s5], [c1, c2, c, c4, c5]);
+    pose_of(&Arm::new([s1, s2, s, s4, s5], [c1, c2, c, c4, c5]), [c6, s6])
+}
+
+#[inline(always)]
+fn pose_of<S: Scalar>(a: &Arm<S>, [c6, s6]: [S; 2]) -> Pose<S> {
+    let (c4, s4, c5, s5) = (a.c4, a.s4, a.c5, a.s5);
     let (along, beside) = (c4 * c5, s4 * c5);
     let x = [fma(c6, along, -(s6 * s4)), c6 * s5, -fma(c6, beside, s6 * c4)];
     let y = [-fma(s6, along, c6 * s4), -(s6 * s5), fma(s6, beside, -(c6 * c4))];
@@ -121,7 +134,11 @@ pub fn pose<S: Scalar>(q: &[S; 6]) -> Pose<S> {
 /// The Jacobian.
 #[inline(always)]
 pub fn jacobian<S: Scalar>(q: &[S; 6]) -> [[S; 6]; 6] {
-    let a = Arm::at(q);
+    jacobian_of(&Arm::at(q))
+}
+
+#[inline(always)]
+fn jacobian_of<S: Scalar>(a: &Arm<S>) -> [[S; 6]; 6] {
     let zero = S::lit(0.0);
     let (v1, [v4, v5], [z4, z5, z6]) = a.twists();
     let column = |v: V<S>, z: V<S>| [v[0], v[1], v[2], z[0], z[1], z[2]];
@@ -144,7 +161,11 @@ pub fn jacobian<S: Scalar>(q: &[S; 6]) -> [[S; 6]; 6] {
 /// column i.
 #[inline(always)]
 pub fn complementary_stiffness<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> [[S; 6]; 6] {
-    let a = Arm::at(q);
+    complementary_stiffness_of(&Arm::at(q), w)
+}
+
+#[inline(always)]
+fn complementary_stiffness_of<S: Scalar>(a: &Arm<S>, w: &[S; 6]) -> [[S; 6]; 6] {
     let zero = S::lit(0.0);
     let [fx, fy, fz] = a.to_three([w[0], w[1], w[2]]);
     let [mx, my, mz] = a.to_three([w[3], w[4], w[5]]);
@@ -196,74 +217,39 @@ pub fn complementary_stiffness<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> [[S; 6]; 6]
     ]
 }
 
-/// The deflection to first order, summed in F.
-#[inline(always)]
-pub fn deflection_first_order<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> [S; 6] {
-    let a = Arm::at(q);
-    let (v1, [v4, v5], [z4, z5, z6]) = a.twists();
-    let to_f = |x: S, y: S, z: S| [fma(a.c1, x, a.s1 * y), z, fma(a.s1, x, -(a.c1 * y))];
-    let (f, m) = (to_f(w[0], w[1], w[2]), to_f(w[3], w[4], w[5]));
-    let dot = |a: V<S>, b: V<S>| fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]));
-    let c = C.map(S::lit);
-    let six = S::lit(1.0 / 4.7e5);
-    let t1 = c[0] * (fma(v1[0], f[0], -(v1[1] * f[2])) + m[1]);
-    let t2 = c[1] * (fma(a.r2[0], f[1], -(a.r2[1] * f[0])) + m[2]);
-    let t3 = c[2] * (fma(a.r3[0], f[1], -(a.r3[1] * f[0])) + m[2]);
-    let t4 = c[3] * fma(z4[0], m[0], fma(z4[1], m[1], dot(v4, f)));
-    let t5 = c[4] * (dot(v5, f) + dot(z5, m));
-    let t6 = six * dot(z6, m);
-    let v = [
-        fma(v1[0], t1, fma(v4[0], t4, v5[0] * t5)) - fma(a.r2[1], t2, a.r3[1] * t3),
-        fma(a.r2[0], t2, fma(a.r3[0], t3, fma(v4[1], t4, v5[1] * t5))),
-        fma(v4[2], t4, fma(v5[2], t5, -(v1[1] * t1))),
-    ];
-    let z = [
-        fma(z4[0], t4, fma(z5[0], t5, z6[0] * t6)),
-        t1 + fma(z4[1], t4, fma(z5[1], t5, z6[1] * t6)),
-        t2 + t3 + fma(z5[2], t5, z6[2] * t6),
-    ];
-    let ([vx, vy, vz], [zx, zy, zz]) = (a.to_base(v), a.to_base(z));
-    [vx, vy, vz, zx, zy, zz]
+/// Everything that the fused function gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct All<S> {
+    pub pose: Pose<S>,
+    pub jacobian: [[S; 6]; 6],
+    pub complementary_stiffness: [[S; 6]; 6],
+    pub joint_torque: [S; 6],
+    pub compliance: [[S; 6]; 6],
+    pub deflection: [S; 6],
 }
 
-/// The compliance, summed by joint in base axes; joints 2 and 3 share their axis.
+/// All together, from one set of sines and cosines.
+///
+/// # Errors
+/// `Unstable` where a pivot is not positive.
 #[inline(always)]
-pub fn compliance<S: Scalar>(q: &[S; 6]) -> [[S; 6]; 6] {
-    let zero = S::lit(0.0);
-    let [j1, j2, j3, j4, j5, j6] = jacobian(q);
-    let c = C.map(S::lit);
-    let scaled = |k: S, j: &[S; 6]| [k * j[0], k * j[1], k * j[2]];
-    let (k1, k2, k3) = (scaled(c[0], &j1), scaled(c[1], &j2), scaled(c[2], &j3));
-    let (k4, k5) = (scaled(c[3], &j4), scaled(c[4], &j5));
-    let mut out = [[zero; 6]; 6];
-    for i in 0..3 {
-        for r in i..3 {
-            let last = fma(k4[i], j4[r], k5[i] * j5[r]);
-            let mid = fma(k2[i], j2[r], fma(k3[i], j3[r], last));
-            out[i][r] = if r < 2 { fma(k1[i], j1[r], mid) } else { mid };
-            out[r][i] = out[i][r];
-        }
-        let both = k2[i] + k3[i];
-        for r in 0..3 {
-            let last = fma(k4[i], j4[3 + r], k5[i] * j5[3 + r]);
-            let value = if r < 2 { fma(both, j2[3 + r], last) } else { last };
-            out[i][3 + r] = if r == 2 && i < 2 { k1[i] + value } else { value };
-            out[3 + r][i] = out[i][3 + r];
-        }
-    }
-    let both = S::lit(C[1] + C[2]);
-    let turned = |k: S, j: &[S; 6]| [k * j[3], k * j[4], k * j[5]];
-    let k2 = [both * j2[3], both * j2[4]];
-    let (k4, k5, k6) = (turned(c[3], &j4), turned(c[4], &j5), turned(S::lit(1.0 / 4.7e5), &j6));
-    for i in 0..3 {
-        for r in i..3 {
-            let last = fma(k4[i], j4[3 + r], fma(k5[i], j5[3 + r], k6[i] * j6[3 + r]));
-            let value = if r < 2 { fma(k2[i], j2[3 + r], last) } else { last };
-            out[3 + i][3 + r] = if i == 2 { c[0] + value } else { value };
-            out[3 + r][3 + i] = out[3 + i][3 + r];
-        }
-    }
-    out
+pub fn all<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<All<S>, Unstable> {
+    let angles = [q[0], q[1], q[1] + q[2], q[3], q[4], q[5]];
+    let ([s1, s2, s, s4, s5, s6], [c1, c2, c, c4, c5, c6]) = S::sin_cos_all(angles);
+    let a = &Arm::new([s1, s2, s, s4, s5], [c1, c2, c, c4, c5]);
+    let jacobian = jacobian_of(a);
+    let complementary_stiffness = complementary_stiffness_of(a, w);
+    let joint_torque = torques_of(a, w);
+    let turns = turns_of(&complementary_stiffness, &joint_torque)?;
+    Ok(All {
+        pose: pose_of(a, [c6, s6]),
+        compliance: compliance_of(&jacobian),
+        deflection: displacement_of(a, turns),
+        jacobian,
+        complementary_stiffness,
+        joint_torque,
+    })
 }
 
 #[cfg(test)]
@@ -278,7 +264,8 @@ mod tests {
         let arm = textbook("kuka_kr240");
         let mut draws = Draws::new(1);
         for (q, w) in draws.random::<6>(500).iter().zip(draws.wrenches(500)) {
-            let outputs: [(Output, Vec<f64>); 5] = [
+            let all = all(q, &w).expect("stable");
+            let outputs: [(Output, Vec<f64>); 12] = [
                 (Output::Pose, pose(q).columns().as_flattened().to_vec()),
                 (Output::Jacobian, jacobian(q).as_flattened().to_vec()),
                 (
@@ -287,6 +274,16 @@ mod tests {
                 ),
                 (Output::DeflectionFirstOrder, deflection_first_order(q, &w).to_vec()),
                 (Output::Compliance, compliance(q).as_flattened().to_vec()),
+                (Output::Deflection, deflection(q, &w).expect("stable").to_vec()),
+                (Output::Pose, all.pose.columns().as_flattened().to_vec()),
+                (Output::Jacobian, all.jacobian.as_flattened().to_vec()),
+                (
+                    Output::ComplementaryStiffness,
+                    all.complementary_stiffness.as_flattened().to_vec(),
+                ),
+                (Output::JointTorque, all.joint_torque.to_vec()),
+                (Output::Compliance, all.compliance.as_flattened().to_vec()),
+                (Output::Deflection, all.deflection.to_vec()),
             ];
             for (output, got) in outputs {
                 let expected = arm.evaluate(output, q, &w).expect("stable");

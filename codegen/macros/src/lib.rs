@@ -19,6 +19,10 @@ use proc_macro::TokenStream;
 /// robot! { pub mod elbow from "elbow.toml"; }
 /// ```
 ///
+/// `products: fused;` beside the other settings (or beside a file) writes products fused into sums: faster
+/// where the target has the instruction and the kernels' feature `fma` asks for it, and not the same
+/// bits everywhere.
+///
 /// A file's name is relative to the folder of the invoking crate's Cargo.toml. `q` in `theta` is a
 /// revolute joint, in `d` a prismatic one; a bare identifier in a cell stays symbolic.
 #[proc_macro]

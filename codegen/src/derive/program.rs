@@ -47,6 +47,19 @@ pub struct Solve {
     pub unknowns: Vec<Expr>,
 }
 
+impl Solve {
+    /// How many unknowns, the first ones, are to be solved for together: on the others nothing depends, so
+    /// that each follows from its own row. A tool on the axis of the last joint is not moved by it.
+    pub fn together(&self) -> usize {
+        let n = self.right.len();
+        let alone = |column: usize| {
+            let entries = self.matrix[column * n..(column + 1) * n].iter().enumerate();
+            entries.filter(|(row, _)| *row != column).all(|(_, e)| e.is_zero())
+        };
+        (1..n).rev().take_while(|column| alone(*column)).last().unwrap_or(n)
+    }
+}
+
 /// The load has no stable equilibrium, so the linear system of the deflection has no meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unstable;

@@ -11,4 +11,4 @@ mod rust;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
-pub use rust::{RustOptions, flexible_rust, rust, rust_fused};
+pub use rust::{RustOptions, flexible_rust, rust};

@@ -38,7 +38,7 @@ name = "smr1"
 const TABLE: &str = r#"/// An arm.
 pub mod arm;
 name: "arm"; convention: modified_dh; gravity: [0, 0, -9.81]; marker: m [0, 1 mm, 0];
-tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2]; crate: ::kernels;
+tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2]; products: fused; crate: ::kernels;
 joint | theta    | d       | a    | alpha   | stiffness     | mass | com       | limits  | beam
 a1    | q + pi/2 | 350 mm  | 0    | -90 deg | 3.8e6 N*m/rad | 12   | [c, 0, 0] | [-1, 1] | -
 a2    | 0        | q - 1 m | a2   | -       | k2            | -    | -         | -       | {

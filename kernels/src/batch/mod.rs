@@ -178,18 +178,20 @@ where
     let mut unstable = Unstable::default();
     for first in (0..poses).step_by(T::WIDTH) {
         let count = T::WIDTH.min(poses - first);
+        let whole = count == T::WIDTH;
         let here = &q[first * dof..(first + count) * dof];
         group.read_joints(count, |joint, lane| here[lane * dof + joint]);
         match wrenches {
             Wrenches::One(wrench) => group.read_wrench(1, |k, _| wrench[k]),
             Wrenches::Each(each) => {
-                group.read_wrench(count, |k, lane| each[(first + lane) * 6 + k])
+                let here = &each[first * 6..(first + count) * 6];
+                group.read_wrench(count, |k, lane| here[lane * 6 + k]);
             }
         }
         let out = &mut out[first * entries..(first + count) * entries];
         let write = |entry, lane, x| out[lane * entries + entry] = x;
         match group.evaluate() {
-            Some(lanes) if count == T::WIDTH => T::store_by_lane(lanes, out),
+            Some(lanes) if whole => T::store_by_lane(lanes, out),
             Some(lanes) => each(lanes, count, write),
             None => unstable.join(first, group.one_by_one(count, write)),
         }

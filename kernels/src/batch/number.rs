@@ -25,7 +25,7 @@ pub trait Number: Scalar + Send + Sync {
 }
 
 macro_rules! number {
-    ($float:ty, $lanes:ty, $width:literal) => {
+    ($float:ty, $lanes:ty, $width:literal, $square:ty, $side:literal) => {
         type Lanes = $lanes;
         const WIDTH: usize = $width;
 
@@ -44,19 +44,27 @@ macro_rules! number {
         }
         #[inline(always)]
         fn store_by_lane(entries: &[Self::Lanes], out: &mut [Self]) {
-            // A square of lanes at a time, turned in registers.
-            let (squares, rest) = entries.as_chunks();
-            let whole = $width * squares.len();
-            for (lane, out) in out.chunks_exact_mut(entries.len().max(1)).enumerate() {
-                for (x, lanes) in out[whole..].iter_mut().zip(rest) {
-                    *x = lanes.to_array()[lane];
+            let length = entries.len();
+            let Some(begin) = length.checked_sub($side) else {
+                for (at, lanes) in entries.iter().enumerate() {
+                    for (lane, x) in lanes.to_array().into_iter().enumerate() {
+                        out[lane * length + at] = x;
+                    }
                 }
-            }
-            for (at, square) in squares.iter().enumerate() {
-                let turned = <$lanes>::transpose(*square);
-                for (lane, run) in turned.into_iter().enumerate() {
-                    let start = lane * entries.len() + $width * at;
-                    out[start..start + $width].copy_from_slice(&run.to_array());
+                return;
+            };
+            // A square of numbers at a time, turned in registers; the last one goes back over entries that
+            // are already there.
+            for start in (0..length).step_by($side).map(|at| at.min(begin)) {
+                let (square, rest) = (&entries[start..start + $side], &mut out[start..]);
+                for first in (0..$width).step_by($side) {
+                    let row = |k: usize| -> [$float; $side] {
+                        core::array::from_fn(|lane| square[k].as_array()[first + lane])
+                    };
+                    let square: [$square; $side] = core::array::from_fn(|k| row(k).into());
+                    for (lane, run) in <$square>::transpose(square).into_iter().enumerate() {
+                        rest[(first + lane) * length..][..$side].copy_from_slice(&run.to_array());
+                    }
                 }
             }
         }
@@ -65,14 +73,14 @@ macro_rules! number {
 
 #[cfg(target_feature = "avx512f")]
 impl Number for f64 {
-    number!(f64, lanes::f64x8, 8);
+    number!(f64, lanes::f64x8, 8, lanes::f64x4, 4);
 }
 
 #[cfg(not(target_feature = "avx512f"))]
 impl Number for f64 {
-    number!(f64, lanes::f64x4, 4);
+    number!(f64, lanes::f64x4, 4, lanes::f64x4, 4);
 }
 
 impl Number for f32 {
-    number!(f32, lanes::f32x8, 8);
+    number!(f32, lanes::f32x8, 8, lanes::f32x8, 8);
 }

@@ -16,18 +16,25 @@ macro_rules! through {
     }};
 }
 
-/// All angles of one pose, four at a time; one or two that are left go through half as many lanes.
+/// Doubles in the widest register.
+const DOUBLES: usize = if cfg!(target_feature = "avx512f") { 8 } else { 4 };
+
+/// All angles of one pose, as many at a time as a register holds, or four where that is fewer; what is left
+/// goes through half as many lanes where it fits.
 #[inline(always)]
 pub(crate) fn f64<const M: usize>(angles: [f64; M]) -> ([f64; M], [f64; M]) {
     let (mut sines, mut cosines) = (angles, angles);
     let mut first = 0;
     while first < M {
-        if M - first > 2 {
+        let left = M - first;
+        if left > 4 && DOUBLES == 8 {
+            through!(wide::f64x8, double::sin_cos, angles, first, sines, cosines);
+        } else if left > 2 {
             through!(wide::f64x4, double::sin_cos, angles, first, sines, cosines);
         } else {
             through!(f64x2, double::sin_cos, angles, first, sines, cosines);
         }
-        first += 4;
+        first += DOUBLES;
     }
     (sines, cosines)
 }

@@ -2,14 +2,14 @@
 
 use super::{Masked, nan_beyond, turn};
 
-/// π/2 in three parts. The first two have 33 bits, so that their products with a multiple below 2^20
+/// π/2 in three parts. The first two have 35 bits, so that their products with a multiple below 2^18
 /// are exact; the third is rounded.
-const HALF_PI: [f64; 3] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21];
+const HALF_PI: [f64; 3] = [1.5707963267923333, 2.5633441515839558e-12, 1.0562999066987428e-23];
 
 /// 1.5 · 2^52.
 const SHIFT: f64 = 6755399441055744.0;
 
-/// Largest angle, rad. To 1.6e6 the reduction is as good as below 1e4; further out the error grows like
+/// Largest angle, rad. To 4e5 the reduction is as good as below 1e4; further out the error grows like
 /// the spacing of the angles themselves.
 pub(crate) const LARGEST: f64 = 1e9;
 
@@ -44,17 +44,15 @@ pub(crate) fn sin_cos<F: Masked>(angle: F) -> (F, F) {
     let head = multiple.plus(of(-HALF_PI[1]), first);
     let lost = multiple.plus(of(-HALF_PI[1]), first - head);
     let rest = multiple.plus(of(-HALF_PI[2]), lost);
-    let reduced = head + rest;
-    let tail = (head - reduced) + rest;
-    let r = nan_beyond(reduced, angle, LARGEST);
+    let r = nan_beyond(head, angle, LARGEST);
 
+    // The reduced angle is `r + rest`; `1 - (r + rest)²/2` without the square of the rest is
+    // `1 + r·(-r/2 - rest)`.
     let z = r * r;
     let powers = [z, z * z];
-    let sine = r + (r * z).plus(polynomial(SINE, powers), tail);
-    let half = of(0.5) * z;
-    let most = of(1.0) - half;
-    let lacks = (of(1.0) - most) - half;
-    let cosine = most + powers[1].plus(polynomial(COSINE, powers), lacks);
+    let sine = r + (r * z).plus(polynomial(SINE, powers), rest);
+    let falls = z.plus(polynomial(COSINE, powers), of(-0.5));
+    let cosine = r.plus(r.plus(falls, -rest), of(1.0));
     turn(shifted, sine, cosine)
 }
 

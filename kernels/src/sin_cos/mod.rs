@@ -15,11 +15,11 @@ pub(crate) mod dispatch;
 pub(crate) mod double;
 pub(crate) mod single;
 
-use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Shl, Sub};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Shl, Sub};
 
 /// A number, or lanes of numbers, whose bits can be masked.
 pub(crate) trait Masked:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// The bits of the number, or of each lane.
     type Word: Copy

@@ -4,6 +4,7 @@ use super::super::expression::Printer;
 use super::super::plan::{Plan, Target, WRENCH};
 use super::lines::Lines;
 use super::posture::Use;
+use super::solve::solve_name;
 use super::style::C;
 use crate::derive::Output;
 use crate::expr::{Binding, Node, Symbol};
@@ -29,9 +30,9 @@ impl Function<'_> {
         self.outputs.iter().any(|o| o.is_fallible())
     }
 
-    /// Sizes of the linear systems.
-    pub fn systems(&self) -> impl Iterator<Item = usize> {
-        self.plan.program.solves.iter().map(|solve| solve.right.len())
+    /// Sizes of the linear systems, and how many of their unknowns are solved for together.
+    pub fn systems(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.plan.program.solves.iter().map(|solve| (solve.right.len(), solve.together()))
     }
 
     /// Sign changes that cost an operation of their own.
@@ -210,7 +211,8 @@ impl Function<'_> {
         array(out, &format!("stiffness_{k}"), &solve.matrix);
         array(out, &format!("load_{k}"), &solve.right);
         out.blank();
-        out.code(&format!("status = solve_{n}(stiffness_{k}, load_{k});"));
+        let function = solve_name(n, solve.together());
+        out.code(&format!("status = {function}(stiffness_{k}, load_{k});"));
         out.code(&format!("if (status == {}_OK)", module.to_uppercase()));
         out.code("{");
         out.indent();

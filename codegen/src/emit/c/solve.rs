@@ -3,23 +3,30 @@
 use super::lines::Lines;
 use super::style::C;
 
+/// `solve_6`, or `solve_6_5` where only the first five are solved for together.
+pub(super) fn solve_name(n: usize, together: usize) -> String {
+    if together < n { format!("solve_{n}_{together}") } else { format!("solve_{n}") }
+}
+
 /// `static … solve_6(…)`: bounds are constants, one exit.
-pub(super) fn solve(out: &mut Lines, n: usize, name: &str, language: &C) {
+pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, language: &C) {
+    let function = solve_name(n, m);
+    let (more, follow) = if m < n { follow(n, m, name, language) } else { Default::default() };
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
     let size = n * n;
     out.verbatim(&format!(
         "
 /* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. In
  * a stable equilibrium the symmetric part of a is positive definite, and then every pivot is
- * positive. */
-static {name}_status_t solve_{n}({real} a[{size}], {real} b[{n}])
+ * positive.{more} */
+static {name}_status_t {function}({real} a[{size}], {real} b[{n}])
 {{
     {name}_status_t status = {upper}_OK;
     unsigned int k;
     unsigned int i;
     unsigned int column;
 
-    for (k = 0U; k < {n}U; k++)
+    for (k = 0U; k < {m}U; k++)
     {{
         const {real} inverse = 1.0{suffix} / a[(k * {n}U) + k];
 
@@ -27,18 +34,18 @@ static {name}_status_t solve_{n}({real} a[{size}], {real} b[{n}])
         {{
             status = {upper}_UNSTABLE;
         }}
-        for (i = k + 1U; i < {n}U; i++)
+        for (i = k + 1U; i < {m}U; i++)
         {{
             const {real} factor = a[(k * {n}U) + i] * inverse;
 
-            for (column = k + 1U; column < {n}U; column++)
+            for (column = k + 1U; column < {m}U; column++)
             {{
                 a[(column * {n}U) + i] = a[(column * {n}U) + i] - factor * a[(column * {n}U) + k];
             }}
             b[i] = b[i] - factor * b[k];
         }}
     }}
-    for (k = {n}U; k > 0U; k--)
+    for (k = {m}U; k > 0U; k--)
     {{
         const unsigned int last = k - 1U;
 
@@ -48,8 +55,34 @@ static {name}_status_t solve_{n}({real} a[{size}], {real} b[{n}])
             b[i] = b[i] - a[(last * {n}U) + i] * b[last];
         }}
     }}
-    return status;
+{follow}    return status;
 }}
 "
     ));
+}
+
+/// What the comment says more, and the rows of the unknowns from `m` on.
+fn follow(n: usize, m: usize, name: &str, language: &C) -> (String, String) {
+    let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
+    let more = format!(
+        "\n * Nothing depends on the unknowns from x[{m}] on, so that each follows from its row."
+    );
+    let rows = format!(
+        "    for (i = {m}U; i < {n}U; i++)
+    {{
+        const {real} pivot = a[(i * {n}U) + i];
+
+        if (!(pivot > 0.0{suffix}))
+        {{
+            status = {upper}_UNSTABLE;
+        }}
+        for (column = 0U; column < {m}U; column++)
+        {{
+            b[i] = b[i] - a[(column * {n}U) + i] * b[column];
+        }}
+        b[i] = b[i] * (1.0{suffix} / pivot);
+    }}
+"
+    );
+    (more, rows)
 }

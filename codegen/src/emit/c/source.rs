@@ -36,10 +36,11 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     out.code("#endif");
     sparsity(module, &mut out);
     out.verbatim(sin_cos(module.options.sines, module.options.precision));
-    let mut sizes: Vec<usize> = module.functions.iter().flat_map(|f| f.systems()).collect();
+    let mut sizes: Vec<(usize, usize)> =
+        module.functions.iter().flat_map(|f| f.systems()).collect();
     sizes.sort_unstable();
     sizes.dedup();
-    sizes.into_iter().for_each(|n| solve(&mut out, n, name, module.language));
+    sizes.into_iter().for_each(|size| solve(&mut out, size, name, module.language));
     out.verbatim(&body);
     out.finish()
 }

@@ -48,16 +48,14 @@ static void sin_cos(double angle, double *sine, double *cosine)
     const double shift = 6755399441055744.0;
     const double shifted = angle * 0.6366197723675814 + shift;
     const double multiple = shifted - shift;
-    const double first = multiple * (-1.5707963267341256) + angle;
-    const double head = multiple * (-6.077100506303966e-11) + first;
-    const double lost = multiple * (-6.077100506303966e-11) + (first - head);
-    const double rest = multiple * (-2.0222662487959506e-21) + lost;
-    const double reduced = head + rest;
-    const double tail = (head - reduced) + rest;
-    const uint64_t beyond = (uint64_t)((angle > 1e9) || (angle < -1e9));
+    const double first = multiple * (-1.5707963267923333) + angle;
+    const double head = multiple * (-2.5633441515839558e-12) + first;
+    const double lost = multiple * (-2.5633441515839558e-12) + (first - head);
+    const double rest = multiple * (-1.0562999066987428e-23) + lost;
+    const uint64_t beyond = (uint64_t)(angle > 1e9) | (uint64_t)(angle < -1e9);
     word_t s, c, quadrant, r;
 
-    r.number = reduced;
+    r.number = head;
     r.bits |= UINT64_C(0) - beyond;
     {
         const double x = r.number;
@@ -69,12 +67,10 @@ static void sin_cos(double angle, double *sine, double *cosine)
         const double c0 = z * (-0.0013888888888881703) + 0.04166666666666665;
         const double c2 = z * (-2.7557315441390607e-07) + 2.4801587293664423e-05;
         const double c4 = z * (-1.136611701301712e-11) + 2.087585858796773e-09;
-        const double half = 0.5 * z;
-        const double most = 1.0 - half;
-        const double lacks = (1.0 - most) - half;
+        const double falls = z * (z2 * (z2 * c4 + c2) + c0) + (-0.5);
 
-        s.number = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + tail);
-        c.number = most + (z2 * (z2 * (z2 * c4 + c2) + c0) + lacks);
+        s.number = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + rest);
+        c.number = x * (x * falls - rest) + 1.0;
     }
     quadrant.number = shifted;
     {
@@ -111,7 +107,7 @@ static void sin_cos(float angle, float *sine, float *cosine)
     const float first = multiple * (-1.570770263671875f) + angle;
     const float second = multiple * (-2.6063062250614166e-05f) + first;
     const float reduced = multiple * (-6.07710062827671e-11f) + second;
-    const uint32_t beyond = (uint32_t)((angle > 1e5f) || (angle < -1e5f));
+    const uint32_t beyond = (uint32_t)(angle > 1e5f) | (uint32_t)(angle < -1e5f);
     word_t s, c, quadrant, r;
 
     r.number = reduced;

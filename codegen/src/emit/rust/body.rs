@@ -6,7 +6,7 @@ use super::super::expression::{Printer, Style, constant};
 use super::super::plan::{Plan, Target, WRENCH};
 use super::function::Function;
 use super::lines::Lines;
-use super::posture::{field_names, has_posture, uses_wrench};
+use super::posture::{INLINE, field_names, has_posture, uses_wrench};
 use crate::expr::{Binding, Block, Expr, Node, Symbol};
 use crate::number::Number;
 
@@ -49,6 +49,9 @@ impl<'a> Body<'a> {
         }
         if function.fallible() && function.program.solves.is_empty() {
             out.code("#[allow(clippy::unnecessary_wraps)]");
+        }
+        if small {
+            out.code(INLINE);
         }
         out.code(&format!(
             "pub fn given<S: Scalar>({}) -> {} {{",
@@ -230,7 +233,8 @@ impl<'a> Body<'a> {
         let right: Vec<String> = solve.right.iter().map(print).collect();
         out.code(&format!("let load = [{}];", right.join(", ")));
         let unknowns: Vec<usize> = solve.unknowns.iter().map(|u| u.node()).collect();
-        out.code(&format!("let [{}] = solve(stiffness, load)?;", self.names(&unknowns)));
+        let (names, (solve, constants)) = (self.names(&unknowns), function.solve(k));
+        out.code(&format!("let [{names}] = {solve}{constants}(stiffness, load)?;"));
     }
 
     fn names(&self, nodes: &[usize]) -> String {

@@ -57,6 +57,18 @@ impl<'p> Function<'p> {
         self.outputs.iter().any(|o| o.is_fallible())
     }
 
+    /// The function of the runtime that solves system `k`, and its constants.
+    pub(super) fn solve(&self, k: usize) -> (&'static str, String) {
+        let solve = &self.program.solves[k];
+        let (n, together) = (solve.right.len(), solve.together());
+        match (together < n, self.fused_products) {
+            (false, false) => ("solve", String::new()),
+            (false, true) => ("solve_fused", String::new()),
+            (true, false) => ("solve_leading", format!("::<S, {n}, {together}>")),
+            (true, true) => ("solve_leading_fused", format!("::<S, {n}, {together}>")),
+        }
+    }
+
     pub(super) fn ty(&self) -> String {
         match self.fused() {
             true => "All<S>".to_string(),
@@ -147,9 +159,11 @@ impl<'p> Function<'p> {
         if self.fallible() {
             imports.push("Unstable");
         }
-        if !self.program.solves.is_empty() {
-            imports.push("solve");
-        }
+        let mut solves: Vec<&str> =
+            (0..self.program.solves.len()).map(|k| self.solve(k).0).collect();
+        solves.sort_unstable();
+        solves.dedup();
+        imports.extend(solves);
         out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
         self.figures(out, body);
         if self.fused() {

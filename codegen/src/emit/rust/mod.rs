@@ -18,33 +18,26 @@ use super::constants::Constants;
 use crate::derive::{Output, derive_each};
 use crate::robot::Robot;
 
-/// How the generated module finds its runtime.
+/// What is a matter of the text and not of the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RustOptions {
     /// Path of the kernels crate in the user's code.
     pub kernels: String,
+    /// Products fused into sums (`S::mul_add`): one rounding less in most sums, so faster where the target
+    /// has the instruction, and not the same bits everywhere. `f64` and `f32` fuse only under the
+    /// kernels' feature `fma` and on a target that has the instruction.
+    pub fused: bool,
 }
 
 impl Default for RustOptions {
     fn default() -> Self {
-        RustOptions { kernels: "::stiffarm::kernels".to_string() }
+        RustOptions { kernels: "::stiffarm::kernels".to_string(), fused: false }
     }
 }
 
 /// The items of a robot's module, ready to stand in a file of its own or between the braces of a
 /// `mod`. The same table always gives the same bytes.
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
-    module(robot, options, false)
-}
-
-/// The same module with products fused into sums (`S::mul_add`): one rounding less in most sums, so
-/// faster where the target has the instruction, and not the same bits everywhere. `f64` and `f32` fuse
-/// only under the kernels' feature `fma` and on a target that has the instruction.
-pub fn rust_fused(robot: &Robot, options: &RustOptions) -> String {
-    module(robot, options, true)
-}
-
-fn module(robot: &Robot, options: &RustOptions, fused_products: bool) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
     let mut functions = String::new();
@@ -55,7 +48,7 @@ fn module(robot: &Robot, options: &RustOptions, fused_products: bool) -> String 
             [output] => function::Function::single(&program, *output, symbolic),
             _ => function::Function::all(&program, symbolic),
         };
-        function.fused_products = fused_products;
+        function.fused_products = options.fused;
         functions.push_str(&function.text(robot, options, &mut constants));
     }
 

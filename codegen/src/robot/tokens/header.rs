@@ -13,7 +13,7 @@ use super::super::suggest::{advice, closest};
 use super::cells::{Raw, known_lengths, rotation, values};
 use super::spot::{Spot, is_sign, is_word};
 
-const KEYS: [&str; 6] = ["name", "convention", "gravity", "tool", "marker", "crate"];
+const KEYS: [&str; 7] = ["name", "convention", "gravity", "tool", "marker", "products", "crate"];
 
 const CONVENTIONS: [(&str, Convention); 4] = [
     ("standard_dh", Convention::Standard),
@@ -32,6 +32,8 @@ pub(super) struct Settings {
     translation: Option<Vector<Value, Spot>>,
     rotation: Option<Vector<Angle, Spot>>,
     markers: Vec<DraftMarker<Spot>>,
+    /// Whether products are fused into sums.
+    pub fused: bool,
     /// Where the generated code finds the kernels.
     pub kernels: Option<Path>,
     /// The settings that were made, with the places of their names.
@@ -112,6 +114,7 @@ impl Settings {
             "gravity" => self.gravity = Some(values(&cell, Dimension::Acceleration, report)),
             "tool" => self.tool(&cell, report),
             "marker" => self.markers.extend(marker(&cell, report)),
+            "products" => self.fused = fused(&cell, report),
             _ => self.kernels = path(&cell, report),
         }
     }
@@ -156,9 +159,11 @@ impl Settings {
 
     /// A file says everything about its robot itself.
     pub fn refuse_for_a_file(&self, report: &mut Report<Spot>) {
-        for (key, at) in self.seen.iter().filter(|(key, _)| *key != "crate") {
+        let of_the_text = |key: &str| matches!(key, "crate" | "products");
+        for (key, at) in self.seen.iter().filter(|(key, _)| !of_the_text(key)) {
             let message = format!("`{key}` belongs into the robot file");
-            report.error(Problem::new(*at, message).help("beside a file only `crate` can be set"));
+            let help = "beside a file only `crate` and `products` can be set";
+            report.error(Problem::new(*at, message).help(help));
         }
     }
 
@@ -229,6 +234,20 @@ fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
         _ => Some(known_lengths(&Raw::new(rest.to_vec(), cell.at), report)),
     };
     Some(DraftMarker { name, translation })
+}
+
+/// `fused`, or `separate`, which is what they are otherwise.
+fn fused(cell: &Raw, report: &mut Report<Spot>) -> bool {
+    const CHOICES: [&str; 2] = ["fused", "separate"];
+    let found: String = cell.tokens.iter().map(ToString::to_string).collect();
+    if !CHOICES.contains(&found.as_str()) {
+        let problem = Problem::new(cell.at, "`fused` or `separate` is expected here");
+        report.error(match closest(&found, CHOICES) {
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            None => problem,
+        });
+    }
+    found == CHOICES[0]
 }
 
 fn path(cell: &Raw, report: &mut Report<Spot>) -> Option<Path> {

@@ -8,6 +8,7 @@
 //! gravity: [0, 0, -9.80665];            // optional
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
+//! products: fused;                      // optional: into sums, or separate
 //! crate: ::stiffarm_kernels;            // optional: where the generated code finds the kernels
 //! joint | theta  | d      | a      | alpha  | stiffness     | mass | com            | limits
 //! a1    | q      | 0      | 0      | 0      | 3.8e6 N*m/rad | 120  | [0.3, 0, 0.1]  | -
@@ -56,6 +57,8 @@ pub struct Invocation {
     pub module: Ident,
     /// Where the generated code finds the kernels; `None` leaves it to the macro.
     pub kernels: Option<Path>,
+    /// Whether products are fused into sums.
+    pub fused: bool,
     /// The robot itself, or where to read it.
     pub source: Source,
 }
@@ -107,7 +110,7 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
     let rest = report.keep(parsed.map_err(Problem::from));
     let source = match (&head.module, rest) {
         (Some(module), Some(rest)) => {
-            let said = (&mut head.kernels, &mut outline);
+            let said = (&mut head.kernels, &mut head.fused, &mut outline);
             body(said, module, head.file.take(), rest, &mut report)
         }
         _ => None,
@@ -115,10 +118,11 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
     // A macro cannot warn on stable Rust.
     report.errors.append(&mut report.warnings);
     match (source, head) {
-        (Some(source), Head { attrs, vis: Some(vis), module: Some(module), kernels, .. })
-            if report.errors.is_empty() =>
-        {
-            Ok(Invocation { attrs, vis, module, kernels, source })
+        (
+            Some(source),
+            Head { attrs, vis: Some(vis), module: Some(module), kernels, fused, .. },
+        ) if report.errors.is_empty() => {
+            Ok(Invocation { attrs, vis, module, kernels, fused, source })
         }
         (source, Head { attrs, vis, module, kernels, .. }) => {
             let file = match source {
@@ -140,6 +144,7 @@ struct Head {
     module: Option<Ident>,
     file: Option<LitStr>,
     kernels: Option<Path>,
+    fused: bool,
 }
 
 impl Head {
@@ -167,7 +172,7 @@ impl Head {
 }
 
 fn body(
-    (kernels, outline): (&mut Option<Path>, &mut Outline),
+    (kernels, fused, outline): (&mut Option<Path>, &mut bool, &mut Outline),
     module: &Ident,
     file: Option<LitStr>,
     rest: TokenStream,
@@ -177,6 +182,7 @@ fn body(
     let at = Spot::new(module.span());
     let (mut settings, table) = header::read(&tokens, report);
     *kernels = settings.kernels.take();
+    *fused = settings.fused;
     if let Some(file) = file {
         settings.refuse_for_a_file(report);
         if !table.is_empty() {

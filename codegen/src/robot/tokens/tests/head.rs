@@ -22,7 +22,7 @@ fn the_example_is_read() {
     assert_eq!(invocation.module, "kr240");
     assert!(matches!(invocation.vis, syn::Visibility::Public(_)));
     assert_eq!(invocation.attrs.len(), 1);
-    assert!(invocation.kernels.is_none());
+    assert!(invocation.kernels.is_none() && !invocation.fused);
     let robot = read(text);
     assert_eq!((robot.name.as_str(), robot.convention), ("kr240", Convention::Modified));
     assert_eq!(robot.dof(), 6);
@@ -43,6 +43,7 @@ fn every_setting_and_column_is_read() {
         marker: smr1 [0, 100 mm, z * 0];
         marker: \"the other\";
         crate: ::stiffarm_kernels;
+        products: fused;
         joint | stiffness | theta | mass | com           | limits        | source   | beam
         1     | k1        | q     | 12   | [c1, 0, 1 in] | [-90 deg, 2]  | \"guess\" | {
             youngs_modulus: 69 GPa, shear_modulus: G, density: 2700,
@@ -54,7 +55,7 @@ fn every_setting_and_column_is_read() {
         [
             "7:34 `z*0` is an expression: a cell holds one number or one parameter | \
              work it out, or take the sign and the factors into the parameter",
-            "11:86 a beam of no length: `a` and `d` of this joint are both zero | \
+            "12:86 a beam of no length: `a` and `d` of this joint are both zero | \
              put the beam on the joint whose row has the link's length"
         ]
     );
@@ -82,6 +83,7 @@ fn every_setting_and_column_is_read() {
     assert_eq!(beam.shear_modulus, Value::Symbol("G".into()));
     assert_eq!(beam.density, Some(number("2700")));
     let Ok(invocation) = parse(&text) else { panic!() };
+    assert!(invocation.fused);
     let kernels = invocation.kernels.unwrap();
     assert_eq!(quote::quote!(#kernels).to_string(), ":: stiffarm_kernels");
     let again = Robot::from_toml(&robot.to_toml(), "again").unwrap().0;
@@ -90,16 +92,15 @@ fn every_setting_and_column_is_read() {
 
 #[test]
 fn a_file_is_named() {
-    let Ok(invocation) = parse("#[allow(x)] mod elbow from \"elbow.toml\"; crate: crate::kernels;")
-    else {
-        panic!()
-    };
+    let text = "#[allow(x)] mod elbow from \"elbow.toml\"; crate: crate::kernels; products: fused;";
+    let Ok(invocation) = parse(text) else { panic!() };
     assert!(matches!(&invocation.source, Source::File(name) if name.value() == "elbow.toml"));
-    assert!(invocation.kernels.is_some());
+    assert!(invocation.kernels.is_some() && invocation.fused);
     assert_eq!(
         errors("mod elbow from \"elbow.toml\"; name: \"x\"; joint | theta"),
         [
-            "1:30 `name` belongs into the robot file | beside a file only `crate` can be set",
+            "1:30 `name` belongs into the robot file | \
+             beside a file only `crate` and `products` can be set",
             "1:41 a table and a robot file: one of them is enough"
         ]
     );
@@ -161,6 +162,13 @@ fn mistakes_of_the_settings() {
         with("gravity: [0, 0, 5 mm];"),
         ["3:17 `5 mm` is a length; an acceleration is expected here (e.g. `9.80665 m/s^2`)"]
     );
+    let products = "`fused` or `separate` is expected here";
+    assert_eq!(with("products: plain;"), [format!("3:11 {products}")]);
+    assert_eq!(with("products: fuse;"), [format!("3:11 {products} | did you mean `fused`?")]);
+    assert_eq!(with("products: ;"), [format!("3:1 {products}")]);
+    assert_eq!(with("fused;"), [format!("3:1 {setting}")]);
+    let text = "mod x; convention: standard_dh; products: separate; joint | theta\na1 | q";
+    assert!(matches!(parse(text), Ok(invocation) if !invocation.fused));
     assert_eq!(
         with("crate: 3;"),
         ["3:8 the path of the kernels' crate is expected here | \
