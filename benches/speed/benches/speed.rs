@@ -186,10 +186,11 @@ fn together() {
     print("all", &mut candidates, ROUNDS);
 }
 
-/// Large batches on one core and on all of them.
+/// Large batches on one core and on all of them, some in a row: the first wakes the other cores.
 fn cores() {
     use arms::kuka_kr240::fused::Robot;
     const MANY: usize = 50 * POSES;
+    const IN_A_ROW: usize = 20;
     let mut draws = Draws::new(1);
     let wrenches = draws.wrenches(MANY);
     let poses = draws.random::<6>(MANY);
@@ -206,19 +207,27 @@ fn cores() {
             let mut out = vec![0.0; rows * columns * MANY];
             move || {
                 let wrenches = Wrenches::Each(w);
-                let done = match all {
-                    false => evaluate(&Robot, output, layout, q, wrenches, &mut out),
-                    true => evaluate_parallel(&Robot, output, layout, q, wrenches, &mut out),
+                let work = |_: &rayon::Scope<'_>| {
+                    for _ in 0..IN_A_ROW {
+                        let done = match all {
+                            false => evaluate(&Robot, output, layout, q, wrenches, &mut out),
+                            true => {
+                                evaluate_parallel(&Robot, output, layout, q, wrenches, &mut out)
+                            }
+                        };
+                        done.expect("the arm is stable");
+                        black_box(&mut out);
+                    }
                 };
-                done.expect("the arm is stable");
-                black_box(&mut out);
+                // A thread of the pool works along; any other would wait for it.
+                rayon::scope(work);
             }
         };
         let mut candidates = [
-            Candidate::run("one core", MANY, run(Layout::Poses, false)),
-            Candidate::run("all cores", MANY, run(Layout::Poses, true)),
-            Candidate::run("by quantity", MANY, run(Layout::Quantities, false)),
-            Candidate::run("all cores", MANY, run(Layout::Quantities, true)),
+            Candidate::run("one core", IN_A_ROW * MANY, run(Layout::Poses, false)),
+            Candidate::run("all cores", IN_A_ROW * MANY, run(Layout::Poses, true)),
+            Candidate::run("by quantity", IN_A_ROW * MANY, run(Layout::Quantities, false)),
+            Candidate::run("all cores", IN_A_ROW * MANY, run(Layout::Quantities, true)),
         ];
         print(row, &mut candidates, ROUNDS);
     }
