@@ -5,6 +5,7 @@ mod constants;
 mod dot;
 mod expression;
 mod latex;
+mod lines;
 mod plan;
 mod rust;
 

@@ -2,11 +2,11 @@
 
 use super::super::expression::Printer;
 use super::super::plan::{Plan, Target, WRENCH};
-use super::lines::Lines;
 use super::posture::Use;
 use super::solve::solve_name;
 use super::style::C;
 use crate::derive::Output;
+use crate::emit::lines::Lines;
 use crate::expr::{Binding, Node, Symbol};
 
 /// A function to be printed: of one output, or of all of `Output::ALL`.

@@ -1,11 +1,12 @@
 //! The header file: what was generated from what, constants, declarations.
 
+use super::comment::harmless;
 use super::docs::docs;
 use super::function::Function;
 use super::hash::{Table, fnv1a};
-use super::lines::{Lines, harmless};
 use super::source::posture_head;
 use super::{Module, Precision, Sines};
+use crate::emit::lines::Lines;
 
 /// The header that belongs to `source`.
 pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {

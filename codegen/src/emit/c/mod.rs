@@ -4,11 +4,11 @@
 //! polynomial for sines and cosines. Compiled without fused products and without fast-math it gives the
 //! same bits.
 
+mod comment;
 mod docs;
 mod function;
 mod hash;
 mod header;
-mod lines;
 mod name;
 mod posture;
 mod solve;

@@ -3,8 +3,8 @@
 
 use super::super::expression::Style as _;
 use super::super::plan::{Plan, angle_terms};
-use super::lines::Lines;
 use super::style::C;
+use crate::emit::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
 
 /// The fields of the posture.

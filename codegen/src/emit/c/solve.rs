@@ -1,7 +1,7 @@
 //! The small linear system of a deflection in C: the Rust kernels' `solve`, operation by operation.
 
-use super::lines::Lines;
 use super::style::C;
+use crate::emit::lines::Lines;
 
 /// `solve_6`, or `solve_6_5` where only the first five are solved for together.
 pub(super) fn solve_name(n: usize, together: usize) -> String {

@@ -1,10 +1,10 @@
 //! The source file.
 
 use super::hash::Table;
-use super::lines::Lines;
 use super::solve::solve;
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
+use crate::emit::lines::Lines;
 
 /// Everything but the declarations.
 pub(super) fn source(module: &Module, table: &Table) -> String {

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use super::super::expression::{Printer, Style, constant};
 use super::super::plan::{Plan, Target, WRENCH};
 use super::function::Function;
-use super::lines::Lines;
 use super::posture::{INLINE, field_names, has_posture, uses_wrench};
+use crate::emit::lines::Lines;
 use crate::expr::{Binding, Block, Expr, Node, Symbol};
 use crate::number::Number;
 

@@ -4,10 +4,10 @@ use super::super::constants::Constants;
 use super::super::plan::Plan;
 use super::RustOptions;
 use super::body::Body;
-use super::lines::Lines;
 use super::posture::{has_posture, needs_constants, posture, uses_wrench};
 use super::shapes;
 use crate::derive::{Output, Program};
+use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
 /// A function to be printed.

@@ -1,7 +1,7 @@
 //! The implementation of `Kernels`: a generated robot behind a pointer.
 
-use super::lines::Lines;
 use crate::derive::Output;
+use crate::emit::lines::Lines;
 
 /// The struct `Robot` and its `Kernels`.
 pub(super) fn interface(symbolic: bool) -> String {

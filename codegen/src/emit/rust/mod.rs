@@ -4,10 +4,10 @@
 //! parses it, the others write it down.
 
 mod body;
+mod doc;
 mod flexible;
 mod function;
 mod interface;
-mod lines;
 mod posture;
 mod shapes;
 mod table;

@@ -2,7 +2,7 @@
 
 use super::super::expression::constant;
 use super::super::plan::{Angle, Plan, angle_terms};
-use super::lines::Lines;
+use crate::emit::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
 
 /// What a function is made of is joined to it, so that sines and cosines and all entries stay in

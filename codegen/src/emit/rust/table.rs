@@ -2,7 +2,7 @@
 
 use super::super::constants::Constants;
 use super::RustOptions;
-use super::lines::Lines;
+use crate::emit::lines::Lines;
 use crate::number::Number;
 use crate::robot::{Angle, Convention, Joint, Motion, Robot, Value};
 

@@ -1,13 +1,13 @@
-//! Text in lines of at most 100 columns.
+//! Generated text in lines of at most 100 columns.
 
 /// Longest line that is written where it can be broken.
-const WIDTH: usize = 100;
+pub(super) const WIDTH: usize = 100;
 
 /// Generated text with its indentation.
 #[derive(Default)]
 pub(super) struct Lines {
-    text: String,
-    depth: usize,
+    pub(super) text: String,
+    pub(super) depth: usize,
 }
 
 impl Lines {
@@ -36,26 +36,6 @@ impl Lines {
         self.push(indent, rest);
     }
 
-    /// A line of documentation, wrapped at words; a table's row stays one line.
-    pub fn doc(&mut self, line: &str) {
-        if line.starts_with('|') {
-            return self.push(4 * self.depth, &format!("/// {line}"));
-        }
-        let room = WIDTH - 4 * self.depth - 4;
-        let mut current = String::new();
-        for word in line.split(' ') {
-            if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > room {
-                self.push(4 * self.depth, format!("/// {current}").trim_end());
-                current.clear();
-            }
-            if !current.is_empty() {
-                current.push(' ');
-            }
-            current.push_str(word);
-        }
-        self.push(4 * self.depth, format!("/// {current}").trim_end());
-    }
-
     pub fn blank(&mut self) {
         self.text.push('\n');
     }
@@ -64,9 +44,10 @@ impl Lines {
         self.text
     }
 
-    fn push(&mut self, indent: usize, line: &str) {
+    /// A line as it is, `indent` columns to the right.
+    pub fn push(&mut self, indent: usize, line: &str) {
         if !line.is_empty() {
-            self.text.extend(std::iter::repeat_n(' ', indent));
+            self.text.extend(core::iter::repeat_n(' ', indent));
             self.text.push_str(line);
         }
         self.text.push('\n');
@@ -75,19 +56,12 @@ impl Lines {
 
 /// The last place within `room` columns where a line may be broken.
 fn break_before(line: &str, room: usize) -> Option<usize> {
-    let mut last = None;
-    for (columns, (at, _)) in line.char_indices().enumerate() {
-        if columns > room {
-            break;
-        }
-        let rest = &line[at..];
-        let operator = [" + ", " - ", " * "].iter().any(|o| rest.starts_with(o));
-        let comma = at > 0 && line[..at].ends_with(", ");
-        if at > 0 && (operator || comma) {
-            last = Some(at);
-        }
-    }
-    last
+    let breakable = |at: &usize| {
+        let operator = [" + ", " - ", " * "].iter().any(|o| line[*at..].starts_with(o));
+        operator || line[..*at].ends_with(", ")
+    };
+    let places = line.char_indices().map(|(at, _)| at).take(room + 1);
+    places.filter(|at| *at > 0).filter(breakable).last()
 }
 
 #[cfg(test)]
@@ -103,12 +77,5 @@ mod tests {
         assert!(text.lines().all(|l| l.len() <= WIDTH) && text.lines().count() > 1);
         let joined: String = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(joined, format!("let y = {};", terms.join(" + ")));
-    }
-
-    #[test]
-    fn documentation_is_wrapped_at_words() {
-        let mut lines = Lines::at(0);
-        lines.doc(&"word ".repeat(40));
-        assert!(lines.finish().lines().all(|l| l.starts_with("///") && l.len() <= WIDTH));
     }
 }
