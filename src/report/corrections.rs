@@ -4,22 +4,22 @@ use std::collections::HashMap;
 
 use nalgebra::Vector6;
 use stiffarm_gap::Measurements;
-use stiffarm_gap::identify::measured::{Answer, Unknown};
+use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
 use stiffarm_gap::measurement::Kind;
 
 use super::experiment::{Experiment, Share};
 use super::shape::{Curve, Over, lever, torque};
 
 /// The joints (from 0) whose springs were found, with what that adds to the file's compliance.
-pub fn corrected(answer: &Answer) -> impl Iterator<Item = (usize, f64)> + '_ {
+pub fn corrected(answer: &Answer) -> impl Iterator<Item = (&Parameter, usize, f64)> + '_ {
     answer.parameters.iter().filter(|p| p.usable()).filter_map(|p| match p.unknown {
-        Unknown::Joint(joint) => Some((joint - 1, p.value - p.file)),
+        Unknown::Joint(joint) => Some((p, joint - 1, p.value - p.file)),
         Unknown::Link(_) | Unknown::Base(_) => None,
     })
 }
 
 /// A correction as a function of the joint's torque.
-pub fn curve((joint, change): (usize, f64)) -> Curve<'static> {
+pub fn curve((_, joint, change): (&Parameter, usize, f64)) -> Curve<'static> {
     Curve {
         title: format!("compliance at joint {}", joint + 1),
         joint,
@@ -35,7 +35,7 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
         moves.iter().map(|m| m.fixed_rows::<3>(first).norm_squared()).sum()
     };
     let whole = squares(experiment.gaps[0]);
-    let share = |(joint, change): (usize, f64)| {
+    let share = |(parameter, joint, change): (&Parameter, usize, f64)| {
         let rows = &experiment.data.rows;
         let move_of = |row| {
             let torque = torque(experiment, row, joint).unwrap_or(0.0);
@@ -46,17 +46,15 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
             subtract_means(&mut moves, experiment.data);
         }
         let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };
-        let place = format!("joint {}", joint + 1);
-        Share { place, share: Some(part), found: false }
+        let [low, high] = parameter.interval;
+        Share {
+            place: parameter.unknown.to_string(),
+            share: Some(part),
+            found: !(low..=high).contains(&parameter.file),
+        }
     };
     let mut shares: Vec<Share> = corrected(answer).map(share).collect();
     shares.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
-    for share in &mut shares {
-        share.found = answer.parameters.iter().any(|p| {
-            p.unknown.to_string() == share.place
-                && !(p.interval[0]..=p.interval[1]).contains(&p.file)
-        });
-    }
     shares
 }
 

@@ -97,7 +97,10 @@ impl Apart {
         let mut directed = false;
         for (trial, block) in trials.iter().zip(&found) {
             let plain = Trial { row: Row { direction: None, ..trial.row.clone() }, ..*trial };
-            directed |= plain.rows(&line_up, displacements)? != *block;
+            if plain.rows(&line_up, displacements)? != *block {
+                directed = true;
+                break;
+            }
         }
         let loads = plan.loads.len();
         let blocks = found.into_iter().zip(rows).enumerate().map(|(k, (rows, row))| Block {
@@ -143,10 +146,11 @@ impl Apart {
 
 /// What is left of an effect beside the others.
 struct Left {
-    /// Its own information, `AᵀA`, each number in units in which that has a unit diagonal.
-    own: DMatrix<f64>,
-    /// `S`, in the same units.
-    left: DMatrix<f64>,
+    /// Directions of its numbers, apart in `AᵀA` (there 1 each) and in `S`; each number in units in
+    /// which `AᵀA` has a unit diagonal.
+    directions: DMatrix<f64>,
+    /// What `S` is in each direction: the part of the information that is left.
+    parts: DVector<f64>,
     /// Mean square of the tool's displacement, in the same units, noise 1.
     moved: DMatrix<f64>,
     /// Those units.
@@ -185,33 +189,21 @@ impl Left {
             moved[(r, c)] * scale[r] * scale[c] / f64::max(readings, 1.0)
         });
         let own = part(&own, &own);
-        Left { left: &own - explained, own, moved, scale }
-    }
-
-    /// Axes in which the effect's own information is 1.
-    fn axes(&self) -> DMatrix<f64> {
-        let eigen = SymmetricEigen::new(self.own.clone());
-        let seen: Vec<usize> =
-            (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > ROUNDING).collect();
-        let mut axes = eigen.eigenvectors.select_columns(&seen);
-        for (mut axis, &k) in axes.column_iter_mut().zip(&seen) {
-            axis /= eigen.eigenvalues[k].sqrt();
-        }
-        axes
+        let left = &own - explained;
+        let axes = axes(own);
+        let eigen = SymmetricEigen::new(axes.tr_mul(&left) * &axes);
+        Left { directions: axes * eigen.eigenvectors, parts: eigen.eigenvalues, moved, scale }
     }
 
     /// Standard deviation of each number; none where what is left of it is nothing.
     fn deviations(&self) -> Vec<Option<f64>> {
-        let axes = self.axes();
-        let eigen = SymmetricEigen::new(axes.tr_mul(&self.left) * &axes);
-        let directions = &axes * &eigen.eigenvectors;
         let number = |k: usize| {
             if self.scale[k] == 0.0 {
                 return None;
             }
             let mut variance = 0.0;
-            for (j, left) in eigen.eigenvalues.iter().enumerate() {
-                let part = directions[(k, j)].powi(2);
+            for (j, left) in self.parts.iter().enumerate() {
+                let part = self.directions[(k, j)].powi(2);
                 if *left > ALIKE {
                     variance += part / left;
                 } else if part > ALIKE {
@@ -225,16 +217,26 @@ impl Left {
 
     /// By how much the effect must move the tool to be told, with this noise.
     fn smallest(&self, noise: f64) -> Option<f64> {
-        let axes = self.axes();
-        let eigen = SymmetricEigen::new(axes.tr_mul(&self.left) * &axes);
-        if eigen.eigenvalues.is_empty() || eigen.eigenvalues.min() < ALIKE {
+        if self.parts.is_empty() || self.parts.min() < ALIKE {
             return None;
         }
-        let mut directions = &axes * &eigen.eigenvectors;
-        for (mut direction, left) in directions.column_iter_mut().zip(eigen.eigenvalues.iter()) {
+        let mut directions = self.directions.clone();
+        for (mut direction, left) in directions.column_iter_mut().zip(self.parts.iter()) {
             direction /= left.sqrt();
         }
         let moved = SymmetricEigen::new(directions.tr_mul(&self.moved) * &directions);
         Some(DEVIATIONS * noise * moved.eigenvalues.max().max(0.0).sqrt())
     }
+}
+
+/// Axes in which information is 1; what is rounding is left out.
+fn axes(information: DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = SymmetricEigen::new(information);
+    let seen: Vec<usize> =
+        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > ROUNDING).collect();
+    let mut axes = eigen.eigenvectors.select_columns(&seen);
+    for (mut axis, &k) in axes.column_iter_mut().zip(&seen) {
+        axis /= eigen.eigenvalues[k].sqrt();
+    }
+    axes
 }
