@@ -4,7 +4,7 @@ mod plant;
 
 use serde_json::Value;
 
-use crate::support::{Folder, REPOSITORY, stiffarm, text};
+use crate::support::{Folder, read, stiffarm, text};
 
 const LIN: [&str; 3] =
     ["diagnose", "robots/arms/lin_planar.toml", "robots/data/lin1991_table3.csv"];
@@ -55,8 +55,7 @@ fn lins_gap_is_closed_by_a_spring_at_joint_1() {
 
 #[test]
 fn the_readme_shows_what_is_printed() {
-    let file = std::path::Path::new(REPOSITORY).join("README.md");
-    let readme = std::fs::read_to_string(file).expect("there is one");
+    let readme = read("README.md");
     let out = lin(&RIVALS);
     assert!(readme.contains(&format!("```text\n{out}```\n")), "put this into README.md:\n{out}");
 }

@@ -3,7 +3,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::support::{Folder, REPOSITORY, command, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, command, read, stiffarm, text};
 
 const LIN: [&str; 3] = ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv"];
 const SPRINGS: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
@@ -150,7 +150,7 @@ fn files_that_cannot_be_read_are_named() {
 fn a_missing_column_is_named() {
     let folder = Folder::new();
     let without = |file: &str, column: &str| {
-        let whole = std::fs::read_to_string(file).expect("there");
+        let whole = read(file);
         let mut lines = whole.lines().filter(|line| !line.starts_with('#'));
         let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
         let gone = header.iter().position(|name| name.starts_with(column)).expect("a column");

@@ -4,7 +4,7 @@ use nalgebra::Vector6;
 use serde_json::Value;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm, text};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
@@ -12,7 +12,7 @@ const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
 /// A file of a KR 240-2 with the true springs: `poses` postures, each under some loads, read to
 /// a hundredth of a millimetre.
 fn run(folder: &Folder, poses: usize, loads: &[[f64; 3]]) -> (String, String) {
-    let mut robot = std::fs::read_to_string("robots/arms/kuka_kr240.toml").expect("there");
+    let mut robot = read("robots/arms/kuka_kr240.toml");
     robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
     let mut arm = arm("kuka_kr240");
     arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);

@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm, text};
 
 /// The fenced commands of the page, as arguments; what stands in quotes is one.
 fn commands(page: &str) -> Vec<Vec<String>> {
@@ -14,7 +14,7 @@ fn commands(page: &str) -> Vec<Vec<String>> {
 /// Every picture of the page is what its command prints.
 #[test]
 fn the_maps_of_the_page_are_those_of_the_commands() {
-    let page = std::fs::read_to_string("docs/maps.md").expect("the page is there");
+    let page = read("docs/maps.md");
     let folder = Folder::new();
     let mut maps = 0;
     for mut arguments in commands(&page) {
@@ -28,7 +28,7 @@ fn the_maps_of_the_page_are_those_of_the_commands() {
         let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let screen = stiffarm(&words).good();
         let printed = std::fs::read_to_string(&arguments[at]).expect("written");
-        let kept = std::fs::read_to_string(&committed).expect("committed");
+        let kept = read(&committed);
         assert!(printed == kept, "{committed} is not what its command prints: print it anew");
         for line in screen.lines().filter(|line| line.contains("highest")) {
             assert!(page.contains(line.trim()), "no `{line}` on the page");
@@ -89,7 +89,7 @@ fn shrink_is_that_of_the_corrected_file() {
     let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
     let after = found["gap"]["after"]["position_rms"].as_f64().expect("a number");
     let arms = [robot, &better].map(|path| {
-        let text = std::fs::read_to_string(path).expect("there");
+        let text = read(path);
         let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, path).expect("a robot");
         stiffarm_gap::robot::arm(&robot).expect("numbers")
     });

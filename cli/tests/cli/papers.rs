@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, REPOSITORY, stiffarm, text};
+use crate::support::{Folder, read, stiffarm, text};
 
 #[test]
 fn the_built_in_ledger_names_the_misprints() {
@@ -38,10 +38,7 @@ fn what_cannot_be_read_is_pointed_at() {
 /// What is committed is what the command prints.
 #[test]
 fn the_growth_of_the_difference_is_a_table_and_a_picture() {
-    let committed = |file: &str| {
-        let path = format!("{REPOSITORY}/docs/{file}");
-        std::fs::read_to_string(path).expect("a committed file")
-    };
+    let committed = |file: &str| read(&format!("docs/{file}"));
     let table = stiffarm(&["papers", "--figure", "growth"]).good();
     assert!(table.contains("| 0.01 | 1.00e-5 m | 2.00e-5 m | 5.00e-5 m | 100.00 % |"), "{table}");
     assert!(committed("papers.md").contains(&table));

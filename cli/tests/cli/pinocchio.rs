@@ -5,7 +5,7 @@ use serde_json::Value;
 use stiffarm_kernels::Output;
 use stiffarm_kernels::generic::Arm;
 
-use crate::support::{Folder, REPOSITORY, arm, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm, text};
 
 /// One posture, by Pinocchio.
 struct Sample {
@@ -28,8 +28,7 @@ fn columns(value: &Value) -> Vec<f64> {
 }
 
 fn data(robot: &str) -> (Value, Vec<Sample>) {
-    let path = format!("{REPOSITORY}/tests/data/pinocchio/{robot}.json");
-    let text = std::fs::read_to_string(path).expect("the data are there");
+    let text = read(&format!("tests/data/pinocchio/{robot}.json"));
     let file: Value = serde_json::from_str(&text).expect("JSON");
     let samples = file["samples"].as_array().expect("samples").iter().map(|s| Sample {
         q: numbers(&s["q"]),

@@ -3,13 +3,13 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm, text};
 
 const PULLS: [&str; 4] = ["--load", "0,0,-2kN,0,0,0", "--load", "1500,-1000,0,0,0,0"];
 
 /// A robot file whose last joint shows, and its plan.
 fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String) {
-    let mut robot = std::fs::read_to_string("robots/arms/kuka_kr240.toml").expect("there");
+    let mut robot = read("robots/arms/kuka_kr240.toml");
     robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
     let robot = folder.file("arm.toml", robot);
     let csv = text(&folder.path("plan.csv"));

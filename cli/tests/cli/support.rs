@@ -90,10 +90,16 @@ pub fn text(path: &Path) -> String {
     path.to_str().expect("a path in UTF-8").to_owned()
 }
 
+/// The text of a file: of this repository, where its path is relative.
+#[track_caller]
+pub fn read(path: &str) -> String {
+    let read = std::fs::read_to_string(Path::new(REPOSITORY).join(path));
+    read.unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
 /// The robot of a robot file of this repository.
 pub fn arm(id: &str) -> stiffarm_kernels::generic::Arm {
-    let path = Path::new(REPOSITORY).join(format!("robots/arms/{id}.toml"));
-    let text = std::fs::read_to_string(path).expect("the robot file is there");
+    let text = read(&format!("robots/arms/{id}.toml"));
     let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, id).expect("it is right");
     stiffarm_gap::robot::arm(&robot).expect("it has numbers for everything")
 }

@@ -1,11 +1,13 @@
 //! docs/workbench.md: every command on the page prints what the page shows and writes the files
 //! that stand beside it. With STIFFARM_WRITE_DOCS set the page and the files are written anew.
 
+use std::path::Path;
+
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, read, stiffarm, text};
 
 const PAGE: &str = "docs/workbench.md";
 
@@ -42,15 +44,16 @@ fn write_anew() -> bool {
 #[track_caller]
 fn same(committed: &str, made: &str) {
     if write_anew() {
-        std::fs::write(committed, made).expect("the folder can be written to");
+        std::fs::write(Path::new(REPOSITORY).join(committed), made)
+            .expect("the folder can be written to");
     }
-    let kept = std::fs::read_to_string(committed).expect("committed");
+    let kept = read(committed);
     assert!(kept == made, "{committed} is not what its command writes:\n{made}");
 }
 
 #[test]
 fn the_page_shows_what_the_commands_do() {
-    let page = std::fs::read_to_string(PAGE).expect("the page is there");
+    let page = read(PAGE);
     let folder = Folder::new();
     let blocks = blocks(&page);
     let mut commands = 0;
@@ -71,9 +74,10 @@ fn the_page_shows_what_the_commands_do() {
         let printed = format!("{}{}", run.out, run.err);
         if write_anew() {
             let behind = |shown: &str| format!("```sh\n{block}```\n\n```text\n{shown}```\n");
-            let page = std::fs::read_to_string(PAGE).expect("the page is there");
+            let page = read(PAGE);
             let page = page.replacen(&behind(shown), &behind(&printed), 1);
-            std::fs::write(PAGE, page).expect("the page can be written to");
+            std::fs::write(Path::new(REPOSITORY).join(PAGE), page)
+                .expect("the page can be written to");
         } else {
             assert_eq!(*shown, printed, "{words:?}");
         }
@@ -104,10 +108,10 @@ fn jitter(row: usize, component: usize) -> f64 {
 /// The measured file is the plan, filled in by the simulator.
 #[test]
 fn the_measurements_of_the_page_are_the_plan_filled_in() {
-    let toml = std::fs::read_to_string("docs/workbench/arm.toml").expect("there");
+    let toml = read("docs/workbench/arm.toml");
     let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");
     let arm = real(&stiffarm_gap::robot::arm(&robot).expect("numbers"));
-    let plan = std::fs::read_to_string("docs/workbench/plan.csv").expect("there");
+    let plan = read("docs/workbench/plan.csv");
     let mut filled = "# The plan, measured: simulated, with errors of 0.02 mm.\n".to_owned();
     let mut names: Vec<&str> = Vec::new();
     for (row, line) in plan.lines().skip(1).enumerate() {
