@@ -6,6 +6,7 @@
 #[cfg(feature = "batch")]
 extern crate alloc;
 #[cfg(any(feature = "fma", feature = "generic"))]
+#[cfg_attr(feature = "parity", macro_use)]
 extern crate std;
 
 #[cfg(feature = "batch")]
@@ -15,6 +16,8 @@ pub mod generic;
 mod kernel;
 #[cfg(feature = "lanes")]
 pub mod lanes;
+#[cfg(feature = "parity")]
+pub mod parity;
 mod scalar;
 #[cfg(any(feature = "lanes", not(feature = "libm")))]
 mod sin_cos;

@@ -1,6 +1,7 @@
 //! Comparing kernels with the textbook.
 
-use stiffarm::kernels::generic::{Arm, Joint};
+use stiffarm::kernels::generic::Arm;
+use stiffarm::kernels::parity::scale;
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
 /// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
@@ -72,62 +73,5 @@ pub fn deviation<S: Scalar>(
     let cast: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
     kernels.evaluate(output, &cast, &wrench.map(S::lit), &mut got).expect("the kernel agrees");
     let got: Vec<f64> = got.into_iter().map(back).collect();
-    relative(&got, &expected, cancelled * terms(arm, output, q, wrench))
-}
-
-/// How far the terms of an output may cancel in double precision before its largest entry is no scale
-/// any more: a horizontal arm's weights turn no vertical joint, and the textbook says so to rounding.
-pub const CANCELLED: f64 = 1e-3;
-/// The same in single precision, whose rounding is a thirtieth of the tolerance.
-pub const CANCELLED_F32: f64 = 0.1;
-
-/// Largest difference relative to the output's scale: its largest entry, or `floor`.
-pub fn relative(got: &[f64], expected: &[f64], floor: f64) -> f64 {
-    assert_eq!(got.len(), expected.len());
-    assert!(got.iter().all(|x| x.is_finite()), "a kernel returned {got:?}");
-    let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let worst = got.iter().zip(expected).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-    if worst == 0.0 { 0.0 } else { worst / largest.max(floor) }
-}
-
-/// The size of the terms that an output is summed of.
-pub fn terms(arm: &Arm, output: Output, q: &[f64], wrench: &[f64; 6]) -> f64 {
-    let rows = arm.joints.iter().zip(q);
-    let reach: f64 = rows.map(|(j, q)| j.a.abs() + j.d.abs() + q.abs()).sum::<f64>()
-        + arm.tool.translation.vector.norm();
-    let lever = 1.0 + reach;
-    let load = wrench.iter().map(|x| x.abs()).sum::<f64>() * lever;
-    let weight = arm.gravity.norm()
-        * lever
-        * arm
-            .joints
-            .iter()
-            .map(|j| j.mass * (1.0 + j.com.norm()) + beam_mass(j, reach))
-            .sum::<f64>();
-    let compliance: f64 =
-        arm.joints.iter().map(|j| j.compliance + beam_compliance(j, reach)).sum::<f64>() * lever;
-    match output {
-        Output::Pose
-        | Output::Frames
-        | Output::Jacobian
-        | Output::JacobianTool
-        | Output::ParameterJacobian => lever,
-        Output::ComplementaryStiffness | Output::JointTorque => load,
-        Output::GravityTorque | Output::GravityStiffness => weight,
-        Output::Compliance => compliance * lever,
-        Output::DeflectionFirstOrder | Output::Deflection => compliance * load,
-        Output::DeflectionWithGravity => compliance * (load + weight),
-        Output::StiffnessRegressor => lever * load,
-    }
-}
-
-fn beam_mass(joint: &Joint, length: f64) -> f64 {
-    joint.beam.as_ref().map_or(0.0, |b| b.density * b.area * length)
-}
-
-fn beam_compliance(joint: &Joint, length: f64) -> f64 {
-    joint.beam.as_ref().map_or(0.0, |b| {
-        let bending = 1.0 / (b.youngs_modulus * b.iy.min(b.iz));
-        length * (1.0 + length * length) * (bending + 1.0 / (b.shear_modulus * b.j))
-    })
+    scale::deviation(&got, &expected, cancelled * scale::terms(arm, output, q, wrench))
 }

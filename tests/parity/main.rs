@@ -9,6 +9,7 @@ mod batch;
 #[macro_use]
 mod compare;
 mod dual;
+mod found;
 mod known;
 mod lanes;
 mod random;

@@ -2,10 +2,11 @@
 
 use proptest::prelude::*;
 use stiffarm::kernels::Output;
+use stiffarm::kernels::parity::scale::{CANCELLED, deviation, terms};
 use stiffarm_codegen::derive::{Output as Derived, Passes, derive, derive_in, derive_with};
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{CANCELLED, Draws, relative, terms};
+use crate::compare::Draws;
 
 fn angle() -> impl Strategy<Value = String> {
     prop_oneof![
@@ -100,7 +101,7 @@ proptest! {
             let Ok(expected) = arm.evaluate(output, &q, &wrench) else { continue };
             let program = derive(&robot, &[derived]);
             let got = program.evaluate(&q, &wrench, |_| f64::NAN).unwrap();
-            let worst = relative(&got[0], &expected, CANCELLED * terms(&arm, output, &q, &wrench));
+            let worst = deviation(&got[0], &expected, CANCELLED * terms(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{} {worst:e}\n{text}", output.name());
         }
     }
@@ -117,7 +118,7 @@ proptest! {
         let base = derive_in(&robot, &outputs, 0).evaluate(&q, &wrench, |_| f64::NAN).unwrap();
         let kinds = [Output::Jacobian, Output::ComplementaryStiffness, Output::Compliance];
         for ((a, b), output) in there.iter().zip(&base).zip(kinds) {
-            let worst = relative(a, b, CANCELLED * terms(&arm, output, &q, &wrench));
+            let worst = deviation(a, b, CANCELLED * terms(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{worst:e}\n{text}");
         }
     }
@@ -142,7 +143,7 @@ proptest! {
         let some = derive_with(&robot, &[derived], passes).evaluate(&q, &wrench, |_| f64::NAN);
         if let (Ok(all), Ok(some)) = (all, some) {
             let floor = CANCELLED * terms(&arm, output, &q, &wrench);
-            let worst = relative(&some[0], &all[0], floor);
+            let worst = deviation(&some[0], &all[0], floor);
             prop_assert!(worst <= 1e-11, "{} {passes:?} {worst:e}\n{text}", output.name());
         }
     }

@@ -1,10 +1,11 @@
 //! Odd tables: everything a row may hold, in combinations that no catalogue arm has.
 
+use stiffarm::kernels::parity::scale::CANCELLED;
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{CANCELLED, Draws, deviation};
+use crate::compare::{Draws, deviation};
 
 robot! {
     /// Standard rows with oblique twists, masses, beams and a turned tool.

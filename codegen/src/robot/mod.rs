@@ -3,6 +3,7 @@
 //! A robot file ([`Robot::from_toml`]) and the macro's inline table ([`parse_tokens`]) are read
 //! into one draft whose cells know their places, cell by cell with the same words and the same
 //! grammar, and one validator makes the [`Robot`]: the same mistake has the same message in both.
+//! With the feature `urdf` a [`Robot`] can be made of a URDF.
 
 mod angle;
 mod decimal;
@@ -23,6 +24,8 @@ mod symbols;
 mod tokens;
 mod toml;
 mod units;
+#[cfg(feature = "urdf")]
+pub mod urdf;
 mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
