@@ -7,7 +7,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::options::{DiagnoseError, Nuisance};
 use super::problem::{LARGEST, Problem};
-use crate::chain::Displacement;
+use crate::displacement::Displacement;
 use crate::effects::{Effect, Scene, Spot};
 use crate::gap::row_gap;
 use crate::simulate::{Actual, Sim, Site, State};
