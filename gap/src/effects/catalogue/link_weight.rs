@@ -7,7 +7,7 @@
 use nalgebra::{Matrix6xX, Point3, Vector3};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, links};
+use crate::effects::{Effect, Parameter, Place, Scene, Spot, links};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site, chord};
 

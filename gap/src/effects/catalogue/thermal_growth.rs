@@ -8,7 +8,7 @@ use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot};
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site, chord};
 

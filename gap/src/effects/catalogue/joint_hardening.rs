@@ -7,7 +7,7 @@ use nalgebra::Vector6;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site, axis};
 

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Parameter, Place, Scene, Spot, joints};
+use crate::effects::{Effect, Parameter, Place, Scene, Spot, joints};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 

@@ -8,7 +8,7 @@
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Carrier, Effect, Parameter, Place, Scene, Spot};
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 

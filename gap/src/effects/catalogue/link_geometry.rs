@@ -9,7 +9,7 @@ use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use super::{Effect, Parameter, Place, Scene, Spot, links};
+use crate::effects::{Effect, Parameter, Place, Scene, Spot, links};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 

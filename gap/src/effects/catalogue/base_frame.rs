@@ -6,8 +6,8 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::displacement::Displacement;
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
