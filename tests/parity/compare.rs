@@ -3,6 +3,7 @@
 use stiffarm::kernels::generic::Arm;
 use stiffarm::kernels::parity::scale;
 use stiffarm::kernels::{Kernels, Output, Scalar};
+pub use stiffarm_draws::Draws;
 
 /// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
 macro_rules! parameters {
@@ -23,23 +24,16 @@ macro_rules! parameters {
     };
 }
 
-/// Joint values and wrenches by a small deterministic generator (PCG's multiplier).
-pub struct Draws(u64);
-
-impl Draws {
-    pub fn new(seed: u64) -> Self {
-        Draws(seed.wrapping_mul(2).wrapping_add(1))
-    }
-
-    /// Uniform in (-1, 1).
-    pub fn unit(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
+/// What an arm is asked.
+pub trait ForArm {
     /// Joint values within ±3 rad or ±0.5 m beyond 0.6 m.
-    pub fn posture(&mut self, arm: &Arm) -> Vec<f64> {
+    fn posture(&mut self, arm: &Arm) -> Vec<f64>;
+    /// Up to 100 N and 30 N·m, or what leaves the softest joint clearly stable at full reach.
+    fn wrench(&mut self, arm: &Arm) -> [f64; 6];
+}
+
+impl ForArm for Draws {
+    fn posture(&mut self, arm: &Arm) -> Vec<f64> {
         use stiffarm::kernels::Motion;
         arm.joints
             .iter()
@@ -50,8 +44,7 @@ impl Draws {
             .collect()
     }
 
-    /// Up to 100 N and 30 N·m, or what leaves the softest joint clearly stable at full reach.
-    pub fn wrench(&mut self, arm: &Arm) -> [f64; 6] {
+    fn wrench(&mut self, arm: &Arm) -> [f64; 6] {
         let reach: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
         let softest = arm.joints.iter().map(|j| j.compliance).fold(0.0, f64::max);
         let bearable = 0.02 / (softest * (1.0 + reach));

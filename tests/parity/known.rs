@@ -5,7 +5,7 @@ use stiffarm::kernels::parity::{self, Subject, scale::CANCELLED};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
-use crate::compare::{Draws, deviation};
+use crate::compare::{Draws, ForArm, deviation};
 
 /// Draws per robot, as the claim "10,000 random joint vectors and wrenches per robot" has it.
 const COUNT: usize = 10_000;

@@ -6,7 +6,7 @@ use stiffarm::kernels::parity::scale::{CANCELLED, deviation, terms};
 use stiffarm_codegen::derive::{Output as Derived, Passes, derive, derive_in, derive_with};
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::Draws;
+use crate::compare::{Draws, ForArm};
 
 fn angle() -> impl Strategy<Value = String> {
     prop_oneof![

@@ -5,7 +5,7 @@ use stiffarm::kernels::{Kernels, Output};
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{Draws, deviation};
+use crate::compare::{Draws, ForArm, deviation};
 
 robot! {
     /// Standard rows with oblique twists, masses, beams and a turned tool.
