@@ -28,6 +28,34 @@ fn what_is_written_can_be_checked() {
 }
 
 #[test]
+fn a_missing_folder_is_made() {
+    let folder = Folder::new();
+    for (emit, out, names) in [
+        ("c", "new/firmware", ["ur5.c", "ur5.h"].as_slice()),
+        ("rust", "other/src/ur5.rs", &["ur5.rs"]),
+    ] {
+        let of = |to: &str| {
+            let path = text(&folder.path(out));
+            stiffarm(&["generate", "ur5", "--emit", emit, to, &path])
+        };
+        assert_eq!(of("--out").good(), "");
+        assert!(of("--check").good().contains("is what ur5 gives"));
+        let inner = folder.path(out);
+        let inner = if emit == "c" { &inner } else { inner.parent().expect("a folder") };
+        let there =
+            std::fs::read_dir(inner).expect("made").map(|e| e.expect("an entry").file_name());
+        let mut there: Vec<_> = there.collect();
+        there.sort();
+        assert_eq!(there, names);
+    }
+    let file = folder.file("file", "before");
+    let under = text(&folder.path("file/src/ur5.rs"));
+    let err = stiffarm(&["generate", "ur5", "--emit", "rust", "--out", &under]).refused();
+    assert!(err.contains("cannot write "), "{err}");
+    assert_eq!(std::fs::read_to_string(&file).expect("there"), "before");
+}
+
+#[test]
 fn a_difference_is_shown_with_its_line() {
     let folder = Folder::new();
     let text = stiffarm(&["generate", "ur5", "--emit", "rust"]).good();

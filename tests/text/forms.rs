@@ -1,11 +1,12 @@
-//! The macro's two forms, the build script and the command give what `emit::rust` returns.
+//! The macro's two forms, the build script and the command, after a head of its own, give what
+//! `emit::rust` returns.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
 use proc_macro2::{TokenStream, TokenTree};
-use stiffarm_codegen::emit::{RustOptions, rust};
+use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::{expand, generate_to_out_dir};
 
 use crate::tables::{collection, invocations, table};
@@ -76,6 +77,7 @@ fn the_command_fuses_rust_alone() {
     let (_, _, robot) =
         collection().into_iter().find(|(id, _, _)| *id == "ur10").expect("in the collection");
     let text = rust(&robot, &RustOptions { fused: true, ..RustOptions::default() });
+    let text = format!("{FILE_HEAD}{text}");
     assert!(stiffarm(&["--emit", "rust", "--fused"]).stdout == text.into_bytes());
     for (arguments, message) in [
         (&["--emit", "c", "--fused", "--out", "nowhere"][..], "--fused is for rust"),
@@ -134,10 +136,8 @@ fn the_command_writes_the_text() {
             .output()
             .expect("the command runs");
         let said = String::from_utf8_lossy(&command.stderr);
-        assert!(
-            command.stdout == rust(&robot, &RustOptions::default()).into_bytes(),
-            "{id}: {said}"
-        );
+        let text = format!("{FILE_HEAD}{}", rust(&robot, &RustOptions::default()));
+        assert!(command.stdout == text.into_bytes(), "{id}: {said}");
     }
 }
 
