@@ -81,14 +81,14 @@ fn outputs() -> impl Iterator<Item = Output> {
 }
 
 impl Batch {
-    /// So many arms of up to nine joints, and so many long ones.
-    pub fn new(seed: u64, short: usize, long: usize) -> Self {
+    /// An arm for each of these numbers of joints.
+    pub fn new(seed: u64, joints: &[usize]) -> Self {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
         let random = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
         let mut runner = TestRunner::new_with_rng(Config::default(), random);
-        let sizes = (0..short).map(|k| 1 + k % 9..=1 + k % 9).chain((0..long).map(|_| 12..=16));
-        let cases = sizes.enumerate().map(|(k, rows)| {
+        let cases = joints.iter().enumerate().map(|(k, joints)| {
+            let rows = *joints..=*joints;
             let table = table(rows).new_tree(&mut runner).expect("nothing is filtered").current();
             let questions = questions(&table.arm(), seed ^ (k as u64) << 32);
             Case { name: format!("arm_{k}"), table, questions }

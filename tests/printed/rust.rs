@@ -21,6 +21,12 @@ edition = "2024"
 [dependencies]
 stiffarm-kernels = { path = "KERNELS" }
 
+[features]
+dispatch = ["stiffarm-kernels/dispatch"]
+fma = ["stiffarm-kernels/fma"]
+lanes = ["stiffarm-kernels/lanes"]
+libm = ["stiffarm-kernels/libm"]
+
 [workspace]
 
 [profile.dev]
@@ -77,8 +83,9 @@ fn main() {
 /// One crate at a time: they share a folder, so that the kernels are compiled once.
 static FOLDER: Mutex<()> = Mutex::new(());
 
-/// For every arm the answers of the plain text to all questions, then those of the fused one.
-pub fn answers(batch: &Batch) -> Vec<Vec<String>> {
+/// For every arm the answers of the plain text to all questions, then those of the fused one; with a
+/// feature of the kernels, and what the compiler is told.
+pub fn answers(batch: &Batch, (feature, flags): (&str, &str)) -> Vec<Vec<String>> {
     let _alone = FOLDER.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed");
     let source = folder.join("src");
@@ -105,13 +112,15 @@ pub fn answers(batch: &Batch) -> Vec<Vec<String>> {
     }
     arms.push_str("        _ => unreachable!(\"no such arm\"),\n    }\n}\n");
     fs::write(source.join("main.rs"), main + &arms).expect("written");
+    let target = if flags.is_empty() { "target" } else { "flags" };
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--offline", "--target-dir", "target"]).current_dir(&folder);
-    cargo.env_remove("CARGO_TARGET_DIR");
+    cargo.args(["build", "--quiet", "--offline", "--features", feature, "--target-dir", target]);
+    cargo.env("RUSTFLAGS", flags).current_dir(&folder);
     let built = cargo.output().expect("cargo starts");
     let said = String::from_utf8_lossy(&built.stderr);
     assert!(built.status.success(), "seed {}, {}:\n{said}", batch.seed, folder.display());
-    batch.cases.iter().map(|case| run(&folder, case)).collect()
+    let program = folder.join(target).join("debug/printed");
+    batch.cases.iter().map(|case| run(&program, case)).collect()
 }
 
 /// The function that asks one module.
@@ -157,7 +166,7 @@ fn of_{module}(q: &[f64], wrench: &[f64; 6]) -> Answers {{
     )
 }
 
-fn run(folder: &Path, case: &Case) -> Vec<String> {
+fn run(program: &Path, case: &Case) -> Vec<String> {
     let mut input = String::new();
     for suffix in ["", "_fused"] {
         for question in &case.questions {
@@ -167,6 +176,5 @@ fn run(folder: &Path, case: &Case) -> Vec<String> {
             input.push('\n');
         }
     }
-    let program = Command::new(folder.join("target/debug/printed"));
-    spoken(program, &input).lines().map(str::to_owned).collect()
+    spoken(Command::new(program), &input).lines().map(str::to_owned).collect()
 }
