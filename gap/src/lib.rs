@@ -16,6 +16,7 @@ pub mod compensate;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
+mod dice;
 pub mod effects;
 #[cfg(test)]
 mod fixture;

@@ -3,7 +3,7 @@
 use stiffarm_gap::Options;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Effect, Noise};
+use stiffarm_gap::plant::{Noise, effects};
 use stiffarm_gap::withhold::{Case, Plan, Report, with_findings, withhold};
 
 use crate::arms::arm;
@@ -63,7 +63,7 @@ pub fn run(setting: &Setting, cases: usize) -> Report {
         predict: Some(&predict),
         noise: Noise { position: 30e-6, rotation: 0.1e-3 },
         frames: None,
-        effects: &Effect::ALL,
+        effects: &effects(),
         cases,
         multiple: [8.0, 20.0],
         seed: setting.seed,

@@ -2,11 +2,13 @@
 
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
 
-use super::draw::{resized, typical};
+use super::draw::resized;
 use super::{Plan, WithholdError};
+use crate::diagnose::Nuisance;
+use crate::dice::Dice;
+use crate::effects::{Draw, Effect, Place};
 use crate::measurement::Measurements;
-use crate::plant::noise::Dice;
-use crate::plant::{Effect, Place, Plant, PlantError, Truth};
+use crate::plant::{Plant, PlantError, Truth};
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -53,7 +55,12 @@ impl<'a> Bench<'a> {
 
     /// An effect at a place of chance, its gap about `multiple` times the noise. `None` if it does
     /// not show anywhere on this design.
-    pub(super) fn plant(&self, effect: Effect, multiple: f64, dice: &mut Dice) -> Option<Planted> {
+    pub(super) fn plant(
+        &self,
+        effect: &'static dyn Effect,
+        multiple: f64,
+        dice: &mut Dice,
+    ) -> Option<Planted> {
         let mut places = effect.places(self.plan.arm);
         dice.shuffle(&mut places);
         places.into_iter().find_map(|place| self.plant_at(effect, place, multiple, dice))
@@ -61,15 +68,15 @@ impl<'a> Bench<'a> {
 
     fn plant_at(
         &self,
-        effect: Effect,
+        effect: &'static dyn Effect,
         place: Place,
         multiple: f64,
         dice: &mut Dice,
     ) -> Option<Planted> {
         let Plan { arm, design, .. } = self.plan;
-        let first = typical(effect, place, arm, design, dice);
-        if effect == Effect::GeometricStiffness {
-            // It has the size that it has.
+        let values = effect.draw(&mut Draw::new(arm, place, design, dice));
+        let first = Truth { effect, place, values };
+        if effect.has_one_size() {
             return self.shown(first).filter(|planted| planted.multiple >= multiple);
         }
         let mut planted = self.shown(first)?;
@@ -119,11 +126,13 @@ impl<'a> Bench<'a> {
 
     fn what_frames_do(&self) -> Result<DMatrix<f64>, PlantError> {
         let mut columns = Vec::new();
-        for (effect, place) in [(Effect::BaseFrame, Place::Base), (Effect::ToolFrame, Place::Tool)]
-        {
-            for name in ["x", "y", "z", "rx", "ry", "rz"] {
-                let truth = Truth { effect, place, values: vec![(name.to_owned(), 1e-5)] };
-                columns.push(self.whitened(&self.exact(&[truth])?));
+        for effect in Nuisance::ALL.map(Nuisance::effect) {
+            let places = effect.places(self.plan.arm).into_iter();
+            for (place, number) in places
+                .flat_map(|p| effect.numbers(self.plan.arm, p).into_iter().map(move |n| (p, n)))
+            {
+                let values = vec![(number.name.into_owned(), 1e-5)];
+                columns.push(self.whitened(&self.exact(&[Truth { effect, place, values }])?));
             }
         }
         Ok(orthonormal(columns))

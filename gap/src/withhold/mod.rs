@@ -21,8 +21,9 @@ pub use run::withhold;
 pub use verdict::Verdict;
 
 use crate::diagnose::{DiagnoseError, Options};
+use crate::effects::Effect;
 use crate::measurement::Measurements;
-use crate::plant::{Effect, Frames, Noise, PlantError};
+use crate::plant::{Frames, Noise, PlantError};
 
 /// What kind of case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -55,7 +56,7 @@ pub struct Plan<'a> {
     /// them are then not put in.
     pub frames: Option<Frames>,
     /// The effects that are put in.
-    pub effects: &'a [Effect],
+    pub effects: &'a [&'static dyn Effect],
     /// Number of cases.
     pub cases: usize,
     /// The size of an effect's gap in multiples of the noise: from, to.

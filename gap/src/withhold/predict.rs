@@ -6,7 +6,7 @@ use stiffarm_kernels::generic::Arm;
 use super::bench::difference;
 use crate::diagnose::Diagnosis;
 use crate::measurement::Measurements;
-use crate::plant::{Effect, Plant, Truth};
+use crate::plant::{Plant, Truth, effects};
 
 /// What the arm with a diagnosis' findings is predicted to read in each row of a design; `None`
 /// where the findings do not say. Only position and orientation as a file has them.
@@ -22,7 +22,7 @@ pub fn with_findings(
             .findings
             .iter()
             .map(|finding| {
-                let effect = Effect::named(finding.effect)?;
+                let effect = effects().into_iter().find(|e| e.identifier() == finding.effect)?;
                 let place =
                     effect.places(arm).into_iter().find(|p| p.to_string() == finding.place)?;
                 let values = finding.parameters.iter().filter(|p| p.value != 0.0);

@@ -9,8 +9,7 @@ use super::report::{Case, Named, Report};
 use super::verdict::Verdict;
 use super::{Kind, Plan, WithholdError, summary};
 use crate::diagnose::{DiagnoseError, Diagnosis, Options, diagnose};
-use crate::effects::CATALOGUE;
-use crate::plant::noise::seed_of;
+use crate::dice::seed_of;
 use crate::plant::{Plant, Truth, blurred};
 
 /// Runs the check. `progress` is told how many cases of how many are done; the result does not
@@ -98,7 +97,7 @@ fn options(plan: &Plan<'_>, setup: &Setup, labels: &[Named]) -> Options {
     options.noise_position = Some(plan.noise.position).filter(|_| components[..3].contains(&true));
     options.noise_rotation = Some(plan.noise.rotation).filter(|_| components[3..].contains(&true));
     if setup.kind == Kind::Removed {
-        let known = CATALOGUE.iter().map(|effect| effect.identifier().to_string());
+        let known = options.catalogue.identifiers().into_iter().map(str::to_owned);
         let allowed = |name: &String| options.effects.as_ref().is_none_or(|e| e.contains(name));
         let removed = |name: &String| labels.iter().any(|label| label.effect == *name);
         options.effects = Some(known.filter(|name| allowed(name) && !removed(name)).collect());
