@@ -7,7 +7,7 @@ use stiffarm_kernels::generic::{Arm, Convention};
 use super::*;
 use crate::fixture::{bent, row, springy, table};
 use crate::measurement::{Kind, Measurements};
-use crate::simulate::{Reading, Sim, moments};
+use crate::simulate::{Actual, Reading, Sim, moments};
 
 /// An arm of each convention, one with a slide; soft enough for loads to matter.
 fn arms() -> Vec<Arm> {
