@@ -86,8 +86,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         Some(_) => Vec::new(),
         None => args.experiment.other_sessions(&arm)?,
     };
-    let predict = with_findings(&arm);
     let options = Options { version: env!("CARGO_PKG_VERSION").to_owned(), ..Options::default() };
+    let predict = with_findings(&arm, &options.catalogue);
     let cases = if args.full { FULL } else { args.cases };
     let plan = Plan {
         arm: &arm,

@@ -54,8 +54,8 @@ pub fn run(setting: &Setting, cases: usize) -> Report {
     };
     let rows = design(setting.seed).rows(&arm);
     let fresh = [1000, 2000, 3000, 4000].map(|more| design(setting.seed + more).rows(&arm));
-    let predict = with_findings(&arm);
     let options = Options { version: "test".to_owned(), ..Options::default() };
+    let predict = with_findings(&arm, &options.catalogue);
     let plan = Plan {
         arm: &arm,
         design: &rows,

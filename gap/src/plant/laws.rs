@@ -77,6 +77,11 @@ pub fn effects() -> Vec<&'static dyn Effect> {
     LAWS.iter().map(|(effect, _)| *effect).collect()
 }
 
+/// Whether the plant has a law for an effect.
+pub fn has_law(effect: &dyn Effect) -> bool {
+    law(effect).is_some()
+}
+
 /// The plant's law for an effect; none for one that it does not know.
 pub(super) fn law(effect: &dyn Effect) -> Option<Law> {
     LAWS.iter().find(|(known, _)| *known == effect).map(|(_, law)| *law)

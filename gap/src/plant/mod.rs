@@ -30,7 +30,7 @@ pub mod design;
 
 use stiffarm_kernels::generic::Arm;
 
-pub use laws::effects;
+pub use laws::{effects, has_law};
 pub use noise::Noise;
 pub use observe::Frames;
 pub use text::csv;
@@ -191,7 +191,7 @@ fn in_order(design: &Measurements, k: usize) -> InOrder<'_> {
 
 /// Measurements with noise added. Of a rotation of which only some components are measured, those
 /// are what is disturbed.
-pub(crate) fn blurred(exact: &Measurements, noise: Noise, seed: u64) -> Measurements {
+pub fn blurred(exact: &Measurements, noise: Noise, seed: u64) -> Measurements {
     let mut dice = Dice::new(seed, Stream::Noise);
     let components = exact.kind.components();
     let mut measured = exact.clone();

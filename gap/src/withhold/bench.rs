@@ -3,12 +3,13 @@
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
 
 use super::draw::resized;
+use super::exact;
 use super::{Plan, WithholdError};
 use crate::diagnose::Nuisance;
 use crate::dice::Dice;
 use crate::effects::{Draw, Effect, Place};
 use crate::measurement::Measurements;
-use crate::plant::{Plant, PlantError, Truth};
+use crate::plant::{PlantError, Truth};
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -40,7 +41,7 @@ impl<'a> Bench<'a> {
                 return Err(WithholdError::NoNoise { what });
             }
         }
-        let nominal = plant(plan, &[])?.exact(plan.design)?;
+        let nominal = exact(plan.arm, &[], plan.frames.as_ref(), plan.design)?;
         let mut bench = Bench { plan, nominal, nuisance: None };
         if plan.frames.is_some() {
             bench.nuisance = Some(bench.what_frames_do()?);
@@ -50,7 +51,7 @@ impl<'a> Bench<'a> {
 
     /// What an instrument without noise shows of these truths.
     pub(super) fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
-        plant(self.plan, truths)?.exact(self.plan.design)
+        exact(self.plan.arm, truths, self.plan.frames.as_ref(), self.plan.design)
     }
 
     /// An effect at a place of chance, its gap about `multiple` times the noise. `None` if it does
@@ -154,14 +155,6 @@ fn orthonormal(columns: Vec<DVector<f64>>) -> DMatrix<f64> {
         }
     }
     if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
-}
-
-fn plant(plan: &Plan<'_>, truths: &[Truth]) -> Result<Plant, PlantError> {
-    let plant = Plant::new(plan.arm, truths)?;
-    Ok(match &plan.frames {
-        Some(frames) => plant.with_frames(frames.clone()),
-        None => plant,
-    })
 }
 
 /// Measured less predicted; of whole rotations the rotation vector between them.

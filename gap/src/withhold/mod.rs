@@ -7,6 +7,7 @@
 mod bench;
 mod case;
 mod draw;
+mod exact;
 mod predict;
 mod report;
 mod run;
@@ -15,6 +16,7 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use exact::exact;
 pub use predict::{Predict, with_findings};
 pub use report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
 pub use run::withhold;

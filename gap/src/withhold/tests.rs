@@ -1,5 +1,5 @@
 use super::*;
-use crate::effects::{Backlash, BaseFrame, JointCompliance, JointOffset, JointRatio, WrenchScale};
+use crate::effects::{Catalogue, Backlash, BaseFrame, JointCompliance, JointOffset, JointRatio, WrenchScale};
 use crate::fixture;
 use crate::measurement;
 use crate::plant::design::{Design, Shape};
@@ -11,8 +11,9 @@ fn design(seed: u64) -> Measurements {
 }
 
 fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
+    let catalogue = Catalogue::default();
     let (arm, design, fresh) = (fixture::springy(), design(1), [design(2), design(3)]);
-    let predict = with_findings(&arm);
+    let predict = with_findings(&arm, &catalogue);
     let options =
         Options { effects: Some(vec!["joint_compliance".to_owned()]), ..Options::default() };
     let mut plan = Plan {
