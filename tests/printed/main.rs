@@ -18,7 +18,7 @@ mod c;
 #[allow(dead_code, unused_macros)]
 #[path = "../parity/compare.rs"]
 mod compare;
-#[allow(dead_code)]
+#[allow(dead_code, unused_imports, unused_macros)]
 #[path = "../c/compiler.rs"]
 mod compiler;
 #[path = "../c/program.rs"]
