@@ -3,16 +3,15 @@
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 
 use crate::batch::{Batch, Case};
-use crate::compiler::{Folder, compile, compilers, run};
+use crate::compiler::{Folder, compile, run};
 use crate::program::program;
 
 /// For every arm the answers to all questions.
 pub fn answers(batch: &Batch) -> Vec<Vec<String>> {
-    let compiler = compilers().first().copied().expect("a C compiler on the path");
-    batch.cases.iter().map(|case| of(case, batch.seed, compiler)).collect()
+    batch.cases.iter().map(|case| of(case, batch.seed)).collect()
 }
 
-fn of(case: &Case, seed: u64, compiler: &str) -> Vec<String> {
+fn of(case: &Case, seed: u64) -> Vec<String> {
     let (name, robot) = (&case.name, case.table.numeric());
     let folder = Folder::new(&format!("printed-{seed}-{name}"));
     let (precision, sines) = (Precision::F64, Sines::Polynomial);
@@ -21,7 +20,7 @@ fn of(case: &Case, seed: u64, compiler: &str) -> Vec<String> {
     folder.write(&format!("{name}.h"), &files.header);
     folder.write(&format!("{name}.c"), &files.source);
     folder.write("main.c", &program(name, robot.dof(), precision));
-    compile(compiler, &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
+    compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
     let mut input = String::new();
     for question in &case.questions {
         let words = question.q.iter().chain(&question.wrench);
