@@ -1,7 +1,9 @@
 //! Comparing kernels with the textbook.
 
 use stiffarm::kernels::generic::Arm;
-use stiffarm::kernels::parity::scale;
+pub use stiffarm::kernels::parity::scale::{
+    CANCELLED, CANCELLED_SINGLE as CANCELLED_F32, deviation as relative, terms,
+};
 use stiffarm::kernels::{Kernels, Output, Scalar};
 pub use stiffarm_draws::Draws;
 
@@ -66,5 +68,5 @@ pub fn deviation<S: Scalar>(
     let cast: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
     kernels.evaluate(output, &cast, &wrench.map(S::lit), &mut got).expect("the kernel agrees");
     let got: Vec<f64> = got.into_iter().map(back).collect();
-    scale::deviation(&got, &expected, cancelled * scale::terms(arm, output, q, wrench))
+    relative(&got, &expected, cancelled * terms(arm, output, q, wrench))
 }

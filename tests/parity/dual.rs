@@ -3,11 +3,10 @@
 use core::ops::{Add, Mul, Neg, Sub};
 
 use num_dual::{Dual64, DualNum};
-use stiffarm::kernels::parity::scale::deviation;
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
-use crate::compare::Draws;
-use crate::zoo;
+use crate::compare::{Draws, relative};
+use crate::fixtures;
 
 /// num-dual's number as a scalar of kernels.
 #[derive(Clone, Copy, Debug)]
@@ -109,8 +108,8 @@ fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
             let (dual, difference) = slopes(robot, Output::Pose, (&q, &wrench), joint);
             let column = &jacobian[6 * joint..6 * joint + 6];
             // Central differences of step 1e-5 err by about 1e-10 of the scale plus 1e-11 of rounding.
-            assert!(deviation(&twist(&dual, &pose), column, 1.0) < 1e-13);
-            assert!(deviation(&twist(&difference, &pose), column, 1.0) < 1e-8);
+            assert!(relative(&twist(&dual, &pose), column, 1.0) < 1e-13);
+            assert!(relative(&twist(&difference, &pose), column, 1.0) < 1e-8);
             for (value, slope) in pairs {
                 let matrix = evaluate::<f64>(robot, slope, &q, &wrench);
                 let scale = matrix.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -132,26 +131,26 @@ fn jacobian_and_stiffness_are_derivatives() {
     check(&iiwa14::Robot, 3.0);
     check(&panda::Robot, 3.0);
     check(&stanford::Robot, 1.0);
-    check(&zoo::oblique::Robot, 3.0);
-    check(&zoo::sliding::Robot, 0.5);
-    check(&zoo::parallel::Robot, 3.0);
+    check(&fixtures::oblique::Robot, 3.0);
+    check(&fixtures::sliding::Robot, 0.5);
+    check(&fixtures::parallel::Robot, 3.0);
 }
 
 #[test]
 fn the_regressor_is_the_derivative_by_joint_compliance() {
     // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
-    use zoo::symbolic::{Constants, deflection_first_order, stiffness_regressor};
+    use fixtures::symbolic::{Constants, deflection_first_order, stiffness_regressor};
     let mut draws = Draws::new(5);
-    let p = zoo::PARAMETERS;
+    let p = fixtures::PARAMETERS;
     for _ in 0..200 {
         let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
         let wrench = draws.load();
         let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
-        let mut dual = zoo::parameters_as(Dual::lit);
+        let mut dual = fixtures::parameters_as(Dual::lit);
         dual.k2.0.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);
         let (q, wrench) = (q.map(Dual::lit), wrench.map(Dual::lit));
         let slope = deflection_first_order(&constants, &q, &wrench).map(|d| -d.0.eps * p.k2 * p.k2);
-        assert!(deviation(&slope, &regressor[1], 0.0) < 1e-12);
+        assert!(relative(&slope, &regressor[1], 0.0) < 1e-12);
     }
 }

@@ -1,11 +1,11 @@
 //! Every arm of the collection.
 
 use stiffarm::kernels::Output;
-use stiffarm::kernels::parity::{self, Subject, scale::CANCELLED};
+use stiffarm::kernels::parity::{self, Subject};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
-use crate::compare::{Draws, ForArm, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
 /// Draws per robot, as the claim "10,000 random joint vectors and wrenches per robot" has it.
 const COUNT: usize = 10_000;

@@ -1,12 +1,11 @@
 //! The collection's symbolic arms, with numbers put in: against the textbook, and against the same arm
 //! with the paper's numbers in its table.
 
-use stiffarm::kernels::parity::scale::CANCELLED;
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{SYMBOLIC, lin_planar_symbolic};
 
-use crate::compare::{Draws, ForArm, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
 /// Compares an arm whose parameters have got numbers with the textbook of the same.
 fn check(id: &str, value: impl Fn(&str) -> Option<f64>, kernels: &dyn Kernels<f64>) {

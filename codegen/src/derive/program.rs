@@ -244,6 +244,21 @@ impl Program {
 /// Gaussian elimination of a column-major system whose symmetric part is positive definite.
 fn eliminate<T: Float>(mut a: Vec<T>, mut b: Vec<T>) -> Result<Vec<T>, Unstable> {
     let n = b.len();
+    let mut symmetric: Vec<T> = (0..n * n).map(|at| a[at] + a[at % n * n + at / n]).collect();
+    reduce(&mut symmetric, &mut vec![T::zero(); n])?;
+    reduce(&mut a, &mut b)?;
+    for k in (0..n).rev() {
+        b[k] = b[k] / a[k * n + k];
+        for i in 0..k {
+            b[i] = b[i] - a[k * n + i] * b[k];
+        }
+    }
+    Ok(b)
+}
+
+/// The system as a triangular one.
+fn reduce<T: Float>(a: &mut [T], b: &mut [T]) -> Result<(), Unstable> {
+    let n = b.len();
     for k in 0..n {
         let pivot = a[k * n + k];
         if !pivot.is_finite() || pivot <= T::zero() {
@@ -257,11 +272,5 @@ fn eliminate<T: Float>(mut a: Vec<T>, mut b: Vec<T>) -> Result<Vec<T>, Unstable>
             b[i] = b[i] - factor * b[k];
         }
     }
-    for k in (0..n).rev() {
-        b[k] = b[k] / a[k * n + k];
-        for i in 0..k {
-            b[i] = b[i] - a[k * n + i] * b[k];
-        }
-    }
-    Ok(b)
+    Ok(())
 }
