@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use stiffarm::kernels::Output;
-use stiffarm_codegen::derive::{Output as Derived, Passes, derive, derive_in, derive_with};
+use stiffarm_codegen::derive::{Passes, derive, derive_in, derive_with};
 use stiffarm_codegen::robot::Robot;
 
 use crate::compare::{CANCELLED, Draws, relative, terms};
@@ -96,9 +96,9 @@ proptest! {
         let arm = stiffarm_gap::robot::arm(&robot).unwrap();
         let mut draws = Draws::new(seed);
         let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
-        for (output, derived) in Output::EACH.into_iter().zip(Derived::EACH) {
+        for output in Output::EACH {
             let Ok(expected) = arm.evaluate(output, &q, &wrench) else { continue };
-            let program = derive(&robot, &[derived]);
+            let program = derive(&robot, &[output]);
             let got = program.evaluate(&q, &wrench, |_| f64::NAN).unwrap();
             let worst = relative(&got[0], &expected, CANCELLED * terms(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{} {worst:e}\n{text}", output.name());
@@ -112,11 +112,10 @@ proptest! {
         let mut draws = Draws::new(seed);
         let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
         let cut = cut % (4 * robot.dof() + 1);
-        let outputs = [Derived::Jacobian, Derived::ComplementaryStiffness, Derived::Compliance];
+        let outputs = [Output::Jacobian, Output::ComplementaryStiffness, Output::Compliance];
         let there = derive_in(&robot, &outputs, cut).evaluate(&q, &wrench, |_| f64::NAN).unwrap();
         let base = derive_in(&robot, &outputs, 0).evaluate(&q, &wrench, |_| f64::NAN).unwrap();
-        let kinds = [Output::Jacobian, Output::ComplementaryStiffness, Output::Compliance];
-        for ((a, b), output) in there.iter().zip(&base).zip(kinds) {
+        for ((a, b), output) in there.iter().zip(&base).zip(outputs) {
             let worst = relative(a, b, CANCELLED * terms(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{worst:e}\n{text}");
         }
@@ -124,7 +123,7 @@ proptest! {
 
     #[test]
     fn passes_change_nothing_but_the_cost(
-        text in robot(), off in 0usize..5, output in 0usize..14, seed in any::<u64>()
+        text in robot(), off in 0usize..5, output in 0..Output::EACH.len(), seed in any::<u64>()
     ) {
         let (robot, _) = Robot::from_toml(&text, "random").unwrap();
         let arm = stiffarm_gap::robot::arm(&robot).unwrap();
@@ -137,9 +136,9 @@ proptest! {
             3 => Passes { parallel: false, ..Passes::ALL },
             _ => Passes::NONE,
         };
-        let (output, derived) = (Output::EACH[output], Derived::EACH[output]);
-        let all = derive(&robot, &[derived]).evaluate(&q, &wrench, |_| f64::NAN);
-        let some = derive_with(&robot, &[derived], passes).evaluate(&q, &wrench, |_| f64::NAN);
+        let output = Output::EACH[output];
+        let all = derive(&robot, &[output]).evaluate(&q, &wrench, |_| f64::NAN);
+        let some = derive_with(&robot, &[output], passes).evaluate(&q, &wrench, |_| f64::NAN);
         if let (Ok(all), Ok(some)) = (all, some) {
             let floor = CANCELLED * terms(&arm, output, &q, &wrench);
             let worst = relative(&some[0], &all[0], floor);

@@ -7,11 +7,10 @@
 //! ```
 
 use num_rational::Ratio;
+use stiffarm_kernels::Output;
 
-use super::chain::{Place, Step, expression, row_steps};
+use super::chain::{Place, Step, expression, row_steps, tool_rotation};
 use super::displacements::Displacements;
-use super::output::Output;
-use super::parameters::tool_rotation;
 use super::program::{Block, Program};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::robot::{Angle, Robot};

@@ -2,6 +2,7 @@
 
 mod c;
 mod constants;
+mod docs;
 mod dot;
 mod expression;
 mod latex;

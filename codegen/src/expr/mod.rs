@@ -17,5 +17,5 @@ pub use count::OpCount;
 pub use graph::{Expr, Graph, Node, Symbol};
 pub use schedule::{Binding, Block, Item, Schedule};
 pub use trig::Turn;
-pub use vector::Vec3;
+pub use vector::{Twist, Vec3};
 pub(crate) use vector::{negate3, parallel3};

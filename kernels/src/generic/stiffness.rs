@@ -4,9 +4,10 @@
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use super::arm::Arm;
+use super::evaluate::{Textbook, block};
 use super::kinematics::Axis;
 use super::spatial::{lower, upper};
-use crate::Motion;
+use crate::{Motion, Output};
 
 /// `∂(v_j · f)/∂q_i` at row j, column i, for a constant force `f` on a point that all of `axes`
 /// move with velocities `v_j`. Symmetric, since it holds the second derivatives of `f · p`.
@@ -33,6 +34,10 @@ fn moment_stiffness(axes: &[Axis], m: &Vector3<f64>) -> DMatrix<f64> {
         if i < j && both_turn { m.dot(&axes[i].direction.cross(&axes[j].direction)) } else { 0.0 }
     })
 }
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] =
+    &[(Output::ComplementaryStiffness, |arm, q, w| Ok(block(arm.complementary_stiffness(q, w))))];
 
 impl Arm {
     /// K_C, n×n, N·m/rad (N, N/m in the rows and columns of prismatic joints): row j, column i is

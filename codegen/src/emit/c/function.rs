@@ -1,11 +1,12 @@
 //! One function in C: from the joint values, and from the posture.
 
+use stiffarm_kernels::{Input, Output};
+
 use super::super::expression::Printer;
 use super::super::plan::{Plan, Target, WRENCH};
 use super::posture::Use;
 use super::solve::solve_name;
 use super::style::C;
-use crate::derive::Output;
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Node, Symbol};
 
@@ -75,7 +76,7 @@ impl Function<'_> {
     }
 
     fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.needs_wrench())
+        self.outputs.iter().any(|o| o.takes(Input::Wrench))
     }
 
     /// The function of the joint values.

@@ -8,7 +8,7 @@ use super::super::plan::{Plan, Target, angle_terms};
 use super::RustOptions;
 use super::body::{BLOCK, Rust};
 use super::shapes;
-use crate::derive::{COMPONENTS, Displacements, Form, Output, flexible};
+use crate::derive::{COMPONENTS, Displacements, Form, flexible};
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Block, Expr, Node, Symbol};
 use crate::number::Number;
@@ -137,7 +137,10 @@ impl Writer<'_> {
         }
         inputs.iter().for_each(|line| out.code(line));
         out.code("let zero = S::lit(0.0);");
-        out.code(&format!("let mut out = {};", shapes::zero(Output::Pose, n)));
+        out.code(&format!(
+            "let mut out = {};",
+            shapes::zero(self.plan.program.blocks[0].output, n)
+        ));
         let schedule = &self.plan.schedule;
         let all = 0..schedule.steps.len();
         match schedule.blocks(all.clone(), BLOCK, |_| false).as_slice() {
@@ -190,7 +193,7 @@ impl Writer<'_> {
                 Binding::Item(item) => {
                     let Target::Entry { block, entry } = self.plan.targets[*item] else { continue };
                     let program = self.plan.program;
-                    let place = shapes::place(Output::Pose, program.dof, entry);
+                    let place = shapes::place(program.blocks[block].output, program.dof, entry);
                     let e = program.blocks[block].entries[entry];
                     out.code(&format!("out{place} = {};", self.printer.print(e)));
                 }

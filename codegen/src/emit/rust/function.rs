@@ -1,12 +1,15 @@
 //! One function of a generated module, with the module of the same name that holds its parts.
 
+use stiffarm_kernels::{Form, Input, Output};
+
 use super::super::constants::Constants;
 use super::super::plan::Plan;
 use super::RustOptions;
 use super::body::Body;
 use super::posture::{has_posture, needs_constants, posture, uses_wrench};
 use super::shapes;
-use crate::derive::{Output, Program};
+use crate::derive::Program;
+use crate::emit::docs::docs;
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -50,7 +53,7 @@ impl<'p> Function<'p> {
     }
 
     pub(super) fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.needs_wrench())
+        self.outputs.iter().any(|o| o.takes(Input::Wrench))
     }
 
     pub(super) fn fallible(&self) -> bool {
@@ -121,10 +124,12 @@ impl<'p> Function<'p> {
             let names: Vec<&str> = self.outputs.iter().map(|o| o.name()).collect();
             out.doc(&format!("{} of {}, worked out together.", names.join(", "), robot.name));
         } else {
-            let [sentence, formula] = shapes::docs(self.outputs[0]);
-            out.doc(sentence);
-            out.doc("");
-            out.doc(formula);
+            let [first, rest @ ..] = docs(self.outputs[0], self.program.dof, shapes::ORDER);
+            out.doc(&first);
+            for paragraph in rest {
+                out.doc("");
+                out.doc(&paragraph);
+            }
         }
         out.doc("");
         let angles: Vec<String> = plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
@@ -151,7 +156,7 @@ impl<'p> Function<'p> {
         out.code(&format!("pub mod {} {{", self.name));
         out.indent();
         let mut imports = vec!["Ops"];
-        let pose = |o: &Output| matches!(o, Output::Pose | Output::Frames);
+        let pose = |o: &Output| matches!(o.form(), Form::Pose | Form::Poses);
         if self.outputs.iter().any(pose) {
             imports.push("Pose");
         }
@@ -209,7 +214,10 @@ impl<'p> Function<'p> {
         out.code("pub struct All<S> {");
         out.indent();
         for output in &self.outputs {
-            out.doc(shapes::docs(*output)[0]);
+            let [sentence, shape, _] = docs(*output, self.program.dof, shapes::ORDER);
+            out.doc(&sentence);
+            out.doc("");
+            out.doc(&shape);
             out.code(&format!("pub {}: {},", output.name(), shapes::ty(*output, self.program.dof)));
         }
         out.dedent();

@@ -1,6 +1,7 @@
 //! Levers: vectors between points of the chain, as sums of its slides from the tip inwards.
 
-use super::chain::{Chain, ROW, Step};
+use super::layout::Chain;
+use super::mass::masses;
 use crate::expr::{Expr, Graph, Vec3, parallel3};
 
 /// One slide: `length · axis` in the working frame.
@@ -18,7 +19,7 @@ struct Segment {
 /// a joint's lever. They are sorted behind the slides inside their run of parallel joints: then the
 /// levers of all joints of the run are prefixes of one sum, and are shared.
 #[derive(Clone, Debug)]
-pub(super) struct Levers {
+pub struct Levers {
     segments: Vec<Segment>,
     /// What every lever begins with.
     beyond: Vec3,
@@ -26,18 +27,18 @@ pub(super) struct Levers {
 
 /// A point from which a lever is taken.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum From {
+pub enum Point {
     /// The frame before a step.
     Boundary(usize),
     /// The frame in which a step takes place, the step itself included.
     Step(usize),
 }
 
-impl From {
+impl Point {
     fn place(self) -> usize {
         match self {
-            From::Boundary(s) => 2 * s,
-            From::Step(s) => 2 * s + 1,
+            Point::Boundary(s) => 2 * s,
+            Point::Step(s) => 2 * s + 1,
         }
     }
 }
@@ -65,7 +66,7 @@ impl Levers {
 
     /// First moments of mass: each slide weighted by the mass beyond it, and the masses' own offsets.
     pub fn of_mass(chain: &mut Chain) -> Levers {
-        let points = super::gravity::masses(chain);
+        let points = masses(chain);
         let mut segments = slides(chain, |g, s, length| {
             let mass = points.iter().fold(Expr::ZERO, |sum, point| {
                 let share = point.share_beyond(g, s);
@@ -97,7 +98,7 @@ impl Levers {
     }
 
     /// The sum of all slides beyond `from`, without those along `except`.
-    pub fn from(&self, g: &mut Graph, from: From, except: Option<Vec3>) -> Vec3 {
+    pub fn lever(&self, g: &mut Graph, from: Point, except: Option<Vec3>) -> Vec3 {
         self.extended(g, from, &[], except)
     }
 
@@ -105,7 +106,7 @@ impl Levers {
     pub fn extended(
         &self,
         g: &mut Graph,
-        from: From,
+        from: Point,
         inwards: &[(Expr, Vec3)],
         except: Option<Vec3>,
     ) -> Vec3 {
@@ -151,12 +152,4 @@ fn slides(
         segments.push(Segment { at: 2 * s + 1, length, axis });
     }
     segments
-}
-
-/// The two slides of a row: (step of the slide along z, step of the slide along x).
-pub(super) fn row_slides(chain: &Chain, row: usize) -> (usize, usize) {
-    let first = ROW * row;
-    let z = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideZ(_)));
-    let x = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideX(_)));
-    (z.unwrap_or(first), x.unwrap_or(first))
 }

@@ -5,10 +5,10 @@
 //! frame. Products of sines and cosines of different runs are never formed, and `c (c x + s y) +
 //! s (s x − c y)`, which is x again, never comes about.
 
-use super::chain::{Chain, Place, Step};
-use super::jacobian::Twist;
-use super::lever::{From, Levers};
-use crate::expr::{Expr, Graph, Turn, Vec3};
+use super::layout::{ByRun, Chain};
+use super::lever::{Levers, Point};
+use super::place::{Place, Step};
+use crate::expr::{Expr, Graph, Turn, Twist, Vec3};
 
 /// Consecutive steps whose z axes are parallel, with the places between them in the axes of the first.
 struct Run {
@@ -20,14 +20,8 @@ struct Run {
     last: Turn,
 }
 
-/// The twists of all joints in the working frame, and the tool's origin from the working frame's.
-pub(super) struct ByRun {
-    pub twists: Vec<Twist>,
-    pub tip: Vec3,
-}
-
 /// Works the twists out run by run.
-pub(super) fn by_run(chain: &mut Chain) -> ByRun {
+pub fn by_run(chain: &mut Chain) -> ByRun {
     let runs = runs(chain);
     let mut twists: Vec<Option<Twist>> = vec![None; chain.dof()];
     let translation = chain.robot.tool.translation.clone();
@@ -62,7 +56,7 @@ fn before(chain: &mut Chain, tip: Vec3, twists: &mut [Option<Twist>]) {
             let z = chain.z(step);
             *twist = Some(match chain.revolute(row) {
                 true => {
-                    let lever = inside.from(&mut chain.g, From::Step(step), Some(z));
+                    let lever = inside.lever(&mut chain.g, Point::Step(step), Some(z));
                     (chain.g.cross3(z, lever), z)
                 }
                 false => (z, [Expr::ZERO; 3]),
@@ -115,7 +109,7 @@ fn levers(chain: &mut Chain, run: &Run, tip: Vec3, twists: &mut [Option<Twist>])
         let z = here.axes[2];
         twists[row] = Some(match chain.revolute(row) {
             true => {
-                chain.name3(sum, &format!("r{}", row + 1));
+                chain.g.name3(sum, &format!("r{}", row + 1));
                 (chain.g.cross3(z, sum), z)
             }
             false => (z, [Expr::ZERO; 3]),

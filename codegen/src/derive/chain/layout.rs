@@ -1,35 +1,23 @@
-//! The chain: a table as a sequence of turns and slides about z and x, and the axes of every place
-//! along it in the working frame.
+//! The chain: a table as a sequence of rotations about and translations along z and x, and the axes of
+//! every place along it in the working frame.
 
-use super::jacobian::Twist;
-use super::passes::Passes;
-use super::runs::{ByRun, by_run};
-use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
+use super::place::{Place, ROW, Step, expression, row_steps};
+use super::tool::tool_rotation;
+use crate::derive::passes::Passes;
+use crate::expr::{Expr, Graph, Symbol, Turn, Twist, Vec3};
 use crate::number::Number;
 use crate::robot::{Convention, Motion, Robot, Value};
 
-/// Steps of a row, whatever the convention.
-pub(super) const ROW: usize = 4;
-
-/// An elementary transform. Slides do not rotate, turns do not move the origin.
-#[derive(Clone, Debug)]
-pub(super) enum Step {
-    TurnZ(Turn),
-    SlideZ(Expr),
-    TurnX(Turn),
-    SlideX(Expr),
-}
-
-/// The orientation at a place of the chain: axes in the working frame, then a turn about z that is
-/// only carried out when x or y is needed. Turns of parallel joints thus add up to one angle.
-#[derive(Clone, Debug)]
-pub(super) struct Place {
-    pub axes: [Vec3; 3],
-    pub turn: Turn,
+/// What is known of an arm whose twists were worked out run by run of parallel joints.
+pub struct ByRun {
+    /// The joints' twists in the working frame.
+    pub twists: Vec<Twist>,
+    /// The tool's origin from the working frame's.
+    pub tip: Vec3,
 }
 
 /// An arm laid out in one working frame.
-pub(super) struct Chain<'r> {
+pub struct Chain<'r> {
     pub g: Graph,
     pub robot: &'r Robot,
     /// What may be done to save operations.
@@ -68,14 +56,17 @@ impl<'r> Chain<'r> {
         let axes = vec![None; places.len()];
         let tool = [[Expr::ZERO; 3]; 3];
         let (twists, by_run) = (None, None);
-        let mut chain = Chain { g, robot, passes, cut, steps, places, axes, tool, twists, by_run };
-        if passes.runs {
-            chain.by_run = Some(self::by_run(&mut chain));
-        }
-        chain.tool = chain.turned_tool();
+        Chain { g, robot, passes, cut, steps, places, axes, tool, twists, by_run }
+    }
+
+    /// Turns the tool, whose axes are then known, and names all axes; `by_run` is what was worked out
+    /// run by run, where it was.
+    pub fn with_tool(mut self, by_run: Option<ByRun>) -> Self {
+        self.by_run = by_run;
+        self.tool = self.turned_tool();
         // The tool's axes in base axes are Paul's n, o, a; in another frame they are not.
-        chain.name_axes(if cut == 0 { ["n", "o", "a"] } else { ["xt", "yt", "zt"] });
-        chain
+        self.name_axes(if self.cut == 0 { ["n", "o", "a"] } else { ["xt", "yt", "zt"] });
+        self
     }
 
     /// Boundaries at which a working frame may lie: the base, and after every row's turns.
@@ -151,6 +142,14 @@ impl<'r> Chain<'r> {
         }
     }
 
+    /// The two slides of a row: (step of the slide along z, step of the slide along x).
+    pub fn row_slides(&self, row: usize) -> (usize, usize) {
+        let first = ROW * row;
+        let z = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::SlideZ(_)));
+        let x = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::SlideX(_)));
+        (z.unwrap_or(first), x.unwrap_or(first))
+    }
+
     /// Axes of the tool.
     pub fn tool_axes(&self) -> [Vec3; 3] {
         self.tool
@@ -175,13 +174,6 @@ impl<'r> Chain<'r> {
         expression(&mut self.g, value)
     }
 
-    /// Names the three components of a vector `prefix` + x, y, z.
-    pub fn name3(&mut self, v: Vec3, prefix: &str) {
-        for (component, axis) in v.into_iter().zip(["x", "y", "z"]) {
-            self.g.name(component, || format!("{prefix}{axis}"));
-        }
-    }
-
     /// The tool's axes: its rotation vector turned by the last frame.
     fn turned_tool(&mut self) -> [Vec3; 3] {
         let last = self.steps.len();
@@ -191,7 +183,7 @@ impl<'r> Chain<'r> {
             let place = self.places[last].after(&mut self.g, &Step::TurnZ(turn));
             return place.carried_out(&mut self.g);
         }
-        let matrix = super::parameters::tool_rotation(&self.robot.tool);
+        let matrix = tool_rotation(&self.robot.tool);
         self.turned(matrix, last)
     }
 
@@ -211,97 +203,10 @@ impl<'r> Chain<'r> {
     fn name_axes(&mut self, tool: [&str; 3]) {
         for row in 0..self.dof() {
             let z = self.joint_axis(row);
-            self.name3(z, &format!("z{}", row + 1));
+            self.g.name3(z, &format!("z{}", row + 1));
         }
         for (axis, name) in self.tool.into_iter().zip(tool) {
-            self.name3(axis, name);
+            self.g.name3(axis, name);
         }
-    }
-}
-
-impl Place {
-    /// The working frame itself.
-    pub fn base() -> Place {
-        let axis =
-            |k: usize| core::array::from_fn(|row| if row == k { Expr::ONE } else { Expr::ZERO });
-        Place { axes: core::array::from_fn(axis), turn: Turn::ZERO }
-    }
-
-    /// The orientation behind a step.
-    pub fn after(&self, g: &mut Graph, step: &Step) -> Place {
-        match step {
-            Step::SlideZ(_) | Step::SlideX(_) => self.clone(),
-            Step::TurnZ(turn) => Place { axes: self.axes, turn: self.turn.plus(g, turn) },
-            Step::TurnX(turn) if turn.is_zero() => self.clone(),
-            // Rz(t) Rx(pi) = Rx(pi) Rz(-t): antiparallel axes keep adding up, with the other sign.
-            Step::TurnX(turn) if turn.is_half_turn() => {
-                let [x, y, z] = self.axes;
-                Place { axes: [x, negate3(y), negate3(z)], turn: self.turn.negated() }
-            }
-            Step::TurnX(turn) => {
-                let [x, y, z] = self.clone().carried_out(g);
-                let (s, c) = turn.sin_cos(g);
-                let (y, z) = (g.combine3(c, y, s, z), g.combine3(-s, y, c, z));
-                Place { axes: [x, y, z], turn: Turn::ZERO }
-            }
-        }
-    }
-
-    fn before(&self, g: &mut Graph, step: &Step) -> Place {
-        match step {
-            Step::TurnZ(turn) => self.after(g, &Step::TurnZ(turn.negated())),
-            Step::TurnX(turn) => self.after(g, &Step::TurnX(turn.negated())),
-            slide => self.after(g, slide),
-        }
-    }
-
-    /// The same with its turn carried out if `now`.
-    pub fn at_once(self, g: &mut Graph, now: bool) -> Place {
-        if now { Place { axes: self.carried_out(g), turn: Turn::ZERO } } else { self }
-    }
-
-    /// A vector in the axes of this place, in the working frame.
-    pub fn turned(&self, g: &mut Graph, v: Vec3) -> Vec3 {
-        let (s, c) = self.turn.sin_cos(g);
-        let [x, y, z] = v;
-        let products = [(c, x), (s, y), (s, x), (c, y)].map(|(a, b)| g.mul(a, b));
-        let (x, y) = (g.sub(products[0], products[1]), g.add(products[2], products[3]));
-        let parts = [(x, 0), (y, 1), (z, 2)].map(|(part, k)| g.scale3(part, self.axes[k]));
-        let sum = g.add3(parts[0], parts[1]);
-        g.add3(sum, parts[2])
-    }
-
-    /// The axes, the pending turn carried out.
-    pub fn carried_out(self, g: &mut Graph) -> [Vec3; 3] {
-        let [x, y, z] = self.axes;
-        let (s, c) = self.turn.sin_cos(g);
-        [g.combine3(c, x, s, y), g.combine3(-s, x, c, y), z]
-    }
-}
-
-pub(super) fn expression(g: &mut Graph, value: &Value) -> Expr {
-    match value {
-        Value::Number(n) => g.number(*n),
-        Value::Symbol(name) => g.symbol(Symbol::Parameter(name.clone())),
-    }
-}
-
-/// The four steps of a row in the order of its convention.
-pub(super) fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
-    let joint = &robot.joints[row];
-    let mut theta = Turn::constant(g, &joint.theta);
-    let mut d = expression(g, &joint.d);
-    match joint.motion {
-        Motion::Revolute => theta = Turn::joint(g, row).plus(g, &theta),
-        Motion::Prismatic => {
-            let q = g.symbol(Symbol::Joint(row));
-            d = g.add(q, d);
-        }
-    }
-    let a = Step::SlideX(expression(g, &joint.a));
-    let alpha = Step::TurnX(Turn::constant(g, &joint.alpha));
-    match robot.convention {
-        Convention::Standard => [Step::TurnZ(theta), Step::SlideZ(d), a, alpha],
-        Convention::Modified => [alpha, a, Step::TurnZ(theta), Step::SlideZ(d)],
     }
 }

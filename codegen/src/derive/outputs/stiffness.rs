@@ -1,9 +1,14 @@
 //! K_C: how the torque of a constant load changes with the posture.
 
-use super::chain::Chain;
-use super::jacobian::{Twist, twists};
-use super::torque::wrench;
-use crate::expr::{Expr, Vec3, parallel3};
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, twists, wrench};
+use crate::expr::{Expr, Twist, Vec3, parallel3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] =
+    &[(Output::ComplementaryStiffness, complementary_stiffness)];
 
 /// A load that stays constant in base axes, as the joints feel it.
 pub(super) struct Load {
@@ -17,10 +22,10 @@ pub(super) struct Load {
 }
 
 /// K_C for the wrench on the tool, n×n column-major; row j, column i is ∂(column j of J)ᵀ/∂q_i · w.
-pub(super) fn complementary_stiffness(chain: &mut Chain) -> Vec<Expr> {
+fn complementary_stiffness(chain: &mut Chain) -> Derived {
     let twists = twists(chain);
     let load = tool_load(chain, &twists);
-    matrix(chain, &load, "kc")
+    matrix(chain, &load, "kc").into()
 }
 
 /// The wrench on the tool as a load.

@@ -1,17 +1,20 @@
 //! Sensitivity of the tool's pose to every entry of the table.
 
-use super::chain::{Chain, ROW, Step};
-use super::jacobian::{Twist, flatten};
-use super::lever::{From, Levers};
-use crate::expr::{Expr, Vec3};
-use crate::number::Number;
-use crate::robot::Tool;
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, Levers, Point, ROW, Step, flatten, rotation_vector, series};
+use crate::expr::{Expr, Twist, Vec3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] =
+    &[(Output::ParameterJacobian, parameter_jacobian)];
 
 /// Twist of the tool per unit of theta, d, a, alpha of each row, then of the tool's translation and
 /// rotation vector; 6×(4n+6), base axes, at the tool origin.
 ///
 /// A turn's column is that of a revolute joint at its place, a slide's that of a prismatic one.
-pub(super) fn parameter_jacobian(chain: &mut Chain) -> Vec<Expr> {
+fn parameter_jacobian(chain: &mut Chain) -> Derived {
     let levers = Levers::to_tool(chain);
     let mut columns = Vec::new();
     for row in 0..chain.dof() {
@@ -24,7 +27,7 @@ pub(super) fn parameter_jacobian(chain: &mut Chain) -> Vec<Expr> {
                 Step::SlideX(_) => (2, chain.axes(s)[0], false),
                 Step::TurnX(_) => (3, chain.axes(s)[0], true),
             };
-            entries[entry] = column(chain, &levers, From::Step(s), axis, turns);
+            entries[entry] = column(chain, &levers, Point::Step(s), axis, turns);
         }
         columns.extend(entries);
     }
@@ -33,14 +36,14 @@ pub(super) fn parameter_jacobian(chain: &mut Chain) -> Vec<Expr> {
     columns.extend(rotation_columns(chain, last).map(|axis| ([Expr::ZERO; 3], axis)));
     let turned: Vec<Twist> =
         columns.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect();
-    flatten(turned)
+    flatten(turned).into()
 }
 
-fn column(chain: &mut Chain, levers: &Levers, from: From, axis: Vec3, turns: bool) -> Twist {
+fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, turns: bool) -> Twist {
     if !turns {
         return (axis, [Expr::ZERO; 3]);
     }
-    let lever = levers.from(&mut chain.g, from, Some(axis));
+    let lever = levers.lever(&mut chain.g, from, Some(axis));
     (chain.g.cross3(axis, lever), axis)
 }
 
@@ -57,34 +60,4 @@ fn rotation_columns(chain: &mut Chain, last: [Vec3; 3]) -> [Vec3; 3] {
         ((1.0 - libm::cos(angle)) / square, (angle - libm::sin(angle)) / (square * angle));
     let end = chain.steps().len();
     chain.turned(series(vector, first, second), end)
-}
-
-/// The tool's rotation matrix, columns, from its rotation vector (Rodrigues).
-pub(super) fn tool_rotation(tool: &Tool) -> [[Number; 3]; 3] {
-    let vector = rotation_vector(tool);
-    let square: f64 = vector.iter().map(|c| c * c).sum();
-    let angle = libm::sqrt(square);
-    if angle == 0.0 {
-        return series(vector, 0.0, 0.0);
-    }
-    series(vector, libm::sin(angle) / angle, (1.0 - libm::cos(angle)) / square)
-}
-
-fn rotation_vector(tool: &Tool) -> [f64; 3] {
-    // The validator lets no symbol stand in a tool's rotation.
-    tool.rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0))
-}
-
-/// Columns of `I + first [v]× + second [v]×²`.
-fn series(v: [f64; 3], first: f64, second: f64) -> [[Number; 3]; 3] {
-    let square: f64 = v.iter().map(|c| c * c).sum();
-    let [x, y, z] = v;
-    let cross = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
-    core::array::from_fn(|column| {
-        core::array::from_fn(|row| {
-            let identity = if row == column { 1.0 } else { 0.0 };
-            let twice = v[row] * v[column] - square * identity;
-            Number::rounded(identity + first * cross[column][row] + second * twice)
-        })
-    })
 }
