@@ -4,7 +4,6 @@
 
 mod arms;
 mod bits;
-mod command;
 mod compiler;
 mod program;
 mod text;

@@ -1,7 +1,7 @@
 //! The withheld check on arms of two, six and seven joints: effects are put into a plant, the
 //! diagnosis is not told, and what it finds is held against what was put in.
 //!
-//! `cargo test --release --test withheld -- --ignored --nocapture` runs the full form and prints
+//! `cargo test -p stiffarm --release --test withheld -- --ignored --nocapture` runs the full form and prints
 //! its table; the quick one runs with all other tests.
 
 mod arms;
@@ -25,7 +25,7 @@ fn quick() {
 
 /// Forty cases of each arm with each design.
 #[test]
-#[ignore = "takes minutes: cargo test --release --test withheld -- --ignored --nocapture"]
+#[ignore = "takes minutes: cargo test -p stiffarm --release --test withheld -- --ignored --nocapture"]
 fn full() {
     let mut reports = Vec::new();
     for setting in settings() {

@@ -2,64 +2,40 @@
 //! it, and how far it shrinks when they are put into the model, judged on poses that no fit has
 //! seen.
 //!
-//! 1. Frames that are known to be unknown are fitted first, and along with everything after
-//!    (`align`, `refit`).
-//! 2. One pass over the data (`gather`) sums up what every candidate (an effect at a place, in one
-//!    form) does to the measured quantities; all that is asked of it then is algebra (`screen`,
-//!    `score`). What this data cannot show is told before anything is fitted (`visible`).
-//! 3. Effects are added one by one (`search`): the one with the most evidence (`evidence`), if
-//!    it is significant among all that were tried and shrinks the held-out gap; then fitted
-//!    exactly, and the others taken back or exchanged (`exchange`) where it makes them superfluous.
-//! 4. The findings are held out together (`outcome`), and every candidate is tried in the place of
-//!    each (`rivals`): those that this data does not tell from it are named, with the measurement
-//!    that would (`separate`).
-//! 5. What is left is tested for structure with free-form displacements (`remainder`, `probe`).
+//! A residual goes through the rooms in this order, each of which says on its page what comes in and
+//! what goes out:
+//!
+//! 1. `data`: the rows as they are to be explained, the folds, the noise.
+//! 2. `fit`: frames that are known to be unknown are fitted first, and along with everything after.
+//! 3. `sums`: one pass over the data sums up what every candidate (an effect at a place, in one
+//!    form) does to the measured quantities; all that is asked of it then is algebra.
+//! 4. `sight`: what this data cannot show is told before anything is fitted.
+//! 5. `search`: effects are added one by one, then fitted exactly, and the others taken back or
+//!    exchanged where that makes them superfluous.
+//! 6. `verdict`: the findings are held out together, every candidate is tried in the place of each,
+//!    and what is left is tested for structure.
+//! 7. `promise`: what was found as a model that predicts.
+//!
+//! [`Options`] say what may be chosen, a [`Diagnosis`] is what is reported.
 
-mod align;
-mod basis;
-mod beside;
-mod bootstrap;
-mod candidate;
-mod evidence;
-mod exchange;
-mod expected;
-mod explanation;
-mod folds;
-mod gather;
-mod gauge;
-mod judged;
-mod layout;
-mod model;
-mod noise;
+mod data;
+mod fit;
 mod options;
-mod outcome;
-mod parts;
-mod probe;
-mod problem;
-mod products;
-mod refined;
-mod refit;
-mod remainder;
+mod progress;
+mod promise;
 mod report;
-mod rival;
-mod rivals;
-mod rng;
-mod score;
-mod screen;
 mod search;
-mod separate;
-mod stability;
-mod stack;
-mod summary;
+mod sight;
+mod sums;
 #[cfg(test)]
 mod tests;
-mod visible;
+mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
-pub use expected::Expected;
-pub use explanation::{Explanation, FoundEffect, Prediction};
 pub use options::{DiagnoseError, Nuisance, Options};
+pub use progress::Stage;
+pub use promise::{Expected, Explanation, FoundEffect, Prediction};
 pub use report::{
     Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, NoiseReport,
     NuisanceReport, ParameterReport, Part, Rival, Share, Shrink, Slice, Unexplained,
@@ -67,25 +43,13 @@ pub use report::{
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
-use candidate::Candidate;
-use folds::Folds;
-use model::Model;
-use problem::Problem;
+use data::{Folds, Problem};
+use fit::Model;
 use search::Search;
+use sums::Candidate;
 
 /// A gap below this, relative to the arm's reach, is rounding error.
 const ROUNDING: f64 = 1e-12;
-
-/// How far a diagnosis is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Simulating the rows and fitting the unknown frames.
-    Align,
-    /// Looking for effects, with so many found.
-    Search(usize),
-    /// Judging so many findings.
-    Judge(usize),
-}
 
 /// A diagnosis, and the models before and after it.
 pub struct Diagnosed {
@@ -126,10 +90,10 @@ pub fn diagnose_with(
     let compared: Vec<_> = options
         .rivals
         .iter()
-        .map(|name| rival::Rival::read(data, name))
+        .map(|name| verdict::Rival::read(data, name))
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
-    let model = align::aligned(&problem)?;
+    let model = fit::aligned(&problem)?;
     let begun =
         Search { problem: &problem, folds: &folds, candidates: &[], options }.begin(model)?;
     let before = begun.fit.predicted.gaps.clone();
@@ -169,8 +133,8 @@ pub fn diagnose_with(
         gauge,
         parts,
         by: search.slices(&before, &after),
-        nuisances: summary::nuisances(&problem, &explained.fit.model),
-        covers: summary::cover(&problem),
+        nuisances: verdict::nuisances(&problem, &explained.fit.model),
+        covers: verdict::cover(&problem),
         rivals: (!options.rivals.is_empty()).then_some(compared),
     };
     let spread = search.spread(&explained);

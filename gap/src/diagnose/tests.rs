@@ -24,7 +24,7 @@ fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measurements {
     for (joint, more) in plant.joints.iter_mut().zip(added) {
         joint.compliance += more;
     }
-    let mut generator = rng::generator(seed, rng::Stream::Folds);
+    let mut generator = data::generator(seed, data::Stream::Folds);
     let mut rows = Vec::new();
     for group in 0..poses {
         let mut any = |scale: f64| scale * normal(&mut generator);
@@ -136,7 +136,7 @@ fn what_the_catalogue_does_not_have_is_unexplained_at_its_place() {
 #[test]
 fn unknown_frames_and_markers_are_fitted_and_never_findings() {
     let mut data = data(24, [0.0; 3], 0.0, 9);
-    let mut noise = rng::generator(9, rng::Stream::Signs);
+    let mut noise = data::generator(9, data::Stream::Signs);
     let base = Isometry3::new(Vector3::new(2.0, -3.0, 0.7), Vector3::new(0.2, -0.1, 2.5));
     let turn = Vector3::new(0.0, 0.0, -1.2);
     let tool = Isometry3::new(Vector3::new(0.03, -0.02, 0.05), turn);
@@ -248,7 +248,7 @@ fn indistinct_joints_are_inseparable_and_a_measurement_is_proposed() {
     plant.joints[1].compliance += 5e-6;
     let components = [false, false, true, false, false, false];
     let kind = Kind::Displacement { components };
-    let mut generator = rng::generator(2, rng::Stream::Signs);
+    let mut generator = data::generator(2, data::Stream::Signs);
     let rows = (0..16)
         .map(|group| {
             let t = group as f64;

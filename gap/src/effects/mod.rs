@@ -4,34 +4,12 @@
 //! Each file tells the effect's signature, what it is confused with, and what measurement tells
 //! them apart.
 
-mod backlash;
-mod base_compliance;
-mod base_frame;
-mod bearing_compliance;
 mod carrier;
-mod drift;
-mod friction_hysteresis;
-mod geometric_stiffness;
-mod instrument_scale;
-mod joint_compliance;
-mod joint_coupling;
-mod joint_hardening;
-mod joint_offset;
-mod joint_ratio;
-mod link_compliance;
-mod link_geometry;
-mod link_weight;
-mod payload_com;
+mod catalogue;
 mod place;
 mod scene;
-mod settling_lag;
-mod slip;
 #[cfg(test)]
 mod tests;
-mod thermal_growth;
-mod tool_frame;
-mod transmission_error;
-mod wrench_scale;
 
 use std::borrow::Cow;
 
@@ -41,32 +19,10 @@ use stiffarm_kernels::generic::Arm;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
-pub use backlash::Backlash;
-pub use base_compliance::BaseCompliance;
-pub use base_frame::BaseFrame;
-pub use bearing_compliance::BearingCompliance;
 pub use carrier::Carrier;
-pub use drift::Drift;
-pub use friction_hysteresis::FrictionHysteresis;
-pub use geometric_stiffness::GeometricStiffness;
-pub use instrument_scale::InstrumentScale;
-pub use joint_compliance::JointCompliance;
-pub use joint_coupling::JointCoupling;
-pub use joint_hardening::JointHardening;
-pub use joint_offset::JointOffset;
-pub use joint_ratio::JointRatio;
-pub use link_compliance::LinkCompliance;
-pub use link_geometry::LinkGeometry;
-pub use link_weight::LinkWeight;
-pub use payload_com::PayloadCom;
+pub use catalogue::*;
 pub use place::{Place, Spot};
 pub use scene::Scene;
-pub use settling_lag::SettlingLag;
-pub use slip::Slip;
-pub use thermal_growth::ThermalGrowth;
-pub use tool_frame::ToolFrame;
-pub use transmission_error::TransmissionError;
-pub use wrench_scale::WrenchScale;
 
 /// One number of an effect at a spot.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,33 +125,6 @@ pub trait Effect: Sync {
         None
     }
 }
-
-/// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 23] = [
-    &JointOffset,
-    &JointCompliance,
-    &Backlash,
-    &JointRatio,
-    &SettlingLag,
-    &FrictionHysteresis,
-    &JointHardening,
-    &TransmissionError,
-    &JointCoupling,
-    &LinkCompliance,
-    &BearingCompliance,
-    &LinkWeight,
-    &WrenchScale,
-    &PayloadCom,
-    &BaseCompliance,
-    &ThermalGrowth,
-    &InstrumentScale,
-    &LinkGeometry,
-    &BaseFrame,
-    &ToolFrame,
-    &Slip,
-    &Drift,
-    &GeometricStiffness,
-];
 
 /// Names and units of a displacement's six numbers, times whatever `per` divides them by.
 fn displacement(units: [&'static str; 2]) -> Vec<Parameter> {

@@ -1,0 +1,123 @@
+//! Which poses are held out together, and which are resampled together.
+
+use super::rng::{Stream, generator, shuffled};
+use crate::diagnose::options::{DiagnoseError, Options};
+use crate::measurement::Measurements;
+
+/// Up to this many poses each is held out alone.
+const MOST_SINGLE: usize = 30;
+
+/// Folds of poses beyond that.
+const USUAL: usize = 10;
+
+/// Blocks of poses: beyond this, poses that were measured one after another share a block, so that
+/// cost and memory stay linear.
+const MOST_BLOCKS: usize = 64;
+
+/// A division of the poses into blocks, and of the blocks into folds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Folds {
+    pub(crate) count: usize,
+    /// The block of each pose.
+    pub(crate) block_of_pose: Vec<usize>,
+    /// The fold of each block.
+    pub(crate) of_block: Vec<usize>,
+}
+
+impl Folds {
+    /// Deals the blocks out: as evenly as can be, at random by the seed.
+    pub(crate) fn deal(data: &Measurements, options: &Options) -> Result<Folds, DiagnoseError> {
+        let poses = data.poses;
+        if poses < 2 {
+            return Err(DiagnoseError::TooFewPoses { file: data.file.clone(), found: poses });
+        }
+        let usual = if poses <= MOST_SINGLE { poses } else { USUAL };
+        let count = options.folds.unwrap_or(usual);
+        if !(2..=poses).contains(&count) {
+            let file = data.file.clone();
+            return Err(DiagnoseError::Folds { file, found: count, poses });
+        }
+        let blocks = poses.min(MOST_BLOCKS.max(count));
+        let mut of_block = vec![0; blocks];
+        let order = shuffled(&mut generator(options.seed, Stream::Folds), blocks);
+        for (place, block) in order.into_iter().enumerate() {
+            of_block[block] = place % count;
+        }
+        let block_of_pose = (0..poses).map(|pose| pose * blocks / poses).collect();
+        Ok(Folds { count, block_of_pose, of_block })
+    }
+
+    pub(crate) fn blocks(&self) -> usize {
+        self.of_block.len()
+    }
+
+    /// The rows of each block, in order.
+    pub(crate) fn rows_of_blocks(&self, data: &Measurements) -> Vec<Vec<usize>> {
+        let mut rows = vec![Vec::new(); self.blocks()];
+        for (index, row) in data.rows.iter().enumerate() {
+            rows[self.block_of_pose[row.group]].push(index);
+        }
+        rows
+    }
+
+    /// The fold of a pose.
+    pub(crate) fn of_pose(&self, pose: usize) -> usize {
+        self.of_block[self.block_of_pose[pose]]
+    }
+
+    /// Sums of squares of each block, of one size per row.
+    pub(crate) fn per_block(&self, data: &Measurements, sizes: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.blocks()];
+        for (row, size) in data.rows.iter().zip(sizes) {
+            sums[self.block_of_pose[row.group]] += size * size;
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{row, table};
+    use crate::measurement::{Kind, Row};
+    use nalgebra::Vector6;
+
+    fn data(poses: usize) -> Measurements {
+        let rows = (0..poses).map(|group| Row { group, ..row(&[0.0], Vector6::zeros()) }).collect();
+        table(rows, Kind::Pose { orientation: false })
+    }
+
+    fn sizes(folds: &Folds, poses: usize) -> Vec<usize> {
+        let in_fold = |f| (0..poses).filter(|p| folds.of_pose(*p) == f).count();
+        (0..folds.count).map(in_fold).collect()
+    }
+
+    #[test]
+    fn few_poses_stand_alone_and_many_in_tens() {
+        let deal = |poses| Folds::deal(&data(poses), &Options::default()).unwrap();
+        assert_eq!(sizes(&deal(12), 12), vec![1; 12]);
+        assert_eq!(sizes(&deal(35), 35), [4, 4, 4, 4, 4, 3, 3, 3, 3, 3]);
+        assert_eq!(deal(35), deal(35));
+    }
+
+    #[test]
+    fn very_many_poses_share_blocks() {
+        let folds = Folds::deal(&data(1000), &Options::default()).unwrap();
+        assert_eq!(folds.blocks(), MOST_BLOCKS);
+        assert_eq!((folds.block_of_pose[0], folds.block_of_pose[999]), (0, MOST_BLOCKS - 1));
+        assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
+    }
+
+    #[test]
+    fn impossible_numbers_are_refused() {
+        assert!(matches!(
+            Folds::deal(&data(1), &Options::default()),
+            Err(DiagnoseError::TooFewPoses { found: 1, .. })
+        ));
+        for wrong in [0, 1, 5] {
+            let options = Options { folds: Some(wrong), ..Options::default() };
+            let refused = Folds::deal(&data(4), &options);
+            assert!(matches!(refused, Err(DiagnoseError::Folds { poses: 4, .. })));
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
+
+use nalgebra::{Isometry3, Vector3, Vector6};
+use rayon::prelude::*;
+use stiffarm_kernels::generic::Arm;
+
+use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Moment, Reading, moments, simulate};
+
+/// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
+/// added up, are then finite.
+pub(crate) const LARGEST: f64 = 1e50;
+
+/// An arm and its measurements.
+pub(crate) struct Problem<'a> {
+    pub(crate) arm: &'a Arm,
+    pub(crate) data: &'a Measurements,
+    pub(crate) moments: Vec<Moment>,
+    /// 1 where a component is measured, else 0.
+    pub(crate) mask: Vector6<f64>,
+    /// The components that are measured.
+    pub(crate) measured: Vec<usize>,
+    /// Frames that are unknown.
+    pub(crate) nuisances: Vec<Nuisance>,
+    /// Names of the markers whose place on the tool is unknown.
+    pub(crate) markers: Vec<String>,
+    /// Which of them a row has.
+    pub(crate) marker_of: Vec<Option<usize>>,
+    /// What the arm of the robot file reads in its own base frame; where the file has the user's
+    /// own simulator only.
+    pub(crate) nominal: Option<Vec<Reading>>,
+    /// Largest distance of the tool from the base, m.
+    pub(crate) reach: f64,
+}
+
+impl<'a> Problem<'a> {
+    pub(crate) fn new(
+        arm: &'a Arm,
+        data: &'a Measurements,
+        options: &Options,
+    ) -> Result<Self, DiagnoseError> {
+        let file = || data.file.clone();
+        if data.rows.is_empty() {
+            return Err(DiagnoseError::NoRows { file: file() });
+        }
+        let wrong = data.rows.iter().map(|r| r.q.len()).find(|found| *found != arm.dof());
+        if let Some(found) = wrong {
+            return Err(DiagnoseError::Joints { file: file(), found, expected: arm.dof() });
+        }
+        let mut markers: Vec<String> = Vec::new();
+        let marker_of = (data.rows.iter())
+            .map(|row| {
+                let unknown = row.marker.as_ref().filter(|_| row.offset.is_none());
+                unknown.map(|name| {
+                    markers.iter().position(|known| known == name).unwrap_or_else(|| {
+                        markers.push(name.clone());
+                        markers.len() - 1
+                    })
+                })
+            })
+            .collect();
+        let seen = |row: &Row| -> Result<(Reading, f64), DiagnoseError> {
+            let line = row.line;
+            let sim = simulate(arm, row, data.kind)
+                .map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
+            let tool = sim.loaded.tool.translation.vector;
+            let numbers = row.q.iter().chain(sim.loaded.torque.iter()).chain(tool.iter());
+            if !numbers.chain(row.measured.iter()).all(|x| x.abs() < LARGEST) {
+                return Err(DiagnoseError::TooLarge { file: file(), line });
+            }
+            Ok((sim.reading(), tool.norm()))
+        };
+        // The first row's error is told, however many rows are worked on at once.
+        let all: Vec<Result<(Reading, f64), DiagnoseError>> =
+            data.rows.par_iter().map(seen).collect();
+        let (readings, reaches): (Vec<Reading>, Vec<f64>) =
+            all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let reach = reaches.into_iter().fold(0.0, f64::max);
+        let own = data.sim_given.contains(&true);
+        Ok(Problem {
+            arm,
+            data,
+            moments: moments(data),
+            mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
+            measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
+            nuisances: options.nuisances.clone(),
+            markers,
+            marker_of,
+            nominal: own.then_some(readings),
+            reach,
+        })
+    }
+
+    /// Numbers that are measured.
+    pub(crate) fn numbers(&self) -> usize {
+        self.data.rows.len() * self.measured.len()
+    }
+
+    /// Whether positions are measured; else only rotations are.
+    pub(crate) fn measures_position(&self) -> bool {
+        self.measured.iter().any(|k| *k < 3)
+    }
+
+    pub(crate) fn is_unknown(&self, frame: Nuisance) -> bool {
+        self.nuisances.contains(&frame)
+    }
+
+    /// The reading of a row with the user's own simulator in place of the arm's: what the arm's
+    /// changes by, the user's is taken to change by. `instrument` is where the base stands.
+    pub(crate) fn with_own_sim(
+        &self,
+        row: usize,
+        model: &Reading,
+        instrument: &Isometry3<f64>,
+    ) -> Reading {
+        let (Some(nominal), Some(own)) = (&self.nominal, self.data.rows[row].sim) else {
+            return *model;
+        };
+        let nominal = &nominal[row];
+        let mut merged = nominal.vector();
+        for k in (0..6).filter(|&k| self.data.sim_given[k]) {
+            merged[k] = own[k];
+        }
+        let own = Reading::from_vector(&merged);
+        // Both in the arm's base frame, then placed.
+        let is_pose = matches!(self.data.kind, crate::measurement::Kind::Pose { .. });
+        let back = instrument.inverse();
+        let local = if is_pose {
+            back * Isometry3::from_parts(model.position.into(), model.rotation)
+        } else {
+            let turned = back.rotation * model.rotation * instrument.rotation;
+            Isometry3::from_parts((back.rotation * model.position).into(), turned)
+        };
+        let position: Vector3<f64> = own.position + local.translation.vector - nominal.position;
+        let rotation = local.rotation * nominal.rotation.inverse() * own.rotation;
+        if is_pose {
+            let placed = instrument * Isometry3::from_parts(position.into(), rotation);
+            Reading { position: placed.translation.vector, rotation: placed.rotation }
+        } else {
+            Reading {
+                position: instrument.rotation * position,
+                rotation: instrument.rotation * rotation * back.rotation,
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The exact fit: frames and effects together, as true transforms of the arm at rest.
+//!
+//! **In:** a [`Problem`](crate::diagnose::data::Problem), a [`Model`] (the frames, and the effects
+//! in it with their values), the weights.
+//! **Out:** the [`Fit`]: the model with the values of least squares, and what it [`Predicted`] of
+//! every row, so the residual.
+//!
+//! [`aligned`] is where it begins when frames are unknown. A [`Basis`] tells which directions of the
+//! parameters the data decide; every other room solves its least squares with it.
+
+mod align;
+mod basis;
+mod model;
+mod refit;
+
+pub(crate) use align::aligned;
+pub(crate) use basis::{Basis, eigen};
+pub(crate) use model::{Fitted, Model, Predicted};
+pub(crate) use refit::{Fit, block, normal_equations, refit, squares};

@@ -1,0 +1,226 @@
+//! The explanation so far: the frames as they were fitted and the effects that have been found, as
+//! an exact model of every row.
+
+use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
+use rayon::prelude::*;
+use stiffarm_kernels::generic::Arm;
+
+use crate::diagnose::data::{LARGEST, Problem};
+use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::displacement::Displacement;
+use crate::effects::{Effect, Scene, Spot};
+use crate::gap::row_gap;
+use crate::simulate::{Actual, Sim, Site, State};
+
+/// How loosely a value is held to what is usual.
+const LOOSE: f64 = 3.0;
+
+/// An effect with its values.
+#[derive(Clone)]
+pub(crate) struct Fitted {
+    pub(crate) effect: &'static dyn Effect,
+    pub(crate) spot: Spot,
+    /// Least physical values.
+    pub(crate) least: Vec<f64>,
+    pub(crate) values: Vec<f64>,
+    /// What is usual of them: a value is held to it as loosely as by a measurement of that size, so
+    /// that what the data hardly decide stays small.
+    pub(crate) usual: Vec<f64>,
+    /// Forms that the effect has at its place.
+    pub(crate) forms: usize,
+    /// By how much more evidence it had than any other when last compared; 0 before.
+    pub(crate) lead: f64,
+}
+
+/// An exact model of the data.
+#[derive(Clone)]
+pub(crate) struct Model {
+    /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
+    /// loads act.
+    pub(crate) arm: Arm,
+    /// Where the base stands in the measuring frame.
+    pub(crate) instrument: Isometry3<f64>,
+    /// Where the unknown markers are on the tool, m.
+    pub(crate) markers: Vec<Vector3<f64>>,
+    pub(crate) found: Vec<Fitted>,
+}
+
+/// What a model makes of the data.
+#[derive(Clone)]
+pub(crate) struct Predicted {
+    pub(crate) sims: Vec<Sim>,
+    /// Measured minus predicted, one per row.
+    pub(crate) gaps: Vec<Vector6<f64>>,
+}
+
+impl Model {
+    /// The robot file as it is.
+    pub(crate) fn nominal(problem: &Problem<'_>) -> Self {
+        Self {
+            arm: problem.arm.clone(),
+            instrument: Isometry3::identity(),
+            markers: vec![Vector3::zeros(); problem.markers.len()],
+            found: Vec::new(),
+        }
+    }
+
+    /// The arm in one row, loaded or not.
+    pub(crate) fn actual(&self, problem: &Problem<'_>, row: usize, loaded: bool) -> Actual<'_> {
+        let (data, when) = (&problem.data.rows[row], &problem.moments[row]);
+        let wrench = if loaded { data.wrench } else { Vector6::zeros() };
+        let mut actual = Actual::new(&self.arm, &data.q, &wrench);
+        actual.base = self.instrument;
+        for found in &self.found {
+            found.effect.alter(&mut actual, data, when, found.spot, &found.values);
+        }
+        actual
+    }
+
+    /// The measured frame of a row in the tool frame.
+    fn measured(&self, problem: &Problem<'_>, row: usize) -> Isometry3<f64> {
+        let offset = match problem.marker_of[row] {
+            Some(marker) => self.markers[marker],
+            None => problem.data.rows[row].offset.unwrap_or_default().into(),
+        };
+        Isometry3::translation(offset.x, offset.y, offset.z)
+    }
+
+    /// Brings every row to rest; `near` is where to begin.
+    pub(crate) fn predict(
+        &self,
+        problem: &Problem<'_>,
+        near: Option<&[Sim]>,
+    ) -> Result<Predicted, DiagnoseError> {
+        let rows = 0..problem.data.rows.len();
+        let each = rows.into_par_iter().map(|row| {
+            let near = near.map(|n| &n[row]);
+            let measured = self.measured(problem, row);
+            let sim = Sim::of(problem.data.kind, measured, near, |loaded| {
+                self.actual(problem, row, loaded)
+            });
+            let unstable = || DiagnoseError::Unstable {
+                file: problem.data.file.clone(),
+                line: problem.data.rows[row].line,
+            };
+            let sim = sim.map_err(|_| unstable())?;
+            let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
+            let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
+            if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
+        });
+        let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;
+        let (sims, gaps) = both.into_iter().unzip();
+        Ok(Predicted { sims, gaps })
+    }
+
+    /// Change of one row's reading, 6×p, by what `twists` gives for a scene.
+    pub(crate) fn change(
+        &self,
+        problem: &Problem<'_>,
+        sims: &[Sim],
+        row: usize,
+        twists: impl Fn(&Scene<'_>) -> Matrix6xX<f64>,
+    ) -> Matrix6xX<f64> {
+        let sim = &sims[row];
+        sim.change(|state, loaded| {
+            let actual = self.actual(problem, row, loaded);
+            twists(&self.scene(problem, row, sim, state, &actual))
+        })
+    }
+
+    pub(crate) fn scene<'s>(
+        &self,
+        problem: &'s Problem<'_>,
+        row: usize,
+        sim: &'s Sim,
+        state: &'s State,
+        actual: &'s Actual<'s>,
+    ) -> Scene<'s> {
+        Scene {
+            nominal: problem.arm,
+            row: &problem.data.rows[row],
+            when: &problem.moments[row],
+            actual,
+            state,
+            point: sim.point(state),
+            base: &sim.base,
+        }
+    }
+
+    /// Number of nuisance parameters.
+    pub(crate) fn nuisances(problem: &Problem<'_>) -> usize {
+        6 * problem.nuisances.len() + 3 * problem.markers.len()
+    }
+
+    /// Number of parameters: of the nuisances first, then of each effect found.
+    pub(crate) fn parameters(&self, problem: &Problem<'_>) -> usize {
+        Self::nuisances(problem) + self.found.iter().map(|f| f.values.len()).sum::<usize>()
+    }
+
+    /// Twists by all the parameters, in that order, at one scene.
+    pub(crate) fn block(&self, problem: &Problem<'_>, row: usize, s: &Scene<'_>) -> Matrix6xX<f64> {
+        let mut block = Matrix6xX::zeros(self.parameters(problem));
+        let mut column = 0;
+        let mut put = |part: &Matrix6xX<f64>| {
+            block.columns_mut(column, part.ncols()).copy_from(part);
+            column += part.ncols();
+        };
+        let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
+        for frame in &problem.nuisances {
+            put(&match frame {
+                Nuisance::BaseFrame => s.state.base_moved(),
+                Nuisance::ToolFrame => s.carried(Site::Tool, &units),
+            });
+        }
+        for marker in 0..problem.markers.len() {
+            let mut shifts = Matrix6xX::zeros(3);
+            if problem.marker_of[row] == Some(marker) {
+                let turn = s.state.tool.rotation.to_rotation_matrix();
+                shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
+            }
+            put(&shifts);
+        }
+        for found in &self.found {
+            put(&found.effect.block(s, found.spot));
+        }
+        block
+    }
+
+    /// Inverse of each parameter's loose scale; 0 where any value is as good.
+    pub(crate) fn held(&self, problem: &Problem<'_>) -> Vec<f64> {
+        let mut held = vec![0.0; Self::nuisances(problem)];
+        held.extend(self.found.iter().flat_map(|f| &f.usual).map(|usual| 1.0 / (LOOSE * usual)));
+        held
+    }
+
+    /// The values of all parameters, those of the nuisances as 0.
+    pub(crate) fn values(&self, problem: &Problem<'_>) -> Vec<f64> {
+        let mut values = vec![0.0; Self::nuisances(problem)];
+        values.extend(self.found.iter().flat_map(|f| &f.values));
+        values
+    }
+
+    /// The model with its parameters moved by `step` (in the order of [`Model::block`]); values
+    /// stay physical.
+    pub(crate) fn moved(&self, problem: &Problem<'_>, step: &[f64]) -> Self {
+        let mut model = self.clone();
+        let (nuisances, effects) = step.split_at(Self::nuisances(problem));
+        let (frames, markers) = nuisances.split_at(6 * problem.nuisances.len());
+        for (frame, step) in problem.nuisances.iter().zip(frames.chunks_exact(6)) {
+            let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
+            match frame {
+                Nuisance::BaseFrame => model.instrument *= by,
+                Nuisance::ToolFrame => model.arm.tool *= by,
+            }
+        }
+        for (marker, step) in model.markers.iter_mut().zip(markers.chunks_exact(3)) {
+            *marker += Vector3::from_column_slice(step);
+        }
+        let mut steps = effects.iter();
+        for found in &mut model.found {
+            for (value, least) in found.values.iter_mut().zip(&found.least) {
+                *value = (*value + steps.next().unwrap_or(&0.0)).max(*least);
+            }
+        }
+        model
+    }
+}

@@ -1,0 +1,180 @@
+//! The exact fit: frames and effects together, as true transforms at equilibrium.
+//!
+//! Gauss-Newton; a direction that the data do not decide stays where it is, and a value that wants
+//! to leave what is physical is held at its bound.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector, Vector6};
+use rayon::prelude::*;
+
+use super::basis::Basis;
+use super::model::{Model, Predicted};
+use crate::diagnose::data::Problem;
+use crate::diagnose::options::DiagnoseError;
+use crate::simulate::Sim;
+
+/// Most steps: the blocks leave out terms of second order, so that the error falls by a factor of
+/// ten or more with each.
+const MOST_STEPS: usize = 40;
+
+/// Halvings of a step that does not help.
+const MOST_HALVINGS: usize = 8;
+
+/// A step that promises less than this part of the squares, and less than this number of units of
+/// noise, is the last.
+const LAST: f64 = 1e-9;
+
+/// Rows whose products are taken together.
+const CHUNK: usize = 64;
+
+/// A model and what it predicts.
+#[derive(Clone)]
+pub(crate) struct Fit {
+    pub(crate) model: Model,
+    pub(crate) predicted: Arc<Predicted>,
+}
+
+/// Weighted sum of squares of gaps.
+pub(crate) fn squares(gaps: &[Vector6<f64>], weights: &Vector6<f64>) -> f64 {
+    gaps.iter().map(|g| g.component_mul(weights).norm_squared()).sum()
+}
+
+/// Fits all parameters of `model`.
+pub(crate) fn refit(
+    problem: &Problem<'_>,
+    model: Model,
+    near: Option<&[Sim]>,
+    weights: &Vector6<f64>,
+) -> Result<Fit, DiagnoseError> {
+    let predicted = model.predict(problem, near)?;
+    let mut fit = Fit { model, predicted: Arc::new(predicted) };
+    if fit.model.parameters(problem) == 0 {
+        return Ok(fit);
+    }
+    let cost = |model: &Model, predicted: &Predicted| {
+        squares(&predicted.gaps, weights) + strain(problem, model)
+    };
+    let mut now = cost(&fit.model, &fit.predicted);
+    for _ in 0..MOST_STEPS {
+        let (normal, right) = normal_equations(problem, &fit, weights);
+        let (step, promised) = bounded(problem, &fit.model, normal, right);
+        if promised <= LAST * (1.0 + now) {
+            break;
+        }
+        let mut part = 1.0;
+        let mut better = None;
+        for _ in 0..MOST_HALVINGS {
+            let step: Vec<f64> = step.iter().map(|s| s * part).collect();
+            let model = fit.model.moved(problem, &step);
+            // An arm that finds no rest is no better.
+            if let Ok(predicted) = model.predict(problem, Some(&fit.predicted.sims)) {
+                let then = cost(&model, &predicted);
+                if then < now {
+                    better = Some((Fit { model, predicted: Arc::new(predicted) }, then));
+                    break;
+                }
+            }
+            part /= 2.0;
+        }
+        let Some((next, then)) = better else { break };
+        let settled = now - then <= LAST * (1.0 + now);
+        (fit, now) = (next, then);
+        if settled {
+            break;
+        }
+    }
+    Ok(fit)
+}
+
+/// Weighted normal matrix and right-hand side of all parameters, each loosely held to what is usual.
+pub(crate) fn normal_equations(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    weights: &Vector6<f64>,
+) -> (DMatrix<f64>, DVector<f64>) {
+    let k = fit.model.parameters(problem);
+    // Chunks of rows are worked on at once and added up in their order.
+    let rows: Vec<usize> = (0..fit.predicted.gaps.len()).collect();
+    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = rows
+        .par_chunks(CHUNK)
+        .map(|rows| {
+            let mut columns = DMatrix::zeros(6 * rows.len(), k);
+            let mut gaps = DVector::zeros(6 * rows.len());
+            for (index, &row) in rows.iter().enumerate() {
+                let block = block(problem, fit, row, weights);
+                columns.rows_mut(6 * index, 6).copy_from(&block);
+                let gap = fit.predicted.gaps[row].component_mul(weights);
+                gaps.rows_mut(6 * index, 6).copy_from(&gap);
+            }
+            let across = columns.transpose();
+            (&across * &columns, across * gaps)
+        })
+        .collect();
+    let (mut normal, mut right) = (DMatrix::zeros(k, k), DVector::zeros(k));
+    for (products, with_gap) in &parts {
+        normal += products;
+        right += with_gap;
+    }
+    let held = fit.model.held(problem);
+    for (at, (held, value)) in held.iter().zip(fit.model.values(problem)).enumerate() {
+        normal[(at, at)] += held * held;
+        right[at] -= held * held * value;
+    }
+    (normal, right)
+}
+
+/// What it costs that values are beyond what is usual.
+fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
+    let values = model.values(problem);
+    model.held(problem).iter().zip(values).map(|(held, value)| (held * value).powi(2)).sum()
+}
+
+/// Weighted 6×k block of one row.
+pub(crate) fn block(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    row: usize,
+    weights: &Vector6<f64>,
+) -> nalgebra::Matrix6xX<f64> {
+    let (model, sims) = (&fit.model, &fit.predicted.sims);
+    let mut block = model.change(problem, sims, row, |s| model.block(problem, row, s));
+    for mut column in block.column_iter_mut() {
+        column.component_mul_assign(weights);
+    }
+    block
+}
+
+/// The step, with what wants to go below its least value taken to it; and by how much the squares
+/// are to fall.
+fn bounded(
+    problem: &Problem<'_>,
+    model: &Model,
+    normal: DMatrix<f64>,
+    right: DVector<f64>,
+) -> (DVector<f64>, f64) {
+    let nuisances = Model::nuisances(problem);
+    let room: Vec<f64> = model
+        .found
+        .iter()
+        .flat_map(|f| f.least.iter().zip(&f.values).map(|(least, value)| least - value))
+        .collect();
+    let mut held = DVector::<f64>::zeros(right.len());
+    let mut free: Vec<usize> = (0..right.len()).collect();
+    loop {
+        let part = normal.select_rows(&free).select_columns(&free);
+        let target = (&right - &normal * &held).select_rows(&free);
+        let found = Basis::new(&part).solve(&target);
+        let mut step = held.clone();
+        for (at, value) in free.iter().zip(found.iter()) {
+            step[*at] = *value;
+        }
+        let leaves = |at: &usize| *at >= nuisances && step[*at] < room[at - nuisances];
+        let Some(position) = free.iter().position(leaves) else {
+            let promised = 2.0 * step.dot(&right) - step.dot(&(&normal * &step));
+            return (step, promised);
+        };
+        let at = free.remove(position);
+        held[at] = room[at - nuisances];
+    }
+}

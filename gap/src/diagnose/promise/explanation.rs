@@ -1,0 +1,135 @@
+//! The models before and after a diagnosis: what predicts other measurements of the same arm, and
+//! what the corrected robot is made of.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use super::spread::Spread;
+use crate::diagnose::data::Problem;
+use crate::diagnose::fit::Model;
+use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
+use crate::diagnose::report::Cover;
+use crate::effects::Place;
+use crate::measurement::{Kind, Measurements};
+
+/// A part of the range within which a value beyond it still counts as inside.
+const EDGE: f64 = 1e-6;
+
+/// What a diagnosis knows of the arm.
+pub struct Explanation {
+    pub(super) nominal: Arm,
+    arm: Arm,
+    file: String,
+    pub(super) kind: Kind,
+    pub(super) before: Model,
+    pub(super) after: Model,
+    pub(super) nuisances: Vec<Nuisance>,
+    markers: Vec<String>,
+    covers: Cover,
+    pub(super) spread: Spread,
+}
+
+/// An effect that was found, with its values in the order of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundEffect {
+    /// Its identifier.
+    pub effect: &'static str,
+    /// Where it acts.
+    pub place: Place,
+    /// Which of its forms.
+    pub form: usize,
+    /// Values, SI.
+    pub values: Vec<f64>,
+}
+
+/// Measured minus predicted on other measurements, rows in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prediction {
+    /// With the frames as they were fitted and nothing else.
+    pub before: Vec<Vector6<f64>>,
+    /// With the findings.
+    pub after: Vec<Vector6<f64>>,
+    /// Whether the row lies within the joint ranges and loads of the data that was diagnosed.
+    pub inside: Vec<bool>,
+}
+
+impl Explanation {
+    /// The models before and after, and the spread of all that the one after has fitted.
+    pub(crate) fn new(
+        problem: &Problem<'_>,
+        [before, after]: [Model; 2],
+        spread: Spread,
+        covers: &Cover,
+    ) -> Self {
+        let mut arm = after.arm.clone();
+        arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
+        Self {
+            nominal: problem.arm.clone(),
+            arm,
+            file: problem.data.file.clone(),
+            before,
+            after,
+            nuisances: problem.nuisances.clone(),
+            markers: problem.markers.clone(),
+            covers: covers.clone(),
+            kind: problem.data.kind,
+            spread,
+        }
+    }
+
+    /// The effects that were found.
+    pub fn found(&self) -> Vec<FoundEffect> {
+        let each = self.after.found.iter().map(|f| FoundEffect {
+            effect: f.effect.identifier(),
+            place: f.spot.place,
+            form: f.spot.form,
+            values: f.values.clone(),
+        });
+        each.collect()
+    }
+
+    /// The arm with its tool where the measured frame was fitted, or as the robot file has it.
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// What the models make of measurements of the arm. Frames and markers stay where they were
+    /// fitted. What happened at a time (`slip`, `drift`) is carried to no other file.
+    ///
+    /// # Errors
+    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
+    /// never fitted.
+    pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
+        let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
+        let problem = Problem::new(&self.nominal, data, &options)?;
+        let mut places = Vec::with_capacity(problem.markers.len());
+        for name in &problem.markers {
+            let known = self.markers.iter().position(|known| known == name);
+            places.push(known.ok_or_else(|| DiagnoseError::NewMarker {
+                file: data.file.clone(),
+                marker: name.clone(),
+            })?);
+        }
+        let gaps = |model: &Model| {
+            let mut model = model.clone();
+            model.markers = places.iter().map(|k| model.markers[*k]).collect();
+            if data.file != self.file {
+                model.found.retain(|f| !matches!(f.effect.identifier(), "slip" | "drift"));
+            }
+            model.predict(&problem, None).map(|p| p.gaps)
+        };
+        let (before, after) = (gaps(&self.before)?, gaps(&self.after)?);
+        let inside = data.rows.iter().map(|row| {
+            let in_range = |(q, [low, high]): (&f64, &[f64; 2])| {
+                let edge = EDGE * (high - low) + f64::EPSILON;
+                (low - edge..=high + edge).contains(q)
+            };
+            let force = row.wrench.fixed_rows::<3>(0).norm();
+            let moment = row.wrench.fixed_rows::<3>(3).norm();
+            row.q.iter().zip(&self.covers.joints).all(in_range)
+                && force <= self.covers.force * (1.0 + EDGE)
+                && moment <= self.covers.moment * (1.0 + EDGE)
+        });
+        Ok(Prediction { before, after, inside: inside.collect() })
+    }
+}

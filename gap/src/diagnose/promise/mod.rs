@@ -1,0 +1,13 @@
+//! What was found, as a model that predicts.
+//!
+//! **In:** the fits before and after the search.
+//! **Out:** an [`Explanation`]: what the corrected arm reads in other measurements, and what is
+//! [`Expected`] at a posture that was not measured, with what the spread of the fitted numbers
+//! leaves of it.
+
+mod expected;
+mod explanation;
+mod spread;
+
+pub use expected::Expected;
+pub use explanation::{Explanation, FoundEffect, Prediction};

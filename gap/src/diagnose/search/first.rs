@@ -1,0 +1,33 @@
+//! What the data show before anything is found, gathered once: the search begins with it, and what
+//! cannot be seen is read from it.
+
+use super::forward::{Explained, Search};
+use crate::diagnose::sums::{Candidate, Gathered};
+
+/// What the data show before anything is found: all of the catalogue, and displacements of free form,
+/// beside the frames and the geometry.
+pub(crate) struct First {
+    /// The catalogue's effects, then the free forms.
+    pub(crate) candidates: Vec<Candidate>,
+    /// Lengths, twists and zeros of the arm.
+    pub(crate) geometry: Vec<Candidate>,
+    /// The former with the latter along.
+    pub(crate) gathered: Gathered,
+}
+
+impl Search<'_, '_> {
+    /// Gathers what the data show before anything is found.
+    pub(crate) fn first(&self, now: &Explained) -> First {
+        let geometry: Vec<Candidate> =
+            self.candidates.iter().filter(|c| is_geometry(c)).cloned().collect();
+        let mut candidates = self.candidates.to_vec();
+        candidates.extend(Candidate::probes(self.problem));
+        let gathered = self.gather(now, &geometry, &candidates);
+        First { candidates, geometry, gathered }
+    }
+}
+
+/// Whether it is one of the numbers of the arm's table.
+fn is_geometry(candidate: &Candidate) -> bool {
+    candidate.effect().is_some_and(|(effect, _)| effect.is_geometry())
+}

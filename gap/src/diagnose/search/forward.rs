@@ -1,0 +1,263 @@
+//! Which effects: added one by one, each judged beside all that is already there, and each taken
+//! back or exchanged when what came later makes it superfluous or another better.
+
+use super::evidence::{Flips, Scale};
+use crate::diagnose::data::{Folds, Noise, Problem};
+use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares};
+use crate::diagnose::options::{DiagnoseError, Options};
+use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
+use nalgebra::Vector6;
+use std::sync::{Arc, OnceLock};
+
+/// A finding's largest p value.
+pub(crate) const SIGNIFICANT: f64 = 0.05;
+
+/// Most effects that are added.
+const MOST_FOUND: usize = 40;
+
+/// Effects that are compared with all others after each addition.
+const SMALL: usize = 4;
+
+/// Orders of periodic errors that are added with the best one: they hardly touch each other, and a
+/// real gear has many.
+const MOST_ORDERS: usize = 5;
+
+/// Candidates that are tried in turn when the exact fit does not follow the linear one.
+const MOST_TRIED: usize = 3;
+
+/// A candidate of which less is left beside the model cannot be seen.
+pub(crate) const OWN: f64 = 0.01;
+
+/// A value beyond what is usual by more than this is none that an arm has.
+const IMPOSSIBLE: f64 = 100.0;
+
+/// At least this many measured numbers for each parameter.
+const NUMBERS_EACH: usize = 3;
+
+/// Everything that a search works with.
+pub(crate) struct Search<'s, 'p> {
+    pub(crate) problem: &'s Problem<'p>,
+    pub(crate) folds: &'s Folds,
+    pub(crate) candidates: &'s [Candidate],
+    pub(crate) options: &'s Options,
+}
+
+/// A fit and the noise by which it was weighted.
+#[derive(Clone)]
+pub(crate) struct Explained {
+    pub(crate) fit: Fit,
+    pub(crate) noise: Noise,
+    pub(crate) weights: Vector6<f64>,
+    /// Its parameters with all candidates, once they were asked for.
+    pub(super) gathered: OnceLock<Arc<Gathered>>,
+}
+
+impl Explained {
+    /// The same without the states of the rows, which are most of its memory.
+    pub(crate) fn without_states(&self) -> Explained {
+        let gaps = self.fit.predicted.gaps.clone();
+        let predicted = Arc::new(Predicted { sims: Vec::new(), gaps });
+        let fit = Fit { model: self.fit.model.clone(), predicted };
+        Explained { fit, gathered: OnceLock::new(), ..*self }
+    }
+
+    /// The same with the states of the rows again.
+    pub(crate) fn with_states(&self, problem: &Problem<'_>) -> Result<Explained, DiagnoseError> {
+        let model = self.fit.model.clone();
+        let fit = Fit { predicted: Arc::new(model.predict(problem, None)?), model };
+        Ok(Explained { fit, gathered: OnceLock::new(), ..*self })
+    }
+}
+
+/// A candidate beside a model; less `cost` is better.
+pub(crate) struct Ranked {
+    pub(crate) candidate: usize,
+    pub(crate) score: Score,
+    /// Squares left in units of the noise, and what the parameters cost.
+    pub(crate) cost: f64,
+    /// By how much that is less than without it.
+    pub(crate) gain: f64,
+}
+
+impl Search<'_, '_> {
+    pub(super) fn weigh(&self, fit: Fit) -> Explained {
+        let parameters = fit.model.parameters(self.problem);
+        let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
+        let weights = noise.weights(&self.problem.mask);
+        Explained { fit, noise, weights, gathered: OnceLock::new() }
+    }
+
+    /// Fits the frames alone.
+    pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
+        let first = Fit { predicted: Arc::new(model.predict(self.problem, None)?), model };
+        let mut now = self.weigh(first);
+        // Weights that come from the remainder are those of the fit after two rounds.
+        for _ in 0..3 {
+            let Explained { fit, weights, .. } = now;
+            let fit = refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?;
+            now = self.weigh(fit);
+            if self.problem.nuisances.is_empty() && self.problem.markers.is_empty() {
+                break;
+            }
+        }
+        Ok(now)
+    }
+
+    /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
+    /// seen. `progress` gets the number of effects found.
+    pub(crate) fn explain(
+        &self,
+        mut now: Explained,
+        progress: &dyn Fn(usize),
+    ) -> Result<Explained, DiagnoseError> {
+        for _ in 0..MOST_FOUND {
+            progress(now.fit.model.found.len());
+            let Some(next) = self.added(&now)? else { break };
+            now = self.weigh(next);
+            // Few effects are compared with all others after each addition, many now and then.
+            let count = now.fit.model.found.len();
+            if count <= SMALL || count.is_multiple_of(SMALL) {
+                now = self.pruned(now)?;
+            }
+        }
+        self.pruned(now)
+    }
+
+    pub(crate) fn scale(&self, now: &Explained) -> Scale {
+        Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
+    }
+
+    /// Cost of the parameters of an effect that was found.
+    pub(crate) fn cost_of(&self, scale: &Scale, found: &Fitted) -> f64 {
+        scale.cost(found.values.len(), found.forms, found.values.iter().zip(&found.usual))
+    }
+
+    /// The candidates beside the model, best first.
+    pub(crate) fn ranked(&self, screen: &Screen<'_>, now: &Explained) -> Vec<Ranked> {
+        let (left, fitted) = (screen.left(), screen.basis.rank());
+        let room = (self.problem.numbers() / NUMBERS_EACH).saturating_sub(fitted);
+        let scale = self.scale(now);
+        let scored = (0..screen.candidates.len()).map(|c| (c, screen.score(c)));
+        let can = |candidate: usize, score: &Score| {
+            let usual = &screen.candidates[candidate].usual;
+            let mut values = score.values.iter().zip(usual);
+            let possible = values.all(|(value, usual)| value.abs() <= IMPOSSIBLE * usual);
+            score.rank > 0 && score.own > OWN && score.rank <= room && possible
+        };
+        let kept: Vec<_> = scored.filter(|(c, s)| can(*c, s) && s.drop > 0.0).collect();
+        let best = kept.iter().map(|(_, s)| s.drop).fold(0.0, f64::max);
+        let variance = scale.variance((left - best).max(0.0), fitted);
+        let mut ranked: Vec<Ranked> = kept
+            .into_iter()
+            .map(|(candidate, score)| {
+                let it = &screen.candidates[candidate];
+                let values = score.values.iter().zip(&it.usual);
+                let cost =
+                    (left - score.drop) / variance + scale.cost(score.rank, it.forms, values);
+                Ranked { candidate, score, cost, gain: left / variance - cost }
+            })
+            .collect();
+        ranked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        ranked
+    }
+
+    /// The model with the best candidate added, if it is significant.
+    fn added(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
+        let screen = self.screen(now, Kept::default());
+        let scale = self.scale(now);
+        let ranked = self.ranked(&screen, now);
+        let trained = screen.trained();
+        let before = screen.held_out(&trained, None);
+        let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let mut flips = None;
+        for one in ranked.iter().take(MOST_TRIED) {
+            let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
+            let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
+            if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
+                continue;
+            }
+            let flips =
+                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
+            if flips.chance(&one.score) > SIGNIFICANT {
+                continue;
+            }
+            let refined = self.refined(now, &[], one, &screen);
+            let mut added: Vec<Fitted> = refined.into_iter().collect();
+            let significant = |r: &&Ranked| {
+                let chance =
+                    scale.chance(&r.score, screen.left(), screen.basis.rank(), tried.len());
+                chance <= SIGNIFICANT && r.gain > 0.0
+            };
+            let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
+            if periodic(&one) {
+                for other in ranked.iter().filter(periodic).filter(significant) {
+                    let next = self.refined(now, &[], other, &screen);
+                    added.extend(next.filter(|next| self.is_apart(next, &added)));
+                    if added.len() > MOST_ORDERS {
+                        break;
+                    }
+                }
+            }
+            let expected = one.score.drop;
+            if let Some(fit) = self.with(now, &[], added, expected)? {
+                return Ok(Some(fit));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the range of the joint tells this order of a periodic error from the others.
+    fn is_apart(&self, next: &Fitted, others: &[Fitted]) -> bool {
+        let angles = self.problem.data.rows.iter().map(|r| r.q[next.spot.row()]);
+        let (low, high) =
+            (angles.clone().fold(f64::MAX, f64::min), angles.fold(f64::MIN, f64::max));
+        let resolved = std::f64::consts::TAU / (high - low);
+        let is_near = |other: &Fitted| {
+            other.spot.place == next.spot.place
+                && (other.spot.form.abs_diff(next.spot.form) as f64) < resolved
+        };
+        !others.iter().any(is_near)
+    }
+
+    /// The model without the effects `out` and with another; `None` if the exact fit does not
+    /// follow what the linear one promised.
+    pub(super) fn with(
+        &self,
+        now: &Explained,
+        out: &[usize],
+        added: Vec<Fitted>,
+        expected: f64,
+    ) -> Result<Option<Fit>, DiagnoseError> {
+        let mut model = now.fit.model.clone();
+        for &index in out.iter().rev() {
+            model.found.remove(index);
+        }
+        let kept = model.found.len();
+        model.found.extend(added);
+        let before = squares(&now.fit.predicted.gaps, &now.weights);
+        let near = &now.fit.predicted.sims;
+        // An arm that finds no rest with the values of the linear fit begins from none.
+        let fit = refit(self.problem, model.clone(), Some(near), &now.weights).or_else(|_| {
+            model.found[kept..].iter_mut().for_each(|added| added.values.fill(0.0));
+            refit(self.problem, model, Some(near), &now.weights)
+        });
+        let Ok(fit) = fit else { return Ok(None) };
+        let after = squares(&fit.predicted.gaps, &now.weights);
+        Ok((before - after >= 0.5 * expected).then_some(fit))
+    }
+
+    /// The model without the effects `out` (ascending), fitted again.
+    pub(crate) fn fitted_without(
+        &self,
+        now: Explained,
+        out: &[usize],
+    ) -> Result<Explained, DiagnoseError> {
+        let Explained { fit, weights, .. } = now;
+        let mut model = fit.model;
+        for &index in out.iter().rev() {
+            model.found.remove(index);
+        }
+        let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
+        Ok(self.weigh(fit))
+    }
+}

@@ -1,0 +1,22 @@
+//! Which effects: the search.
+//!
+//! **In:** the [`Explained`] gap, which at first is the fit of the unknown frames alone; the
+//! candidates.
+//! **Out:** the same with the effects that the data ask for, fitted exactly.
+//!
+//! `forward` adds one effect after the other: the one with the most evidence (`evidence`: what it
+//! explains against what its parameters cost, and the chance that noise explains as much), if it
+//! shrinks the held-out gap. `refined` places a jump in time, `exchange` takes back or replaces what
+//! came too early. All ask the sums that were gathered [`beside`](Search::screen) the model. What
+//! is gathered [`First`], before anything is found, also tells what the data could show.
+
+mod beside;
+mod evidence;
+mod exchange;
+mod first;
+mod forward;
+mod refined;
+
+pub(crate) use evidence::Flips;
+pub(crate) use first::First;
+pub(crate) use forward::{Explained, OWN, Ranked, SIGNIFICANT, Search};

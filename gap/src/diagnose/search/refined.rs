@@ -1,0 +1,91 @@
+//! A candidate as a part of the model, a jump at the best of all moments near its own.
+
+use super::forward::{Explained, Ranked, Search};
+use crate::diagnose::fit::Fitted;
+use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+use crate::effects::Spot;
+
+/// Moments of a jump that are tried at once; of more, an even choice, and then those about the best.
+const MOST_NEAR: usize = 256;
+
+impl Search<'_, '_> {
+    /// The candidate as a part of the model; a jump at the best of all rows near its own.
+    pub(crate) fn refined(
+        &self,
+        now: &Explained,
+        without: &[usize],
+        one: &Ranked,
+        screen: &Screen<'_>,
+    ) -> Option<Fitted> {
+        let candidate = &screen.candidates[one.candidate];
+        let (effect, spot) = candidate.effect()?;
+        let fitted = |spot: Spot, score: &Score| Fitted {
+            effect,
+            spot,
+            least: candidate.least.clone(),
+            values: score.values.iter().copied().collect(),
+            usual: candidate.usual.clone(),
+            lead: 0.0,
+            forms: candidate.forms,
+        };
+        if effect.form_is().is_none() {
+            return Some(fitted(spot, &one.score));
+        }
+        let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);
+        let at = forms.iter().position(|f| *f == spot.form).unwrap_or(0);
+        let from = at.checked_sub(1).map_or(1, |k| forms[k] + 1);
+        let to = forms.get(at + 1).copied().unwrap_or(self.problem.data.rows.len());
+        let (mut from, mut to) = (from, to);
+        loop {
+            let every = (to - from).div_ceil(MOST_NEAR).max(1);
+            let near: Vec<Candidate> = (from..to)
+                .step_by(every)
+                .map(|form| Candidate::of(self.problem, effect, Spot { form, ..spot }, forms.len()))
+                .collect();
+            let kept = Kept { without, whole: true, ..Kept::default() };
+            let finer = self.screen_of(now, &self.gather(now, &[], &near), kept, &near);
+            let scores = (0..near.len()).map(|c| (c, finer.score(c)));
+            let best = scores.max_by(|a, b| a.1.drop.total_cmp(&b.1.drop));
+            let (at, score) =
+                best.and_then(|(c, score)| near[c].effect().map(|(_, at)| (at, score)))?;
+            if every == 1 {
+                return Some(fitted(at, &score));
+            }
+            (from, to) = (from.max(at.form.saturating_sub(every - 1)), to.min(at.form + every));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::{Options, diagnose};
+    use crate::fixture::{rigid, row, table};
+    use crate::measurement::{Kind, Row};
+    use crate::simulate::simulate;
+    use nalgebra::Vector6;
+
+    #[test]
+    fn a_jump_among_very_many_rows_is_placed_at_its_row() {
+        let (arm, after) = (rigid(), 1234);
+        let kind = Kind::Pose { orientation: false };
+        // More rows between two of the moments that are tried at first than are tried at once.
+        let rows = (0..24 * MOST_NEAR).map(|k| {
+            let at = k as f64;
+            let q = [(0.7 * at).sin(), (1.3 * at).cos(), (2.1 * at).sin()];
+            let mut row = Row { group: k, ..row(&q, Vector6::zeros()) };
+            let read = simulate(&arm, &row, kind).unwrap().reading().vector();
+            let jump = if k < after { 0.0 } else { 3e-4 };
+            let noise = Vector6::from_fn(|c, _| 1e-5 * (91.7 * at + 7.0 * c as f64).sin());
+            row.measured =
+                (read + noise).component_mul(&Vector6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0));
+            row.measured.y += jump;
+            row
+        });
+        let data = table(rows.collect(), kind);
+        let options = Options { effects: Some(vec!["slip".to_owned()]), ..Options::default() };
+        let found = diagnose(&arm, &data, &options).unwrap().findings;
+        assert_eq!((found[0].effect, found[0].place.as_str()), ("slip", "base"));
+        assert_eq!(found[0].parameters[0].value, after as f64);
+    }
+}

@@ -1,0 +1,101 @@
+//! What this data could show, before anything is fitted: what is left of each effect when the
+//! nuisances, and all of the arm's geometry, have taken up what they can.
+
+use crate::diagnose::report::CannotSee;
+use crate::diagnose::search::{Explained, First, OWN, Search};
+use crate::diagnose::sums::{Kept, Screen};
+use crate::effects::{Effect, Place};
+use crate::measurement::Kind;
+
+/// An effect that moves what is measured by less than this part of what it does at its strongest
+/// place is idle there.
+const IDLE: f64 = 1e-3;
+
+/// Less than this left beside geometry is called unseen: an effect would have to be some 20 times
+/// the noise to be told from it.
+const SEEN: f64 = 0.05;
+
+impl Search<'_, '_> {
+    /// The effects, at their places, that this data could not have shown.
+    pub(crate) fn cannot_see(
+        &self,
+        effects: &[&'static dyn Effect],
+        now: &Explained,
+        first: &First,
+    ) -> Vec<CannotSee> {
+        let screen = |along: usize| {
+            let kept = Kept { along, whole: true, ..Kept::default() };
+            self.screen_of(now, &first.gathered, kept, self.candidates)
+        };
+        let alone = screen(0);
+        let beside = screen(first.geometry.iter().map(|c| c.size).sum());
+        // Between two readings of one pose lengths and angles cancel, but for what a mistake of
+        // many times the usual size would do.
+        let geometry_shows = matches!(self.problem.data.kind, Kind::Pose { .. });
+        let mut unseen = Vec::new();
+        for &effect in effects {
+            let places = effect.places(self.problem.arm);
+            if let Some(because) = effect.excluded(self.problem.data) {
+                unseen.extend(places.iter().map(|p| entry(effect, *p, 0.0, because)));
+                continue;
+            }
+            let looks: Vec<(Place, Look)> =
+                places.iter().map(|p| (*p, Look::at(effect, *p, &alone, &beside))).collect();
+            let largest = looks.iter().map(|(_, l)| l.size).fold(0.0, f64::max);
+            for (place, look) in looks {
+                let relative = if largest > 0.0 { look.size / largest } else { 0.0 };
+                let room = self.problem.numbers() / 3;
+                if relative < IDLE {
+                    unseen.push(entry(effect, place, relative, effect.idle()));
+                } else if look.own < OWN.max(SEEN) {
+                    let because = "the frames that are fitted along do the same";
+                    unseen.push(entry(effect, place, look.own, because));
+                } else if geometry_shows && look.beside < SEEN && !effect.is_geometry() {
+                    unseen.push(entry(effect, place, look.beside, effect.hidden()));
+                } else if look.parameters > room {
+                    let because = "too few measurements for its parameters";
+                    unseen.push(entry(effect, place, 0.0, because));
+                }
+            }
+        }
+        unseen
+    }
+}
+
+fn entry(
+    effect: &'static dyn Effect,
+    place: Place,
+    visible: f64,
+    because: &'static str,
+) -> CannotSee {
+    CannotSee { effect: effect.identifier(), place: place.to_string(), visible, because }
+}
+
+/// The best that any form of an effect does at a place.
+struct Look {
+    /// Size of one unit of it, in units of the noise.
+    size: f64,
+    /// Part that is left beside the nuisances.
+    own: f64,
+    /// Part that is left beside nuisances and geometry.
+    beside: f64,
+    parameters: usize,
+}
+
+impl Look {
+    fn at(effect: &dyn Effect, place: Place, alone: &Screen<'_>, beside: &Screen<'_>) -> Look {
+        let mut look = Look { size: 0.0, own: 0.0, beside: 0.0, parameters: usize::MAX };
+        for (index, candidate) in alone.candidates.iter().enumerate() {
+            let is_it = candidate
+                .effect()
+                .is_some_and(|(e, s)| e.identifier() == effect.identifier() && s.place == place);
+            if is_it {
+                look.size = look.size.max(alone.total.xx[index].trace().sqrt());
+                look.own = look.own.max(alone.score(index).own);
+                look.beside = look.beside.max(beside.score(index).own);
+                look.parameters = look.parameters.min(candidate.size);
+            }
+        }
+        look
+    }
+}

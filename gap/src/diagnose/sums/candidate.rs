@@ -1,0 +1,148 @@
+//! What may be added to the explanation.
+
+use nalgebra::Matrix6xX;
+
+use super::probe::{About, Probe};
+use crate::diagnose::data::Problem;
+use crate::effects::{Carrier, Effect, Place, Scene, Spot};
+
+/// An effect at a spot, or a probe: some numbers and what they do to the tool.
+#[derive(Clone)]
+pub(crate) struct Candidate {
+    pub(crate) source: Source,
+    /// Number of parameters.
+    pub(crate) size: usize,
+    /// Least physical values of what is added.
+    pub(crate) least: Vec<f64>,
+    /// What is usual of them.
+    pub(crate) usual: Vec<f64>,
+    /// Forms that the effect has at this place: each more is one more chance to fit noise.
+    pub(crate) forms: usize,
+}
+
+/// Where a candidate's block comes from.
+#[derive(Clone)]
+pub(crate) enum Source {
+    Effect { effect: &'static dyn Effect, spot: Spot },
+    Probe(Probe),
+}
+
+impl Candidate {
+    /// Every form of the effects at every place.
+    pub(crate) fn all(problem: &Problem<'_>, effects: &[&'static dyn Effect]) -> Vec<Candidate> {
+        let mut all = Vec::new();
+        for &effect in effects {
+            if effect.excluded(problem.data).is_some() {
+                continue;
+            }
+            for place in effect.places(problem.arm) {
+                let forms = effect.forms(problem.arm, place, problem.data);
+                for &form in &forms {
+                    all.push(Candidate::of(problem, effect, Spot { place, form }, forms.len()));
+                }
+            }
+        }
+        all
+    }
+
+    /// Every place with everything on which its displacement may depend.
+    pub(crate) fn probes(problem: &Problem<'_>) -> Vec<Candidate> {
+        let n = problem.arm.dof();
+        let data = problem.data;
+        let mut probes = Vec::new();
+        let mut add = |place, about, size| {
+            probes.push(Candidate::probe(Probe { place, about }, size));
+        };
+        let directed = data.rows.iter().any(|r| r.direction.is_some());
+        for joint in 0..n {
+            let place = Place::Joint(joint + 1);
+            add(place, About::Reading(joint), 6);
+            if n > 1 {
+                add(place, About::Others(joint), n - 1);
+            }
+            add(place, About::Load, 3);
+            add(place, About::Move(joint), 3);
+            if directed {
+                add(place, About::Direction(joint), 3);
+            }
+            add(Place::Link(joint + 1), About::Constant, 6);
+            add(Place::Link(joint + 1), About::Load, 6);
+        }
+        for place in [Place::Base, Place::Tool] {
+            add(place, About::Constant, 6);
+            add(place, About::Load, 6);
+            add(place, About::Time, 6);
+            if data.rows.iter().any(|r| r.temperature.is_some()) {
+                add(place, About::Temperature, 6);
+            }
+        }
+        probes
+    }
+
+    pub(crate) fn of(
+        problem: &Problem<'_>,
+        effect: &'static dyn Effect,
+        spot: Spot,
+        forms: usize,
+    ) -> Candidate {
+        let parameters = effect.parameters(problem.arm, spot, problem.data);
+        Candidate {
+            size: parameters.len(),
+            least: parameters.iter().map(|p| p.least).collect(),
+            usual: parameters.iter().map(|p| p.usual).collect(),
+            source: Source::Effect { effect, spot },
+            forms,
+        }
+    }
+
+    pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
+        let least = vec![f64::NEG_INFINITY; size];
+        let usual = vec![f64::INFINITY; size];
+        Candidate { source: Source::Probe(probe), size, least, usual, forms: 1 }
+    }
+
+    pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {
+        match &self.source {
+            Source::Effect { effect, spot } => effect.block(scene, *spot),
+            Source::Probe(probe) => probe.block(scene),
+        }
+    }
+
+    /// What it moves, if that is one thing.
+    pub(crate) fn carrier(&self) -> Option<Carrier> {
+        match &self.source {
+            Source::Effect { effect, spot } => effect.carrier(*spot),
+            Source::Probe(probe) => probe.carrier(),
+        }
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        match &self.source {
+            Source::Effect { spot, .. } => spot.place,
+            Source::Probe(probe) => probe.place,
+        }
+    }
+
+    /// The effect and its spot; `None` of a probe.
+    pub(crate) fn effect(&self) -> Option<(&'static dyn Effect, Spot)> {
+        match &self.source {
+            Source::Effect { effect, spot, .. } => Some((*effect, *spot)),
+            Source::Probe(_) => None,
+        }
+    }
+
+    /// Whether its forms are the orders of a periodic error.
+    pub(crate) fn forms_are_orders(&self) -> bool {
+        self.effect().is_some_and(|(effect, _)| effect.identifier() == "transmission_error")
+    }
+
+    /// Whether both are the same effect at the same place, in whatever form.
+    pub(crate) fn is_same(&self, other: &Candidate) -> bool {
+        match (self.effect(), other.effect()) {
+            (Some((a, at)), Some((b, there))) => {
+                a.identifier() == b.identifier() && at.place == there.place
+            }
+            _ => false,
+        }
+    }
+}

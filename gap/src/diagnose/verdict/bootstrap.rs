@@ -1,0 +1,92 @@
+//! Intervals by resampling poses: a pose is drawn with all its rows, and what is compared is
+//! compared on the same poses.
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::diagnose::data::{Stream, below, generator};
+use crate::gap::percentile;
+
+/// Resamplings of each interval.
+pub(crate) const DRAWS: usize = 10_000;
+
+/// The normal distribution's 97.5 % point.
+const NORMAL: f64 = 1.959_963_985;
+
+/// Central 95 % of a statistic of resampled poses; `statistic` gets the sum of each quantity over
+/// the drawn poses. `quantities[k][pose]`.
+fn interval<const K: usize>(
+    quantities: [&[f64]; K],
+    seed: u64,
+    statistic: impl Fn([f64; K]) -> f64,
+) -> [f64; 2] {
+    let poses = quantities[0].len();
+    let mut generator = generator(seed, Stream::Bootstrap);
+    let mut values: Vec<f64> = (0..DRAWS)
+        .map(|_| {
+            let mut sums = [0.0; K];
+            for _ in 0..poses {
+                let pose = below(&mut generator, poses);
+                for (sum, quantity) in sums.iter_mut().zip(quantities) {
+                    *sum += quantity[pose];
+                }
+            }
+            statistic(sums)
+        })
+        .collect();
+    values.sort_by(f64::total_cmp);
+    [percentile(&values, 0.025), percentile(&values, 0.975)]
+}
+
+/// 1 − rms after / rms before, from sums of squares; 0 if there is nothing to shrink.
+pub(crate) fn shrink(before: f64, after: f64) -> f64 {
+    if before > 0.0 { 1.0 - (after / before).sqrt() } else { 0.0 }
+}
+
+/// 95 % interval of [`shrink`], from the sums of squares of each pose. What is resampled scatters
+/// less than what it was drawn from: the limits stand off by the ratio of Student's to the normal
+/// deviate, and of the variances.
+pub(crate) fn shrink_interval(before: &[f64], after: &[f64], seed: u64) -> [f64; 2] {
+    let limits = interval([before, after], seed, |[before, after]| shrink(before, after));
+    let count = before.len() as f64;
+    if count < 2.0 {
+        return limits;
+    }
+    let middle = shrink(before.iter().sum(), after.iter().sum());
+    let t = StudentsT::new(0.0, 1.0, count - 1.0).map_or(NORMAL, |t| t.inverse_cdf(0.975));
+    let wider = t / NORMAL * (count / (count - 1.0)).sqrt();
+    limits.map(|limit| (middle + (limit - middle) * wider).min(1.0))
+}
+
+/// 95 % interval of the mean over rows of a difference, from its sum over each pose and the rows of
+/// each pose.
+pub(crate) fn mean_interval(differences: &[f64], rows: &[f64], seed: u64) -> [f64; 2] {
+    interval([differences, rows], seed, |[sum, rows]| sum / rows.max(1.0))
+}
+
+/// Whether an interval leaves out 0.
+pub(crate) fn excludes_zero([low, high]: [f64; 2]) -> bool {
+    low > 0.0 || high < 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_interval_of_a_mean_is_that_of_the_normal_distribution() {
+        let values: Vec<f64> = (0..200).map(|k| f64::from(k % 20) - 9.5).collect();
+        let [low, high] = mean_interval(&values, &[1.0; 200], 3);
+        let sd = (33.25_f64 / 200.0).sqrt();
+        assert!((low + 1.96 * sd).abs() < 0.05 && (high - 1.96 * sd).abs() < 0.05, "{low} {high}");
+        assert_eq!(mean_interval(&values, &[1.0; 200], 3), [low, high]);
+        assert!(!excludes_zero([low, high]));
+    }
+
+    #[test]
+    fn an_even_shrink_is_certain() {
+        let (before, after) = ([4.0, 8.0, 100.0], [1.0, 2.0, 25.0]);
+        assert_eq!(shrink_interval(&before, &after, 0), [0.5, 0.5]);
+        assert_eq!(shrink_interval(&[0.0; 2], &[0.0; 2], 0), [0.0, 0.0]);
+        assert!(excludes_zero([0.5, 0.5]) && excludes_zero([-2.0, -1.0]));
+    }
+}

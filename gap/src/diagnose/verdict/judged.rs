@@ -1,0 +1,61 @@
+//! The last word on what was found: held out, compared with its rivals, and what is left tested for
+//! structure. What is not significant beside all the others is taken out again.
+
+use nalgebra::Vector6;
+
+use crate::diagnose::options::DiagnoseError;
+use crate::diagnose::progress::Stage;
+use crate::diagnose::report::{Finding, Unexplained};
+use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
+use crate::gap::Statistics;
+
+/// Findings that are taken out, one after the other.
+const MOST_OUT: usize = 8;
+
+/// What a diagnosis says.
+pub(crate) struct Judged {
+    pub(crate) findings: Vec<Finding>,
+    /// Held-out gap of each row with all findings.
+    pub(crate) after: Vec<Vector6<f64>>,
+    pub(crate) unexplained: Unexplained,
+}
+
+impl Search<'_, '_> {
+    /// Judges what was found beyond `start`; `before` are the gaps of the robot file as it is, and `is_there` says
+    /// whether they are more than rounding.
+    pub(crate) fn judged(
+        &self,
+        start: &Explained,
+        mut now: Explained,
+        before: &[Vector6<f64>],
+        is_there: bool,
+        progress: &(dyn Fn(Stage) + Sync),
+    ) -> Result<(Explained, Judged), DiagnoseError> {
+        let mut out = 0;
+        loop {
+            let (fitted, groups, held_out) = self.shrinking(now)?;
+            now = fitted;
+            progress(Stage::Judge(groups.len()));
+            let after = match held_out.last().filter(|_| !groups.is_empty()) {
+                Some(last) => last.clone(),
+                None => before.to_vec(),
+            };
+            let size = Statistics::of(&after);
+            let positions = self.problem.measures_position();
+            let main = if positions { size.position_rms } else { size.rotation_rms };
+            let unexplained =
+                if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
+            let findings = self.findings(&now, &groups, before, &held_out, !unexplained.present)?;
+            let worst = (0..findings.len())
+                .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
+                .filter(|k| findings[*k].p_value > SIGNIFICANT && out < MOST_OUT);
+            let Some(worst) = worst else {
+                return Ok((now, Judged { findings, after, unexplained }));
+            };
+            let mut group = groups[worst].clone();
+            group.sort_unstable();
+            now = self.fitted_without(now, &group)?;
+            out += 1;
+        }
+    }
+}

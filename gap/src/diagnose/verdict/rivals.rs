@@ -1,0 +1,151 @@
+//! What else could explain what a finding explains: every candidate in its place, beside all the
+//! others.
+
+use super::outcome::Group;
+use crate::diagnose::fit::squares;
+use crate::diagnose::options::DiagnoseError;
+use crate::diagnose::report::Alternative;
+use crate::diagnose::search::{Explained, Flips, Ranked, Search};
+use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+
+/// A rival whose evidence is less than the finding's by no more than this is not told from it: odds
+/// of about 20 to 1.
+const EVEN: f64 = 6.0;
+
+/// Up to this much evidence the poses must agree on it: where few of them carry it, chance may.
+const WEAK: f64 = 30.0;
+
+/// The explained gap with other explanations in a finding's place.
+pub(crate) struct Rivals {
+    pub(crate) alternatives: Vec<Alternative>,
+    /// The chance that noise explains as much.
+    pub(crate) p_value: f64,
+    /// How often it is found again on half of the poses.
+    pub(crate) stability: f64,
+    /// The rival that is hardest to tell from the finding, if one is not told from it.
+    pub(crate) nearest: Option<(Candidate, Vec<f64>)>,
+}
+
+impl Search<'_, '_> {
+    /// Judges what stands in for the effects of `group`.
+    pub(crate) fn rivals(
+        &self,
+        now: &Explained,
+        group: &Group,
+        at_noise: bool,
+    ) -> Result<Rivals, DiagnoseError> {
+        let screen = self.screen(now, Kept { without: group, ..Kept::default() });
+        let scale = self.scale(now);
+        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let variance = scale.variance(left, now.fit.model.parameters(self.problem));
+        let found: Vec<_> = group.iter().map(|index| &now.fit.model.found[*index]).collect();
+        let cost = found.iter().map(|f| self.cost_of(&scale, f));
+        let own = left / variance + cost.sum::<f64>();
+        let own_blocks = self.per_block(now);
+        let ranked = self.ranked(&screen, now);
+        let trained = screen.trained();
+        let is_found = |c: &Candidate| {
+            c.effect().is_some_and(|(effect, spot)| {
+                effect.identifier() == found[0].effect.identifier()
+                    && spot.place == found[0].spot.place
+            })
+        };
+        let rows = self.problem.data.rows.len() as f64;
+        let mut alternatives: Vec<Alternative> = Vec::new();
+        let mut seen: Vec<usize> = Vec::new();
+        let mut nearest = None;
+        for one in &ranked {
+            let candidate = &screen.candidates[one.candidate];
+            // Of the forms of one effect the best speaks for it.
+            if is_found(candidate) || seen.iter().any(|s| screen.candidates[*s].is_same(candidate))
+            {
+                continue;
+            }
+            seen.push(one.candidate);
+            let evidence = (screen.left() - one.score.drop) / variance
+                + scale.cost(
+                    one.score.rank,
+                    candidate.forms,
+                    one.score.values.iter().zip(&candidate.usual),
+                )
+                - own;
+            let weak = evidence <= WEAK || !at_noise;
+            let apart =
+                evidence > EVEN && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
+            let held_out = screen.held_out(&trained, Some(one.candidate));
+            let Some((effect, spot)) = candidate.effect() else { continue };
+            if !apart && nearest.is_none() {
+                let values = one.score.values.iter().copied().collect();
+                nearest = Some((candidate.clone(), values));
+            }
+            alternatives.push(Alternative {
+                effect: effect.identifier(),
+                place: spot.place.to_string(),
+                held_out_after: (held_out.plain / rows).sqrt(),
+                separable: apart,
+            });
+        }
+        alternatives.sort_by(|a, b| {
+            (a.separable.cmp(&b.separable)).then(a.held_out_after.total_cmp(&b.held_out_after))
+        });
+        // What the finding explains, be it by several forms.
+        let finding = Score {
+            drop: (screen.left() - left).max(0.0),
+            values: found.iter().flat_map(|f| f.values.iter().copied()).collect::<Vec<_>>().into(),
+            rank: found.iter().map(|f| f.values.len()).sum(),
+            own: 1.0,
+        };
+        let contenders: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let p_value = self.p_value(&screen, &contenders, &finding, now);
+        let again = |candidate: usize| is_found(&screen.candidates[candidate]);
+        let stability = self.stability(&screen, &contenders, now, &again);
+        Ok(Rivals { alternatives, p_value, stability, nearest })
+    }
+
+    /// Weighted squares that are left in each block of poses.
+    fn per_block(&self, now: &Explained) -> Vec<f64> {
+        let sizes: Vec<f64> =
+            now.fit.predicted.gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
+        self.folds.per_block(self.problem.data, &sizes)
+    }
+
+    /// Whether the rival's excess, block by block, scatters so much that it may be chance.
+    fn is_chance(&self, screen: &Screen<'_>, one: &Ranked, own: &[f64], variance: f64) -> bool {
+        let range = screen.range(one.candidate);
+        let x = &one.score.values;
+        let z = &screen.total.zr - screen.total.zx.columns_range(range.clone()) * x;
+        let excess: Vec<f64> = screen
+            .blocks
+            .iter()
+            .zip(own)
+            .map(|(b, own)| {
+                let model = z.dot(&(&b.zz * &z)) - 2.0 * z.dot(&b.zr);
+                let rival = x.dot(&(&b.xx[one.candidate] * x))
+                    - 2.0 * x.dot(&b.xr.rows_range(range.clone()))
+                    + 2.0 * z.dot(&(b.zx.columns_range(range.clone()) * x));
+                (b.rr + model + rival - own) / variance
+            })
+            .collect();
+        let count = excess.len() as f64;
+        let sum: f64 = excess.iter().sum();
+        let spread: f64 = excess.iter().map(|e| (e - sum / count).powi(2)).sum();
+        sum <= 2.0 * spread.sqrt()
+    }
+
+    /// The chance that the best of all that were tried explains as much of noise as `finding` does.
+    fn p_value(
+        &self,
+        screen: &Screen<'_>,
+        tried: &[usize],
+        finding: &Score,
+        now: &Explained,
+    ) -> f64 {
+        let scale = self.scale(now);
+        let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
+        let flips = Flips::new(screen, tried, &scale, self.options.seed);
+        let (all, flips) = (flips.exhaustive, flips.chance(finding));
+        // Drawn patterns tell no chance below one in their number.
+        let least = 1.0 / 1000.0;
+        if !all && flips <= least { chance.min(least) } else { chance.max(flips) }
+    }
+}

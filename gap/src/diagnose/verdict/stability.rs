@@ -1,0 +1,86 @@
+//! Stability of a finding: how often it is the best explanation again when only half of the poses
+//! are there (Meinshausen & Bühlmann 2010).
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::diagnose::data::{Stream, generator, shuffled};
+use crate::diagnose::fit::Basis;
+use crate::diagnose::search::{Explained, OWN, Search};
+use crate::diagnose::sums::{Own, Products, Screen};
+
+/// Random halves.
+const HALVES: usize = 40;
+
+/// Fewer blocks than this cannot be halved.
+const LEAST_BLOCKS: usize = 8;
+
+/// Candidates far behind on all poses are not the best on half of them.
+const CONTENDERS: usize = 24;
+
+impl Search<'_, '_> {
+    /// Part of the halves in which one of `is_it` is the best of the contenders, which come best
+    /// first; 1 where the poses are too few to be halved.
+    pub(crate) fn stability(
+        &self,
+        screen: &Screen<'_>,
+        contenders: &[usize],
+        now: &Explained,
+        is_it: &dyn Fn(usize) -> bool,
+    ) -> f64 {
+        let blocks = screen.blocks.len();
+        if blocks < LEAST_BLOCKS {
+            return 1.0;
+        }
+        let contenders: Vec<usize> = contenders.iter().copied().take(CONTENDERS).collect();
+        let mut generator = generator(self.options.seed, Stream::Halves);
+        let mut again = 0;
+        for _ in 0..HALVES {
+            let order = shuffled(&mut generator, blocks);
+            let half: Vec<&Products> =
+                order.iter().take(blocks / 2).map(|b| &screen.blocks[*b]).collect();
+            let costs = self.costs(screen, &half, &contenders, now);
+            let best = costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+            again += usize::from(best.is_some_and(|(candidate, _)| is_it(candidate)));
+        }
+        again as f64 / HALVES as f64
+    }
+
+    /// Cost of each contender on some of the blocks.
+    fn costs(
+        &self,
+        screen: &Screen<'_>,
+        half: &[&Products],
+        contenders: &[usize],
+        now: &Explained,
+    ) -> Vec<(usize, f64)> {
+        let k = screen.basis.rank();
+        let (mut zz, mut zr) = (DMatrix::zeros(k, k), DVector::zeros(k));
+        for block in half {
+            zz += &block.zz;
+            zr += &block.zr;
+        }
+        let basis = Basis::new(&zz);
+        let zr = basis.t.tr_mul(&zr);
+        let scale = self.scale(now);
+        let cost = |&candidate: &usize| {
+            let range = screen.range(candidate);
+            let p = range.len();
+            let mut own =
+                Own { zx: DMatrix::zeros(k, p), xr: DVector::zeros(p), xx: DMatrix::zeros(p, p) };
+            for block in half {
+                own.zx += block.zx.columns_range(range.clone());
+                own.xr += block.xr.rows_range(range.clone());
+                own.xx += &block.xx[candidate];
+            }
+            own.zx = basis.t.tr_mul(&own.zx);
+            let score = own.score(&zr, &screen.candidates[candidate].least);
+            let it = &screen.candidates[candidate];
+            let values = score.values.iter().zip(&it.usual);
+            let seen = score.own > OWN;
+            let cost =
+                if seen { scale.cost(score.rank, it.forms, values) - score.drop } else { f64::MAX };
+            (candidate, cost)
+        };
+        contenders.iter().map(cost).collect()
+    }
+}

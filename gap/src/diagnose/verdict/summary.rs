@@ -1,0 +1,135 @@
+//! The findings and frames as they are reported.
+
+use nalgebra::{Isometry3, Vector6};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::bootstrap::{shrink, shrink_interval};
+use super::outcome::Group;
+use crate::diagnose::data::Problem;
+use crate::diagnose::fit::{Basis, Model, squares};
+use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::diagnose::report::{Cover, Finding, NuisanceReport, ParameterReport, Shrink};
+use crate::diagnose::search::{Explained, Search};
+use crate::gap::rms;
+
+impl Search<'_, '_> {
+    /// Each group with its size, what it takes of the gap, and its rivals. `held_out` are the gaps
+    /// before the first group and after each; `before` those of the robot file as it is.
+    pub(crate) fn findings(
+        &self,
+        now: &Explained,
+        groups: &[Group],
+        before: &[Vector6<f64>],
+        held_out: &[Vec<Vector6<f64>>],
+        at_noise: bool,
+    ) -> Result<Vec<Finding>, DiagnoseError> {
+        let values = self.intervals(now);
+        let mut findings = Vec::with_capacity(groups.len());
+        for (number, group) in groups.iter().enumerate() {
+            let first = &now.fit.model.found[group[0]];
+            let last = if number == 0 { before } else { &held_out[number] };
+            let rivals = self.rivals(now, group, at_noise)?;
+            let to_separate =
+                rivals.nearest.as_ref().map(|rival| self.to_separate(now, group, rival));
+            findings.push(Finding {
+                effect: first.effect.identifier(),
+                place: first.spot.place.to_string(),
+                parameters: group.iter().flat_map(|index| values[*index].clone()).collect(),
+                held_out: self.shrink(last, &held_out[number + 1]),
+                p_value: rivals.p_value,
+                stability: rivals.stability,
+                alternatives: rivals.alternatives,
+                to_separate,
+            });
+        }
+        Ok(findings)
+    }
+
+    fn shrink(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Shrink {
+        let first = if self.problem.measures_position() { 0 } else { 3 };
+        let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
+        let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> { gaps.iter().map(size).collect() };
+        let (before, after) = (sizes(before), sizes(after));
+        let blocks = |sizes: &[f64]| self.folds.per_block(self.problem.data, sizes);
+        let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
+        Shrink {
+            before: rms(&before),
+            after: rms(&after),
+            shrink: shrink(sum(&before), sum(&after)),
+            shrink_ci95: shrink_interval(&blocks(&before), &blocks(&after), self.options.seed),
+        }
+    }
+
+    /// The values of each effect found, with 95 % intervals: least squares, the remainder's
+    /// variance, Student's t.
+    fn intervals(&self, now: &Explained) -> Vec<Vec<ParameterReport>> {
+        let normal = self.normal(now);
+        let basis = Basis::new(&normal);
+        let scale = self.scale(now);
+        let parameters = normal.nrows();
+        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let variances = basis.variances() * scale.variance(left, parameters);
+        let freedom = scale.freedom(parameters);
+        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
+        let mut at = Model::nuisances(self.problem);
+        let mut all = Vec::new();
+        for found in &now.fit.model.found {
+            let mut reports = Vec::new();
+            if let Some((name, unit)) = found.effect.form_is() {
+                let value = found.spot.form as f64;
+                let name = name.to_owned();
+                reports.push(ParameterReport { name, value, unit, ci95: [value, value] });
+            }
+            let parameters =
+                found.effect.parameters(self.problem.arm, found.spot, self.problem.data);
+            for (parameter, &value) in parameters.iter().zip(&found.values) {
+                let half = t * variances[at].max(0.0).sqrt();
+                at += 1;
+                reports.push(ParameterReport {
+                    name: parameter.name.to_string(),
+                    value,
+                    unit: parameter.unit,
+                    ci95: [value - half, value + half],
+                });
+            }
+            all.push(reports);
+        }
+        all
+    }
+}
+
+/// The frames that were fitted along.
+pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceReport> {
+    let frame = |name: &str, at: &Isometry3<f64>| NuisanceReport {
+        name: name.to_owned(),
+        translation: at.translation.vector.into(),
+        rotation: at.rotation.scaled_axis().into(),
+    };
+    let frames = problem.nuisances.iter().map(|nuisance| match nuisance {
+        Nuisance::BaseFrame => frame(nuisance.identifier(), &model.instrument),
+        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.arm.tool),
+    });
+    let markers = problem.markers.iter().zip(&model.markers).map(|(name, at)| NuisanceReport {
+        name: name.clone(),
+        translation: (*at).into(),
+        rotation: [0.0; 3],
+    });
+    frames.chain(markers).collect()
+}
+
+/// Where the data has been.
+pub(crate) fn cover(problem: &Problem<'_>) -> Cover {
+    let rows = &problem.data.rows;
+    let joint = |j: usize| {
+        let values = rows.iter().map(|r| r.q[j]);
+        [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let largest = |from: usize| {
+        rows.iter().map(|r| r.wrench.fixed_rows::<3>(from).norm()).fold(0.0, f64::max)
+    };
+    Cover {
+        joints: (0..problem.arm.dof()).map(joint).collect(),
+        force: largest(0),
+        moment: largest(3),
+    }
+}

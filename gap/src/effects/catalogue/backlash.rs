@@ -1,0 +1,55 @@
+//! A dead band: the joint rests at one side or the other by the direction of approach.
+//!
+//! The same size at every load. Confused with the joint's offset if every pose is approached from
+//! one side, and with friction if the joint's torque hardly changes: approach each pose from both
+//! sides, under more than one load.
+
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::scene::direction;
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// The whole width of the dead band; the joint rests half of it behind the direction of approach.
+#[derive(Clone, Copy, Debug)]
+pub struct Backlash;
+
+impl Effect for Backlash {
+    fn identifier(&self) -> &'static str {
+        "backlash"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+        let unit = match arm.joints[spot.row()].motion {
+            Motion::Revolute => "rad",
+            Motion::Prismatic => "m",
+        };
+        vec![Parameter::at_least("width", unit, 0.0).usually(5e-3)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        actual.turn(spot.row(), -0.5 * v[0] * direction(row, spot.row()));
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(-0.5 * scene.direction(spot.row()));
+    }
+
+    fn idle(&self) -> &'static str {
+        "no direction of approach is given for the joint"
+    }
+
+    fn hidden(&self) -> &'static str {
+        "always approached from one side, or so unevenly that the zero of the joint does the same"
+    }
+}

@@ -1,0 +1,52 @@
+//! The foundation gives under load.
+//!
+//! Rocking about x and y by the moment about the base's origin, and a shift by the force. Its turn
+//! about z is joint 1's compliance and is left to that. Confused with the tilt of joint 1's bearing
+//! unless the joint turns under one load: then the tilt turns along and the rocking does not.
+
+use nalgebra::{Matrix6xX, Vector6};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// Rocking about the base's x and y per moment, and shift per force.
+#[derive(Clone, Copy, Debug)]
+pub struct BaseCompliance;
+
+impl Effect for BaseCompliance {
+    fn identifier(&self) -> &'static str {
+        "base_compliance"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Base]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![
+            Parameter::at_least("rock_x", "rad/(N·m)", 0.0),
+            Parameter::at_least("rock_y", "rad/(N·m)", 0.0),
+            Parameter::at_least("give", "m/N", 0.0),
+        ]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        let (x, y, give) = (v[0], v[1], v[2]);
+        let law = move |w: &Vector6<f64>| {
+            Vector6::new(give * w[0], give * w[1], give * w[2], x * w[3], y * w[4], 0.0)
+        };
+        actual.laws.push((Site::Base, Box::new(law)));
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let w = scene.state.load(Site::Base);
+        let shift = Vector6::new(w[0], w[1], w[2], 0.0, 0.0, 0.0);
+        scene.carried(Site::Base, &[Vector6::ith(3, w[3]), Vector6::ith(4, w[4]), shift])
+    }
+
+    fn idle(&self) -> &'static str {
+        "no load of this data reaches the base"
+    }
+}

@@ -1,0 +1,50 @@
+//! The robot stands elsewhere than the measuring frame believes.
+//!
+//! The same rigid motion at every pose. Its turn about the first axis is joint 1's offset. Where the
+//! frame is unknown from the start, name it a nuisance: it is then fitted and never a finding.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use crate::displacement::Displacement;
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// Displacement of the base in the measuring frame, base axes.
+#[derive(Clone, Copy, Debug)]
+pub struct BaseFrame;
+
+impl Effect for BaseFrame {
+    fn identifier(&self) -> &'static str {
+        "base_frame"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Base]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        displacement(["m", "rad"])
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        actual.base *= Displacement::new(&Vector6::from_column_slice(v)).transform();
+    }
+
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        Some(Carrier::Base)
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
+    }
+
+    fn idle(&self) -> &'static str {
+        "displacements do not show where the base stands"
+    }
+
+    fn is_geometry(&self) -> bool {
+        true
+    }
+}

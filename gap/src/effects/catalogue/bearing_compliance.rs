@@ -1,0 +1,46 @@
+//! The joint tilts off its axis under moment.
+//!
+//! Confused with the bending of the links beside it and, at joint 1, with the foundation's rocking:
+//! poses in which the joint turns while the load keeps its direction tell them apart.
+
+use nalgebra::{Matrix6xX, Vector6};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// Tilt about the housing's x and y per moment about them.
+#[derive(Clone, Copy, Debug)]
+pub struct BearingCompliance;
+
+impl Effect for BearingCompliance {
+    fn identifier(&self) -> &'static str {
+        "bearing_compliance"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        ["tilt_x", "tilt_y"].map(|name| Parameter::at_least(name, "rad/(N·m)", 0.0)).to_vec()
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        let (x, y) = (v[0], v[1]);
+        let law = move |w: &Vector6<f64>| Vector6::new(0.0, 0.0, 0.0, x * w[3], y * w[4], 0.0);
+        actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
+    }
+
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+        let site = Site::Joint(spot.row());
+        let load = scene.state.load(site);
+        let tilts = [3, 4].map(|k| Vector6::ith(k, load[k]));
+        scene.carried(site, &tilts)
+    }
+
+    fn idle(&self) -> &'static str {
+        "no load of this data tilts the joint"
+    }
+}

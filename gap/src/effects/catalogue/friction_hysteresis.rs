@@ -1,0 +1,60 @@
+//! A direction-dependent wind-up in proportion to torque.
+//!
+//! Friction that grows with the load holds the joint back on the way to its pose. Confused with
+//! backlash, whose size does not depend on the torque, and with the joint's compliance if every
+//! pose is approached from one side: approach from both sides under small and large loads.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::scene::direction;
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site, axis};
+
+/// Wind-up per torque, against the direction of approach.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionHysteresis;
+
+impl Effect for FrictionHysteresis {
+    fn identifier(&self) -> &'static str {
+        "friction_hysteresis"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+        let unit = match arm.joints[spot.row()].motion {
+            Motion::Revolute => "rad/(N·m)",
+            Motion::Prismatic => "m/N",
+        };
+        vec![Parameter::at_least("windup", unit, 0.0)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        let axis = axis(actual.arm.joints[spot.row()].motion);
+        let windup = -v[0] * direction(row, spot.row());
+        let law = move |load: &Vector6<f64>| Vector6::ith(axis, windup * load[axis].abs());
+        actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        let torque = scene.state.torque[spot.row()].abs();
+        motions.push(-scene.direction(spot.row()) * torque);
+    }
+
+    fn idle(&self) -> &'static str {
+        "no direction of approach is given for the joint, or no load reaches it"
+    }
+
+    fn hidden(&self) -> &'static str {
+        "always approached from one side, or so unevenly that the zero of the joint does the same"
+    }
+}

@@ -1,0 +1,51 @@
+//! The loaded geometry (K_C, large deflection) that a first-order sim leaves out.
+//!
+//! stiffarm's own model is at rest on the deformed geometry, so it matters only where the file has
+//! another simulator's predictions: what those lack, if they are of first order, is the exact
+//! deflection minus the one on the undeformed arm. Grows with the square of the load: more than one
+//! level of load tells it from compliance.
+
+use nalgebra::Matrix6xX;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, beyond_first_order};
+
+/// The part of the loaded geometry that reality has: 1 is all.
+#[derive(Clone, Copy, Debug)]
+pub struct GeometricStiffness;
+
+impl Effect for GeometricStiffness {
+    fn identifier(&self) -> &'static str {
+        "geometric_stiffness"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Arm]
+    }
+
+    fn excluded(&self, data: &Measurements) -> Option<&'static str> {
+        let own = data.sim_given.contains(&true);
+        (!own).then_some(
+            "the model is at rest on the loaded geometry; only another simulator can lack it",
+        )
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("fraction", "1")]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        actual.loaded_geometry += v[0];
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let beyond = beyond_first_order(scene.actual, scene.state);
+        Matrix6xX::from_columns(&[beyond])
+    }
+
+    fn idle(&self) -> &'static str {
+        "nothing that the model has gives under load"
+    }
+}

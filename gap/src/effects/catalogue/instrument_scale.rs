@@ -1,0 +1,47 @@
+//! The instrument's length scale is off: a laser's wavelength in air that is warmer than it believes.
+//!
+//! Scales positions about the instrument's origin. Confused with all lengths of the arm being off
+//! by one factor; a length standard in the field of view tells.
+
+use nalgebra::{Matrix6xX, Point3, Vector6};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// The instrument reads `1 + scale` metres for one.
+#[derive(Clone, Copy, Debug)]
+pub struct InstrumentScale;
+
+impl Effect for InstrumentScale {
+    fn identifier(&self) -> &'static str {
+        "instrument_scale"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Instrument]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("scale", "1").usually(1e-3)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        actual.metre *= 1.0 + v[0];
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let seen = (scene.base * Point3::from(scene.point)).coords;
+        let p = scene.base.rotation.inverse() * seen;
+        Matrix6xX::from_columns(&[Vector6::new(p.x, p.y, p.z, 0.0, 0.0, 0.0)])
+    }
+
+    fn idle(&self) -> &'static str {
+        "no position is measured"
+    }
+
+    fn is_geometry(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,54 @@
+//! The zero of the joint is off.
+//!
+//! The same at every load, moment and direction. Confused with the base frame (joint 1), the tool
+//! frame (the last joint), and with neighbours whose axes are parallel as long as these move
+//! little: poses in which the joint itself and the next one cover their ranges tell them apart.
+
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// A constant error of a joint's reading: `q + offset` is true.
+#[derive(Clone, Copy, Debug)]
+pub struct JointOffset;
+
+impl Effect for JointOffset {
+    fn identifier(&self) -> &'static str {
+        "joint_offset"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+        let unit = match arm.joints[spot.row()].motion {
+            Motion::Revolute => "rad",
+            Motion::Prismatic => "m",
+        };
+        vec![Parameter::free("offset", unit).usually(0.02)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        actual.turn(spot.row(), v[0]);
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
+    }
+
+    fn idle(&self) -> &'static str {
+        "the joint does not move what was measured"
+    }
+
+    fn is_geometry(&self) -> bool {
+        true
+    }
+}

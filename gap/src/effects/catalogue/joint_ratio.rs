@@ -1,0 +1,45 @@
+//! The joint turns more or less than its reading, in proportion.
+//!
+//! A wrong gear ratio or encoder count. Confused with the joint's offset where the joint moves
+//! little, and with a periodic error of low order over less than a turn: the whole range of the
+//! joint tells them apart.
+
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// `(1 + ratio) · q` is true.
+#[derive(Clone, Copy, Debug)]
+pub struct JointRatio;
+
+impl Effect for JointRatio {
+    fn identifier(&self) -> &'static str {
+        "joint_ratio"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("ratio", "1").usually(0.01)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        actual.turn(spot.row(), v[0] * row.q[spot.row()]);
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(scene.row.q[spot.row()]);
+    }
+
+    fn idle(&self) -> &'static str {
+        "the joint stands at zero throughout"
+    }
+}

@@ -1,0 +1,66 @@
+//! A link is heavier or lighter than modelled and the compliant structure sags.
+//!
+//! Seen only where the model, or what has been found, gives under load. Confused with the
+//! compliance of the joints before the link, whose sag it scales, and with the weights of its
+//! neighbours: loads of known size tell compliance from weight.
+
+use nalgebra::{Matrix6xX, Point3, Vector3};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot, links};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site, chord};
+
+/// Mass added at the link's centre of mass.
+#[derive(Clone, Copy, Debug)]
+pub struct LinkWeight;
+
+/// What may hang on any link without surprise, kg.
+const LIGHT: f64 = 5.0;
+
+/// The link's centre of mass in its frame, m; the middle of its chord where it has no mass.
+fn centre(actual: &Actual<'_>, row: usize) -> Vector3<f64> {
+    let joint = &actual.arm.joints[row];
+    if joint.mass != 0.0 || joint.com != Vector3::zeros() {
+        return joint.com;
+    }
+    let (before, behind) = actual.row(row);
+    chord(&(before * behind)) * -0.5
+}
+
+impl Effect for LinkWeight {
+    fn identifier(&self) -> &'static str {
+        "link_weight"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        links(arm)
+    }
+
+    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+        let joint = &arm.joints[spot.row()];
+        let whole: f64 = arm.joints.iter().map(|j| j.mass).sum();
+        let usual = (joint.mass / 2.0).max(whole / 10.0).max(LIGHT);
+        vec![Parameter::at_least("mass", "kg", 0.0 - joint.mass).usually(usual)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        let com = centre(actual, spot.row());
+        let joint = &mut actual.arm.to_mut().joints[spot.row()];
+        (joint.mass, joint.com) = (joint.mass + v[0], com);
+    }
+
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+        let com = centre(scene.actual, spot.row());
+        let site = Site::Link(spot.row());
+        let point = scene.state.frame(site) * Point3::from(com);
+        let weight = scene.actual.arm.gravity;
+        let load = (&weight, &Vector3::zeros(), &point.coords);
+        let twist = scene.state.yielding(scene.actual, load, site);
+        Matrix6xX::from_columns(&[twist])
+    }
+
+    fn idle(&self) -> &'static str {
+        "nothing that the model has gives under the weight of the link"
+    }
+}

@@ -1,0 +1,78 @@
+//! The effects that stiffarm knows, one file each.
+
+mod backlash;
+mod base_compliance;
+mod base_frame;
+mod bearing_compliance;
+mod drift;
+mod friction_hysteresis;
+mod geometric_stiffness;
+mod instrument_scale;
+mod joint_compliance;
+mod joint_coupling;
+mod joint_hardening;
+mod joint_offset;
+mod joint_ratio;
+mod link_compliance;
+mod link_geometry;
+mod link_weight;
+mod payload_com;
+mod settling_lag;
+mod slip;
+mod thermal_growth;
+mod tool_frame;
+mod transmission_error;
+mod wrench_scale;
+
+use super::Effect;
+
+pub use backlash::Backlash;
+pub use base_compliance::BaseCompliance;
+pub use base_frame::BaseFrame;
+pub use bearing_compliance::BearingCompliance;
+pub use drift::Drift;
+pub use friction_hysteresis::FrictionHysteresis;
+pub use geometric_stiffness::GeometricStiffness;
+pub use instrument_scale::InstrumentScale;
+pub use joint_compliance::JointCompliance;
+pub use joint_coupling::JointCoupling;
+pub use joint_hardening::JointHardening;
+pub use joint_offset::JointOffset;
+pub use joint_ratio::JointRatio;
+pub use link_compliance::LinkCompliance;
+pub use link_geometry::LinkGeometry;
+pub use link_weight::LinkWeight;
+pub use payload_com::PayloadCom;
+pub use settling_lag::SettlingLag;
+pub use slip::Slip;
+pub use thermal_growth::ThermalGrowth;
+pub use tool_frame::ToolFrame;
+pub use transmission_error::TransmissionError;
+pub use wrench_scale::WrenchScale;
+
+/// Every effect, in the order in which equally good explanations are preferred.
+pub const CATALOGUE: [&dyn Effect; 23] = [
+    &JointOffset,
+    &JointCompliance,
+    &Backlash,
+    &JointRatio,
+    &SettlingLag,
+    &FrictionHysteresis,
+    &JointHardening,
+    &TransmissionError,
+    &JointCoupling,
+    &LinkCompliance,
+    &BearingCompliance,
+    &LinkWeight,
+    &WrenchScale,
+    &PayloadCom,
+    &BaseCompliance,
+    &ThermalGrowth,
+    &InstrumentScale,
+    &LinkGeometry,
+    &BaseFrame,
+    &ToolFrame,
+    &Slip,
+    &Drift,
+    &GeometricStiffness,
+];

@@ -1,0 +1,47 @@
+//! The load acts beside the tool origin.
+//!
+//! A moment that turns with the tool. Confused with the moment columns themselves and, where the
+//! tool keeps its attitude, with the wrist's offsets: load several attitudes of the tool.
+
+use nalgebra::{Matrix6xX, Vector3};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// The point of the tool frame at which the force acts, m.
+#[derive(Clone, Copy, Debug)]
+pub struct PayloadCom;
+
+impl Effect for PayloadCom {
+    fn identifier(&self) -> &'static str {
+        "payload_com"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Tool]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        ["x", "y", "z"].map(|name| Parameter::free(name, "m").usually(0.3)).to_vec()
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        actual.load_point += Vector3::new(v[0], v[1], v[2]);
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let (force, tool) = (scene.force(), &scene.state.tool);
+        let column = |k: usize| {
+            let moment = (tool.rotation * Vector3::ith(k, 1.0)).cross(&force);
+            let load = (&Vector3::zeros(), &moment, &tool.translation.vector);
+            scene.state.yielding(scene.actual, load, Site::Tool)
+        };
+        Matrix6xX::from_columns(&[column(0), column(1), column(2)])
+    }
+
+    fn idle(&self) -> &'static str {
+        "there is no force on the tool, or nothing that the model has gives under it"
+    }
+}

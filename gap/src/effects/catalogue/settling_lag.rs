@@ -1,0 +1,45 @@
+//! The reading was taken before the joint came to rest: an error in proportion to the last move.
+//!
+//! Read from the order of the rows. Confused with backlash and friction where moves are alike in
+//! size, and with the joint's ratio where every move starts from one pose: moves of many sizes from
+//! many poses tell them apart; a longer wait makes it vanish.
+
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// The joint is still this part of its last move behind its reading.
+#[derive(Clone, Copy, Debug)]
+pub struct SettlingLag;
+
+impl Effect for SettlingLag {
+    fn identifier(&self) -> &'static str {
+        "settling_lag"
+    }
+
+    fn places(&self, arm: &Arm) -> Vec<Place> {
+        joints(arm)
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("fraction", "1").usually(0.02)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, spot: Spot, v: &[f64]) {
+        actual.turn(spot.row(), -v[0] * when.last_move[spot.row()]);
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(Carrier::Joint(spot.row()))
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(-scene.when.last_move[spot.row()]);
+    }
+
+    fn idle(&self) -> &'static str {
+        "the joint never moves between rows"
+    }
+}

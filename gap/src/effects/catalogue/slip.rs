@@ -1,0 +1,76 @@
+//! A frame jumps at one moment: a bumped base, a slipped reflector.
+//!
+//! The form is the number of rows before the jump. Left out, one jump invents several effects:
+//! whatever differs between the poses before and after it. Confused with drift where the jump is
+//! small: repeat an early pose now and then.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use crate::displacement::Displacement;
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// Displacement of the base (base axes) or the tool (tool axes) from one row on.
+#[derive(Clone, Copy, Debug)]
+pub struct Slip;
+
+/// Moments that are tried at first.
+const MOST: usize = 24;
+
+/// Rows on each side of a jump, at least.
+const LEAST: usize = 3;
+
+impl Effect for Slip {
+    fn identifier(&self) -> &'static str {
+        "slip"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Base, Place::Tool]
+    }
+
+    /// Where rows of another pose begin; of many, an even choice that a search then refines.
+    fn forms(&self, _: &Arm, _: Place, data: &Measurements) -> Vec<usize> {
+        let rows = &data.rows;
+        let begins = |k: &usize| rows[*k].group != rows[k - 1].group;
+        let all: Vec<usize> = (1..rows.len()).filter(begins).collect();
+        let last = rows.len().saturating_sub(LEAST);
+        let inner: Vec<usize> = all.into_iter().filter(|k| (LEAST..=last).contains(k)).collect();
+        let every = inner.len().div_ceil(MOST).max(1);
+        inner.into_iter().skip(every / 2).step_by(every).collect()
+    }
+
+    fn form_is(&self) -> Option<(&'static str, &'static str)> {
+        Some(("after", "rows"))
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        displacement(["m", "rad"])
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, spot: Spot, v: &[f64]) {
+        if when.index < spot.form {
+            return;
+        }
+        let jump = Vector6::from_column_slice(v);
+        if spot.place == Place::Tool {
+            *actual.fixed_at(Site::Tool) += jump;
+        } else {
+            actual.base *= Displacement::new(&jump).transform();
+        }
+    }
+
+    fn carrier(&self, spot: Spot) -> Option<Carrier> {
+        Some(if spot.place == Place::Tool { Carrier::Tool } else { Carrier::Base })
+    }
+
+    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
+        motions.push(if scene.when.index < spot.form { 0.0 } else { 1.0 });
+    }
+
+    fn idle(&self) -> &'static str {
+        "displacements do not show where a frame stands"
+    }
+}

@@ -1,0 +1,62 @@
+//! Lengths grow with temperature: every length of the table and the tool, in proportion to the
+//! temperature's difference from the first row.
+//!
+//! Confused with the instrument's scale if the temperature hardly changes, and with drift if it
+//! rises evenly: let the arm cool down and measure again.
+
+use nalgebra::{Matrix6xX, Vector3, Vector6};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site, chord};
+
+/// Growth of every length per kelvin.
+#[derive(Clone, Copy, Debug)]
+pub struct ThermalGrowth;
+
+impl Effect for ThermalGrowth {
+    fn identifier(&self) -> &'static str {
+        "thermal_growth"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Arm]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("expansion", "1/K").usually(5e-5)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, _: Spot, v: &[f64]) {
+        let growth = v[0] * when.warming;
+        let arm = actual.arm.to_mut();
+        for (joint, value) in arm.joints.iter_mut().zip(&mut actual.joints) {
+            joint.a *= 1.0 + growth;
+            joint.d *= 1.0 + growth;
+            if joint.motion == Motion::Prismatic {
+                *value *= 1.0 + growth;
+            }
+        }
+        arm.tool.translation.vector *= 1.0 + growth;
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let arm = &scene.actual.arm;
+        let shift = |v: Vector3<f64>| Vector6::new(v.x, v.y, v.z, 0.0, 0.0, 0.0);
+        let row = |row: usize| {
+            let (before, behind) = scene.actual.row(row);
+            // What grows before the joint does not move the load against its axis.
+            scene.state.carry(Site::Joint(row), &shift(chord(&before)))
+                + scene.state.carry(Site::Link(row), &shift(chord(&behind)))
+        };
+        let rows: Vector6<f64> = (0..arm.dof()).map(row).sum();
+        let tool = scene.state.carry(Site::Tool, &shift(chord(&arm.tool)));
+        Matrix6xX::from_columns(&[(rows + tool) * scene.when.warming])
+    }
+
+    fn idle(&self) -> &'static str {
+        "the temperature does not change, or is not given"
+    }
+}

@@ -1,0 +1,50 @@
+//! The measured point is not where the tool frame says.
+//!
+//! The same in the tool's own axes at every pose. Its turn about the last axis is the last joint's
+//! offset, and its shift in that axis' plane the last link's lengths. Name it a nuisance where the
+//! reflector's place is unknown from the start.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// Displacement of the tool frame, tool axes.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolFrame;
+
+impl Effect for ToolFrame {
+    fn identifier(&self) -> &'static str {
+        "tool_frame"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Tool]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        displacement(["m", "rad"])
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        *actual.fixed_at(Site::Tool) += Vector6::from_column_slice(v);
+    }
+
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        Some(Carrier::Tool)
+    }
+
+    fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
+        motions.push(1.0);
+    }
+
+    fn idle(&self) -> &'static str {
+        "displacements do not show where the tool is"
+    }
+
+    fn is_geometry(&self) -> bool {
+        true
+    }
+}

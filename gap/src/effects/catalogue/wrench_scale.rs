@@ -1,0 +1,45 @@
+//! The load is not what the load column says: a load cell out of calibration, a mass weighed wrong.
+//!
+//! Scales all that the load does and nothing that the weights do. Confused with the compliances that
+//! the load works on, if they are unknown as well: the arm's own weight, or a second load cell,
+//! tells them apart.
+
+use nalgebra::{Matrix6xX, Point3};
+use stiffarm_kernels::generic::Arm;
+
+use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment, Site};
+
+/// The load is `1 + scale` times its columns.
+#[derive(Clone, Copy, Debug)]
+pub struct WrenchScale;
+
+impl Effect for WrenchScale {
+    fn identifier(&self) -> &'static str {
+        "wrench_scale"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Tool]
+    }
+
+    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+        vec![Parameter::free("scale", "1").usually(0.3)]
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
+        actual.wrench *= 1.0 + v[0];
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let point = scene.state.tool * Point3::from(scene.actual.load_point);
+        let load = (&scene.force(), &scene.moment(), &point.coords);
+        let twist = scene.state.yielding(scene.actual, load, Site::Tool);
+        Matrix6xX::from_columns(&[twist])
+    }
+
+    fn idle(&self) -> &'static str {
+        "there is no load, or nothing that the model has gives under it"
+    }
+}
