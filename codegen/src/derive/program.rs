@@ -44,15 +44,15 @@ pub struct Solve {
 }
 
 impl Solve {
-    /// How many unknowns, the first ones, are to be solved for together: on the others nothing depends, so
-    /// that each follows from its own row. A tool on the axis of the last joint is not moved by it.
-    pub fn together(&self) -> usize {
+    /// Size of the leading block, whose unknowns are solved for together: nothing depends on the others,
+    /// so that each follows from its own row. A tool on the axis of the last joint is not moved by it.
+    pub fn leading(&self) -> usize {
         let n = self.right.len();
-        let alone = |column: usize| {
+        let diagonal = |column: usize| {
             let entries = self.matrix[column * n..(column + 1) * n].iter().enumerate();
             entries.filter(|(row, _)| *row != column).all(|(_, e)| e.is_zero())
         };
-        (1..n).rev().take_while(|column| alone(*column)).last().unwrap_or(n)
+        (1..n).rev().take_while(|column| diagonal(*column)).last().unwrap_or(n)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an output is, in sentences: the same for every language, from the table of outputs.
 
-use stiffarm_kernels::{Form, Output, Side};
+use stiffarm_kernels::{Form, Input, Output, Side};
 
 /// What it is; what its rows and columns are, and their units; its formula and where that is printed.
 /// `order` says how a language indexes a matrix.
@@ -23,7 +23,7 @@ fn shape(output: Output, n: usize, order: &str) -> String {
     let parts: Vec<String> = parts.map(|(part, unit)| format!("{part} in {unit}")).collect();
     let parts = parts.join(", ");
     match output.form() {
-        Form::Vector => format!("{rows} values: {parts}."),
+        Form::Vector => format!("A vector of {rows}: {parts}."),
         Form::Pose | Form::Poses => {
             format!("{rows}×{columns}: {}.", sides(&parts, output.columns()))
         }
@@ -33,4 +33,15 @@ fn shape(output: Output, n: usize, order: &str) -> String {
 
 fn sides(rows: &str, columns: Side) -> String {
     format!("rows {rows}; columns {}", columns.parts().join(", "))
+}
+
+/// What goes into a function, each input with its unit; the joint values as a `posture` or as they are.
+pub(super) fn inputs(taken: &[Input], posture: bool) -> String {
+    let each = taken.iter().map(|input| match input {
+        Input::Joints if posture => {
+            "`posture`: sines and cosines of the joint values, displacements in m".to_string()
+        }
+        input => format!("`{}`: {}", input.name(), input.sentence()),
+    });
+    format!("{}.", each.collect::<Vec<_>>().join("; "))
 }

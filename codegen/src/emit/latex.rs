@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
+use super::angles::angle_terms;
 use super::constants::Constants;
 use super::expression::{Printer, Style};
-use super::plan::{Plan, Target, angle_terms};
+use super::plan::{Plan, Target};
 use crate::derive::{COMPONENTS, Displacements, Form as Flexible, Program, derive, flexible};
 use crate::expr::{Binding, Expr, Node, Symbol};
 use crate::number::Number;

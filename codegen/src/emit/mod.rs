@@ -1,5 +1,6 @@
 //! Printers of the derived graph: Rust, C, LaTeX, dot. Each is one file or folder.
 
+mod angles;
 mod c;
 mod constants;
 mod docs;
@@ -7,6 +8,7 @@ mod dot;
 mod expression;
 mod latex;
 mod lines;
+mod literal;
 mod plan;
 mod rust;
 

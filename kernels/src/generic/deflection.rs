@@ -5,7 +5,7 @@ use std::vec::Vec;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use super::arm::Arm;
-use super::evaluate::{Textbook, block};
+use super::textbook::{Textbook, block};
 use crate::{Output, Unstable};
 
 /// The outputs of this file.

@@ -5,11 +5,9 @@ use std::vec::Vec;
 use nalgebra::Vector6;
 
 use super::arm::Arm;
+use super::textbook::Textbook;
 use super::{deflection, jacobian, kinematics, parameters, stiffness, weight};
 use crate::{Output, Unstable};
-
-/// How an output is evaluated: its numbers column by column.
-pub(super) type Textbook = fn(&Arm, &[f64], &Vector6<f64>) -> Result<Vec<f64>, Unstable>;
 
 /// By output, from the tables beside the definitions; an output without one does not compile.
 const TEXTBOOK: [Textbook; Output::EACH.len()] = Output::one_each(&[
@@ -20,16 +18,6 @@ const TEXTBOOK: [Textbook; Output::EACH.len()] = Output::one_each(&[
     stiffness::TEXTBOOK,
     weight::TEXTBOOK,
 ]);
-
-/// The numbers of a matrix, column by column.
-pub(super) fn block<R, C, S>(matrix: nalgebra::Matrix<f64, R, C, S>) -> Vec<f64>
-where
-    R: nalgebra::Dim,
-    C: nalgebra::Dim,
-    S: nalgebra::RawStorage<f64, R, C>,
-{
-    matrix.iter().copied().collect()
-}
 
 impl Arm {
     /// `output` at the joint values `q` (rad, m) under the wrench `w` (N, N·m; base axes, at the tool

@@ -3,8 +3,8 @@
 use nalgebra::{DVector, Matrix6xX, Vector6};
 
 use super::arm::Arm;
-use super::evaluate::{Textbook, block};
 use super::spatial::{lower, stack, upper};
+use super::textbook::{Textbook, block};
 use crate::Output;
 
 /// The outputs of this file.

@@ -5,7 +5,7 @@ use std::vec::Vec;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::arm::{Arm, Convention, Joint};
-use super::evaluate::Textbook;
+use super::textbook::Textbook;
 use crate::{Motion, Output};
 
 /// The axis of one joint at one posture, in base axes.

@@ -46,6 +46,7 @@ mod spatial;
 mod stiffness;
 #[cfg(test)]
 mod tests;
+mod textbook;
 mod weight;
 
 pub use arm::{Arm, Beam, Convention, Joint};

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 
 use super::arm::{Arm, Convention};
-use super::evaluate::{Textbook, block};
 use super::kinematics::origin;
 use super::spatial::stack;
+use super::textbook::{Textbook, block};
 use crate::Output;
 
 /// Left Jacobian of SO(3): a change `dr` of the rotation vector `r` turns the rotated body by

@@ -4,17 +4,16 @@
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use super::arm::Arm;
-use super::evaluate::{Textbook, block};
 use super::kinematics::Axis;
 use super::spatial::{lower, upper};
+use super::textbook::{Textbook, block};
 use crate::{Motion, Output};
 
 /// `∂(v_j · f)/∂q_i` at row j, column i, for a constant force `f` on a point that all of `axes`
 /// move with velocities `v_j`. Symmetric, since it holds the second derivatives of `f · p`.
 ///
-/// Of two joints, the one nearer the base carries the other's velocity vector along: `v_b` turns
-/// with a revolute joint a ≤ b at the rate `z_a × v_b`, and does not change as a prismatic one
-/// slides.
+/// Of two joints, the one nearer the base carries the other's velocity vector along: `v_b` rotates
+/// with a revolute joint a ≤ b at the rate `z_a × v_b`, and does not change with a prismatic one.
 pub(super) fn force_stiffness(
     axes: &[Axis],
     point: &Vector3<f64>,

@@ -6,11 +6,11 @@ use std::vec::Vec;
 use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
 use super::arm::{Arm, Convention};
-use super::evaluate::{Textbook, block};
 use super::kinematics::origin;
 use super::links::Link;
 use super::spatial::{stack, wrench_transport};
 use super::stiffness::force_stiffness;
+use super::textbook::{Textbook, block};
 use crate::Output;
 
 /// One weight at one posture.

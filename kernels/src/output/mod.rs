@@ -18,11 +18,24 @@ pub enum Input {
 }
 
 impl Input {
+    /// Every input, in the order of arguments.
+    pub const EACH: [Input; 2] = [Input::Joints, Input::Wrench];
+
     /// The argument's name in generated code.
     pub const fn name(self) -> &'static str {
         match self {
             Input::Joints => "q",
             Input::Wrench => "wrench",
+        }
+    }
+
+    /// What it is and in which unit.
+    pub const fn sentence(self) -> &'static str {
+        match self {
+            Input::Joints => "joint values, base to tip, in rad (prismatic joint: m)",
+            Input::Wrench => {
+                "force and moment on the tool, in N and N·m, base axes, at the tool origin"
+            }
         }
     }
 }

@@ -267,7 +267,7 @@ outputs! {
     ParameterJacobian {
         name: "parameter_jacobian",
         sentence: "Twist of the tool per unit of each entry of the table, base axes, at the tool origin.",
-        formula: "∂T/∂entry = [(J_p)_entry]× T",
+        formula: "J_p,k = ∂T/∂(entry k), as a twist",
         source: "",
         symbol: "J_{p}",
         rows: Twist ["m/rad (length: 1)", "rad/rad (length: 0)"],

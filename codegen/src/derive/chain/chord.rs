@@ -13,7 +13,7 @@ pub struct Chord {
     pub directed: Expr,
     /// Along the chord, and the two axes of the section; each up to its sign.
     pub axes: [Vec3; 3],
-    /// Half of each slide of the row: from the middle of the chord to its end.
+    /// Half of each translation of the row: from the middle of the chord to its end.
     pub to_end: [(Expr, Vec3); 2],
     /// Boundary at which everything beyond the beam begins.
     pub end: usize,
@@ -22,9 +22,9 @@ pub struct Chord {
 /// The chord of a row's beam. Its section's z axis is the part of the previous frame's z that is
 /// perpendicular to the chord; along that axis itself, x of the frame is taken as the section's y.
 pub fn chord(chain: &mut Chain, row: usize) -> Chord {
-    let (z_step, x_step) = chain.row_slides(row);
-    let (d, z) = chain.slide(z_step).unwrap_or_default();
-    let (a, x) = chain.slide(x_step).unwrap_or_default();
+    let (z_step, x_step) = chain.row_translations(row);
+    let (d, z) = chain.translation(z_step).unwrap_or_default();
+    let (a, x) = chain.translation(x_step).unwrap_or_default();
     let half = chain.g.number(Number::ratio(1, 2));
     let to_end = [(chain.g.mul(half, d), z), (chain.g.mul(half, a), x)];
     let end = match chain.robot.convention {
@@ -64,7 +64,7 @@ fn oblique(
 ) -> (Expr, [Vec3; 3]) {
     let previous = chain.z(ROW * row);
     let twist = match &chain.steps()[ROW * row] {
-        Step::TurnX(turn) => turn.clone(),
+        Step::RotateX(turn) => turn.clone(),
         _ => Turn::ZERO,
     };
     let g = &mut chain.g;

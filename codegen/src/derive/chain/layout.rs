@@ -69,14 +69,14 @@ impl<'r> Chain<'r> {
         self
     }
 
-    /// Boundaries at which a working frame may lie: the base, and after every row's turns.
+    /// Boundaries at which a working frame may lie: the base, and after every row's rotations.
     pub fn cuts(robot: &Robot) -> Vec<usize> {
-        let turns = match robot.convention {
+        let rotations = match robot.convention {
             Convention::Standard => [1, 4],
             Convention::Modified => [1, 3],
         };
         let mut cuts = vec![0];
-        cuts.extend((0..robot.dof()).flat_map(|row| turns.map(|t| ROW * row + t)));
+        cuts.extend((0..robot.dof()).flat_map(|row| rotations.map(|t| ROW * row + t)));
         cuts
     }
 
@@ -101,7 +101,7 @@ impl<'r> Chain<'r> {
         ROW * row + offset
     }
 
-    /// Whether joint `row` turns.
+    /// Whether joint `row` is revolute.
     pub fn revolute(&self, row: usize) -> bool {
         self.robot.joints[row].motion == Motion::Revolute
     }
@@ -133,20 +133,20 @@ impl<'r> Chain<'r> {
         axes
     }
 
-    /// Length and axis of the slide at step `s`; `None` if the step turns.
-    pub fn slide(&mut self, s: usize) -> Option<(Expr, Vec3)> {
+    /// Length and axis of the translation at step `s`; `None` if the step is a rotation.
+    pub fn translation(&mut self, s: usize) -> Option<(Expr, Vec3)> {
         match self.steps[s] {
-            Step::SlideZ(length) => Some((length, self.z(s))),
-            Step::SlideX(length) => Some((length, self.axes(s)[0])),
-            Step::TurnZ(_) | Step::TurnX(_) => None,
+            Step::TranslateZ(length) => Some((length, self.z(s))),
+            Step::TranslateX(length) => Some((length, self.axes(s)[0])),
+            Step::RotateZ(_) | Step::RotateX(_) => None,
         }
     }
 
-    /// The two slides of a row: (step of the slide along z, step of the slide along x).
-    pub fn row_slides(&self, row: usize) -> (usize, usize) {
+    /// The two translations of a row: (step of the translation along z, step of the translation along x).
+    pub fn row_translations(&self, row: usize) -> (usize, usize) {
         let first = ROW * row;
-        let z = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::SlideZ(_)));
-        let x = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::SlideX(_)));
+        let z = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::TranslateZ(_)));
+        let x = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::TranslateX(_)));
         (z.unwrap_or(first), x.unwrap_or(first))
     }
 
@@ -180,7 +180,7 @@ impl<'r> Chain<'r> {
         let rotation = &self.robot.tool.rotation;
         if rotation[0].is_zero() && rotation[1].is_zero() {
             let turn = Turn::constant(&mut self.g, &rotation[2]);
-            let place = self.places[last].after(&mut self.g, &Step::TurnZ(turn));
+            let place = self.places[last].after(&mut self.g, &Step::RotateZ(turn));
             return place.carried_out(&mut self.g);
         }
         let matrix = tool_rotation(&self.robot.tool);

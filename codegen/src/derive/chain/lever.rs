@@ -1,10 +1,10 @@
-//! Levers: vectors between points of the chain, as sums of its slides from the tip inwards.
+//! Levers: vectors between points of the chain, as sums of its translations from the tip inwards.
 
 use super::layout::Chain;
 use super::mass::masses;
 use crate::expr::{Expr, Graph, Vec3, parallel3};
 
-/// One slide: `length · axis` in the working frame.
+/// One translation: `length · axis` in the working frame.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     /// Place along the chain: `2s + 1` for step `s`, `2s` for something fixed before step `s`.
@@ -13,10 +13,10 @@ struct Segment {
     axis: Vec3,
 }
 
-/// Slides in the order in which they are summed.
+/// Translations in the order in which they are summed.
 ///
-/// A moment about a joint's axis does not feel what is parallel to it, so such slides are left out of
-/// a joint's lever. They are sorted behind the slides inside their run of parallel joints: then the
+/// A moment about a joint's axis does not feel what is parallel to it, so such translations are left out of
+/// a joint's lever. They are sorted behind the translations inside their run of parallel joints: then the
 /// levers of all joints of the run are prefixes of one sum, and are shared.
 #[derive(Clone, Debug)]
 pub struct Levers {
@@ -44,9 +44,9 @@ impl Point {
 }
 
 impl Levers {
-    /// The slides of the chain up to the tool origin.
+    /// The translations of the chain up to the tool origin.
     pub fn to_tool(chain: &mut Chain) -> Levers {
-        let mut segments = slides(chain, |_, _, length| length);
+        let mut segments = translations(chain, |_, _, length| length);
         let end = chain.steps().len();
         let axes = chain.axes(end);
         let offsets = chain.robot.tool.translation.clone();
@@ -57,17 +57,17 @@ impl Levers {
         Levers::sorted(chain, segments)
     }
 
-    /// The slides before boundary `cut`, continued by `beyond` from there on.
+    /// The translations before boundary `cut`, continued by `beyond` from there on.
     pub fn inside(chain: &mut Chain, cut: usize, beyond: Vec3) -> Levers {
-        let mut segments = slides(chain, |_, _, length| length);
+        let mut segments = translations(chain, |_, _, length| length);
         segments.retain(|segment| segment.at < 2 * cut);
         Levers { beyond, ..Levers::sorted(chain, segments) }
     }
 
-    /// First moments of mass: each slide weighted by the mass beyond it, and the masses' own offsets.
+    /// First moments of mass: each translation weighted by the mass beyond it, and the masses' own offsets.
     pub fn of_mass(chain: &mut Chain) -> Levers {
         let points = masses(chain);
-        let mut segments = slides(chain, |g, s, length| {
+        let mut segments = translations(chain, |g, s, length| {
             let mass = points.iter().fold(Expr::ZERO, |sum, point| {
                 let share = point.share_beyond(g, s);
                 g.add(sum, share)
@@ -97,12 +97,12 @@ impl Levers {
         Levers { segments, beyond: [Expr::ZERO; 3] }
     }
 
-    /// The sum of all slides beyond `from`, without those along `except`.
+    /// The sum of all translations beyond `from`, without those along `except`.
     pub fn lever(&self, g: &mut Graph, from: Point, except: Option<Vec3>) -> Vec3 {
         self.extended(g, from, &[], except)
     }
 
-    /// The same, continued inwards by further slides.
+    /// The same, continued inwards by further translations.
     pub fn extended(
         &self,
         g: &mut Graph,
@@ -111,10 +111,10 @@ impl Levers {
         except: Option<Vec3>,
     ) -> Vec3 {
         let outer = self.segments.iter().filter(|s| s.at >= from.place());
-        let slides = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
+        let translations = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
         let mut sum = self.beyond;
         let mut pending: Option<(Expr, Vec3)> = None;
-        for (length, axis) in slides {
+        for (length, axis) in translations {
             if length.is_zero() || except.is_some_and(|z| parallel3(z, axis)) {
                 continue;
             }
@@ -140,14 +140,14 @@ fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {
     g.add3(sum, part)
 }
 
-/// The slides of the chain, each length as `weigh` makes it of the step and the plain length.
-fn slides(
+/// The translations of the chain, each length as `weigh` makes it of the step and the plain length.
+fn translations(
     chain: &mut Chain,
     mut weigh: impl FnMut(&mut Graph, usize, Expr) -> Expr,
 ) -> Vec<Segment> {
     let mut segments = Vec::new();
     for s in 0..chain.steps().len() {
-        let Some((length, axis)) = chain.slide(s) else { continue };
+        let Some((length, axis)) = chain.translation(s) else { continue };
         let length = weigh(&mut chain.g, s, length);
         segments.push(Segment { at: 2 * s + 1, length, axis });
     }

@@ -14,12 +14,12 @@ pub struct Mass {
     pub boundary: usize,
     /// Its offset along the axes of that boundary's frame.
     pub com: Vec3,
-    /// For the distributed weight of a beam: the two slides along whose half its centre lies.
+    /// For the distributed weight of a beam: the two translations along whose half its centre lies.
     pub half: Option<(usize, usize)>,
 }
 
 impl Mass {
-    /// How much of the mass a slide at step `s` carries with its full length.
+    /// How much of the mass a translation at step `s` carries with its full length.
     pub fn share_beyond(&self, g: &mut Graph, s: usize) -> Expr {
         let half = self.half.is_some_and(|(z, x)| s == z || s == x);
         if half {
@@ -51,7 +51,7 @@ pub fn masses(chain: &mut Chain) -> Vec<Mass> {
                 Convention::Standard => ROW * row + 1,
                 Convention::Modified => ROW * row,
             };
-            let half = Some(chain.row_slides(row));
+            let half = Some(chain.row_translations(row));
             masses.push(Mass { mass: of_beam, boundary, com: [Expr::ZERO; 3], half });
         }
     }

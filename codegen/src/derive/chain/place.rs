@@ -6,13 +6,13 @@ use crate::robot::{Convention, Motion, Robot, Value};
 /// Steps of a row, whatever the convention.
 pub const ROW: usize = 4;
 
-/// An elementary transform. Slides do not rotate, turns do not move the origin.
+/// An elementary transform.
 #[derive(Clone, Debug)]
 pub enum Step {
-    TurnZ(Turn),
-    SlideZ(Expr),
-    TurnX(Turn),
-    SlideX(Expr),
+    RotateZ(Turn),
+    TranslateZ(Expr),
+    RotateX(Turn),
+    TranslateX(Expr),
 }
 
 /// The orientation at a place of the chain: axes in the working frame, then a turn about z that is
@@ -34,15 +34,15 @@ impl Place {
     /// The orientation behind a step.
     pub fn after(&self, g: &mut Graph, step: &Step) -> Place {
         match step {
-            Step::SlideZ(_) | Step::SlideX(_) => self.clone(),
-            Step::TurnZ(turn) => Place { axes: self.axes, turn: self.turn.plus(g, turn) },
-            Step::TurnX(turn) if turn.is_zero() => self.clone(),
+            Step::TranslateZ(_) | Step::TranslateX(_) => self.clone(),
+            Step::RotateZ(turn) => Place { axes: self.axes, turn: self.turn.plus(g, turn) },
+            Step::RotateX(turn) if turn.is_zero() => self.clone(),
             // Rz(t) Rx(pi) = Rx(pi) Rz(-t): antiparallel axes keep adding up, with the other sign.
-            Step::TurnX(turn) if turn.is_half_turn() => {
+            Step::RotateX(turn) if turn.is_half_turn() => {
                 let [x, y, z] = self.axes;
                 Place { axes: [x, negate3(y), negate3(z)], turn: self.turn.negated() }
             }
-            Step::TurnX(turn) => {
+            Step::RotateX(turn) => {
                 let [x, y, z] = self.clone().carried_out(g);
                 let (s, c) = turn.sin_cos(g);
                 let (y, z) = (g.combine3(c, y, s, z), g.combine3(-s, y, c, z));
@@ -53,9 +53,9 @@ impl Place {
 
     pub fn before(&self, g: &mut Graph, step: &Step) -> Place {
         match step {
-            Step::TurnZ(turn) => self.after(g, &Step::TurnZ(turn.negated())),
-            Step::TurnX(turn) => self.after(g, &Step::TurnX(turn.negated())),
-            slide => self.after(g, slide),
+            Step::RotateZ(turn) => self.after(g, &Step::RotateZ(turn.negated())),
+            Step::RotateX(turn) => self.after(g, &Step::RotateX(turn.negated())),
+            translation => self.after(g, translation),
         }
     }
 
@@ -102,10 +102,10 @@ pub fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
             d = g.add(q, d);
         }
     }
-    let a = Step::SlideX(expression(g, &joint.a));
-    let alpha = Step::TurnX(Turn::constant(g, &joint.alpha));
+    let a = Step::TranslateX(expression(g, &joint.a));
+    let alpha = Step::RotateX(Turn::constant(g, &joint.alpha));
     match robot.convention {
-        Convention::Standard => [Step::TurnZ(theta), Step::SlideZ(d), a, alpha],
-        Convention::Modified => [alpha, a, Step::TurnZ(theta), Step::SlideZ(d)],
+        Convention::Standard => [Step::RotateZ(theta), Step::TranslateZ(d), a, alpha],
+        Convention::Modified => [alpha, a, Step::RotateZ(theta), Step::TranslateZ(d)],
     }
 }

@@ -1,7 +1,7 @@
 //! Twists worked out where they are sparsest: in the frame in which a run of parallel joints begins.
 //!
 //! There a joint's axis is ±z, so its twist is the lever turned by a quarter, and the lever is that of
-//! the next run, turned inwards, plus the slides of the run. Twists are then turned inwards frame by
+//! the next run, turned inwards, plus the translations of the run. Twists are then turned inwards frame by
 //! frame. Products of sines and cosines of different runs are never formed, and `c (c x + s y) +
 //! s (s x − c y)`, which is x again, never comes about.
 
@@ -73,7 +73,7 @@ fn runs(chain: &mut Chain) -> Vec<Run> {
     let mut run = begin(chain.cut);
     for (s, step) in steps.iter().enumerate().skip(chain.cut) {
         match step {
-            Step::TurnX(turn) if !turn.is_zero() && !turn.is_half_turn() => {
+            Step::RotateX(turn) if !turn.is_zero() && !turn.is_half_turn() => {
                 run.last = turn.clone();
                 runs.push(core::mem::replace(&mut run, begin(s + 1)));
             }
@@ -96,10 +96,10 @@ fn levers(chain: &mut Chain, run: &Run, tip: Vec3, twists: &mut [Option<Twist>])
         let step = chain.steps()[s].clone();
         let here = &run.places[offset];
         match step {
-            Step::SlideZ(length) => pending[2] = chain.g.add(pending[2], length),
-            Step::SlideX(length) => pending[0] = chain.g.add(pending[0], length),
-            Step::TurnX(turn) | Step::TurnZ(turn) if turn.is_zero() => {}
-            Step::TurnX(_) | Step::TurnZ(_) => {
+            Step::TranslateZ(length) => pending[2] = chain.g.add(pending[2], length),
+            Step::TranslateX(length) => pending[0] = chain.g.add(pending[0], length),
+            Step::RotateX(turn) | Step::RotateZ(turn) if turn.is_zero() => {}
+            Step::RotateX(_) | Step::RotateZ(_) => {
                 let turned = run.places[offset + 1].turned(&mut chain.g, pending);
                 sum = chain.g.add3(sum, turned);
                 pending = [Expr::ZERO; 3];

@@ -4,8 +4,8 @@ use super::layout::Chain;
 use super::lever::{Levers, Point};
 use crate::expr::{Expr, Symbol, Twist, Vec3};
 
-/// The joints' twists in the working frame: `(z × (p − p_j), z)` where the joint turns, `(z, 0)` where
-/// it slides.
+/// The joints' twists in the working frame: `(z × (p − p_j), z)` of a revolute joint, `(z, 0)`
+/// of a prismatic one.
 pub fn twists(chain: &mut Chain) -> Vec<Twist> {
     if let Some(known) = &chain.twists {
         return known.clone();

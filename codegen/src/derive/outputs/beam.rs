@@ -19,9 +19,9 @@ pub(super) struct Spring {
     pub compliance: Expr,
     /// Displacement of the tool per unit of the spring's.
     pub twist: Twist,
-    /// Direction of the spring, and whether it turns.
+    /// Direction of the spring, and whether it gives by an angle about it.
     pub axis: Vec3,
-    pub turns: bool,
+    pub angular: bool,
 }
 
 /// The six springs of a row's beam, and its chord.
@@ -39,15 +39,15 @@ pub(super) fn springs(
         chain.g.name(compliance, || format!("{name}{i}"));
     }
     let springs = core::array::from_fn(|k| {
-        let (axis, turns) = (chord.axes[k % 3], k >= 3);
-        let twist = if turns {
+        let (axis, angular) = (chord.axes[k % 3], k >= 3);
+        let twist = if angular {
             let from = Point::Boundary(chord.end);
             let lever = levers.extended(&mut chain.g, from, &chord.to_end, Some(axis));
             (chain.g.cross3(axis, lever), axis)
         } else {
             (axis, [Expr::ZERO; 3])
         };
-        Spring { compliance: compliances[k], twist, axis, turns }
+        Spring { compliance: compliances[k], twist, axis, angular }
     });
     (chord, springs)
 }

@@ -120,7 +120,7 @@ fn weight_on(
     let own = chain.g.scale3(mass_of_beam, g);
     let mut loads = beam::own_weight(chain, chord, own);
     for (spring, load) in springs.iter().zip(&mut loads) {
-        let outer = if spring.turns {
+        let outer = if spring.angular {
             let from = Point::Boundary(chord.end);
             let moment = moments.extended(&mut chain.g, from, &to_end, Some(spring.axis));
             let arm = chain.g.cross3(spring.axis, moment);

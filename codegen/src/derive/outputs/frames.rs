@@ -45,9 +45,9 @@ fn path(chain: &mut Chain) -> Vec<Vec3> {
     let mut origin = [Expr::ZERO; 3];
     let mut origins = Vec::new();
     for row in 0..chain.dof() {
-        let (z_step, x_step) = chain.row_slides(row);
+        let (z_step, x_step) = chain.row_translations(row);
         for s in [z_step.min(x_step), z_step.max(x_step)] {
-            let (length, axis) = chain.slide(s).unwrap_or_default();
+            let (length, axis) = chain.translation(s).unwrap_or_default();
             let part = chain.g.scale3(length, axis);
             origin = chain.g.add3(origin, part);
         }

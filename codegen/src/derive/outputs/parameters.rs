@@ -13,21 +13,21 @@ pub(super) const DERIVED: &[(Output, Derivation)] =
 /// Twist of the tool per unit of theta, d, a, alpha of each row, then of the tool's translation and
 /// rotation vector; 6×(4n+6), base axes, at the tool origin.
 ///
-/// A turn's column is that of a revolute joint at its place, a slide's that of a prismatic one.
+/// A rotation's column is that of a revolute joint at its place, a translation's that of a prismatic one.
 fn parameter_jacobian(chain: &mut Chain) -> Derived {
     let levers = Levers::to_tool(chain);
     let mut columns = Vec::new();
     for row in 0..chain.dof() {
         let mut entries: [Twist; 4] = [([Expr::ZERO; 3], [Expr::ZERO; 3]); 4];
         for s in ROW * row..ROW * (row + 1) {
-            // Turns about an axis may be taken before or after themselves: the axis is the same.
-            let (entry, axis, turns) = match chain.steps()[s] {
-                Step::TurnZ(_) => (0, chain.z(s), true),
-                Step::SlideZ(_) => (1, chain.z(s), false),
-                Step::SlideX(_) => (2, chain.axes(s)[0], false),
-                Step::TurnX(_) => (3, chain.axes(s)[0], true),
+            // Rotations about an axis may be taken before or after themselves: the axis is the same.
+            let (entry, axis, revolute) = match chain.steps()[s] {
+                Step::RotateZ(_) => (0, chain.z(s), true),
+                Step::TranslateZ(_) => (1, chain.z(s), false),
+                Step::TranslateX(_) => (2, chain.axes(s)[0], false),
+                Step::RotateX(_) => (3, chain.axes(s)[0], true),
             };
-            entries[entry] = column(chain, &levers, Point::Step(s), axis, turns);
+            entries[entry] = column(chain, &levers, Point::Step(s), axis, revolute);
         }
         columns.extend(entries);
     }
@@ -39,8 +39,8 @@ fn parameter_jacobian(chain: &mut Chain) -> Derived {
     flatten(turned).into()
 }
 
-fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, turns: bool) -> Twist {
-    if !turns {
+fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, revolute: bool) -> Twist {
+    if !revolute {
         return (axis, [Expr::ZERO; 3]);
     }
     let lever = levers.lever(&mut chain.g, from, Some(axis));

@@ -17,7 +17,7 @@ pub(super) struct Load {
     pub force: Vec<Vec3>,
     /// Moment on the tool.
     pub moment: Vec3,
-    /// `z_j × lever` of each joint; its axis where it slides.
+    /// `z_j × lever` of each revolute joint; the axis of a prismatic one.
     pub arms: Vec<Vec3>,
 }
 
@@ -35,8 +35,8 @@ pub(super) fn tool_load(chain: &mut Chain, twists: &[Twist]) -> Load {
 }
 
 /// With i the inner and j the outer of two joints: force part `f · (z_i × v_j)` in both triangles,
-/// moment part `m · (z_i × z_j)` in row j, column i only. A sliding inner joint changes nothing; a
-/// sliding outer one has no moment part.
+/// moment part `m · (z_i × z_j)` in row j, column i only. A prismatic inner joint changes nothing; a
+/// prismatic outer one has no moment part.
 pub(super) fn matrix(chain: &mut Chain, load: &Load, prefix: &str) -> Vec<Expr> {
     let n = chain.dof();
     let mut out = vec![Expr::ZERO; n * n];

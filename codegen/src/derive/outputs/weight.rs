@@ -28,8 +28,8 @@ fn weight_stiffness(chain: &mut Chain) -> Derived {
     matrix(chain, &load, "kg").into()
 }
 
-/// The weights as the joints feel them: gravity times the first moment of mass beyond a joint that
-/// turns, times the mass beyond one that slides.
+/// The weights as the joints feel them: gravity times the first moment of mass beyond a
+/// revolute joint, times the mass beyond a prismatic one.
 pub(super) fn load(chain: &mut Chain) -> Load {
     let g = gravity(chain);
     let moments = Levers::of_mass(chain);
