@@ -10,10 +10,12 @@
 
 mod align;
 mod basis;
+mod bounded;
 mod model;
 mod refit;
 
 pub(crate) use align::aligned;
-pub(crate) use basis::{Basis, eigen};
+pub(crate) use basis::Basis;
+pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, squares};
