@@ -15,7 +15,7 @@ pub use layout::Chain;
 pub use lever::{Levers, Point};
 pub use mass::{gravity, mass_beyond};
 pub use place::{Place, ROW, Step, expression, row_steps};
-pub use tool::{rotation_vector, series, tool_rotation};
+pub use tool::{left_jacobian, tool_rotation};
 pub use twist::{base_twists, flatten, power, twists, wrench};
 
 use super::passes::Passes;

@@ -3,7 +3,7 @@
 use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
-use crate::derive::chain::{Chain, Levers, Point, ROW, Step, flatten, rotation_vector, series};
+use crate::derive::chain::{Chain, Levers, Point, ROW, Step, flatten, left_jacobian};
 use crate::expr::{Expr, Twist, Vec3};
 
 /// The outputs of this file.
@@ -50,14 +50,9 @@ fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, revolute:
 /// Rotation of the tool per unit of each entry of its rotation vector: the left Jacobian of SO(3) at
 /// the nominal vector, a constant matrix in the last frame.
 fn rotation_columns(chain: &mut Chain, last: [Vec3; 3]) -> [Vec3; 3] {
-    let vector = rotation_vector(&chain.robot.tool);
-    let square: f64 = vector.iter().map(|c| c * c).sum();
-    if square == 0.0 {
+    let tool = &chain.robot.tool;
+    if tool.rotation.iter().all(|angle| angle.is_zero()) {
         return last;
     }
-    let angle = libm::sqrt(square);
-    let (first, second) =
-        ((1.0 - libm::cos(angle)) / square, (angle - libm::sin(angle)) / (square * angle));
-    let end = chain.steps().len();
-    chain.turned(series(vector, first, second), end)
+    chain.turned(left_jacobian(tool), chain.steps().len())
 }

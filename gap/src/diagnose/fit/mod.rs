@@ -6,7 +6,8 @@
 //! every row, so the residual.
 //!
 //! [`aligned`] is where it begins when frames are unknown. A [`Basis`] tells which directions of the
-//! parameters the data decide; every other room solves its least squares with it.
+//! parameters the data decide; [`Squares`] are least over the values that are physical. Every other
+//! room solves its least squares with these two.
 
 mod align;
 mod basis;
