@@ -56,9 +56,8 @@ impl Effect for SlackBelt {
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, values: &[f64]) {
         let (stretch, knee) = (values[0], spot.form as f64);
-        let law = move |load: &Vector6<f64>| {
-            Vector6::ith(OWN, stretch * load[OWN].clamp(-knee, knee))
-        };
+        let law =
+            move |load: &Vector6<f64>| Vector6::ith(OWN, stretch * load[OWN].clamp(-knee, knee));
         actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
     }
 
@@ -105,7 +104,8 @@ pub fn measured(arm: &Arm) -> Measurements {
         values: vec![("stretch up to 80 N·m".to_owned(), 6e-6)],
     };
     let kind = Kind::Pose { orientation: true };
-    let design = Design { shape: Shape::Force, poses: 30, repeats: 1, payload: 12.0, kind, seed: 7 };
+    let design =
+        Design { shape: Shape::Force, poses: 30, repeats: 1, payload: 12.0, kind, seed: 7 };
     let shown = exact(arm, &[truth], None, &design.rows(arm)).expect("an arm that bears its load");
     blurred(&shown, Noise { position: 20e-6, rotation: 40e-6 }, 7)
 }

@@ -35,7 +35,8 @@ fn an_effect_of_ones_own_is_found_and_told() {
 fn an_effect_of_ones_own_is_withheld() {
     let arm = arm();
     let kind = Kind::Pose { orientation: true };
-    let design = Design { shape: Shape::Force, poses: 12, repeats: 1, payload: 12.0, kind, seed: 3 };
+    let design =
+        Design { shape: Shape::Force, poses: 12, repeats: 1, payload: 12.0, kind, seed: 3 };
     let rows = design.rows(&arm);
     let (catalogue, options) =
         (catalogue(), Options { catalogue: catalogue(), ..Options::default() });

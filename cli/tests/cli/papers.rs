@@ -18,7 +18,7 @@ fn the_built_in_ledger_names_the_misprints() {
 fn a_file_of_ones_own_is_judged_and_written() {
     let folder = Folder::new();
     let page = text(&folder.path("ledger.html"));
-    let own = "tests/papers/knapczyk/equations.toml";
+    let own = "papers/data/knapczyk/equations.toml";
     assert_eq!(stiffarm(&["papers", own, "--html", &page]).good(), "");
     let html = std::fs::read_to_string(page).expect("written");
     assert!(html.contains("<html") && !html.contains("http://") && !html.contains("src=\"//"));
@@ -56,7 +56,7 @@ fn the_growth_of_the_difference_is_a_table_and_a_picture() {
 fn flexible_kinematics_of_any_arm_are_generated() {
     let of = |more: &[&str]| stiffarm(&[&["generate", "jweeg_two_link"], more].concat());
     let planar = ["--emit", "rust", "--kernels", "::stiffarm_kernels", "--flexible", "dx,dy,dphi"];
-    let committed = "gap/src/chain/two_link/closed_form.rs";
+    let committed = "papers/src/jweeg/two_link/closed_form.rs";
     let check = of(&[&planar[..], &["--check", committed]].concat()).good();
     assert!(check.contains("is what jweeg_two_link gives"), "{check}");
     let latex = of(&["--emit", "latex", "--flexible", "dx,dy,dphi"]).good();

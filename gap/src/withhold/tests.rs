@@ -1,5 +1,7 @@
 use super::*;
-use crate::effects::{Catalogue, Backlash, BaseFrame, JointCompliance, JointOffset, JointRatio, WrenchScale};
+use crate::effects::{
+    Backlash, BaseFrame, Catalogue, JointCompliance, JointOffset, JointRatio, WrenchScale,
+};
 use crate::fixture;
 use crate::measurement;
 use crate::plant::design::{Design, Shape};

@@ -7,7 +7,7 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use crate::chain::Displacement;
+use crate::displacement::Displacement;
 use crate::effects::{
     Carrier, Depends, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told,
     displacement,
