@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
 use stiffarm_codegen::emit::{
-    CFiles, COptions, Precision, RustOptions, Sines, c, c_name, dot, flexible_latex, flexible_rust,
-    latex, rust,
+    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, c, c_name, dot, flexible_latex,
+    flexible_rust, latex, rust,
 };
 
 use super::Verdict;
@@ -28,8 +28,9 @@ Examples:
 
 /// The kernels as Rust or C, or the closed form as LaTeX or as a graph
 ///
-/// The Rust text is what the macro `robot!` compiles; the C text gives the same bits. The same table
-/// always gives the same bytes.
+/// The Rust text is what the macro `robot!` compiles, headed so that in a file of its own (`mod arm;`)
+/// rustfmt and lints leave it alone; the C text gives the same bits. The same table always gives the
+/// same bytes.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -64,7 +65,8 @@ pub struct Args {
     /// What the names and both files in C begin with [default: the robot's id or file name]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Write into this file (`-`: to standard output); C: both files into this folder
+    /// Write into this file (`-`: to standard output); C: both files into this folder. A missing
+    /// folder is made
     #[arg(long, value_name = "PATH")]
     out: Option<Target>,
     /// Compare with this file, byte by byte, and write nothing; C: with both files of this folder
@@ -122,7 +124,14 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
                 verdict = Verdict::Failed;
             }
             (Some(_), _) => {}
-            (None, Some(Target::File(path))) => Target::File(place(path)).write(&text)?,
+            (None, Some(Target::File(path))) => {
+                let file = place(path);
+                if let Some(folder) = file.parent() {
+                    std::fs::create_dir_all(folder)
+                        .map_err(|error| Failure::io("write", &file, &error))?;
+                }
+                Target::File(file).write(&text)?;
+            }
             (None, Some(Target::Stdout) | None) => print(&text)?,
         }
     }
@@ -173,7 +182,8 @@ impl Args {
             (Emit::Dot, None) => dot(robot, &or(&[Output::Jacobian])),
             (Emit::Rust, None) => rust(robot, &self.options()),
         };
-        Ok(vec![(None, text)])
+        let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };
+        Ok(vec![(None, format!("{head}{text}"))])
     }
 
     /// The header and the source.

@@ -22,11 +22,12 @@ pub mod knapczyk;
 pub mod latex;
 pub mod ledger;
 pub mod lin;
-mod matrix;
+pub mod matrix;
 pub mod mend;
 mod methods;
+pub mod verdict;
 
 pub use file::{Paper, read};
-pub use ledger::verdict::{Entry, Kind, Verdict, Witness};
 pub use ledger::{Ledger, built_in};
 pub use methods::column;
+pub use verdict::{Entry, Kind, Verdict, Witness};

@@ -17,18 +17,26 @@ const STRICT: [&str; 9] = [
     "-Werror",
 ];
 
-/// The compilers that there are; says which are not.
-pub fn compilers() -> Vec<&'static str> {
-    let there = |name: &&str| {
-        let run = Command::new(name).arg("--version").stdout(Stdio::null()).status();
-        let found = run.is_ok_and(|status| status.success());
-        if !found {
-            eprintln!("skipped: no {name} on the path to compile the generated C with");
+/// A test for each compiler from a function that takes its name. With `cc` Rust itself links on Unix, so that
+/// it is there; what else is needed is ignored, and run where `--ignored` asks for it.
+macro_rules! with_each_compiler {
+    ($($name:ident)+) => {$(
+        mod $name {
+            #[test]
+            #[cfg_attr(not(unix), ignore = "needs cc")]
+            fn with_cc() {
+                super::$name("cc");
+            }
+
+            #[test]
+            #[ignore = "needs clang"]
+            fn needs_clang() {
+                super::$name("clang");
+            }
         }
-        found
-    };
-    ["gcc", "clang"].into_iter().filter(there).collect()
+    )+};
 }
+pub(crate) use with_each_compiler;
 
 /// A folder that is gone when it is dropped.
 pub struct Folder(PathBuf);
@@ -63,7 +71,7 @@ impl Drop for Folder {
 pub fn tried(compiler: &str, folder: &Folder, arguments: &[&str]) -> Result<(), String> {
     let mut command = Command::new(compiler);
     command.args(STRICT).args(arguments).current_dir(folder.path());
-    let output = command.output().expect("the compiler starts");
+    let output = command.output().unwrap_or_else(|error| panic!("{compiler}: {error}"));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     if output.status.success() { Ok(()) } else { Err(said) }
 }
@@ -77,16 +85,18 @@ pub fn compile(compiler: &str, folder: &Folder, arguments: &[&str]) {
 
 /// Runs a program of the folder with this input and gives what it prints.
 pub fn run(folder: &Folder, program: &str, input: &str) -> String {
-    let mut child = Command::new(folder.path().join(program))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
+    spoken(Command::new(folder.path().join(program)), input)
+}
+
+/// What a program prints to this input.
+pub fn spoken(mut program: Command, input: &str) -> String {
+    let mut child =
+        program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program starts");
     let mut stdin = child.stdin.take().expect("piped");
     let input = input.to_owned();
     let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()));
     let output = child.wait_with_output().expect("the program ends");
     writer.join().expect("no panic").expect("all of the input is read");
-    assert!(output.status.success(), "{program} ended with {}", output.status);
+    assert!(output.status.success(), "{program:?} ended with {}", output.status);
     String::from_utf8(output.stdout).expect("UTF-8")
 }

@@ -47,11 +47,10 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
             subtract_means(&mut moves, experiment.data);
         }
         let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };
-        let [low, high] = parameter.interval;
         Share {
             place: parameter.unknown.to_string(),
             share: Some(part),
-            found: !(low..=high).contains(&parameter.file),
+            found: parameter.differs(),
         }
     };
     let mut shares: Vec<Share> = corrected(answer).map(share).collect();

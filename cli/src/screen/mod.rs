@@ -53,11 +53,26 @@ impl Screen<'_> {
     /// The whole screen.
     pub fn text(&self) -> String {
         let sentence = wrapped(&self.sentence(), WIDTH, 0);
-        let parts =
-            [self.head(), format!("\n{sentence}\n"), self.gap(), self.findings(), self.compared()];
+        let parts = [
+            self.head(),
+            self.stopped(),
+            format!("\n{sentence}\n"),
+            self.gap(),
+            self.findings(),
+            self.compared(),
+        ];
         let mut text = parts.concat();
         text.push_str(&self.notes(text.lines().count()));
         text
+    }
+
+    /// Said of a search that was told to stop.
+    fn stopped(&self) -> String {
+        if !self.found.stopped {
+            return String::new();
+        }
+        let text = "Stopped before the search was at its end: there may be more to be found.";
+        format!("{}\n", bad(text))
     }
 
     fn head(&self) -> String {

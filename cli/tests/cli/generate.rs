@@ -1,6 +1,6 @@
 //! `stiffarm generate`.
 
-use stiffarm_codegen::emit::{RustOptions, rust};
+use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -37,6 +37,34 @@ fn what_is_written_can_be_checked() {
     assert!(of(&["--check", &file]).good().contains("is what ur5 gives"));
     assert_eq!(of(&["--check", &file, "--quiet"]).good(), "");
     assert_eq!(folder.names(), ["ur5.rs"]);
+}
+
+#[test]
+fn a_missing_folder_is_made() {
+    let folder = Folder::new();
+    for (emit, out, names) in [
+        ("c", "new/firmware", ["ur5.c", "ur5.h"].as_slice()),
+        ("rust", "other/src/ur5.rs", &["ur5.rs"]),
+    ] {
+        let of = |to: &str| {
+            let path = text(&folder.path(out));
+            stiffarm(&["generate", "ur5", "--emit", emit, to, &path])
+        };
+        assert_eq!(of("--out").good(), "");
+        assert!(of("--check").good().contains("is what ur5 gives"));
+        let inner = folder.path(out);
+        let inner = if emit == "c" { &inner } else { inner.parent().expect("a folder") };
+        let there =
+            std::fs::read_dir(inner).expect("made").map(|e| e.expect("an entry").file_name());
+        let mut there: Vec<_> = there.collect();
+        there.sort();
+        assert_eq!(there, names);
+    }
+    let file = folder.file("file", "before");
+    let under = text(&folder.path("file/src/ur5.rs"));
+    let err = stiffarm(&["generate", "ur5", "--emit", "rust", "--out", &under]).refused();
+    assert!(err.contains("cannot write "), "{err}");
+    assert_eq!(std::fs::read_to_string(&file).expect("there"), "before");
 }
 
 #[test]
@@ -88,11 +116,12 @@ fn symbolic_robots_stay_symbolic() {
 }
 
 #[test]
-fn the_command_writes_what_the_library_returns() {
+fn the_command_writes_what_the_library_returns_after_a_head() {
     for (id, robot) in collection() {
         let written =
             stiffarm(&["generate", &format!("robots/arms/{id}.toml"), "--emit", "rust"]).out;
-        assert!(written == rust(&robot, &RustOptions::default()), "{id}");
+        let text = rust(&robot, &RustOptions::default());
+        assert!(written.strip_prefix(FILE_HEAD) == Some(&text), "{id}");
     }
 }
 
@@ -103,7 +132,8 @@ fn the_command_fuses_rust_alone() {
     };
     let (_, robot) = collection().find(|(id, _)| *id == "ur10").expect("in the collection");
     let text = rust(&robot, &RustOptions { fused: true, ..RustOptions::default() });
-    assert!(generate(&["--emit", "rust", "--fused"]).out == text);
+    let written = generate(&["--emit", "rust", "--fused"]).out;
+    assert!(written.strip_prefix(FILE_HEAD) == Some(&text));
     for (arguments, message) in [
         (&["--emit", "c", "--fused", "--out", "nowhere"][..], "--fused is for rust"),
         (&["--emit", "latex", "--fused"], "--fused is for rust"),

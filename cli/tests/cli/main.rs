@@ -1,6 +1,7 @@
 //! The command line as its users meet it: what it prints, writes and returns.
 
 mod check;
+mod committed;
 mod compensate;
 mod diagnose;
 mod errors;

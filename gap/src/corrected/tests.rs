@@ -145,7 +145,7 @@ fn a_link_without_mass_is_weighed_at_its_middle() {
     assert_eq!(fates, [Fate::PutIn("mass of joint 4".to_owned())]);
     assert!(off < 1e-10, "{off}");
     assert_eq!(found.joints[3].com[0].number().unwrap().to_f64(), -0.1);
-    // Seen from its frame the middle of a row that slides, or begins with `a`, moves with q.
+    // Seen from its frame the middle of a prismatic row, or one that begins with `a`, moves with q.
     for (modified, link) in [(false, "link 3"), (true, "link 2")] {
         let (fates, found, _) = put(&robot(modified), "link_weight", link, &[3.0]);
         assert!(matches!(fates[..], [Fate::LeftOut(_)]), "{fates:?}");

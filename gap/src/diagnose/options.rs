@@ -1,5 +1,6 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
+use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, ToolFrame};
 use crate::measurement::nearest;
 
@@ -70,6 +71,8 @@ pub struct Options {
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,
+    /// Ends the search early when it is asked.
+    pub stop: Stop,
 }
 
 /// Why there is no diagnosis. Every message that concerns the data names the file.

@@ -44,6 +44,9 @@ pub struct Diagnosis {
     /// Other models' predictions against this one's; only if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rivals: Option<Vec<Rival>>,
+    /// Whether it was told to stop before the search was at its end: there may be more to be found.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub stopped: bool,
 }
 
 /// A number of the geometry that is one with others: only a sum of them is seen.

@@ -9,18 +9,18 @@ use crate::fixture::{bent, row, springy, table};
 use crate::measurement::{Kind, Measurements};
 use crate::simulate::{Actual, Reading, Sim, moments};
 
-/// An arm of each convention, one with a slide; soft enough for loads to matter.
+/// An arm of each convention, one with a prismatic joint; soft enough for loads to matter.
 fn arms() -> Vec<Arm> {
     let mut modified = bent();
     modified.convention = Convention::Modified;
-    let mut slide = bent();
-    slide.joints[2].motion = Motion::Prismatic;
-    slide.joints[2].alpha = 0.4;
+    let mut prismatic = bent();
+    prismatic.joints[2].motion = Motion::Prismatic;
+    prismatic.joints[2].alpha = 0.4;
     let mut plain = springy();
     plain.convention = Convention::Modified;
-    let mut plain_slide = slide.clone();
-    plain_slide.joints.iter_mut().for_each(|j| j.beam = None);
-    vec![bent(), modified, slide, springy(), plain, plain_slide]
+    let mut plain_prismatic = prismatic.clone();
+    plain_prismatic.joints.iter_mut().for_each(|j| j.beam = None);
+    vec![bent(), modified, prismatic, springy(), plain, plain_prismatic]
 }
 
 fn data(kind: Kind) -> Measurements {

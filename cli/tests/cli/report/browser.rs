@@ -97,17 +97,17 @@ const USE: &str = r##"<script>
 })();
 </script>"##;
 
-/// What a reader of a page with an arm sees; `None` where there is no Chromium.
-pub fn visit(folder: &Folder, page: &str) -> Option<Value> {
+/// What a reader of a page with an arm sees.
+pub fn visit(folder: &Folder, page: &str) -> Value {
     visited(folder, page, USE)
 }
 
-/// What a reader of any other page sees; `None` where there is no Chromium.
-pub fn read(folder: &Folder, page: &str) -> Option<Value> {
+/// What a reader of any other page sees.
+pub fn read(folder: &Folder, page: &str) -> Value {
     visited(folder, page, READ)
 }
 
-fn visited(folder: &Folder, page: &str, script: &str) -> Option<Value> {
+fn visited(folder: &Folder, page: &str, script: &str) -> Value {
     let page = page.replacen("<head>", &format!("<head>{WATCH}"), 1);
     let page = page.replacen("</body>", &format!("{script}</body>"), 1);
     let file = folder.file("visited.html", page);
@@ -129,7 +129,8 @@ fn visited(folder: &Folder, page: &str, script: &str) -> Option<Value> {
         ]);
         chromium.arg(format!("--user-data-dir={profile}")).arg(format!("file://{file}"));
         chromium.output().ok()
-    })?;
+    });
+    let output = output.expect("chromium is on the path");
     let err = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{err}");
     let console: Vec<&str> = err.lines().filter(|line| line.contains("CONSOLE")).collect();
@@ -138,5 +139,5 @@ fn visited(folder: &Folder, page: &str, script: &str) -> Option<Value> {
     let (_, rest) = document.split_once("data-seen=\"").expect("the script came to its end");
     let (json, _) = rest.split_once('"').expect("the attribute ends");
     let json = json.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">");
-    Some(serde_json::from_str(&json.replace("&amp;", "&")).expect("JSON"))
+    serde_json::from_str(&json.replace("&amp;", "&")).expect("JSON")
 }

@@ -21,7 +21,7 @@ impl Search<'_, '_> {
     /// Takes back what is superfluous and exchanges what another explains better.
     pub(super) fn pruned(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
         for _ in 0..MOST_ROUNDS {
-            if now.fit.model.found.len() < 2 {
+            if now.fit.model.found.len() < 2 || self.stopped() {
                 break;
             }
             let Some(next) = self.changed(&mut now)? else { break };
@@ -41,6 +41,9 @@ impl Search<'_, '_> {
             return Ok(Some(fit));
         }
         for index in 0..now.fit.model.found.len() {
+            if self.stopped() {
+                break;
+            }
             let found = &now.fit.model.found[index];
             let fine = found.effect.forms_are().is_fine(found.spot.form);
             if fine || found.lead > SURE {
