@@ -20,7 +20,7 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
     folder.write(&format!("{name}.h"), &files.header);
     folder.write(&format!("{name}.c"), &files.source);
     folder.write("main.c", &program(name, robot.dof(), precision));
-    compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name]);
+    compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
     let mut input = String::new();
     for question in &case.questions {
         let words = question.q.iter().chain(&question.wrench);
