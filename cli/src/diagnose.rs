@@ -127,8 +127,14 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             );
         }
     }
-    let screen =
-        Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check: check.as_ref() };
+    let screen = Screen {
+        found,
+        data: &data,
+        arm: &arm,
+        catalogue: &options.catalogue,
+        rivals: &args.rivals,
+        check: check.as_ref(),
+    };
     if let Some(target) = &args.report {
         let (explanation, words) = (&diagnosed.explanation, screen.words());
         let report = Report {
@@ -187,6 +193,7 @@ impl Args {
             nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
             rivals: self.rivals.clone(),
             stop: Stop::default(),
+            ..Options::default()
         })
     }
 }

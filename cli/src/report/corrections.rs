@@ -4,11 +4,12 @@ use std::collections::HashMap;
 
 use nalgebra::Vector6;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::effects::{Curve, Over};
 use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
 use stiffarm_gap::measurement::Kind;
 
 use super::experiment::{Experiment, Share};
-use super::shape::{Curve, Over, lever, torque};
+use super::shape::{Shaped, lever, torque};
 
 /// The joints (from 0) whose springs were found, with what that adds to the file's compliance.
 pub fn corrected(answer: &Answer) -> impl Iterator<Item = (&Parameter, usize, f64)> + '_ {
@@ -19,12 +20,12 @@ pub fn corrected(answer: &Answer) -> impl Iterator<Item = (&Parameter, usize, f6
 }
 
 /// A correction as a function of the joint's torque.
-pub fn curve((_, joint, change): (&Parameter, usize, f64)) -> Curve<'static> {
-    Curve {
+pub fn curve((_, joint, change): (&Parameter, usize, f64)) -> Shaped<'static> {
+    let value = Box::new(move |torque| change * torque);
+    Shaped {
         title: format!("compliance at joint {}", joint + 1),
         joint,
-        over: Over::Torque,
-        value: Box::new(move |torque| change * torque),
+        curve: Curve { over: Over::Torque, proportional: true, value },
     }
 }
 

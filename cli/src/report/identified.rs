@@ -18,7 +18,7 @@ use super::forest::{Forest, Multiple, forest};
 use super::page::{SCRIPT, percent};
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
-use super::shape::{Curve, Shape, shape};
+use super::shape::{Shape, Shaped, shape};
 use super::table::{Table, number};
 use super::waterfall::{Step, Waterfall, waterfall};
 use super::words::Unit;
@@ -116,7 +116,7 @@ impl Identified<'_> {
     pub fn html(&self) -> Result<String, askama::Error> {
         let mut experiment = self.experiment();
         experiment.shares = shares(&experiment, self.answer);
-        let curves: Vec<Curve<'_>> = corrected(self.answer).map(curve).collect();
+        let curves: Vec<Shaped<'_>> = corrected(self.answer).map(curve).collect();
         let embedded = Embedded {
             rows: rows(&experiment),
             scene: scene(&experiment),

@@ -12,6 +12,7 @@ mod words;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 use stiffarm_gap::{Diagnosis, Measurements};
@@ -40,6 +41,8 @@ pub struct Screen<'a> {
     pub data: &'a Measurements,
     /// The arm without any finding.
     pub arm: &'a Arm,
+    /// The effects that there are.
+    pub catalogue: &'a Catalogue,
     /// Prefixes of the columns that were used as rivals.
     pub rivals: &'a [String],
     /// Another file, predicted.

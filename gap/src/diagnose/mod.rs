@@ -33,12 +33,13 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use crate::effects::ParameterReport;
 pub use options::{DiagnoseError, Nuisance, Options};
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, FoundEffect, Prediction};
 pub use report::{
     Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, NoiseReport,
-    NuisanceReport, ParameterReport, Part, Rival, Share, Shrink, Slice, Unexplained,
+    NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
 };
 
 use crate::gap::Statistics;
@@ -139,8 +140,13 @@ pub fn diagnose_with(
         stopped: options.stop.is_asked(),
     };
     let spread = search.spread(&explained);
-    let explanation =
-        Explanation::new(&problem, [nominal, explained.fit.model], spread, &diagnosis.covers);
+    let explanation = Explanation::new(
+        &problem,
+        [nominal, explained.fit.model],
+        spread,
+        &diagnosis.covers,
+        &options.catalogue,
+    );
     Ok(Diagnosed { diagnosis, explanation })
 }
 

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::effects::ParameterReport;
 use crate::gap::Statistics;
 
 /// The result of a diagnosis. Serialised, it is the format's JSON; every number is finite.
@@ -170,19 +171,6 @@ pub struct Finding {
     /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
     /// if all are separable.
     pub to_separate: Option<String>,
-}
-
-/// One fitted number.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParameterReport {
-    /// What it is.
-    pub name: String,
-    /// Its value, added to what the robot file has.
-    pub value: f64,
-    /// Of the value.
-    pub unit: &'static str,
-    /// 95 % interval: least squares, the residual's variance, Student's t.
-    pub ci95: [f64; 2],
 }
 
 /// The gap on measurements that no fit has seen: position, m (rotation, rad, if no position is

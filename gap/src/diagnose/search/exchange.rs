@@ -17,9 +17,6 @@ const EXCHANGE: f64 = 3.0;
 /// An effect that leads all others by this much evidence is not compared with them again.
 const SURE: f64 = 60.0;
 
-/// An order of a periodic error that nothing else in the catalogue comes near to.
-const FINE: usize = 3;
-
 impl Search<'_, '_> {
     /// Takes back what is superfluous and exchanges what another explains better.
     pub(super) fn pruned(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
@@ -48,7 +45,7 @@ impl Search<'_, '_> {
                 break;
             }
             let found = &now.fit.model.found[index];
-            let fine = found.effect.identifier() == "transmission_error" && found.spot.form >= FINE;
+            let fine = found.effect.forms_are().is_fine(found.spot.form);
             if fine || found.lead > SURE {
                 continue;
             }
