@@ -1,7 +1,7 @@
 //! What computes a robot's outputs: the graph that is derived from its table, as every printer
 //! writes it down.
 
-use stiffarm_codegen::derive::{Output as Derived, Program, derive};
+use stiffarm_codegen::derive::{Program, derive};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::{Output, Unstable};
 
@@ -11,7 +11,7 @@ pub struct Model(Vec<(Output, Program)>);
 impl Model {
     /// For these outputs.
     pub fn new(robot: &Robot, outputs: &[Output]) -> Model {
-        Model(outputs.iter().map(|o| (*o, derive(robot, &[derived(*o)]))).collect())
+        Model(outputs.iter().map(|o| (*o, derive(robot, &[*o]))).collect())
     }
 
     /// An output as one column-major block. It must be one that the model was made for.
@@ -20,7 +20,7 @@ impl Model {
     /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate(&self, output: Output, q: &[f64], w: &[f64; 6]) -> Result<Vec<f64>, Unstable> {
         let blocks = self.program(output).map(|p| p.evaluate(q, w, |_| f64::NAN)).transpose();
-        Ok(first(blocks.map_err(|_| Unstable)?))
+        Ok(first(blocks?))
     }
 
     /// The same computed in single precision.
@@ -31,7 +31,7 @@ impl Model {
         let q: Vec<f32> = q.iter().map(|x| *x as f32).collect();
         let w = w.map(|x| x as f32);
         let blocks = self.program(output).map(|p| p.evaluate(&q, &w, |_| f32::NAN)).transpose();
-        Ok(first(blocks.map_err(|_| Unstable)?).into_iter().map(f64::from).collect())
+        Ok(first(blocks?).into_iter().map(f64::from).collect())
     }
 
     fn program(&self, output: Output) -> Option<&Program> {
@@ -41,23 +41,4 @@ impl Model {
 
 fn first<T>(blocks: Option<Vec<Vec<T>>>) -> Vec<T> {
     blocks.and_then(|blocks| blocks.into_iter().next()).unwrap_or_default()
-}
-
-/// The generator's name of an output: the two lists stand in the same order, by test.
-pub fn derived(output: Output) -> Derived {
-    let names = Output::EACH.iter().position(|o| *o == output);
-    Derived::EACH[names.unwrap_or(0)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_two_lists_of_outputs_agree() {
-        for output in Output::EACH {
-            assert_eq!(derived(output).name(), output.name());
-            assert_eq!(derived(output).shape(5), output.shape(5));
-        }
-    }
 }

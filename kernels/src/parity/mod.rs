@@ -14,7 +14,7 @@ use std::num::NonZero;
 use std::vec::Vec;
 
 use crate::generic::Arm;
-use crate::{Error, Kernels, Output, Scalar, Unstable};
+use crate::{Kernels, Output, Scalar, Unstable};
 
 use draw::Sample;
 
@@ -60,7 +60,7 @@ pub fn compiled<S: Scalar>(
         let q: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
         match kernels.evaluate(output, &q, &w.map(S::lit), &mut out) {
             Ok(()) => Ok(out.into_iter().map(&back).collect()),
-            Err(Error::Unstable | Error::Length) => Err(Unstable),
+            Err(_) => Err(Unstable),
         }
     }
 }
