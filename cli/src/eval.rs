@@ -57,8 +57,8 @@ const OUTPUTS: [Output; 8] = [
     Output::Jacobian,
     Output::ComplementaryStiffness,
     Output::JointTorque,
-    Output::GravityTorque,
-    Output::GravityStiffness,
+    Output::WeightTorque,
+    Output::WeightStiffness,
     Output::Compliance,
     Output::Deflection,
 ];
@@ -117,7 +117,7 @@ fn evaluate(
         Ok(sum)
     };
     let pose = block(Output::Pose)?;
-    let k_c = loaded(Output::ComplementaryStiffness, Output::GravityStiffness)?;
+    let k_c = loaded(Output::ComplementaryStiffness, Output::WeightStiffness)?;
     Ok(Evaluation {
         position: rows(&pose[9..], 3).into_iter().flatten().collect(),
         rotation: rows(&pose[..9], 3),
@@ -125,7 +125,7 @@ fn evaluate(
         k_c: rows(&k_c, n),
         compliance: rows(&block(Output::Compliance)?, 6),
         deflection: rows(&block(deflection)?, 6).concat(),
-        joint_torque: rows(&loaded(Output::JointTorque, Output::GravityTorque)?, n).concat(),
+        joint_torque: rows(&loaded(Output::JointTorque, Output::WeightTorque)?, n).concat(),
     })
 }
 

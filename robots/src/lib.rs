@@ -91,7 +91,7 @@ numeric {
     tx2_90l = "arms/tx2_90l.toml",
     /// ABB IRB 120.
     irb120 = "arms/irb120.toml",
-    /// The Stanford arm: its third joint slides.
+    /// The Stanford arm: its third joint is prismatic.
     stanford = "arms/stanford.toml",
 }
 symbolic {

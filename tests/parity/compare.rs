@@ -1,7 +1,7 @@
 //! Comparing kernels with the textbook.
 
 use stiffarm::kernels::generic::{Arm, Joint};
-use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm::kernels::{Input, Kernels, Output, Part, Scalar, Side};
 
 /// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
 macro_rules! parameters {
@@ -96,29 +96,24 @@ pub fn terms(arm: &Arm, output: Output, q: &[f64], wrench: &[f64; 6]) -> f64 {
     let reach: f64 = rows.map(|(j, q)| j.a.abs() + j.d.abs() + q.abs()).sum::<f64>()
         + arm.tool.translation.vector.norm();
     let lever = 1.0 + reach;
-    let load = wrench.iter().map(|x| x.abs()).sum::<f64>() * lever;
-    let weight = arm.gravity.norm()
-        * lever
-        * arm
-            .joints
-            .iter()
-            .map(|j| j.mass * (1.0 + j.com.norm()) + beam_mass(j, reach))
-            .sum::<f64>();
-    let compliance: f64 =
-        arm.joints.iter().map(|j| j.compliance + beam_compliance(j, reach)).sum::<f64>() * lever;
-    match output {
-        Output::Pose
-        | Output::Frames
-        | Output::Jacobian
-        | Output::JacobianTool
-        | Output::ParameterJacobian => lever,
-        Output::ComplementaryStiffness | Output::JointTorque => load,
-        Output::GravityTorque | Output::GravityStiffness => weight,
-        Output::Compliance => compliance * lever,
-        Output::DeflectionFirstOrder | Output::Deflection => compliance * load,
-        Output::DeflectionWithGravity => compliance * (load + weight),
-        Output::StiffnessRegressor => lever * load,
-    }
+    let loads = [
+        output.takes(Input::Wrench).then(|| wrench.iter().map(|x| x.abs()).sum::<f64>() * lever),
+        output.depends_on(Part::Weights).then(|| {
+            let mass = |j: &Joint| j.mass * (1.0 + j.com.norm()) + beam_mass(j, reach);
+            arm.gravity.norm() * lever * arm.joints.iter().map(mass).sum::<f64>()
+        }),
+    ];
+    let load = loads.into_iter().flatten().reduce(|a, b| a + b).unwrap_or(1.0);
+    let soft = |j: &Joint| j.compliance + beam_compliance(j, reach);
+    let gives = match output.depends_on(Part::Stiffness) {
+        true => arm.joints.iter().map(soft).sum(),
+        false => 1.0,
+    };
+    let at_tool = |side: Side| match side {
+        Side::Axes | Side::Twist | Side::Wrench => lever,
+        _ => 1.0,
+    };
+    at_tool(output.rows()) * at_tool(output.columns()) * gives * load
 }
 
 fn beam_mass(joint: &Joint, length: f64) -> f64 {

@@ -107,7 +107,7 @@ fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
         let jacobian = evaluate::<f64>(robot, Output::Jacobian, &q, &wrench);
         let pairs = [
             (Output::JointTorque, Output::ComplementaryStiffness),
-            (Output::GravityTorque, Output::GravityStiffness),
+            (Output::WeightTorque, Output::WeightStiffness),
         ];
         for joint in 0..n {
             let (dual, difference) = slopes(robot, Output::Pose, (&q, &wrench), joint);
@@ -144,13 +144,13 @@ fn jacobian_and_stiffness_are_derivatives() {
 #[test]
 fn the_regressor_is_the_derivative_by_joint_compliance() {
     // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
-    use fixtures::symbolic::{Constants, deflection_first_order, stiffness_regressor};
+    use fixtures::symbolic::{Constants, compliance_regressor, deflection_first_order};
     let mut draws = Draws::new(5);
     let p = fixtures::PARAMETERS;
     for _ in 0..200 {
         let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
         let wrench = wrench(&mut draws);
-        let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
+        let regressor = compliance_regressor(&Constants::new(&p), &q, &wrench);
         let mut dual = fixtures::parameters_as(Dual::lit);
         dual.k2.0.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);

@@ -29,13 +29,13 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
         Output::ComplementaryStiffness => {
             slopes(q, |q| arm.joint_torque(q, &wrench).as_slice().to_vec())
         }
-        Output::GravityStiffness => slopes(q, |q| arm.gravity_torque(q).as_slice().to_vec()),
+        Output::WeightStiffness => slopes(q, |q| arm.weight_torque(q).as_slice().to_vec()),
         // Linear in the load, and in each spring: the step does not matter.
         Output::Compliance => {
             let column = |k| arm.deflection_first_order(q, &Vector6::ith(k, 1.0));
             (0..6).flat_map(|k| column(k).as_slice().to_vec()).collect()
         }
-        Output::StiffnessRegressor => regressor(arm, q, &wrench),
+        Output::ComplianceRegressor => regressor(arm, q, &wrench),
         Output::ParameterJacobian => parameters(arm, q),
         _ => return None,
     })

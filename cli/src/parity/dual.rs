@@ -31,8 +31,8 @@ pub struct Derivatives {
     rotation: [[f64; 3]; 3],
     joint_torque: Vec<f64>,
     complementary_stiffness: Vec<f64>,
-    gravity_torque: Vec<f64>,
-    gravity_stiffness: Vec<f64>,
+    weight_torque: Vec<f64>,
+    weight_stiffness: Vec<f64>,
     parameter_jacobian: Vec<f64>,
 }
 
@@ -46,8 +46,8 @@ impl Derivatives {
             rotation: std::array::from_fn(|c| std::array::from_fn(|r| real[r][c])),
             joint_torque: vec![0.0; n],
             complementary_stiffness: vec![0.0; n * n],
-            gravity_torque: vec![0.0; n],
-            gravity_stiffness: vec![0.0; n * n],
+            weight_torque: vec![0.0; n],
+            weight_stiffness: vec![0.0; n * n],
             parameter_jacobian: parameter_jacobian(arm, q),
         };
         for i in 0..n {
@@ -69,8 +69,8 @@ impl Derivatives {
             }
             Output::JointTorque => self.joint_torque.clone(),
             Output::ComplementaryStiffness => self.complementary_stiffness.clone(),
-            Output::GravityTorque => self.gravity_torque.clone(),
-            Output::GravityStiffness => self.gravity_stiffness.clone(),
+            Output::WeightTorque => self.weight_torque.clone(),
+            Output::WeightStiffness => self.weight_stiffness.clone(),
             Output::ParameterJacobian => self.parameter_jacobian.clone(),
             _ => return None,
         })
@@ -103,14 +103,14 @@ impl Derivatives {
         self.complementary_stiffness[i * n + j] = entry(&by_j, &by_i);
         self.complementary_stiffness[j * n + i] = entry(&by_i, &by_j);
         let energy = energy(arm, &frames);
-        self.gravity_stiffness[i * n + j] = energy.eps1eps2;
-        self.gravity_stiffness[j * n + i] = energy.eps1eps2;
+        self.weight_stiffness[i * n + j] = energy.eps1eps2;
+        self.weight_stiffness[j * n + i] = energy.eps1eps2;
         if i == j {
             let (p, spin) = (origin(&by_j), vee(&by_j, &r));
             let twist = [p[0], p[1], p[2], spin[0], spin[1], spin[2]];
             self.joint_torque[j] = dot(&twist, w);
             self.jacobian[j] = twist;
-            self.gravity_torque[j] = energy.eps1;
+            self.weight_torque[j] = energy.eps1;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Deviations relative to an output's scale.
 
-use stiffarm_kernels::Output;
 use stiffarm_kernels::generic::{Arm, Joint};
+use stiffarm_kernels::{Input, Output, Part, Side};
 
 /// Terms may cancel to this part of themselves before an output's largest entry is its scale no
 /// more: a level arm's weights turn no upright joint, and the textbook says so to rounding.
@@ -35,22 +35,23 @@ pub fn terms(arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) -> f64 {
     let reach = reach(arm, q);
     let lever = reach.max(1.0);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let load = norm(&w[..3]) * reach + norm(&w[3..]);
-    match output {
-        Output::Pose
-        | Output::Frames
-        | Output::Jacobian
-        | Output::JacobianTool
-        | Output::ParameterJacobian => lever,
-        Output::ComplementaryStiffness | Output::JointTorque => load,
-        Output::GravityTorque | Output::GravityStiffness => weight(arm, 0, reach),
-        Output::Compliance => lever * lever * gives(arm, reach, |_| 1.0),
-        Output::DeflectionFirstOrder | Output::Deflection => lever * gives(arm, reach, |_| load),
-        Output::DeflectionWithGravity => {
-            lever * gives(arm, reach, |j| load + weight(arm, j, reach))
-        }
-        Output::StiffnessRegressor => lever * load,
-    }
+    let wrench = norm(&w[..3]) * reach + norm(&w[3..]);
+    // The moment on a joint, where a load enters; else a unit of whatever loads it.
+    let moment = |joint: usize| {
+        let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
+        let load = if loaded { wrench } else { 0.0 };
+        let weight = if heavy { weight(arm, joint, reach) } else { 0.0 };
+        if loaded || heavy { load + weight } else { 1.0 }
+    };
+    let loaded = match output.depends_on(Part::Stiffness) {
+        true => gives(arm, reach, moment),
+        false => moment(0),
+    };
+    let at_tool = |side: Side| match side {
+        Side::Axes | Side::Twist | Side::Wrench => lever,
+        _ => 1.0,
+    };
+    at_tool(output.rows()) * at_tool(output.columns()) * loaded
 }
 
 /// The moment that the weights of links `from` to the last may have, N·m.

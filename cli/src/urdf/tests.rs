@@ -189,7 +189,7 @@ proptest! {
             let off = worst(&arm, &table, &joints, &q);
             prop_assert!(off <= 3e-14 * n as f64 * (1.0 + far) + 1e-11, "{} {}", off, far);
             // The weights' torques are the slopes of their energy.
-            let torque = arm.gravity_torque(&q);
+            let torque = arm.weight_torque(&q);
             for j in 0..n {
                 let h = 1e-5;
                 let at = |side: f64| {

@@ -1,14 +1,10 @@
 //! A derived set of outputs: the graph, what it stores, what it solves, and in which frame it was
 //! worked out.
 
-use core::fmt;
+use stiffarm_kernels::{Output, Unstable};
 
-use super::chain::{Chain, ROW};
-use super::output::Output;
-use super::passes::Passes;
-use super::{compliance, deflection, frames, gravity, jacobian, parameters, stiffness, torque};
+use super::chain::ROW;
 use crate::expr::{Expr, Graph, OpCount, Symbol};
-use crate::robot::Robot;
 
 /// Expressions for a set of outputs of one arm.
 #[derive(Clone, Debug)]
@@ -48,129 +44,16 @@ pub struct Solve {
 }
 
 impl Solve {
-    /// How many unknowns, the first ones, are to be solved for together: on the others nothing depends, so
-    /// that each follows from its own row. A tool on the axis of the last joint is not moved by it.
-    pub fn together(&self) -> usize {
+    /// Size of the leading block, whose unknowns are solved for together: nothing depends on the others,
+    /// so that each follows from its own row. A tool on the axis of the last joint is not moved by it.
+    pub fn leading(&self) -> usize {
         let n = self.right.len();
-        let alone = |column: usize| {
+        let diagonal = |column: usize| {
             let entries = self.matrix[column * n..(column + 1) * n].iter().enumerate();
             entries.filter(|(row, _)| *row != column).all(|(_, e)| e.is_zero())
         };
-        (1..n).rev().take_while(|column| alone(*column)).last().unwrap_or(n)
+        (1..n).rev().take_while(|column| diagonal(*column)).last().unwrap_or(n)
     }
-}
-
-/// The load has no stable equilibrium, so the linear system of the deflection has no meaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unstable;
-
-impl fmt::Display for Unstable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the arm is not stable under this load")
-    }
-}
-
-impl core::error::Error for Unstable {}
-
-/// More joints than this, and only a few working frames are tried.
-const EXHAUSTIVE: usize = 8;
-
-/// Derives `outputs` in the way in which they cost least.
-pub fn derive(robot: &Robot, outputs: &[Output]) -> Program {
-    derive_with(robot, outputs, Passes::ALL)
-}
-
-/// The same with some of the passes switched off.
-pub fn derive_with(robot: &Robot, outputs: &[Output], passes: Passes) -> Program {
-    let way = best_ways(robot, &[outputs], passes)[0];
-    derive_by(robot, outputs, way)
-}
-
-/// Derives each of several sets of outputs in the way in which it costs least.
-pub fn derive_each(robot: &Robot, sets: &[&[Output]]) -> Vec<Program> {
-    let ways = best_ways(robot, sets, Passes::ALL);
-    sets.iter().zip(ways).map(|(outputs, way)| derive_by(robot, outputs, way)).collect()
-}
-
-/// Derives `outputs` with the working frame at boundary `cut`, twists from the axes of the frames.
-pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
-    derive_by(robot, outputs, Way { cut, passes: Passes { runs: false, ..Passes::ALL } })
-}
-
-/// One way to work things out: in which frame, and twists run by run or not.
-#[derive(Clone, Copy)]
-struct Way {
-    cut: usize,
-    passes: Passes,
-}
-
-/// The cheapest way for each set: every frame is laid out once, with all outputs in it; run by run only
-/// those that are then the cheapest of some set.
-fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
-    let cuts = if passes.frame { Chain::cuts(robot) } else { vec![0] };
-    let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
-    let plain = Passes { runs: false, ..passes };
-    let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets.len()];
-    for cut in cuts.into_iter().step_by(stride) {
-        try_way(robot, sets, Way { cut, passes: plain }, &mut best);
-    }
-    if passes.runs {
-        let mut cuts: Vec<usize> = best.iter().map(|(_, way)| way.cut).collect();
-        cuts.sort_unstable();
-        cuts.dedup();
-        for cut in cuts {
-            try_way(robot, sets, Way { cut, passes }, &mut best);
-        }
-    }
-    best.into_iter().map(|(_, way)| way).collect()
-}
-
-/// Takes a way for the sets that cost less in it. The first of equals stays: the frame nearest the base.
-/// Run by run is for the sets whose frame it is already, so that a set's way does not depend on the
-/// other sets.
-fn try_way(robot: &Robot, sets: &[&[Output]], way: Way, best: &mut [(u32, Way)]) {
-    let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
-    wanted.sort_unstable();
-    wanted.dedup();
-    let laid_out = derive_by(robot, &wanted, way);
-    let free = laid_out.graph.parameter_only();
-    for (set, best) in sets.iter().zip(best) {
-        let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
-        if cost < best.0 && (!way.passes.runs || way.cut == best.1.cut) {
-            *best = (cost, way);
-        }
-    }
-}
-
-fn derive_by(robot: &Robot, outputs: &[Output], Way { cut, passes }: Way) -> Program {
-    let mut chain = Chain::new(robot, cut, passes);
-    let mut solves = Vec::new();
-    let mut blocks = Vec::new();
-    for &output in outputs {
-        let c = &mut chain;
-        let entries = match output {
-            Output::Pose => frames::pose(c),
-            Output::Frames => frames::frames(c),
-            Output::Jacobian => jacobian::jacobian(c),
-            Output::JacobianTool => jacobian::jacobian_tool(c),
-            Output::ComplementaryStiffness => stiffness::complementary_stiffness(c),
-            Output::JointTorque => torque::joint_torque(c),
-            Output::GravityTorque => gravity::gravity_torque(c),
-            Output::GravityStiffness => gravity::gravity_stiffness(c),
-            Output::Compliance => compliance::compliance(c),
-            Output::DeflectionFirstOrder => deflection::first_order(c),
-            Output::ParameterJacobian => parameters::parameter_jacobian(c),
-            Output::StiffnessRegressor => deflection::stiffness_regressor(c),
-            Output::Deflection | Output::DeflectionWithGravity => {
-                let weights = output == Output::DeflectionWithGravity;
-                let (entries, solve) = deflection::deflection(c, weights);
-                solves.extend(solve);
-                entries
-            }
-        };
-        blocks.push(Block { output, entries });
-    }
-    Program { graph: chain.g, blocks, solves, cut, dof: robot.dof() }
 }
 
 impl Program {
@@ -181,7 +64,7 @@ impl Program {
     }
 
     /// What it computes for some of its outputs.
-    fn roots_of(&self, outputs: &[Output]) -> Vec<Expr> {
+    pub(super) fn roots_of(&self, outputs: &[Output]) -> Vec<Expr> {
         let solves = self.solves.iter().filter(|s| outputs.contains(&s.output));
         let blocks = self.blocks.iter().filter(|b| outputs.contains(&b.output));
         let systems = solves.flat_map(|s| s.matrix.iter().chain(&s.right));

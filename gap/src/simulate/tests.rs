@@ -8,7 +8,7 @@ fn the_springs_balance_the_loads_in_the_loaded_geometry() {
     let arm = springy();
     let (q, w) = ([0.3, -0.7, 0.4], Vector6::new(300.0, -200.0, -800.0, 20.0, -30.0, 10.0));
     let state = equilibrium(&arm, &q, &w).unwrap();
-    let torque = arm.joint_torque(&state.joints, &w) + arm.gravity_torque(&state.joints);
+    let torque = arm.joint_torque(&state.joints, &w) + arm.weight_torque(&state.joints);
     for j in 0..3 {
         let twist = state.joints[j] - q[j];
         assert!(twist.abs() > 1e-4);

@@ -1,10 +1,13 @@
 //! Everything elastic in the arm as springs, and the 6×6 compliance that they make together.
 
-use super::beam;
-use super::chain::Chain;
-use super::jacobian::{Twist, base_twists};
-use super::lever::Levers;
-use crate::expr::{Expr, Vec3, parallel3};
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived, beam};
+use crate::derive::chain::{Chain, Levers, base_twists};
+use crate::expr::{Expr, Twist, Vec3, parallel3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] = &[(Output::Compliance, compliance)];
 
 /// A compliance with the twist that it gives the tool, base axes.
 struct Element {
@@ -31,7 +34,7 @@ pub(super) fn joint_compliances(chain: &mut Chain) -> Vec<Option<Expr>> {
 ///
 /// Twists with one rotation w in common are taken together: their part is `[Σ c v vᵀ, (Σ c v) wᵀ;
 /// w (Σ c v)ᵀ, (Σ c) w wᵀ]`, so only the translations cost something by twist.
-pub(super) fn compliance(chain: &mut Chain) -> Vec<Expr> {
+fn compliance(chain: &mut Chain) -> Derived {
     let elements = elements(chain);
     let mut lower = [Expr::ZERO; 36];
     for group in groups(elements, chain.passes.parallel) {
@@ -58,7 +61,8 @@ pub(super) fn compliance(chain: &mut Chain) -> Vec<Expr> {
             }
         }
     }
-    (0..36).map(|at| (at / 6, at % 6)).map(|(c, r)| lower[6 * c.min(r) + c.max(r)]).collect()
+    let at = (0..36).map(|at| (at / 6, at % 6));
+    at.map(|(c, r)| lower[6 * c.min(r) + c.max(r)]).collect::<Vec<Expr>>().into()
 }
 
 /// Adds a product to an entry.

@@ -1,9 +1,10 @@
-//! Levers: vectors between points of the chain, as sums of its slides from the tip inwards.
+//! Levers: vectors between points of the chain, as sums of its translations from the tip inwards.
 
-use super::chain::{Chain, ROW, Step};
+use super::layout::Chain;
+use super::mass::masses;
 use crate::expr::{Expr, Graph, Vec3, parallel3};
 
-/// One slide: `length · axis` in the working frame.
+/// One translation: `length · axis` in the working frame.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     /// Place along the chain: `2s + 1` for step `s`, `2s` for something fixed before step `s`.
@@ -12,13 +13,13 @@ struct Segment {
     axis: Vec3,
 }
 
-/// Slides in the order in which they are summed.
+/// Translations in the order in which they are summed.
 ///
-/// A moment about a joint's axis does not feel what is parallel to it, so such slides are left out of
-/// a joint's lever. They are sorted behind the slides inside their run of parallel joints: then the
+/// A moment about a joint's axis does not feel what is parallel to it, so such translations are left out of
+/// a joint's lever. They are sorted behind the translations inside their run of parallel joints: then the
 /// levers of all joints of the run are prefixes of one sum, and are shared.
 #[derive(Clone, Debug)]
-pub(super) struct Levers {
+pub struct Levers {
     segments: Vec<Segment>,
     /// What every lever begins with.
     beyond: Vec3,
@@ -26,26 +27,26 @@ pub(super) struct Levers {
 
 /// A point from which a lever is taken.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum From {
+pub enum Point {
     /// The frame before a step.
     Boundary(usize),
     /// The frame in which a step takes place, the step itself included.
     Step(usize),
 }
 
-impl From {
+impl Point {
     fn place(self) -> usize {
         match self {
-            From::Boundary(s) => 2 * s,
-            From::Step(s) => 2 * s + 1,
+            Point::Boundary(s) => 2 * s,
+            Point::Step(s) => 2 * s + 1,
         }
     }
 }
 
 impl Levers {
-    /// The slides of the chain up to the tool origin.
+    /// The translations of the chain up to the tool origin.
     pub fn to_tool(chain: &mut Chain) -> Levers {
-        let mut segments = slides(chain, |_, _, length| length);
+        let mut segments = translations(chain, |_, _, length| length);
         let end = chain.steps().len();
         let axes = chain.axes(end);
         let offsets = chain.robot.tool.translation.clone();
@@ -56,17 +57,17 @@ impl Levers {
         Levers::sorted(chain, segments)
     }
 
-    /// The slides before boundary `cut`, continued by `beyond` from there on.
+    /// The translations before boundary `cut`, continued by `beyond` from there on.
     pub fn inside(chain: &mut Chain, cut: usize, beyond: Vec3) -> Levers {
-        let mut segments = slides(chain, |_, _, length| length);
+        let mut segments = translations(chain, |_, _, length| length);
         segments.retain(|segment| segment.at < 2 * cut);
         Levers { beyond, ..Levers::sorted(chain, segments) }
     }
 
-    /// First moments of mass: each slide weighted by the mass beyond it, and the masses' own offsets.
+    /// First moments of mass: each translation weighted by the mass beyond it, and the masses' own offsets.
     pub fn of_mass(chain: &mut Chain) -> Levers {
-        let points = super::gravity::masses(chain);
-        let mut segments = slides(chain, |g, s, length| {
+        let points = masses(chain);
+        let mut segments = translations(chain, |g, s, length| {
             let mass = points.iter().fold(Expr::ZERO, |sum, point| {
                 let share = point.share_beyond(g, s);
                 g.add(sum, share)
@@ -96,24 +97,24 @@ impl Levers {
         Levers { segments, beyond: [Expr::ZERO; 3] }
     }
 
-    /// The sum of all slides beyond `from`, without those along `except`.
-    pub fn from(&self, g: &mut Graph, from: From, except: Option<Vec3>) -> Vec3 {
+    /// The sum of all translations beyond `from`, without those along `except`.
+    pub fn lever(&self, g: &mut Graph, from: Point, except: Option<Vec3>) -> Vec3 {
         self.extended(g, from, &[], except)
     }
 
-    /// The same, continued inwards by further slides.
+    /// The same, continued inwards by further translations.
     pub fn extended(
         &self,
         g: &mut Graph,
-        from: From,
+        from: Point,
         inwards: &[(Expr, Vec3)],
         except: Option<Vec3>,
     ) -> Vec3 {
         let outer = self.segments.iter().filter(|s| s.at >= from.place());
-        let slides = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
+        let translations = outer.map(|s| (s.length, s.axis)).chain(inwards.iter().copied());
         let mut sum = self.beyond;
         let mut pending: Option<(Expr, Vec3)> = None;
-        for (length, axis) in slides {
+        for (length, axis) in translations {
             if length.is_zero() || except.is_some_and(|z| parallel3(z, axis)) {
                 continue;
             }
@@ -139,24 +140,16 @@ fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {
     g.add3(sum, part)
 }
 
-/// The slides of the chain, each length as `weigh` makes it of the step and the plain length.
-fn slides(
+/// The translations of the chain, each length as `weigh` makes it of the step and the plain length.
+fn translations(
     chain: &mut Chain,
     mut weigh: impl FnMut(&mut Graph, usize, Expr) -> Expr,
 ) -> Vec<Segment> {
     let mut segments = Vec::new();
     for s in 0..chain.steps().len() {
-        let Some((length, axis)) = chain.slide(s) else { continue };
+        let Some((length, axis)) = chain.translation(s) else { continue };
         let length = weigh(&mut chain.g, s, length);
         segments.push(Segment { at: 2 * s + 1, length, axis });
     }
     segments
-}
-
-/// The two slides of a row: (step of the slide along z, step of the slide along x).
-pub(super) fn row_slides(chain: &Chain, row: usize) -> (usize, usize) {
-    let first = ROW * row;
-    let z = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideZ(_)));
-    let x = (first..first + ROW).find(|s| matches!(chain.steps()[*s], Step::SlideX(_)));
-    (z.unwrap_or(first), x.unwrap_or(first))
 }

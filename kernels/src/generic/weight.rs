@@ -10,6 +10,8 @@ use super::kinematics::origin;
 use super::links::Link;
 use super::spatial::{stack, wrench_transport};
 use super::stiffness::force_stiffness;
+use super::textbook::{Textbook, block};
+use crate::Output;
 
 /// One weight at one posture.
 pub(super) struct Weight {
@@ -29,6 +31,12 @@ impl Weight {
         wrench_transport(&self.centre, point) * stack(self.force, Vector3::zeros())
     }
 }
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
+    (Output::WeightTorque, |arm, q, _| Ok(block(arm.weight_torque(q)))),
+    (Output::WeightStiffness, |arm, q, _| Ok(block(arm.weight_stiffness(q)))),
+];
 
 impl Arm {
     /// Every weight of the arm: of link i its mass, fixed in frame i, and its beam.
@@ -55,8 +63,9 @@ impl Arm {
 
     /// What the links' weights do to each joint, n, N·m (N if prismatic): the sum of `v_jᵀ m g`
     /// over the weights that joint j moves, `v_j` the velocity of the weight's centre. Positive
-    /// like [`Arm::joint_torque`]; the motor holds the opposite.
-    pub fn gravity_torque(&self, q: &[f64]) -> DVector<f64> {
+    /// like [`Arm::joint_torque`]: it is `−g(q)` of the equations of motion `M q̈ + C q̇ + g = τ`,
+    /// and the motors hold the opposite.
+    pub fn weight_torque(&self, q: &[f64]) -> DVector<f64> {
         let axes = self.axes(q);
         let mut torque = DVector::zeros(self.dof());
         for weight in self.weights(q) {
@@ -67,9 +76,9 @@ impl Arm {
         torque
     }
 
-    /// `∂(gravity torque)/∂q`, n×n, row j, column i: the weights' part of K_C, each weight a force
+    /// `∂(weight torque)/∂q`, n×n, row j, column i: the weights' part of K_C, each weight a force
     /// on a point that joints 1 to its own move. Symmetric.
-    pub fn gravity_stiffness(&self, q: &[f64]) -> DMatrix<f64> {
+    pub fn weight_stiffness(&self, q: &[f64]) -> DMatrix<f64> {
         let axes = self.axes(q);
         let mut stiffness = DMatrix::zeros(self.dof(), self.dof());
         for weight in self.weights(q) {

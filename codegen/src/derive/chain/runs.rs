@@ -1,14 +1,14 @@
 //! Twists worked out where they are sparsest: in the frame in which a run of parallel joints begins.
 //!
 //! There a joint's axis is ±z, so its twist is the lever turned by a quarter, and the lever is that of
-//! the next run, turned inwards, plus the slides of the run. Twists are then turned inwards frame by
+//! the next run, turned inwards, plus the translations of the run. Twists are then turned inwards frame by
 //! frame. Products of sines and cosines of different runs are never formed, and `c (c x + s y) +
 //! s (s x − c y)`, which is x again, never comes about.
 
-use super::chain::{Chain, Place, Step};
-use super::jacobian::Twist;
-use super::lever::{From, Levers};
-use crate::expr::{Expr, Graph, Turn, Vec3};
+use super::layout::{ByRun, Chain};
+use super::lever::{Levers, Point};
+use super::place::{Place, Step};
+use crate::expr::{Expr, Graph, Turn, Twist, Vec3};
 
 /// Consecutive steps whose z axes are parallel, with the places between them in the axes of the first.
 struct Run {
@@ -20,14 +20,8 @@ struct Run {
     last: Turn,
 }
 
-/// The twists of all joints in the working frame, and the tool's origin from the working frame's.
-pub(super) struct ByRun {
-    pub twists: Vec<Twist>,
-    pub tip: Vec3,
-}
-
 /// Works the twists out run by run.
-pub(super) fn by_run(chain: &mut Chain) -> ByRun {
+pub fn by_run(chain: &mut Chain) -> ByRun {
     let runs = runs(chain);
     let mut twists: Vec<Option<Twist>> = vec![None; chain.dof()];
     let translation = chain.robot.tool.translation.clone();
@@ -62,7 +56,7 @@ fn before(chain: &mut Chain, tip: Vec3, twists: &mut [Option<Twist>]) {
             let z = chain.z(step);
             *twist = Some(match chain.revolute(row) {
                 true => {
-                    let lever = inside.from(&mut chain.g, From::Step(step), Some(z));
+                    let lever = inside.lever(&mut chain.g, Point::Step(step), Some(z));
                     (chain.g.cross3(z, lever), z)
                 }
                 false => (z, [Expr::ZERO; 3]),
@@ -79,7 +73,7 @@ fn runs(chain: &mut Chain) -> Vec<Run> {
     let mut run = begin(chain.cut);
     for (s, step) in steps.iter().enumerate().skip(chain.cut) {
         match step {
-            Step::TurnX(turn) if !turn.is_zero() && !turn.is_half_turn() => {
+            Step::RotateX(turn) if !turn.is_zero() && !turn.is_half_turn() => {
                 run.last = turn.clone();
                 runs.push(core::mem::replace(&mut run, begin(s + 1)));
             }
@@ -102,10 +96,10 @@ fn levers(chain: &mut Chain, run: &Run, tip: Vec3, twists: &mut [Option<Twist>])
         let step = chain.steps()[s].clone();
         let here = &run.places[offset];
         match step {
-            Step::SlideZ(length) => pending[2] = chain.g.add(pending[2], length),
-            Step::SlideX(length) => pending[0] = chain.g.add(pending[0], length),
-            Step::TurnX(turn) | Step::TurnZ(turn) if turn.is_zero() => {}
-            Step::TurnX(_) | Step::TurnZ(_) => {
+            Step::TranslateZ(length) => pending[2] = chain.g.add(pending[2], length),
+            Step::TranslateX(length) => pending[0] = chain.g.add(pending[0], length),
+            Step::RotateX(turn) | Step::RotateZ(turn) if turn.is_zero() => {}
+            Step::RotateX(_) | Step::RotateZ(_) => {
                 let turned = run.places[offset + 1].turned(&mut chain.g, pending);
                 sum = chain.g.add3(sum, turned);
                 pending = [Expr::ZERO; 3];
@@ -115,7 +109,7 @@ fn levers(chain: &mut Chain, run: &Run, tip: Vec3, twists: &mut [Option<Twist>])
         let z = here.axes[2];
         twists[row] = Some(match chain.revolute(row) {
             true => {
-                chain.name3(sum, &format!("r{}", row + 1));
+                chain.g.name3(sum, &format!("r{}", row + 1));
                 (chain.g.cross3(z, sum), z)
             }
             false => (z, [Expr::ZERO; 3]),

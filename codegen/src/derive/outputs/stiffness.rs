@@ -1,9 +1,14 @@
 //! K_C: how the torque of a constant load changes with the posture.
 
-use super::chain::Chain;
-use super::jacobian::{Twist, twists};
-use super::torque::wrench;
-use crate::expr::{Expr, Vec3, parallel3};
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, twists, wrench};
+use crate::expr::{Expr, Twist, Vec3, parallel3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] =
+    &[(Output::ComplementaryStiffness, complementary_stiffness)];
 
 /// A load that stays constant in base axes, as the joints feel it.
 pub(super) struct Load {
@@ -12,15 +17,15 @@ pub(super) struct Load {
     pub force: Vec<Vec3>,
     /// Moment on the tool.
     pub moment: Vec3,
-    /// `z_j × lever` of each joint; its axis where it slides.
+    /// `z_j × lever` of each revolute joint; the axis of a prismatic one.
     pub arms: Vec<Vec3>,
 }
 
 /// K_C for the wrench on the tool, n×n column-major; row j, column i is ∂(column j of J)ᵀ/∂q_i · w.
-pub(super) fn complementary_stiffness(chain: &mut Chain) -> Vec<Expr> {
+fn complementary_stiffness(chain: &mut Chain) -> Derived {
     let twists = twists(chain);
     let load = tool_load(chain, &twists);
-    matrix(chain, &load, "kc")
+    matrix(chain, &load, "kc").into()
 }
 
 /// The wrench on the tool as a load.
@@ -30,8 +35,8 @@ pub(super) fn tool_load(chain: &mut Chain, twists: &[Twist]) -> Load {
 }
 
 /// With i the inner and j the outer of two joints: force part `f · (z_i × v_j)` in both triangles,
-/// moment part `m · (z_i × z_j)` in row j, column i only. A sliding inner joint changes nothing; a
-/// sliding outer one has no moment part.
+/// moment part `m · (z_i × z_j)` in row j, column i only. A prismatic inner joint changes nothing; a
+/// prismatic outer one has no moment part.
 pub(super) fn matrix(chain: &mut Chain, load: &Load, prefix: &str) -> Vec<Expr> {
     let n = chain.dof();
     let mut out = vec![Expr::ZERO; n * n];

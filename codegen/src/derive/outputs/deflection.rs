@@ -1,19 +1,26 @@
 //! Deflection of the tool: joints as springs on the loaded geometry, links as beams.
 
-use super::beam;
-use super::chain::Chain;
+use stiffarm_kernels::{Output, Part};
+
 use super::compliance::joint_compliances;
-use super::gravity;
-use super::jacobian::{Twist, flatten, twists};
-use super::lever::{From, Levers};
-use super::output::Output;
-use super::program::Solve;
 use super::stiffness::{matrix, tool_load};
-use super::torque::{power, wrench};
-use crate::expr::{Expr, Symbol, Vec3};
+use super::{Derivation, Derived, beam, weight};
+use crate::derive::chain::{
+    Chain, Chord, Levers, Point, beam_mass, flatten, gravity, mass_beyond, power, twists, wrench,
+};
+use crate::derive::program::Solve;
+use crate::expr::{Expr, Symbol, Twist, Vec3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] = &[
+    (Output::DeflectionFirstOrder, first_order),
+    (Output::Deflection, |chain| deflection(chain, Output::Deflection)),
+    (Output::DeflectionWithGravity, |chain| deflection(chain, Output::DeflectionWithGravity)),
+    (Output::ComplianceRegressor, compliance_regressor),
+];
 
 /// J Kθ⁻¹ Jᵀ w and the links under the wrench: to first order in the load.
-pub(super) fn first_order(chain: &mut Chain) -> Vec<Expr> {
+fn first_order(chain: &mut Chain) -> Derived {
     let w = wrench(chain);
     let twists = twists(chain);
     let compliances = joint_compliances(chain);
@@ -26,17 +33,18 @@ pub(super) fn first_order(chain: &mut Chain) -> Vec<Expr> {
         }
     }
     links(chain, &mut sum, false);
-    sum.in_base(chain)
+    sum.in_base(chain).into()
 }
 
-/// J (Kθ − K_C)⁻¹ Jᵀ w over the joints that are not rigid, and the links; with `weights`, K_C and the
-/// torque include the links' weights.
-pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option<Solve>) {
+/// J (Kθ − K_C)⁻¹ Jᵀ w over the joints that are not rigid, and the links; where the weights enter
+/// `output`, K_C and the torque include them.
+fn deflection(chain: &mut Chain, output: Output) -> Derived {
+    let weights = output.depends_on(Part::Weights);
     let w = wrench(chain);
     let twists = twists(chain);
     let load = tool_load(chain, &twists);
     let k_c = matrix(chain, &load, "kc");
-    let weight = weights.then(|| gravity::load(chain));
+    let weight = weights.then(|| weight::load(chain));
     let k_g = weight.as_ref().map(|load| matrix(chain, load, "kg"));
     let stiffness: Vec<Option<Expr>> = (0..chain.dof())
         .map(|j| {
@@ -70,9 +78,8 @@ pub(super) fn deflection(chain: &mut Chain, weights: bool) -> (Vec<Expr>, Option
         sum.add(chain, twists[j], unknown);
     }
     links(chain, &mut sum, weights);
-    let output = if weights { Output::DeflectionWithGravity } else { Output::Deflection };
     let solve = Solve { output, matrix: system, right: torques, unknowns };
-    (sum.in_base(chain), (!compliant.is_empty()).then_some(solve))
+    Derived { entries: sum.in_base(chain), solve: (!compliant.is_empty()).then_some(solve) }
 }
 
 /// Adds the beams: each of their springs gives by its compliance times the load on it.
@@ -103,18 +110,18 @@ fn weight_on(
     chain: &mut Chain,
     moments: &Levers,
     row: usize,
-    chord: &beam::Chord,
+    chord: &Chord,
     springs: &[beam::Spring; 6],
 ) -> [Expr; 6] {
-    let g = gravity::gravity(chain);
-    let mass = gravity::mass_beyond(chain, chord.end);
+    let g = gravity(chain);
+    let mass = mass_beyond(chain, chord.end);
     let to_end = chord.to_end.map(|(half, axis)| (chain.g.mul(mass, half), axis));
-    let beam_mass = beam::mass(chain, row);
-    let own = chain.g.scale3(beam_mass, g);
+    let mass_of_beam = beam_mass(chain, row);
+    let own = chain.g.scale3(mass_of_beam, g);
     let mut loads = beam::own_weight(chain, chord, own);
     for (spring, load) in springs.iter().zip(&mut loads) {
-        let outer = if spring.turns {
-            let from = From::Boundary(chord.end);
+        let outer = if spring.angular {
+            let from = Point::Boundary(chord.end);
             let moment = moments.extended(&mut chain.g, from, &to_end, Some(spring.axis));
             let arm = chain.g.cross3(spring.axis, moment);
             chain.g.dot3(arm, g)
@@ -128,7 +135,7 @@ fn weight_on(
 }
 
 /// ∂(first-order deflection)/∂(compliance of joint j) = J_j J_jᵀ w, 6×n, base axes.
-pub(super) fn stiffness_regressor(chain: &mut Chain) -> Vec<Expr> {
+fn compliance_regressor(chain: &mut Chain) -> Derived {
     let w = wrench(chain);
     let twists = twists(chain);
     let columns: Vec<Twist> = twists
@@ -139,7 +146,7 @@ pub(super) fn stiffness_regressor(chain: &mut Chain) -> Vec<Expr> {
             (chain.in_base(scaled.0), chain.in_base(scaled.1))
         })
         .collect();
-    flatten(columns)
+    flatten(columns).into()
 }
 
 fn twist_times(chain: &mut Chain, (v, w): Twist, factor: Expr) -> Twist {

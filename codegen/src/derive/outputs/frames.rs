@@ -1,22 +1,28 @@
 //! Poses: of the tool and of every frame of the chain.
 
-use super::chain::{Chain, ROW};
-use super::lever::{From, Levers};
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, Levers, Point, ROW};
 use crate::expr::{Expr, Vec3};
 
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] =
+    &[(Output::Pose, pose), (Output::Frames, frames)];
+
 /// Tool pose, base axes: columns x, y, z, origin.
-pub(super) fn pose(chain: &mut Chain) -> Vec<Expr> {
+fn pose(chain: &mut Chain) -> Derived {
     let axes = chain.tool_axes();
     let levers = match chain.by_run().map(|known| known.tip) {
         Some(tip) => Levers::inside(chain, chain.cut, tip),
         None => Levers::to_tool(chain),
     };
-    let origin = levers.from(&mut chain.g, From::Boundary(0), None);
-    columns(chain, axes, origin, "n", "o", "a", "p")
+    let origin = levers.lever(&mut chain.g, Point::Boundary(0), None);
+    columns(chain, axes, origin, "n", "o", "a", "p").into()
 }
 
 /// Poses of frames 1 to n, base axes, 3×4 each, side by side.
-pub(super) fn frames(chain: &mut Chain) -> Vec<Expr> {
+fn frames(chain: &mut Chain) -> Derived {
     let mut out = Vec::new();
     for (row, origin) in path(chain).into_iter().enumerate() {
         let axes = chain.axes(ROW * (row + 1));
@@ -31,7 +37,7 @@ pub(super) fn frames(chain: &mut Chain) -> Vec<Expr> {
             &format!("p{i}"),
         ));
     }
-    out
+    out.into()
 }
 
 /// Origins of frames 1 to n from the base, summed outwards so that each is the last one continued.
@@ -39,9 +45,9 @@ fn path(chain: &mut Chain) -> Vec<Vec3> {
     let mut origin = [Expr::ZERO; 3];
     let mut origins = Vec::new();
     for row in 0..chain.dof() {
-        let (z_step, x_step) = super::lever::row_slides(chain, row);
+        let (z_step, x_step) = chain.row_translations(row);
         for s in [z_step.min(x_step), z_step.max(x_step)] {
-            let (length, axis) = chain.slide(s).unwrap_or_default();
+            let (length, axis) = chain.translation(s).unwrap_or_default();
             let part = chain.g.scale3(length, axis);
             origin = chain.g.add3(origin, part);
         }
@@ -64,7 +70,7 @@ fn columns(
         .into_iter()
         .flat_map(|(v, name)| {
             let v = chain.in_base(v);
-            chain.name3(v, name);
+            chain.g.name3(v, name);
             v
         })
         .collect()
