@@ -1,9 +1,8 @@
 //! A derived set of outputs: the graph, what it stores, what it solves, and in which frame it was
 //! worked out.
 
-use stiffarm_kernels::{Output, Unstable};
-
 use num_traits::Float;
+use stiffarm_kernels::{Output, Unstable};
 
 use super::chain::ROW;
 use crate::expr::{Expr, Graph, OpCount, Symbol};
