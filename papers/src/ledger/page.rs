@@ -18,6 +18,9 @@ const FOLDED: [(&str, Kind, &[Verdict]); 3] = [
     ),
 ];
 
+/// A heading and what stands under it.
+type Headed<'l, T> = (&'l str, Vec<T>);
+
 #[derive(Template)]
 #[template(path = "ledger.html")]
 struct Page<'l> {
@@ -25,8 +28,8 @@ struct Page<'l> {
     /// Title and counts of each paper.
     overview: Vec<(&'l str, String)>,
     csv: String,
-    wrong: Vec<(&'l str, Vec<Row<'l>>)>,
-    papers: Vec<(&'l str, Vec<(&'static str, Vec<Row<'l>>)>)>,
+    wrong: Vec<Headed<'l, Row<'l>>>,
+    papers: Vec<Headed<'l, Headed<'static, Row<'l>>>>,
 }
 
 /// An entry.
