@@ -6,6 +6,7 @@
 #[cfg(feature = "batch")]
 extern crate alloc;
 #[cfg(any(feature = "fma", feature = "generic"))]
+#[cfg_attr(feature = "parity", macro_use)]
 extern crate std;
 
 #[cfg(feature = "batch")]
@@ -16,6 +17,8 @@ mod kernel;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 mod output;
+#[cfg(feature = "parity")]
+pub mod parity;
 mod scalar;
 #[cfg(any(feature = "lanes", not(feature = "libm")))]
 mod sin_cos;

@@ -6,7 +6,7 @@ use stiffarm::kernels::generic::Arm;
 use stiffarm_codegen::derive::{Passes, Program, derive, derive_in, derive_with};
 
 use crate::boundary::{KINDS, around};
-use crate::compare::{CANCELLED, Draws, relative, terms};
+use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
 use crate::tables::{Table, table};
 
 impl Table {

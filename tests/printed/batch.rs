@@ -6,7 +6,7 @@ use stiffarm::kernels::Output;
 use stiffarm::kernels::generic::Arm;
 
 use crate::boundary::{KINDS, around};
-use crate::compare::{CANCELLED, Draws, relative, terms};
+use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
 use crate::tables::{Table, table};
 
 /// Some arms that are printed together.

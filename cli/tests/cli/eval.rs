@@ -155,6 +155,6 @@ fn the_screen_shows_everything() {
     for key in KEYS {
         assert!(out.lines().any(|line| line.starts_with(key)), "{key}: {out}");
     }
-    assert!(out.starts_with("UR5  ur5 by the compiled kernels\n"), "{out}");
+    assert!(out.starts_with("UR5  ur5 by the derived graph\n"), "{out}");
     assert!(!out.contains('\u{1b}') && !out.contains("  \n"), "{out}");
 }

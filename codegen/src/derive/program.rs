@@ -1,6 +1,7 @@
 //! A derived set of outputs: the graph, what it stores, what it solves, and in which frame it was
 //! worked out.
 
+use num_traits::Float;
 use stiffarm_kernels::{Output, Unstable};
 
 use super::chain::ROW;
@@ -89,25 +90,25 @@ impl Program {
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
-    pub fn evaluate(
+    pub fn evaluate<T: Float>(
         &self,
-        q: &[f64],
-        wrench: &[f64; 6],
-        parameter: impl Fn(&str) -> f64,
-    ) -> Result<Vec<Vec<f64>>, Unstable> {
-        let mut solved: Vec<(Expr, f64)> = Vec::new();
-        let value = |symbol: &Symbol, solved: &[(Expr, f64)]| match symbol {
+        q: &[T],
+        wrench: &[T; 6],
+        parameter: impl Fn(&str) -> T,
+    ) -> Result<Vec<Vec<T>>, Unstable> {
+        let mut solved: Vec<(Expr, T)> = Vec::new();
+        let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
             Symbol::Joint(joint) => q[*joint],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
             // An undisplaced chain; no output of a table has displacements.
-            Symbol::Displacement { .. } => 0.0,
+            Symbol::Displacement { .. } => T::zero(),
             Symbol::Deflection { .. } => {
                 let known = solved.iter().find(|(e, _)| {
                     matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)
                         if self.graph.symbol_of(s) == symbol)
                 });
-                known.map_or(0.0, |(_, x)| *x)
+                known.map_or_else(T::zero, |(_, x)| *x)
             }
         };
         for solve in &self.solves {
@@ -123,34 +124,34 @@ impl Program {
 }
 
 /// Gaussian elimination of a column-major system whose symmetric part is positive definite.
-fn eliminate(mut a: Vec<f64>, mut b: Vec<f64>) -> Result<Vec<f64>, Unstable> {
+fn eliminate<T: Float>(mut a: Vec<T>, mut b: Vec<T>) -> Result<Vec<T>, Unstable> {
     let n = b.len();
-    let mut symmetric: Vec<f64> = (0..n * n).map(|at| a[at] + a[at % n * n + at / n]).collect();
-    reduce(&mut symmetric, &mut vec![0.0; n])?;
+    let mut symmetric: Vec<T> = (0..n * n).map(|at| a[at] + a[at % n * n + at / n]).collect();
+    reduce(&mut symmetric, &mut vec![T::zero(); n])?;
     reduce(&mut a, &mut b)?;
     for k in (0..n).rev() {
-        b[k] /= a[k * n + k];
+        b[k] = b[k] / a[k * n + k];
         for i in 0..k {
-            b[i] -= a[k * n + i] * b[k];
+            b[i] = b[i] - a[k * n + i] * b[k];
         }
     }
     Ok(b)
 }
 
 /// The system as a triangular one.
-fn reduce(a: &mut [f64], b: &mut [f64]) -> Result<(), Unstable> {
+fn reduce<T: Float>(a: &mut [T], b: &mut [T]) -> Result<(), Unstable> {
     let n = b.len();
     for k in 0..n {
         let pivot = a[k * n + k];
-        if !pivot.is_finite() || pivot <= 0.0 {
+        if !pivot.is_finite() || pivot <= T::zero() {
             return Err(Unstable);
         }
         for i in k + 1..n {
             let factor = a[k * n + i] / pivot;
             for c in k + 1..n {
-                a[c * n + i] -= factor * a[c * n + k];
+                a[c * n + i] = a[c * n + i] - factor * a[c * n + k];
             }
-            b[i] -= factor * b[k];
+            b[i] = b[i] - factor * b[k];
         }
     }
     Ok(())

@@ -8,9 +8,8 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Translation3, Unit, Vector3};
-
 use super::chain::Chain;
+use super::geometry::{Frame, Vector, cross, dot, norm, plus, times};
 
 /// Below this sine two axes are parallel: products of a few dozen rotations round to less.
 const PARALLEL: f64 = 1e-12;
@@ -40,28 +39,28 @@ pub struct Table {
     /// about z, rad, and moved along z, m.
     pub lead: [f64; 2],
     /// The frames of the rows in the posture q = 0, in the URDF's base frame.
-    pub frames: Vec<IsometryMatrix3<f64>>,
+    pub frames: Vec<Frame>,
     /// The tip in the last row's frame.
-    pub tool: IsometryMatrix3<f64>,
+    pub tool: Frame,
 }
 
-/// A point and a direction.
+/// A point and a unit vector.
 #[derive(Clone, Copy)]
 struct Line {
-    point: Point3<f64>,
-    along: Unit<Vector3<f64>>,
+    point: Vector,
+    along: Vector,
 }
 
-/// A frame whose z axis lies on a line.
+/// Origin and x axis of a frame whose z axis lies on a line.
 #[derive(Clone, Copy)]
-struct Frame {
-    origin: Point3<f64>,
-    x: Vector3<f64>,
+struct Foot {
+    origin: Vector,
+    x: Vector,
 }
 
 /// The way from one line to the next.
 struct Normal {
-    foot: Frame,
+    foot: Foot,
     a: f64,
     alpha: f64,
 }
@@ -70,8 +69,8 @@ impl Table {
     /// Of a chain.
     pub fn new(chain: &Chain) -> Table {
         let (lines, tip) = lines(chain);
-        let size = lines.iter().map(|line| line.point.coords.norm()).fold(1.0, f64::max);
-        let mut at = Frame { origin: Point3::origin(), x: Vector3::x() };
+        let size = lines.iter().map(|line| norm(line.point)).fold(1.0, f64::max);
+        let mut at = Foot { origin: [0.0; 3], x: [1.0, 0.0, 0.0] };
         let mut rows: Vec<Row> = Vec::new();
         let mut lead = [0.0; 2];
         let mut frames = Vec::new();
@@ -87,82 +86,78 @@ impl Table {
                 Some(row) => (row.theta, row.d) = (theta, d),
             }
             if k > 0 {
-                frames.push(isometry(&normal.foot, &here));
+                frames.push(normal.foot.frame(&here));
             }
             if k + 1 < lines.len() {
                 rows.push(Row { a: normal.a, alpha: normal.alpha, ..Row::default() });
             }
-            let origin = normal.foot.origin + normal.foot.x * normal.a;
-            at = Frame { origin, x: normal.foot.x };
+            let Foot { origin, x } = normal.foot;
+            at = Foot { origin: plus(origin, normal.a, x), x };
         }
-        let tool = frames.last().map_or(tip, |last| last.inverse() * tip);
+        let tool = frames.last().map_or(tip, |last| last.inverse().then(&tip));
         Table { rows, lead, frames, tool }
     }
 }
 
 /// The base's z axis and the joints' axes at q = 0, and the tip.
-fn lines(chain: &Chain) -> (Vec<Line>, IsometryMatrix3<f64>) {
-    let mut lines = vec![Line { point: Point3::origin(), along: Vector3::z_axis() }];
-    let mut frame = IsometryMatrix3::identity();
+fn lines(chain: &Chain) -> (Vec<Line>, Frame) {
+    let mut lines = vec![Line { point: [0.0; 3], along: [0.0, 0.0, 1.0] }];
+    let mut frame = Frame::IDENTITY;
     for step in &chain.steps {
-        frame *= step.before;
-        let along = frame.rotation * step.axis;
-        lines.push(Line { point: Point3::from(frame.translation.vector), along });
+        frame = frame.then(&step.before);
+        lines.push(Line { point: frame.origin, along: frame.direction(step.axis) });
     }
-    (lines, frame * chain.end)
+    (lines, frame.then(&chain.end))
 }
 
 /// The common normal of two lines; `at` is the frame that came to the first.
-fn normal(at: &Frame, here: &Line, next: &Line, meet: f64) -> Normal {
-    let (z, next_z) = (here.along.into_inner(), next.along.into_inner());
-    let cross = z.cross(&next_z);
-    let sine = cross.norm();
+fn normal(at: &Foot, here: &Line, next: &Line, meet: f64) -> Normal {
+    let (z, next_z) = (here.along, next.along);
+    let cross_z = cross(z, next_z);
+    let sine = norm(cross_z);
     if sine <= PARALLEL {
-        let alpha = if z.dot(&next_z) > 0.0 { 0.0 } else { PI };
-        let between = next.point - at.origin;
-        let across = between - z * z.dot(&between);
-        if across.norm() <= meet {
+        let alpha = if dot(z, next_z) > 0.0 { 0.0 } else { PI };
+        let between = plus(next.point, -1.0, at.origin);
+        let across = plus(between, -dot(z, between), z);
+        let distance = norm(across);
+        if distance <= meet {
             return Normal { foot: *at, a: 0.0, alpha };
         }
-        let x = facing(across.normalize(), at.x);
-        return Normal { foot: Frame { origin: at.origin, x }, a: across.dot(&x), alpha };
+        let x = facing(times(across, 1.0 / distance), at.x);
+        return Normal { foot: Foot { origin: at.origin, x }, a: dot(across, x), alpha };
     }
-    let x = facing(cross / sine, at.x);
-    let between = next.point - here.point;
-    let along = between.cross(&next_z).dot(&cross) / (sine * sine);
-    let origin = here.point + z * along;
-    let a = between.dot(&x);
+    let x = facing(times(cross_z, 1.0 / sine), at.x);
+    let between = plus(next.point, -1.0, here.point);
+    let along = dot(cross(between, next_z), cross_z) / (sine * sine);
+    let a = dot(between, x);
     let a = if a.abs() <= meet { 0.0 } else { a };
-    Normal { foot: Frame { origin, x }, a, alpha: x.dot(&cross).atan2(z.dot(&next_z)) }
+    let alpha = dot(x, cross_z).atan2(dot(z, next_z));
+    Normal { foot: Foot { origin: plus(here.point, along, z), x }, a, alpha }
 }
 
 /// The direction or its opposite, whichever is nearer to `x`.
-fn facing(direction: Vector3<f64>, x: Vector3<f64>) -> Vector3<f64> {
-    if direction.dot(&x) < -1e-9 { -direction } else { direction }
+fn facing(direction: Vector, x: Vector) -> Vector {
+    if dot(direction, x) < -1e-9 { times(direction, -1.0) } else { direction }
 }
 
 /// On the last line: beside the tip, and where the tip's z is the line's, with its x.
-fn last(at: &Frame, here: &Line, tip: &IsometryMatrix3<f64>) -> Frame {
-    let z = here.along.into_inner();
-    let tip_origin = Point3::from(tip.translation.vector);
-    let origin = at.origin + z * z.dot(&(tip_origin - at.origin));
-    let (tip_x, tip_z) = (tip.rotation * Vector3::x(), tip.rotation * Vector3::z());
-    let same = z.cross(&tip_z).norm() <= PARALLEL && z.dot(&tip_z) > 0.0;
-    Frame { origin, x: if same { tip_x } else { at.x } }
+fn last(at: &Foot, here: &Line, tip: &Frame) -> Foot {
+    let z = here.along;
+    let origin = plus(at.origin, dot(z, plus(tip.origin, -1.0, at.origin)), z);
+    let [tip_x, _, tip_z] = tip.axes;
+    let same = norm(cross(z, tip_z)) <= PARALLEL && dot(z, tip_z) > 0.0;
+    Foot { origin, x: if same { tip_x } else { at.x } }
 }
 
 /// Angle about the line and distance along it from one of its frames to another.
-fn screw(from: &Frame, to: &Frame, line: &Line) -> [f64; 2] {
-    let z = line.along.into_inner();
-    let theta = z.dot(&from.x.cross(&to.x)).atan2(from.x.dot(&to.x));
-    [theta, z.dot(&(to.origin - from.origin))]
+fn screw(from: &Foot, to: &Foot, line: &Line) -> [f64; 2] {
+    let z = line.along;
+    let theta = dot(z, cross(from.x, to.x)).atan2(dot(from.x, to.x));
+    [theta, dot(z, plus(to.origin, -1.0, from.origin))]
 }
 
-fn isometry(frame: &Frame, line: &Line) -> IsometryMatrix3<f64> {
-    let z = line.along.into_inner();
-    let axes = Matrix3::from_columns(&[frame.x, z.cross(&frame.x), z]);
-    IsometryMatrix3::from_parts(
-        Translation3::from(frame.origin.coords),
-        Rotation3::from_matrix_unchecked(axes),
-    )
+impl Foot {
+    fn frame(&self, line: &Line) -> Frame {
+        Frame { axes: [self.x, cross(line.along, self.x), line.along], origin: self.origin }
+    }
 }

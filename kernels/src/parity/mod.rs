@@ -1,15 +1,20 @@
 //! Whether the ways of computing an arm's outputs agree: what was generated from the table, the
-//! textbook, differences of the textbook, and dual numbers.
+//! textbook ([`crate::generic`]), differences of the textbook, and dual numbers. Shares nothing with
+//! the generator.
+//!
+//! [`agreement`] draws postures and loads and keeps the largest deviation of every output by every
+//! way, relative to the output's [`scale`].
 
 mod differences;
-mod draw;
+pub mod draw;
 mod dual;
-mod scale;
+pub mod scale;
 
 use std::num::NonZero;
+use std::vec::Vec;
 
-use stiffarm_kernels::generic::Arm;
-use stiffarm_kernels::{Kernels, Output, Unstable};
+use crate::generic::Arm;
+use crate::{Error, Kernels, Output, Scalar, Unstable};
 
 use draw::Sample;
 
@@ -44,14 +49,34 @@ impl Comparison {
 /// An implementation: an output as one column-major block, at joint values, under a wrench.
 pub type Evaluate<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Vec<f64>, Unstable> + Sync + 'a;
 
+/// Compiled kernels of any scalar as such an implementation; `back` makes a double of their numbers.
+///
+/// # Panics
+/// The implementation does where joint values are not the arm's, or its module lacks the output.
+pub fn compiled<S: Scalar>(
+    kernels: &(dyn Kernels<S> + Sync),
+    back: impl Fn(S) -> f64 + Sync,
+) -> impl Fn(Output, &[f64], &[f64; 6]) -> Result<Vec<f64>, Unstable> + Sync {
+    move |output, q, w| {
+        let (rows, columns) = output.shape(kernels.dof());
+        let mut out = vec![S::lit(0.0); rows * columns];
+        let q: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
+        match kernels.evaluate(output, &q, &w.map(S::lit), &mut out) {
+            Ok(()) => Ok(out.into_iter().map(&back).collect()),
+            Err(Error::Unstable) => Err(Unstable),
+            Err(wrong) => panic!("{}: {wrong}", output.name()),
+        }
+    }
+}
+
 /// What is to be compared.
 pub struct Subject<'a> {
     /// The arm as the textbook has it.
     pub arm: &'a Arm,
     /// The generated implementation.
     pub generated: &'a Evaluate<'a>,
-    /// The same in single precision, where there is one.
-    pub single: Option<&'static (dyn Kernels<f32> + Sync)>,
+    /// The same in single precision, where there is one; it is given numbers that single precision has.
+    pub single: Option<&'a Evaluate<'a>>,
 }
 
 /// The largest deviations of one output, relative to its scale.
@@ -151,8 +176,8 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
         let fine = |a: &[f64], b: &[f64]| scale::deviation(a, b, scale::CANCELLED * terms);
         let generated = (subject.generated)(output, q, w).unwrap_or_default();
         line.note(0, fine(&generated, &textbook));
-        if let Some(kernels) = subject.single {
-            let got = single(kernels, output, q, w).unwrap_or_default();
+        if let Some(single) = subject.single {
+            let got = single(output, q, w).unwrap_or_default();
             let floor = scale::CANCELLED_SINGLE * terms;
             line.note(1, scale::deviation(&got, &textbook, floor));
         }
@@ -161,59 +186,6 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
         }
         if let Some(slopes) = dual.of(output) {
             line.note(3, fine(&generated, &slopes));
-        }
-    }
-}
-
-fn single(kernels: &dyn Kernels<f32>, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<f64>> {
-    let (rows, columns) = output.shape(kernels.dof());
-    let mut out = vec![0.0; rows * columns];
-    let q: Vec<f32> = q.iter().map(|x| *x as f32).collect();
-    kernels.evaluate(output, &q, &w.map(|x| x as f32), &mut out).ok()?;
-    Some(out.into_iter().map(f64::from).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The textbook against itself, but for what `change` does to one of its outputs.
-    fn checked(output: Output, change: fn(&mut Vec<f64>)) -> Agreement {
-        let file = stiffarm_robots::arm("kuka_kr240").unwrap();
-        let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(file.toml, file.id).unwrap();
-        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
-        let generated = |asked, q: &[f64], w: &[f64; 6]| {
-            let mut block = arm.evaluate(asked, q, w)?;
-            if asked == output {
-                change(&mut block);
-            }
-            Ok(block)
-        };
-        let subject = Subject { arm: &arm, generated: &generated, single: None };
-        agreement(&subject, 20, 0, &|_| {})
-    }
-
-    #[test]
-    fn a_small_mistake_is_found_by_every_comparison() {
-        let found = checked(Output::Jacobian, |block| block[1] += 1e-6);
-        for line in &found.lines {
-            let exceeded: Vec<Comparison> = line.exceeded().collect();
-            if line.output == Output::Jacobian {
-                let each = [Comparison::Textbook, Comparison::Differences, Comparison::Dual];
-                assert_eq!(exceeded, each);
-            } else {
-                assert_eq!(exceeded, [], "{line:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn what_cannot_be_compared_does_not_agree() {
-        let changes: [fn(&mut Vec<f64>); 2] = [Vec::clear, |block| block[0] = f64::NAN];
-        for change in changes {
-            let found = checked(Output::Pose, change);
-            assert_eq!(found.lines[0].worst[0], Some(f64::INFINITY));
-            assert_eq!(found.lines[0].exceeded().count(), 1);
         }
     }
 }

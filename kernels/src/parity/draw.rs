@@ -1,9 +1,11 @@
 //! Random postures and wrenches under which the arm stays clearly stable.
 
+use std::vec::Vec;
+
+use crate::Motion;
+use crate::generic::{Arm, Joint};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::scale::reach;
 

@@ -2,20 +2,19 @@
 
 use std::collections::HashMap;
 
-use urdf_rs::{Joint, JointType, Robot};
-
+use super::document::{Elements, Joint, Kind, Link};
 use super::refusal::{Place, Refusal};
 
 /// Links by their names, each with the joint above it and the joints below.
 pub struct Tree<'a> {
-    robot: &'a Robot,
+    robot: &'a Elements,
     above: HashMap<&'a str, &'a Joint>,
     below: HashMap<&'a str, Vec<&'a Joint>>,
 }
 
 /// Whether a joint moves at all.
 pub fn moves(joint: &Joint) -> bool {
-    !matches!(joint.joint_type, JointType::Fixed)
+    !matches!(joint.kind, Kind::Fixed)
 }
 
 impl<'a> Tree<'a> {
@@ -23,7 +22,7 @@ impl<'a> Tree<'a> {
     ///
     /// # Errors
     /// [`Refusal`]: names that stand twice or nowhere, a link with two parents, a loop.
-    pub fn new(robot: &'a Robot) -> Result<Tree<'a>, Refusal> {
+    pub fn new(robot: &'a Elements) -> Result<Tree<'a>, Refusal> {
         let mut below: HashMap<&str, Vec<&Joint>> = HashMap::new();
         for link in &robot.links {
             if below.insert(&link.name, Vec::new()).is_some() {
@@ -34,7 +33,7 @@ impl<'a> Tree<'a> {
         let mut above: HashMap<&str, &Joint> = HashMap::new();
         for joint in &robot.joints {
             let at = || Place::Joint(joint.name.clone());
-            let (parent, child) = (joint.parent.link.as_str(), joint.child.link.as_str());
+            let (parent, child) = (joint.parent.as_str(), joint.child.as_str());
             for (role, name) in [("parent", parent), ("child", child)] {
                 if !below.contains_key(name) {
                     let message = format!(
@@ -63,7 +62,7 @@ impl<'a> Tree<'a> {
             let mut at = link.name.as_str();
             for _ in 0..=self.robot.joints.len() {
                 match self.above.get(at) {
-                    Some(joint) => at = &joint.parent.link,
+                    Some(joint) => at = &joint.parent,
                     None => break,
                 }
             }
@@ -81,7 +80,7 @@ impl<'a> Tree<'a> {
     }
 
     /// The link of that name.
-    pub fn link(&self, name: &str) -> Option<&'a urdf_rs::Link> {
+    pub fn link(&self, name: &str) -> Option<&'a Link> {
         self.robot.links.iter().find(|link| link.name == name)
     }
 
@@ -125,7 +124,7 @@ impl<'a> Tree<'a> {
                 return Err(Refusal::new(message, Place::Link(tip.to_owned())).help(help));
             };
             path.push(*joint);
-            at = &joint.parent.link;
+            at = &joint.parent;
         }
         path.reverse();
         Ok(path)

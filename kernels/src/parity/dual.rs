@@ -4,9 +4,11 @@
 //! `J_j = [∂p/∂q_j; ω_j]` with `ω_j = vee(∂R/∂q_j Rᵀ)`, `K_C` is its derivative times the wrench,
 //! and the weights' torques are the slope of `Σ m g · c`.
 
+use std::vec::Vec;
+
+use crate::generic::{Arm, Convention};
+use crate::{Motion, Output};
 use num_dual::{Dual64, DualNum, HyperDual64};
-use stiffarm_kernels::generic::{Arm, Convention};
-use stiffarm_kernels::{Motion, Output};
 
 /// A number with derivatives.
 trait Number: DualNum<Primitive = f64> + Copy {}

@@ -1,16 +1,17 @@
-//! Reads a URDF: its meaning by `urdf-rs`, its places and its spelling by `roxmltree`.
+//! Reads a URDF: every number and element that a chain is made of is looked at where it stands.
 
-use std::ops::Range;
+use core::ops::Range;
 
 use roxmltree::{Document, Node};
 
 use super::angle::meant;
+use super::document::{Element, Elements, Kind};
 use super::refusal::{Place, Refusal};
 
 /// A URDF that was read.
 pub struct Urdf {
     /// Its links and joints.
-    pub robot: urdf_rs::Robot,
+    pub robot: Elements,
     /// Rounded multiples of π among its angles: joint, as written, as read.
     pub rounded: Vec<(String, f64, f64)>,
 }
@@ -37,11 +38,7 @@ pub fn read(text: &str, as_written: bool) -> Result<Urdf, Refusal> {
         return Err(Refusal::new(message, Place::Bytes(head(text, root))));
     }
     spelling(text, root)?;
-    let robot = urdf_rs::read_from_string(text).map_err(|error| {
-        let help = "a joint has name, type, parent and child; a limit has effort and velocity; an \
-                    inertial has mass and inertia";
-        Refusal::new(format!("this is no URDF: {error}"), Place::File).help(help)
-    })?;
+    let robot = Element::new(root, text).elements()?;
     let mut urdf = Urdf { robot, rounded: Vec::new() };
     if !as_written {
         urdf.round();
@@ -52,7 +49,7 @@ pub fn read(text: &str, as_written: bool) -> Result<Urdf, Refusal> {
 impl Urdf {
     fn round(&mut self) {
         for joint in &mut self.robot.joints {
-            for angle in joint.origin.rpy.0.iter_mut() {
+            for angle in joint.origin.rpy.iter_mut() {
                 if let Some(exact) = meant(*angle).filter(|exact| exact != angle) {
                     // The same angle to the last digits is no rounding that anyone needs to know.
                     if (*angle - exact).abs() > 1e-15 * exact.abs() {
@@ -61,18 +58,15 @@ impl Urdf {
                     *angle = exact;
                 }
             }
-            if matches!(joint.joint_type, urdf_rs::JointType::Revolute) {
-                let limit = &mut joint.limit;
-                for bound in [&mut limit.lower, &mut limit.upper] {
-                    *bound = meant(*bound).unwrap_or(*bound);
-                }
+            if joint.kind == Kind::Revolute {
+                joint.limits = joint.limits.map(|bound| meant(bound).unwrap_or(bound));
             }
         }
     }
 }
 
-/// What `urdf-rs` would read past: words that are no numbers, and quaternions near its gimbal lock,
-/// where it is off by up to 0.3°.
+/// Refuses words that are no numbers, and quaternions, which other readers take for roll, pitch and
+/// yaw with an error of up to 0.3° near the gimbal lock.
 fn spelling(text: &str, root: Node<'_, '_>) -> Result<(), Refusal> {
     for node in root.descendants().filter(Node::is_element) {
         let name = node.tag_name().name();
@@ -113,7 +107,7 @@ pub fn bytes(text: &str, place: &Place) -> Option<Range<usize>> {
 }
 
 /// The first tag of an element.
-fn head(text: &str, node: Node<'_, '_>) -> Range<usize> {
+pub fn head(text: &str, node: Node<'_, '_>) -> Range<usize> {
     let whole = node.range();
     let tag = text[whole.clone()].find('>').map_or(whole.end, |at| whole.start + at + 1);
     whole.start..tag

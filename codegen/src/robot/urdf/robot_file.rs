@@ -1,28 +1,24 @@
 //! The table as a robot file.
 
-use nalgebra::{IsometryMatrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use stiffarm_codegen::robot::{Convention, Joint, Robot, Tool, Value};
-
 use super::angle::{angle, value};
 use super::chain::{Chain, Step};
+use super::geometry::Frame;
 use super::table::Table;
+use crate::robot::{Convention, Joint, Robot, Tool, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
 pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
     let [theta, _] = table.lead;
-    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), -theta);
-    let gravity = turn * chain.gravity;
-    let rotation = UnitQuaternion::from_rotation_matrix(&table.tool.rotation).scaled_axis();
+    let turn = Frame::turned([0.0, 0.0, 1.0], -theta);
+    let gravity = turn.direction(chain.gravity);
+    let rotation = table.tool.rotation_vector();
     let joints = (0..chain.steps.len()).map(|k| joint(chain, table, k)).collect();
     Robot {
         name: chain.name.clone(),
         convention: Convention::Modified,
-        gravity: [value(gravity.x), value(gravity.y), value(gravity.z)],
+        gravity: gravity.map(value),
         joints,
-        tool: Tool {
-            translation: core::array::from_fn(|k| length(table.tool.translation.vector[k])),
-            rotation: core::array::from_fn(|k| angle(rotation[k])),
-        },
+        tool: Tool { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
         markers: Vec::new(),
     }
 }
@@ -30,10 +26,10 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
 fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
     let (step, row): (&Step, _) = (&chain.steps[k], table.rows[k]);
     let centre = step.lump.centre().map(|centre| {
-        let rest = rest(chain, k) * centre;
-        table.frames[k].inverse_transform_point(&rest)
+        let rest = rest(chain, k).point(centre);
+        table.frames[k].inverse().point(rest)
     });
-    let com = centre.unwrap_or(Point3::origin());
+    let com = centre.unwrap_or([0.0; 3]);
     Joint {
         name: step.name.clone(),
         motion: step.motion,
@@ -43,7 +39,7 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         alpha: angle(row.alpha),
         stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
-        com: core::array::from_fn(|k| length(com[k])),
+        com: com.map(length),
         limits: step.limits,
         source: None,
         beam: None,
@@ -56,6 +52,6 @@ fn length(x: f64) -> Value {
 }
 
 /// The frame of joint k in the base frame, all joints at 0.
-fn rest(chain: &Chain, k: usize) -> IsometryMatrix3<f64> {
-    chain.steps[..=k].iter().fold(IsometryMatrix3::identity(), |whole, step| whole * step.before)
+fn rest(chain: &Chain, k: usize) -> Frame {
+    chain.steps[..=k].iter().fold(Frame::IDENTITY, |whole, step| whole.then(&step.before))
 }

@@ -1,7 +1,7 @@
 //! Deviations relative to an output's scale.
 
-use stiffarm_kernels::generic::{Arm, Joint};
-use stiffarm_kernels::{Input, Output, Part, Side};
+use crate::generic::{Arm, Joint};
+use crate::{Input, Output, Part, Side};
 
 /// Terms may cancel to this part of themselves before an output's largest entry is its scale no
 /// more: a level arm's weights turn no upright joint, and the textbook says so to rounding.
@@ -24,7 +24,7 @@ pub fn deviation(got: &[f64], expected: &[f64], floor: f64) -> f64 {
 /// The most that the tool can be away from the base, m.
 pub fn reach(arm: &Arm, q: &[f64]) -> f64 {
     let rows = arm.joints.iter().zip(q).map(|(j, q)| {
-        let slid = if j.motion == stiffarm_kernels::Motion::Prismatic { q.abs() } else { 0.0 };
+        let slid = if j.motion == crate::Motion::Prismatic { q.abs() } else { 0.0 };
         j.a.abs() + j.d.abs() + slid
     });
     rows.sum::<f64>() + arm.tool.translation.vector.norm()

@@ -1,9 +1,8 @@
 //! Which mass moves with a joint: the links that are fixed to each other behind it.
 
-use nalgebra::{IsometryMatrix3, Point3, Vector3};
-use urdf_rs::Link;
-
-use super::chain::isometry;
+use super::chain::frame;
+use super::document::Link;
+use super::geometry::{Frame, Vector, plus, times};
 use super::tree::{Tree, moves};
 
 /// Mass and its centre.
@@ -12,20 +11,18 @@ pub struct Lump {
     /// kg.
     pub mass: f64,
     /// Mass times centre, kg·m.
-    moment: Vector3<f64>,
+    moment: Vector,
 }
 
 impl Lump {
     /// The centre of mass; none without mass.
-    pub fn centre(&self) -> Option<Point3<f64>> {
-        (self.mass > 0.0).then(|| Point3::from(self.moment / self.mass))
+    pub fn centre(&self) -> Option<Vector> {
+        (self.mass > 0.0).then(|| times(self.moment, 1.0 / self.mass))
     }
 
-    fn add(&mut self, link: &Link, frame: &IsometryMatrix3<f64>) {
-        let mass = link.inertial.mass.value;
-        let centre = frame * isometry(&link.inertial.origin);
-        self.mass += mass;
-        self.moment += centre.translation.vector * mass;
+    fn add(&mut self, link: &Link, at: &Frame) {
+        self.mass += link.mass;
+        self.moment = plus(self.moment, link.mass, at.point(link.centre.xyz));
     }
 }
 
@@ -33,15 +30,15 @@ impl Lump {
 /// way to the tip is not.
 pub fn lump(tree: &Tree<'_>, link: &str, tip: &str, remarks: &mut Vec<String>) -> Lump {
     let mut lump = Lump::default();
-    let mut open = vec![(link.to_owned(), IsometryMatrix3::identity())];
-    while let Some((name, frame)) = open.pop() {
+    let mut open = vec![(link.to_owned(), Frame::IDENTITY)];
+    while let Some((name, at)) = open.pop() {
         if let Some(link) = tree.link(&name) {
-            lump.add(link, &frame);
+            lump.add(link, &at);
         }
         for joint in tree.below(&name) {
-            let child = &joint.child.link;
+            let child = &joint.child;
             if !moves(joint) {
-                open.push((child.clone(), frame * isometry(&joint.origin)));
+                open.push((child.clone(), at.then(&frame(&joint.origin))));
             } else if tree.path(child, tip).is_err() {
                 let mass = whole(tree, child);
                 let weight = if mass > 0.0 { format!(", {mass} kg") } else { String::new() };
@@ -58,6 +55,6 @@ pub fn lump(tree: &Tree<'_>, link: &str, tip: &str, remarks: &mut Vec<String>) -
 
 /// The mass of a link and of all below it.
 fn whole(tree: &Tree<'_>, link: &str) -> f64 {
-    let own = tree.link(link).map_or(0.0, |link| link.inertial.mass.value);
-    own + tree.below(link).iter().map(|joint| whole(tree, &joint.child.link)).sum::<f64>()
+    let own = tree.link(link).map_or(0.0, |link| link.mass);
+    own + tree.below(link).iter().map(|joint| whole(tree, &joint.child)).sum::<f64>()
 }

@@ -1,13 +1,12 @@
 //! What lies between base and tip: joints that move, and fixed transforms between them.
 
-use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
-use stiffarm_codegen::robot::Motion;
-use urdf_rs::{Joint, JointType, Pose, Robot};
-
 use super::angle::roll_pitch_yaw;
+use super::document::{Elements, Joint, Kind, Origin};
+use super::geometry::{Frame, Vector, norm, times};
 use super::masses::{self, Lump};
 use super::refusal::{Place, Refusal};
 use super::tree::{Tree, moves};
+use crate::robot::Motion;
 
 /// Gravity along −z of the root, m/s².
 const GRAVITY: f64 = 9.80665;
@@ -24,9 +23,9 @@ pub struct Chain {
     /// The joints that move, base to tip.
     pub steps: Vec<Step>,
     /// From the last moving joint's frame to the tip's.
-    pub end: IsometryMatrix3<f64>,
+    pub end: Frame,
     /// In base axes, m/s².
-    pub gravity: Vector3<f64>,
+    pub gravity: Vector,
     /// What one has to know of it: links that were left out.
     pub remarks: Vec<String>,
 }
@@ -39,9 +38,9 @@ pub struct Step {
     /// Revolute or prismatic.
     pub motion: Motion,
     /// From the frame of the joint before (the base's for the first) to this joint's at rest.
-    pub before: IsometryMatrix3<f64>,
-    /// In the joint's frame.
-    pub axis: Unit<Vector3<f64>>,
+    pub before: Frame,
+    /// A unit vector in the joint's frame.
+    pub axis: Vector,
     /// rad or m.
     pub limits: Option<[f64; 2]>,
     /// What moves with this joint and not with the next, in the joint's frame.
@@ -53,7 +52,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`Refusal`]: no such chain, or a joint in it that a table cannot hold.
-    pub fn new(robot: &Robot, base: Option<&str>, tip: Option<&str>) -> Result<Chain, Refusal> {
+    pub fn new(robot: &Elements, base: Option<&str>, tip: Option<&str>) -> Result<Chain, Refusal> {
         let tree = Tree::new(robot)?;
         let base = match base {
             Some(base) => base,
@@ -69,16 +68,16 @@ impl Chain {
             base: base.to_owned(),
             tip: tip.to_owned(),
             steps: Vec::new(),
-            end: IsometryMatrix3::identity(),
-            gravity: Vector3::new(0.0, 0.0, -GRAVITY),
+            end: Frame::IDENTITY,
+            gravity: [0.0, 0.0, -GRAVITY],
             remarks: Vec::new(),
         };
         chain.turn_gravity(&tree)?;
         for joint in path {
-            chain.end *= isometry(&joint.origin);
+            chain.end = chain.end.then(&frame(&joint.origin));
             if let Some(motion) = motion(joint)? {
-                let before = core::mem::replace(&mut chain.end, IsometryMatrix3::identity());
-                let lump = masses::lump(&tree, &joint.child.link, tip, &mut chain.remarks);
+                let before = core::mem::replace(&mut chain.end, Frame::IDENTITY);
+                let lump = masses::lump(&tree, &joint.child, tip, &mut chain.remarks);
                 let (axis, limits) = (axis(joint)?, limits(joint, &mut chain.remarks));
                 let name = joint.name.clone();
                 chain.steps.push(Step { name, motion, before, axis, limits, lump });
@@ -103,55 +102,44 @@ impl Chain {
             ));
             return Ok(());
         }
-        let each = path.iter().map(|joint| isometry(&joint.origin));
-        let turn = each.fold(IsometryMatrix3::identity(), |whole, next| whole * next);
-        self.gravity = turn.rotation.inverse() * self.gravity;
+        let each = path.iter().map(|joint| frame(&joint.origin));
+        let turn = each.fold(Frame::IDENTITY, |whole, next| whole.then(&next));
+        self.gravity = turn.inverse().direction(self.gravity);
         Ok(())
     }
 
     /// The tip in the base frame.
-    pub fn pose(&self, q: &[f64]) -> IsometryMatrix3<f64> {
-        let mut frame = IsometryMatrix3::identity();
-        for (step, q) in self.steps.iter().zip(q) {
-            frame *= step.before
-                * match step.motion {
-                    Motion::Revolute => IsometryMatrix3::from_parts(
-                        Translation3::identity(),
-                        Rotation3::from_axis_angle(&step.axis, *q),
-                    ),
-                    Motion::Prismatic => IsometryMatrix3::from_parts(
-                        Translation3::from(step.axis.into_inner() * *q),
-                        Rotation3::identity(),
-                    ),
-                };
-        }
-        frame * self.end
+    pub fn pose(&self, q: &[f64]) -> Frame {
+        let moved = |step: &Step, q: f64| match step.motion {
+            Motion::Revolute => Frame::turned(step.axis, q),
+            Motion::Prismatic => Frame::moved(times(step.axis, q)),
+        };
+        let steps = self.steps.iter().zip(q);
+        let at = |at: Frame, (step, q): (&Step, &f64)| at.then(&step.before).then(&moved(step, *q));
+        steps.fold(Frame::IDENTITY, at).then(&self.end)
     }
 }
 
-/// A URDF's origin as a transform.
-pub fn isometry(pose: &Pose) -> IsometryMatrix3<f64> {
-    IsometryMatrix3::from_parts(
-        Translation3::new(pose.xyz[0], pose.xyz[1], pose.xyz[2]),
-        Rotation3::from_matrix_unchecked(roll_pitch_yaw(pose.rpy.0)),
-    )
+/// A URDF's origin as a frame.
+pub fn frame(origin: &Origin) -> Frame {
+    Frame { origin: origin.xyz, ..roll_pitch_yaw(origin.rpy) }
 }
 
 /// How a joint moves; none if it is fixed.
 fn motion(joint: &Joint) -> Result<Option<Motion>, Refusal> {
     let at = || Place::Joint(joint.name.clone());
-    let kind = match joint.joint_type {
-        JointType::Fixed => return Ok(None),
-        JointType::Revolute | JointType::Continuous => Motion::Revolute,
-        JointType::Prismatic => Motion::Prismatic,
-        JointType::Floating => return Err(unfit(joint, "floating")),
-        JointType::Planar => return Err(unfit(joint, "planar")),
-        JointType::Spherical => return Err(unfit(joint, "spherical")),
+    let kind = match joint.kind {
+        Kind::Fixed => return Ok(None),
+        Kind::Revolute | Kind::Continuous => Motion::Revolute,
+        Kind::Prismatic => Motion::Prismatic,
+        Kind::Floating => return Err(unfit(joint, "floating")),
+        Kind::Planar => return Err(unfit(joint, "planar")),
+        Kind::Spherical => return Err(unfit(joint, "spherical")),
     };
     if let Some(mimic) = &joint.mimic {
         let message = format!(
             "joint `{}` follows joint `{}`: expected joints that each have their own value",
-            joint.name, mimic.joint
+            joint.name, mimic
         );
         let help = "a serial arm has one value per joint: choose a --tip before the coupled joint";
         return Err(Refusal::new(message, at()).help(help));
@@ -166,20 +154,21 @@ fn unfit(joint: &Joint, kind: &str) -> Refusal {
     Refusal::new(message, Place::Joint(name.clone())).help(help)
 }
 
-fn axis(joint: &Joint) -> Result<Unit<Vector3<f64>>, Refusal> {
-    let found = joint.axis.xyz.0;
-    Unit::try_new(Vector3::from(found), 1e-9).ok_or_else(|| {
-        let message = format!("joint `{}`: its axis {found:?} has no direction", joint.name);
-        Refusal::new(message, Place::Joint(joint.name.clone()))
-    })
+fn axis(joint: &Joint) -> Result<Vector, Refusal> {
+    let length = norm(joint.axis);
+    if length > 1e-9 {
+        return Ok(times(joint.axis, 1.0 / length));
+    }
+    let message = format!("joint `{}`: its axis {:?} has no direction", joint.name, joint.axis);
+    Err(Refusal::new(message, Place::Joint(joint.name.clone())))
 }
 
 /// Of a joint that has some.
 fn limits(joint: &Joint, remarks: &mut Vec<String>) -> Option<[f64; 2]> {
-    if joint.joint_type == JointType::Continuous {
+    if joint.kind == Kind::Continuous {
         return None;
     }
-    let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+    let [lower, upper] = joint.limits;
     let sound = lower.is_finite() && upper.is_finite() && lower < upper;
     if !sound {
         remarks.push(format!("joint `{}` has no limits that could be carried over", joint.name));

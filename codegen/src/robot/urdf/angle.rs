@@ -3,9 +3,9 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::Matrix3;
-use stiffarm_codegen::number::Number;
-use stiffarm_codegen::robot::{Angle, Value};
+use super::geometry::{Frame, Vector};
+use crate::number::Number;
+use crate::robot::{Angle, Value};
 
 /// Denominators of π at which a rounded decimal is recognised, as the robot file's reader does.
 const ROUNDED: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
@@ -54,12 +54,13 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 }
 
 /// `Rz(yaw) Ry(pitch) Rx(roll)`, as a URDF has its `rpy`.
-pub fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
+pub fn roll_pitch_yaw([roll, pitch, yaw]: Vector) -> Frame {
     let ((sr, cr), (sp, cp), (sy, cy)) = (sin_cos(roll), sin_cos(pitch), sin_cos(yaw));
-    let x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
-    let y = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
-    let z = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
-    z * y * x
+    let turn = |axes| Frame { axes, origin: [0.0; 3] };
+    let x = turn([[1.0, 0.0, 0.0], [0.0, cr, sr], [0.0, -sr, cr]]);
+    let y = turn([[cp, 0.0, -sp], [0.0, 1.0, 0.0], [sp, 0.0, cp]]);
+    let z = turn([[cy, sy, 0.0], [-sy, cy, 0.0], [0.0, 0.0, 1.0]]);
+    z.then(&y).then(&x)
 }
 
 /// An angle of the table: the multiple of π that it is but for noise, else a decimal.

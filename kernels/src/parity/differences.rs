@@ -1,8 +1,10 @@
 //! Central differences of the textbook.
 
+use std::vec::Vec;
+
+use crate::Output;
+use crate::generic::Arm;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
-use stiffarm_kernels::Output;
-use stiffarm_kernels::generic::Arm;
 
 /// Step, rad and m: its square and the rounding of its reciprocal are of a size.
 const STEP: f64 = 1e-5;

@@ -1,13 +1,13 @@
 //! What is imported against the URDF itself, evaluated by plain 4×4 matrices that share nothing
 //! with the import, and the weights by virtual work.
 
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use core::fmt::Write as _;
 
 use proptest::prelude::*;
+use stiffarm::kernels::generic::Arm;
 use stiffarm_codegen::robot::Robot;
-use stiffarm_kernels::generic::Arm;
-
-use super::{Chain, Refusal, Table, read, robot_file};
+use stiffarm_codegen::robot::urdf::{Chain, Refusal, Table, read, robot_file};
 
 type Matrix = [[f64; 4]; 4];
 
@@ -137,6 +137,12 @@ fn worst(arm: &Arm, table: &Table, joints: &[Joint], q: &[f64]) -> f64 {
 #[allow(clippy::approx_constant, reason = "roundings are what is read")]
 const RIGHT: [f64; 5] = [0.0, 1.570796326794897, -1.5708, 3.14159, 0.785398];
 
+/// The multiple of π that one of them stands for.
+fn meant(x: f64) -> f64 {
+    let near = |multiple: &f64| RIGHT.contains(&x) && (x - multiple).abs() < 1e-5;
+    [0.0, FRAC_PI_2, -FRAC_PI_2, PI, FRAC_PI_4].into_iter().find(near).unwrap_or(x)
+}
+
 /// How a joint is placed: each of the special cases that a table has trouble with.
 fn joint() -> impl Strategy<Value = Joint> {
     let any = -1.0..1.0_f64;
@@ -179,7 +185,7 @@ proptest! {
         let text = urdf(&joints);
         let (_, table, robot, arm) = imported(&text);
         for joint in &mut joints {
-            joint.rpy = joint.rpy.map(|x| super::angle::meant(x).unwrap_or(x));
+            joint.rpy = joint.rpy.map(meant);
         }
         let far = table.rows.iter().map(|row| row.d.abs() + row.a.abs()).sum::<f64>();
         let n = arm.dof();
@@ -238,7 +244,7 @@ fn what_the_first_row_cannot_hold_is_told() {
     let (_, table, _, _) = imported(&elbow(r#"xyz="0 0.2 0.3" rpy="0 1.0 0""#));
     // The axis leans along x in the plane y = 0.2: its normal with z is y, at the foot of which
     // the axis passes 0.3 − 0/tan 1 above.
-    assert!((table.lead[0] - core::f64::consts::FRAC_PI_2).abs() < 1e-15, "{:?}", table.lead);
+    assert!((table.lead[0] - FRAC_PI_2).abs() < 1e-15, "{:?}", table.lead);
     assert!((table.lead[1] - 0.3).abs() < 1e-15);
 }
 
@@ -315,7 +321,7 @@ fn gravity_is_down_in_the_root() {
     );
     let urdf = read(&hung, false).unwrap();
     let chain = Chain::new(&urdf.robot, Some("base"), None).unwrap();
-    assert_eq!(chain.gravity.z, 9.80665);
+    assert_eq!(chain.gravity[2], 9.80665);
     let whole = Chain::new(&urdf.robot, None, None).unwrap();
-    assert_eq!(whole.gravity.z, -9.80665);
+    assert_eq!(whole.gravity[2], -9.80665);
 }

@@ -13,17 +13,20 @@
 
 mod angle;
 mod chain;
+mod document;
+mod geometry;
 mod masses;
 mod read;
 mod refusal;
 mod robot_file;
 mod table;
-#[cfg(test)]
-mod tests;
 mod tree;
 
 pub use chain::{Chain, Step};
+pub use document::Elements;
+pub use geometry::Frame;
+pub use masses::Lump;
 pub use read::{Urdf, bytes, read};
-pub use refusal::Refusal;
+pub use refusal::{Place, Refusal};
 pub use robot_file::robot_file;
-pub use table::Table;
+pub use table::{Row, Table};

@@ -1,6 +1,6 @@
 //! Why a URDF cannot be imported.
 
-use std::ops::Range;
+use core::ops::Range;
 
 /// What stands in the way, where, and how to mend it.
 #[derive(Debug)]
