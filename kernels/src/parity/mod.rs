@@ -14,7 +14,7 @@ use std::num::NonZero;
 use std::vec::Vec;
 
 use crate::generic::Arm;
-use crate::{Kernels, Output, Scalar, Unstable};
+use crate::{Error, Kernels, Output, Scalar, Unstable};
 
 use draw::Sample;
 
@@ -50,6 +50,9 @@ impl Comparison {
 pub type Evaluate<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Vec<f64>, Unstable> + Sync + 'a;
 
 /// Compiled kernels of any scalar as such an implementation; `back` makes a double of their numbers.
+///
+/// # Panics
+/// The implementation does where joint values are not the arm's, or its module lacks the output.
 pub fn compiled<S: Scalar>(
     kernels: &(dyn Kernels<S> + Sync),
     back: impl Fn(S) -> f64 + Sync,
@@ -60,7 +63,8 @@ pub fn compiled<S: Scalar>(
         let q: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
         match kernels.evaluate(output, &q, &w.map(S::lit), &mut out) {
             Ok(()) => Ok(out.into_iter().map(&back).collect()),
-            Err(_) => Err(Unstable),
+            Err(Error::Unstable) => Err(Unstable),
+            Err(wrong) => panic!("{}: {wrong}", output.name()),
         }
     }
 }
