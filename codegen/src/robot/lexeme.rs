@@ -14,6 +14,7 @@ pub(crate) enum Kind {
     /// One sign.
     Sign(char),
     /// What has no place in a cell: a bracket group, a string.
+    #[cfg(feature = "macro")]
     Other(String),
 }
 
@@ -147,7 +148,9 @@ pub(crate) fn show<L>(words: &[Lexeme<L>]) -> String {
     let mut glued = true;
     for (i, word) in words.iter().enumerate() {
         let (piece, sign) = match &word.kind {
-            Kind::Number(s) | Kind::Name(s) | Kind::Other(s) => (s.clone(), false),
+            Kind::Number(s) | Kind::Name(s) => (s.clone(), false),
+            #[cfg(feature = "macro")]
+            Kind::Other(s) => (s.clone(), false),
             Kind::Sign(c) => (c.to_string(), true),
         };
         let is_sum = i > 0 && is_sum_sign(words, i);
