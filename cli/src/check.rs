@@ -11,7 +11,7 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output::print;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
-use stiffarm_kernels::parity::{Agreement, Comparison, Line, Subject, agreement};
+use stiffarm_kernels::parity::{Agreement, Comparison, Evaluate, Line, Subject, agreement};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,9 +20,9 @@ Examples:
   stiffarm check --all
 
 What is checked is the graph that is derived from the table, of which every kernel is a print. It is
-compared with the textbook (the same quantity by matrices at run time), in single precision too; with
-central differences of the textbook; and with the derivatives of the forward kinematics by dual
-numbers.
+compared with the textbook (the same quantity by matrices at run time), of a built-in robot in single
+precision too; with central differences of the textbook; and with the derivatives of the forward
+kinematics by dual numbers.
 Deviations are the largest over all postures, relative to the output's scale. Exit status 1 if one
 is larger than its arithmetic accounts for.";
 
@@ -74,7 +74,9 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let model = Model::new(&source.robot, &Output::EACH);
     let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);
     let single = |output, q: &[f64], w: &[f64; 6]| model.single(output, q, w);
-    let subject = Subject { arm: &arm, generated: &generated, single: Some(&single) };
+    // Near buckling the last digits of single precision are lost: not every arm is to be held to its limit.
+    let single: Option<&Evaluate<'_>> = if source.built_in { Some(&single) } else { None };
+    let subject = Subject { arm: &arm, generated: &generated, single };
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));

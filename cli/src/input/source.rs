@@ -26,6 +26,8 @@ pub struct Source {
     pub given: String,
     /// The model, parameters replaced by their numbers.
     pub robot: Robot,
+    /// Whether it is one of the collection.
+    pub built_in: bool,
 }
 
 impl RobotArgs {
@@ -93,7 +95,8 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
     let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
-            return Ok(Source { given: given.to_owned(), robot: parse(toml, given, true)? });
+            let robot = parse(toml, given, true)?;
+            return Ok(Source { given: given.to_owned(), robot, built_in: true });
         }
         if !Path::new(given).exists() {
             return Err(no_such_robot(given));
@@ -101,7 +104,7 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
     }
     let text = text(Path::new(given))?;
     let robot = parse(&text, given, quiet)?;
-    Ok(Source { given: given.to_owned(), robot })
+    Ok(Source { given: given.to_owned(), robot, built_in: false })
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
