@@ -114,35 +114,34 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
 /// system in registers: three times as fast for six.
 const WRITTEN_OUT: usize = 8;
 
-/// Whether the pivots of `L D Lᵀ` of `a + aᵀ` are positive; column by column, the lower triangle alone.
+/// Whether the pivots of `L D Lᵀ` of `a + aᵀ` are positive, by its lower triangle.
+#[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
 #[inline(always)]
 fn definite<S: Scalar, const N: usize>(
     a: [[S; N]; N],
     less: impl Fn(S, S, S) -> S,
 ) -> Result<(), Unstable> {
-    let (mut twice, mut inverse, mut factors) = (a, a[0], a[0]);
+    let mut twice = a;
+    for column in 0..N {
+        for row in 0..N {
+            twice[column][row] = a[column][row] + a[row][column];
+        }
+    }
     let mut stable = true;
     let begin = |k: usize| if N <= WRITTEN_OUT { 0 } else { k };
-    let end = |k: usize| if N <= WRITTEN_OUT { N } else { k };
-    for column in 0..N {
-        for k in 0..end(column) {
-            if k < column {
-                factors[k] = twice[k][column] * inverse[k];
-            }
-        }
-        for row in begin(column)..N {
-            if row >= column {
-                let mut entry = a[column][row] + a[row][column];
-                for k in 0..end(column) {
-                    if k < column {
-                        entry = less(entry, factors[k], twice[k][row]);
+    for k in 0..N {
+        stable &= twice[k][k].is_positive();
+        let inverse = twice[k][k].recip();
+        for column in begin(k + 1)..N {
+            if column > k {
+                let factor = twice[k][column] * inverse;
+                for row in begin(column)..N {
+                    if row >= column {
+                        twice[column][row] = less(twice[column][row], factor, twice[k][row]);
                     }
                 }
-                twice[column][row] = entry;
             }
         }
-        stable &= twice[column][column].is_positive();
-        inverse[column] = twice[column][column].recip();
     }
     if stable { Ok(()) } else { Err(Unstable) }
 }

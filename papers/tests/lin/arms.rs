@@ -126,6 +126,13 @@ impl Links for Draws {
     }
 }
 
+/// A stream for each seed.
+pub fn draws(seed: u64) -> Draws {
+    let mut draws = Draws::from_state(seed);
+    draws.part();
+    draws
+}
+
 pub fn near(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{found} is not {expected} ± {tolerance}");
 }

@@ -1,13 +1,12 @@
 //! After compensation the loaded arm stands where it should.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_draws::Draws;
 use stiffarm_papers::chain::elastic::Elasticity;
 use stiffarm_papers::lin::{
     CompensateError, Damping, Ended, Forward, Options, PlanOptions, compensate, loaded_pose, plan,
 };
 
-use crate::arms::{elbow, near, planar, printed_elbow, two_link, weight};
+use crate::arms::{draws, elbow, near, planar, printed_elbow, two_link, weight};
 
 /// Distance and angle between two poses.
 fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> (f64, f64) {
@@ -19,7 +18,7 @@ fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> (f64, f64) {
 /// the chain at rest.
 #[test]
 fn there_and_back() {
-    let mut random = Draws::new(5);
+    let mut random = draws(5);
     let mut away: f64 = 0.0;
     for round in 0..40 {
         let mut arm = elbow(&printed_elbow(0.0597));

@@ -1,7 +1,6 @@
 //! The two-link arm's printed equations against the general functions.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_draws::Draws;
 use stiffarm_papers::chain::Load;
 use stiffarm_papers::chain::elastic::{ElasticArm, Elasticity};
 use stiffarm_papers::lin::{
@@ -9,10 +8,10 @@ use stiffarm_papers::lin::{
     pose_jacobian,
 };
 
-use crate::arms::{Links, elbow, near, planar, weight};
+use crate::arms::{Links, draws, elbow, near, planar, weight};
 
 fn cases() -> impl Iterator<Item = (TwoLink, [f64; 2])> {
-    let mut random = Draws::new(1);
+    let mut random = draws(1);
     (0..200).map(move |_| (random.two_link(), random.array(-3.1, 3.1)))
 }
 
@@ -123,7 +122,7 @@ fn what_is_counted_again() {
 /// load: errors from the links' wrenches, carried to the tool.
 #[test]
 fn yc_is_the_chain_under_a_small_load() {
-    let mut random = Draws::new(6);
+    let mut random = draws(6);
     for _ in 0..50 {
         let mut links = random.elbow();
         links.weights = [0.0; 4];

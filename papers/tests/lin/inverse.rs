@@ -6,7 +6,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 use stiffarm_papers::lin::{InverseError, Missing, ParallelElbow};
 
-use crate::arms::{elbow, printed_elbow};
+use crate::arms::{draws, elbow, printed_elbow};
 
 /// The larger of the position's and the rotation's miss.
 fn miss(arm: &Arm, q: &[f64], target: &Isometry3<f64>) -> f64 {
@@ -43,7 +43,7 @@ fn any(random: &mut Draws) -> Arm {
 /// solution has that pose to 1e-12.
 #[test]
 fn all_solutions_of_random_arms() {
-    let mut random = Draws::new(3);
+    let mut random = draws(3);
     let mut eight = 0;
     for _ in 0..500 {
         let arm = any(&mut random);

@@ -10,6 +10,11 @@ impl Draws {
         Draws(seed.wrapping_mul(2).wrapping_add(1))
     }
 
+    /// The stream that goes on from a state.
+    pub fn from_state(state: u64) -> Draws {
+        Draws(state)
+    }
+
     /// Uniform in [0, 1).
     pub fn part(&mut self) -> f64 {
         self.0 =

@@ -67,7 +67,7 @@ pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<
     let less = |x: S, a: S, b: S| fma(-a, b, x);
     let at = |row: usize, column: usize| {
         let k = k_c[column][row];
-        if row == column { S::lit(1.0 / C[row]) - k } else { -k }
+        if row == column { S::lit(if row < 5 { 1.0 / C[row] } else { 4.7e5 }) - k } else { -k }
     };
     let ([a11, mut a21, mut a31, mut a41, mut a51], [a12, mut a22, mut a32, mut a42, mut a52]) = (
         [at(0, 0), at(1, 0), at(2, 0), at(3, 0), at(4, 0)],
