@@ -93,7 +93,7 @@ fn check(
 
 fn compare(case: &Case, lines: &[String]) -> Result<(), String> {
     let expected: Vec<_> = case.questions.iter().flat_map(|question| &question.answers).collect();
-    if lines.is_empty() || lines.len() % expected.len() != 0 {
+    if lines.is_empty() || !lines.len().is_multiple_of(expected.len()) {
         return Err(format!("{} lines for {} answers", lines.len(), expected.len()));
     }
     // Plain text, then fused.
