@@ -1,11 +1,12 @@
 //! The withheld check on arms of two, six and seven joints: effects are put into a plant, the
 //! diagnosis is not told, and what it finds is held against what was put in.
 //!
-//! `cargo test --release --test withheld -- --ignored --nocapture` runs the full form and prints
+//! `cargo test --release --test withheld -- --ignored --nocapture full` runs the full form and prints
 //! its table; the quick one runs with all other tests.
 
 mod arms;
 mod goals;
+mod realistic;
 mod suite;
 
 use goals::Goals;

@@ -15,6 +15,7 @@
 
 mod assemble;
 mod balance;
+mod campaign;
 mod chain;
 mod effect;
 mod law;
@@ -31,15 +32,15 @@ pub mod design;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use campaign::{Campaign, Instrument, Scatter};
 pub use effect::{Effect, MOST_ORDERS, Place};
-pub use noise::Noise;
+pub use noise::{Dice, Noise, Stream};
 pub use observe::Frames;
 pub use quantity::Quantity;
 pub use text::csv;
 pub use truth::{Truth, TruthError};
 
 use crate::measurement::{Measurements, Row};
-use noise::{Dice, Stream};
 use observe::{InOrder, Shown};
 use reality::Reality;
 

@@ -7,7 +7,7 @@ use crate::plant::noise::Dice;
 use crate::plant::{Effect, Place, Quantity, Truth};
 
 /// One effect at one place, its signs and proportions drawn.
-pub(super) fn typical(
+pub fn typical(
     effect: Effect,
     place: Place,
     arm: &Arm,
@@ -111,7 +111,7 @@ fn largest(quantity: Quantity) -> f64 {
 }
 
 /// The truth with a size so many times as large; `None` beyond what an arm can have.
-pub(super) fn resized(truth: &Truth, arm: &Arm, factor: f64) -> Option<Truth> {
+pub fn resized(truth: &Truth, arm: &Arm, factor: f64) -> Option<Truth> {
     let mut resized = truth.clone();
     for (name, value) in &mut resized.values {
         let quantity = truth.effect.quantity(arm, truth.place, name)?;

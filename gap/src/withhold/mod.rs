@@ -15,6 +15,7 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use draw::{resized, typical};
 pub use predict::{Predict, with_findings};
 pub use report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
 pub use run::withhold;
