@@ -2,8 +2,8 @@
 //! collection, and for arms of 2 to 40 joints.
 //!
 //! ```text
-//! cargo bench --bench expansion
-//! cargo bench --bench expansion --profile dev    # the generator as an unoptimised build has it
+//! cargo bench -p stiffarm --bench expansion
+//! cargo bench -p stiffarm --bench expansion --profile dev    # the generator as an unoptimised build has it
 //! ```
 
 use std::path::Path;

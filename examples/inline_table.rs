@@ -3,7 +3,7 @@
 //! The table is KUKA's KR 240-2 with the stiffnesses of Dumas et al. (2011), Table 3.
 //!
 //! ```text
-//! cargo run --example inline_table
+//! cargo run -p stiffarm --example inline_table
 //! ```
 
 stiffarm::robot! {

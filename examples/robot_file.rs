@@ -4,7 +4,7 @@
 //! with the file's line.
 //!
 //! ```text
-//! cargo run --example robot_file
+//! cargo run -p stiffarm --example robot_file
 //! ```
 
 stiffarm::robot! {

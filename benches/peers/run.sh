@@ -14,7 +14,7 @@
 #   FLAGS=-O3 RUSTFLAGS=-Ctarget-cpu=x86-64 FEATURES= benches/peers/run.sh
 set -euo pipefail
 cd "$(dirname "$0")"
-flags=${FLAGS:--O3 -march=native}
+read -ra flags <<<"${FLAGS:--O3 -march=native}"
 export RUSTFLAGS=${RUSTFLAGS:--C target-cpu=native}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -33,15 +33,15 @@ cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin peers --fe
 
 if "$python" -c 'import casadi' 2>/dev/null; then
     (cd "$work" && "$python" "$OLDPWD/casadi_peer.py" kernels.c)
-    gcc $flags -c "$work/kernels.c" -o "$work/kernels.o"
-    g++ -std=c++17 $flags -I. casadi_peer.cpp "$work/kernels.o" -o "$work/casadi"
+    gcc "${flags[@]}" -c "$work/kernels.c" -o "$work/kernels.o"
+    g++ -std=c++17 "${flags[@]}" -I. casadi_peer.cpp "$work/kernels.o" -o "$work/casadi"
     "$work/casadi" "$work" >> "$work/times"
 else
     say "CasADi is skipped: the Python package casadi is not installed"
 fi
 
 if [ -e /usr/include/kdl/chain.hpp ]; then
-    g++ -std=c++17 $flags -I. -I/usr/include/eigen3 kdl_peer.cpp -lorocos-kdl -o "$work/kdl"
+    g++ -std=c++17 "${flags[@]}" -I. -I/usr/include/eigen3 kdl_peer.cpp -lorocos-kdl -o "$work/kdl"
     "$work/kdl" "$work" >> "$work/times"
 else
     say "Orocos KDL is skipped: liborocos-kdl-dev is not installed"
@@ -49,7 +49,7 @@ fi
 
 prefix=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib") + "/cmeel.prefix")')
 if [ -e "$prefix/include/pinocchio/multibody.hpp" ] && [ -e /usr/include/eigen3 ]; then
-    g++ -w -std=c++17 $flags -DNDEBUG -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
+    g++ -w -std=c++17 "${flags[@]}" -DNDEBUG -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
         -DBOOST_MPL_LIMIT_LIST_SIZE=30 -I. -I"$prefix/include" -I/usr/include/eigen3 \
         pinocchio_peer.cpp -L"$prefix/lib" -Wl,-rpath,"$prefix/lib" -lpinocchio_default \
         -o "$work/pinocchio"

@@ -12,8 +12,6 @@ mod expand;
 pub mod expr;
 pub mod number;
 mod out_dir;
-#[cfg(feature = "paper")]
-pub mod paper;
 pub mod robot;
 
 pub use expand::expand;

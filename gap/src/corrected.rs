@@ -11,8 +11,8 @@ use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Angle, Convention, Joint, Motion, Robot, Value};
 use stiffarm_kernels::generic::Joint as Nominal;
 
-use crate::chain::Displacement;
 use crate::diagnose::{Diagnosed, Finding, Nuisance, ParameterReport};
+use crate::displacement::Displacement;
 
 /// A correction below this changes nothing, m and rad: entries are written with 12 decimals.
 const FINEST: f64 = 1e-12;

@@ -5,25 +5,23 @@
 //! [`measurement`] reads what was measured; [`gap`] is the difference; [`effects`] are what may
 //! explain it; [`mod@diagnose`] finds out which does, on poses that no fit has seen.
 //!
-//! [`chain`] is the arm with an error at every place, loads coming down it and displacements going
-//! up; [`force`] finds the joint corrections with which a flexible arm exerts the wanted wrench,
-//! [`mod@compensate`] those with which it stands where it should.
+//! [`mod@compensate`] finds the set-points with which a flexible arm stands where it should.
 //!
 //! This crate returns data and structured errors; it prints nothing.
 
-pub mod chain;
 pub mod compensate;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
+pub mod displacement;
 pub mod effects;
 #[cfg(test)]
 mod fixture;
-pub mod force;
 pub mod gap;
 pub mod identify;
 pub mod measurement;
 pub mod plant;
+pub mod random;
 pub mod robot;
 pub mod simulate;
 pub mod withhold;

@@ -6,7 +6,13 @@ use stiffarm::kernels::{Motion, Scalar};
 use stiffarm_codegen::emit::Precision;
 
 use crate::arms::{Arm, build, doubles, singles};
-use crate::compiler::{Folder, compilers, run};
+use crate::compiler::{Folder, run, with_each_compiler};
+
+with_each_compiler! {
+    doubles_are_the_rust_kernels_bits
+    singles_are_the_rust_kernels_bits
+    a_reference_that_was_tampered_with_is_found
+}
 
 /// Joint vectors and wrenches of each arm.
 const COUNT: usize = 250;
@@ -117,39 +123,33 @@ fn expected<S: Bits>(arm: &Arm<S>, draws: &[Draw<S>]) -> Vec<Vec<Option<Vec<S>>>
     draws.iter().map(|(q, wrench)| arm.outputs(q, wrench)).collect()
 }
 
-fn check<S: Bits>(arms: &[Arm<S>]) {
-    for compiler in compilers() {
-        for arm in arms {
-            let name = format!("{compiler}-{}-{:?}", arm.id, S::PRECISION);
-            let folder = Folder::new(&name);
-            build(compiler, &folder, arm, S::PRECISION, "-O2");
-            let draws = draws::<S>(arm.kernels.dof());
-            let expected = expected(arm, &draws);
-            let refused = expected.iter().flatten().filter(|out| out.is_none()).count();
-            assert_eq!(refused == 0, arm.is_rigid(), "{name}");
-            assert!(refused < COUNT, "{name}: {refused} loads are not borne");
-            let found = by_c(&folder, arm.id, &draws, expected[0].len());
-            assert_eq!(difference(&expected, &found), None, "{name}");
-        }
+fn check<S: Bits>(compiler: &str, arms: &[Arm<S>]) {
+    for arm in arms {
+        let name = format!("{compiler}-{}-{:?}", arm.id, S::PRECISION);
+        let folder = Folder::new(&name);
+        build(compiler, &folder, arm, S::PRECISION, "-O2");
+        let draws = draws::<S>(arm.kernels.dof());
+        let expected = expected(arm, &draws);
+        let refused = expected.iter().flatten().filter(|out| out.is_none()).count();
+        assert_eq!(refused == 0, arm.is_rigid(), "{name}");
+        assert!(refused < COUNT, "{name}: {refused} loads are not borne");
+        let found = by_c(&folder, arm.id, &draws, expected[0].len());
+        assert_eq!(difference(&expected, &found), None, "{name}");
     }
 }
 
-#[test]
-fn doubles_are_the_rust_kernels_bits() {
-    check(&doubles());
+fn doubles_are_the_rust_kernels_bits(compiler: &str) {
+    check(compiler, &doubles());
 }
 
-#[test]
-fn singles_are_the_rust_kernels_bits() {
-    check(&singles());
+fn singles_are_the_rust_kernels_bits(compiler: &str) {
+    check(compiler, &singles());
 }
 
-#[test]
-fn a_reference_that_was_tampered_with_is_found() {
-    let Some(compiler) = compilers().first().copied() else { return };
+fn a_reference_that_was_tampered_with_is_found(compiler: &str) {
     let arms = doubles();
     let arm = arms.first().expect("an arm");
-    let folder = Folder::new("tampered");
+    let folder = Folder::new(&format!("tampered-{compiler}"));
     build(compiler, &folder, arm, Precision::F64, "-O0");
     let draws = draws::<f64>(arm.kernels.dof());
     let mut expected = expected(arm, &draws);

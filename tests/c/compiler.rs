@@ -17,18 +17,26 @@ const STRICT: [&str; 9] = [
     "-Werror",
 ];
 
-/// The compilers that there are; says which are not.
-pub fn compilers() -> Vec<&'static str> {
-    let there = |name: &&str| {
-        let run = Command::new(name).arg("--version").stdout(Stdio::null()).status();
-        let found = run.is_ok_and(|status| status.success());
-        if !found {
-            eprintln!("skipped: no {name} on the path to compile the generated C with");
+/// A test for each compiler from a function that takes its name. With `cc` Rust itself links on Unix, so that
+/// it is there; what else is needed is ignored, and run where `--ignored` asks for it.
+macro_rules! with_each_compiler {
+    ($($name:ident)+) => {$(
+        mod $name {
+            #[test]
+            #[cfg_attr(not(unix), ignore = "needs cc")]
+            fn with_cc() {
+                super::$name("cc");
+            }
+
+            #[test]
+            #[ignore = "needs clang"]
+            fn needs_clang() {
+                super::$name("clang");
+            }
         }
-        found
-    };
-    ["gcc", "clang"].into_iter().filter(there).collect()
+    )+};
 }
+pub(crate) use with_each_compiler;
 
 /// A folder that is gone when it is dropped.
 pub struct Folder(PathBuf);
@@ -63,7 +71,7 @@ impl Drop for Folder {
 pub fn tried(compiler: &str, folder: &Folder, arguments: &[&str]) -> Result<(), String> {
     let mut command = Command::new(compiler);
     command.args(STRICT).args(arguments).current_dir(folder.path());
-    let output = command.output().expect("the compiler starts");
+    let output = command.output().unwrap_or_else(|error| panic!("{compiler}: {error}"));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     if output.status.success() { Ok(()) } else { Err(said) }
 }

@@ -8,7 +8,7 @@ use stiffarm_codegen::emit::Precision;
 /// The program for the kernels called `name` with `n` joints.
 ///
 /// Every function of the joint values is called, and every function of the posture after it: where the
-/// two differ in a byte, the program ends with status 2.
+/// two differ in a bit of a number, the program ends with status 2.
 pub fn program(name: &str, n: usize, precision: Precision) -> String {
     let (real, word, scan, print) = match precision {
         Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
@@ -30,7 +30,7 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             {first}{name}_{function}(q, {wrench}out);
             {repeat}{name}_given_{function}(&posture, {wrench}again);
             put(status, out, {size}U);
-            if ((status != second) || (memcmp(out, again, sizeof out) != 0))
+            if ((status != second) || (same(out, again, {size}U) == 0))
             {{
                 return 2;
             }}
@@ -65,6 +65,23 @@ static void put(int status, const {real} *x, unsigned int size)
         (void)printf(\" %\" {print}, bits);
     }}
     (void)printf(\"\\n\");
+}}
+
+/* Bit for bit; which NaN it is hangs on the order of operands, which is the compiler's. */
+static int same(const {real} *a, const {real} *b, unsigned int size)
+{{
+    unsigned int k;
+
+    for (k = 0U; k < size; k++)
+    {{
+        const int numbers = ((a[k] == a[k]) || (b[k] == b[k])) ? 1 : 0;
+
+        if ((numbers == 1) && (memcmp(&a[k], &b[k], sizeof a[k]) != 0))
+        {{
+            return 0;
+        }}
+    }}
+    return 1;
 }}
 
 static int get({real} *x, unsigned int size)

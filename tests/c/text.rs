@@ -1,6 +1,6 @@
 //! The text itself: read once, and the same ever after.
 //!
-//! `INSTA_UPDATE=always cargo test --test c` accepts a change.
+//! `INSTA_UPDATE=always cargo test -p stiffarm --test c` accepts a change.
 
 use stiffarm_codegen::emit::{CFiles, COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::Robot;

@@ -4,59 +4,55 @@ use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_robots::ARMS;
 
 use crate::arms::robot;
-use crate::compiler::{Folder, compile, compilers, run, tried};
+use crate::compiler::{Folder, compile, run, tried, with_each_compiler};
 
-#[test]
-fn every_arm_compiles_without_a_warning() {
-    for compiler in compilers() {
-        let folder = Folder::new(&format!("warnings-{compiler}"));
-        for (k, arm) in ARMS.iter().enumerate() {
-            for precision in [Precision::F64, Precision::F32] {
-                let sines = [Sines::Polynomial, Sines::Math, Sines::Given][k % 3];
-                let options = COptions { name: arm.id.to_owned(), precision, sines };
-                let files = c(&robot(arm.id), &options).expect("numbers only");
-                folder.write(&format!("{}.h", arm.id), &files.header);
-                folder.write(&format!("{}.c", arm.id), &files.source);
-                let source = format!("{}.c", arm.id);
-                compile(compiler, &folder, &["-O1", "-Wmissing-prototypes", "-c", &source]);
-            }
+with_each_compiler! {
+    every_arm_compiles_without_a_warning
+    a_warning_is_found
+    a_pair_that_does_not_belong_together_is_refused
+    the_library_s_sines_give_the_same_pose
+}
+
+fn every_arm_compiles_without_a_warning(compiler: &str) {
+    let folder = Folder::new(&format!("warnings-{compiler}"));
+    for (k, arm) in ARMS.iter().enumerate() {
+        for precision in [Precision::F64, Precision::F32] {
+            let sines = [Sines::Polynomial, Sines::Math, Sines::Given][k % 3];
+            let options = COptions { name: arm.id.to_owned(), precision, sines };
+            let files = c(&robot(arm.id), &options).expect("numbers only");
+            folder.write(&format!("{}.h", arm.id), &files.header);
+            folder.write(&format!("{}.c", arm.id), &files.source);
+            let source = format!("{}.c", arm.id);
+            compile(compiler, &folder, &["-O1", "-Wmissing-prototypes", "-c", &source]);
         }
     }
 }
 
 /// A warning is an error: the same call refuses a text that has one.
-#[test]
-fn a_warning_is_found() {
-    for compiler in compilers() {
-        let folder = Folder::new(&format!("warned-{compiler}"));
-        folder.write("bad.c", "float f(double x);\nfloat f(double x) { return x; }\n");
-        let said = tried(compiler, &folder, &["-c", "bad.c"]).expect_err("a loss of digits");
-        assert!(said.contains("conversion"), "{said}");
-    }
+fn a_warning_is_found(compiler: &str) {
+    let folder = Folder::new(&format!("warned-{compiler}"));
+    folder.write("bad.c", "float f(double x);\nfloat f(double x) { return x; }\n");
+    let said = tried(compiler, &folder, &["-c", "bad.c"]).expect_err("a loss of digits");
+    assert!(said.contains("conversion"), "{said}");
 }
 
 /// A source of one table with the header of another is refused by the compiler itself.
-#[test]
-fn a_pair_that_does_not_belong_together_is_refused() {
+fn a_pair_that_does_not_belong_together_is_refused(compiler: &str) {
     let files = |id: &str| {
         let options =
             COptions { name: "arm".to_owned(), precision: Precision::F64, sines: Sines::Given };
         c(&robot(id), &options).expect("numbers only")
     };
-    for compiler in compilers() {
-        let folder = Folder::new(&format!("pair-{compiler}"));
-        folder.write("arm.h", &files("ur5").header);
-        folder.write("arm.c", &files("ur10").source);
-        let said = tried(compiler, &folder, &["-c", "arm.c"]).expect_err("two tables");
-        assert!(said.contains("different tables"), "{said}");
-    }
+    let folder = Folder::new(&format!("pair-{compiler}"));
+    folder.write("arm.h", &files("ur5").header);
+    folder.write("arm.c", &files("ur10").source);
+    let said = tried(compiler, &folder, &["-c", "arm.c"]).expect_err("two tables");
+    assert!(said.contains("different tables"), "{said}");
 }
 
 /// `math.h`'s sines and the polynomial's: the pose differs by a few units of rounding.
-#[test]
-fn the_library_s_sines_give_the_same_pose() {
-    let Some(compiler) = compilers().first().copied() else { return };
-    let folder = Folder::new("math");
+fn the_library_s_sines_give_the_same_pose(compiler: &str) {
+    let folder = Folder::new(&format!("math-{compiler}"));
     let robot = robot("ur5");
     for (name, sines) in [("own", Sines::Polynomial), ("library", Sines::Math)] {
         let options = COptions { name: name.to_owned(), precision: Precision::F64, sines };

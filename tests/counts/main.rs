@@ -1,7 +1,7 @@
 //! Operation counts: a reviewed snapshot for every arm, and the limits that some of them must keep.
 //!
-//! A change that moves a count shows up as a difference of `snapshots/`; `INSTA_UPDATE=always cargo
-//! test --test counts` accepts it.
+//! A change that moves a count shows up as a difference of `snapshots/`; `INSTA_UPDATE=always
+//! cargo test -p stiffarm --test counts` accepts it.
 
 use std::fmt::Write as _;
 

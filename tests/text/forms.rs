@@ -1,4 +1,4 @@
-//! The macro's two forms, the build script and the command give what `emit::rust` returns.
+//! The macro's two forms and the build script give what `emit::rust` returns.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -63,32 +63,6 @@ fn fused_products_are_written_where_they_are_asked_for() {
     assert!(expansion("products: fused;").ends_with(&tokens(&fused)));
 }
 
-/// The command is built with the feature `cli` only.
-#[cfg(feature = "cli")]
-#[test]
-fn the_command_fuses_rust_alone() {
-    let stiffarm = |arguments: &[&str]| {
-        Command::new(env!("CARGO_BIN_EXE_stiffarm"))
-            .args([&["generate", "robots/arms/ur10.toml"], arguments].concat())
-            .output()
-            .expect("the command runs")
-    };
-    let (_, _, robot) =
-        collection().into_iter().find(|(id, _, _)| *id == "ur10").expect("in the collection");
-    let text = rust(&robot, &RustOptions { fused: true, ..RustOptions::default() });
-    assert!(stiffarm(&["--emit", "rust", "--fused"]).stdout == text.into_bytes());
-    for (arguments, message) in [
-        (&["--emit", "c", "--fused", "--out", "nowhere"][..], "--fused is for rust"),
-        (&["--emit", "latex", "--fused"], "--fused is for rust"),
-        (&["--emit", "rust", "--fused", "--flexible"], "cannot be used with"),
-    ] {
-        let refused = stiffarm(arguments);
-        let said = String::from_utf8_lossy(&refused.stderr);
-        assert!(!refused.status.success() && said.contains(message), "{arguments:?}: {said}");
-        assert!(refused.stdout.is_empty());
-    }
-}
-
 /// Set in the process that plays the build script.
 const CHILD: &str = "STIFFARM_TEXT_CHILD";
 
@@ -120,24 +94,6 @@ fn a_build_script_writes_the_text() {
         let written = fs::read(out_dir().join(id).with_extension("rs")).expect("the output");
         assert!(written == rust(&robot, &options).into_bytes(), "{id}");
         assert!(said.contains(&format!("cargo::rerun-if-changed=robots/arms/{id}.toml")), "{said}");
-    }
-}
-
-/// The command is built with the feature `cli` only.
-#[cfg(feature = "cli")]
-#[test]
-fn the_command_writes_the_text() {
-    for (id, _, robot) in collection() {
-        let file = format!("robots/arms/{id}.toml");
-        let command = Command::new(env!("CARGO_BIN_EXE_stiffarm"))
-            .args(["generate", &file, "--emit", "rust"])
-            .output()
-            .expect("the command runs");
-        let said = String::from_utf8_lossy(&command.stderr);
-        assert!(
-            command.stdout == rust(&robot, &RustOptions::default()).into_bytes(),
-            "{id}: {said}"
-        );
     }
 }
 

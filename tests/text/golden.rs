@@ -1,6 +1,6 @@
 //! Texts to be read: a change shows up as a difference of `snapshots/`.
 //!
-//! `INSTA_UPDATE=always cargo test --test text` accepts it.
+//! `INSTA_UPDATE=always cargo test -p stiffarm --test text` accepts it.
 
 use stiffarm_codegen::emit::{RustOptions, rust};
 

@@ -12,4 +12,4 @@ mod rust;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
-pub use rust::{RustOptions, flexible_rust, rust};
+pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};

@@ -18,7 +18,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{CompensateError, finite};
-use crate::identify::random::between;
+use crate::random::between;
 use crate::simulate::equilibrium;
 
 /// Where the tool should be.
@@ -83,7 +83,7 @@ pub struct Reached {
 /// which the one is taken whose arm gives way least.
 ///
 /// # Errors
-/// [`CompensateError::NotFinite`]; [`CompensateError::Chain`] if the start has not as many values
+/// [`CompensateError::NotFinite`]; [`CompensateError::JointValues`] if the start has not as many values
 /// as the arm has joints; [`CompensateError::Unlimited`] if a prismatic joint has no limits and no
 /// start is given; [`CompensateError::NotPositive`] for a tolerance.
 pub fn reach(
@@ -186,7 +186,10 @@ fn check(
         finite("the rotation of the target", &rotation.coords)?;
     }
     if let Some(start) = start {
-        crate::chain::steps(arm, start)?;
+        if start.len() != arm.dof() {
+            return Err(CompensateError::JointValues { expected: arm.dof(), found: start.len() });
+        }
+        finite("a joint value", start)?;
     }
     for (what, found) in
         [("the tolerance", search.translation), ("the tolerance of rotations", search.rotation)]

@@ -10,7 +10,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::search::climb;
 use super::{Best, DexterityError, best_length};
-use crate::identify::random::between;
+use crate::random::between;
 
 /// How to search.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,38 +2,27 @@
 //! Furet: *Joint stiffness identification of industrial serial robots*, Robotica 2011, sections
 //! 2.2 to 3.2).
 //!
-//! * [`cartesian_stiffness`]: K_X of eq. 10.
 //! * [`inverse_condition`]: the dexterity `1/κ_F` of eqs. 11-12; it needs a length that makes
 //!   translations and rotations comparable, which [`characteristic_length`] finds (Khan & Angeles,
 //!   J. Mech. Design 128, 2006, the direct problem).
 //! * [`influence`]: ν_p and ν_r of eqs. 14-15, what leaving K_C out costs.
-//! * [`Map`]: any of these over two joints, as data; [`zones`] compares parts of a map, and
-//!   [`choose`] picks test postures from it.
+//! * [`Map`]: any of these over two joints, as data.
 //! * [`mod@design`]: postures and loads for tests by D-optimality.
-//! * [`apparent`]: how stiff one direction looks (Knapczyk & Ryska, *Stiffness matrix analysis of
-//!   six-revolute serial manipulator*).
 //!
 //! Joint values are in rad (m of prismatic joints), J in m and rad, base axes at the tool origin.
 //! Nothing here reads a robot's weight: the displacements are those of an added load.
 
-mod apparent;
-mod choice;
 mod condition;
 pub mod design;
 mod influence;
 mod length;
 mod map;
 mod search;
-mod stiffness;
-pub mod zones;
 
-pub use apparent::{Apparent, apparent};
-pub use choice::{Choice, TestPosture, choose};
 pub use condition::{Best, best_length, condition_number, inverse_condition, normalised_jacobian};
 pub use influence::{Influence, influence};
 pub use length::{Characteristic, Search, characteristic_length};
 pub use map::{Map, Peak, Plane};
-pub use stiffness::cartesian_stiffness;
 
 use stiffarm_kernels::Unstable;
 use stiffarm_kernels::generic::Arm;
@@ -55,23 +44,11 @@ pub enum DexterityError {
         /// From 1.
         joint: usize,
     },
-    /// K_X needs a square Jacobian.
-    #[error("found {found} joints, expected 6: with any other number J has no inverse")]
-    NotSquare {
-        /// Of the arm.
-        found: usize,
-    },
     /// A closed-form length needs six independent motions.
     #[error("found {found} joints, expected at least 6: fewer cannot move the tool in all ways")]
     TooFewJoints {
         /// Of the arm.
         found: usize,
-    },
-    /// A joint without a spring.
-    #[error("joint {joint} is rigid: give it a stiffness")]
-    Rigid {
-        /// From 1.
-        joint: usize,
     },
     /// J has no inverse here.
     #[error(
@@ -138,7 +115,10 @@ pub enum DexterityError {
 }
 
 /// One finite joint value for each joint.
-fn check_posture(arm: &Arm, q: &[f64]) -> Result<(), DexterityError> {
+///
+/// # Errors
+/// [`DexterityError::Posture`], [`DexterityError::NotFinite`].
+pub fn check_posture(arm: &Arm, q: &[f64]) -> Result<(), DexterityError> {
     if q.len() != arm.dof() {
         return Err(DexterityError::Posture { found: q.len(), expected: arm.dof() });
     }

@@ -7,6 +7,8 @@
 //! operation rounds by itself, so all of them give the same bits (under the feature `fma` sums of products
 //! are rounded once where the target can, and then other targets differ in the last bit).
 //!
+//! `tools/sin_cos.py` derives every constant, and the table that the tests compare with.
+//!
 //! Angles that are not finite, or so large that their own spacing is no angle any more
 //! ([`double::LARGEST`], [`single::LARGEST`]), give NaN.
 

@@ -217,11 +217,27 @@ fn of_size(
         let signal = bench.signal(&truth)?;
         let off = wanted / bench.ratio(&signal);
         if (off - 1.0).abs() < 0.01 {
-            return Some((truth, signal));
+            return is_plausible(&truth, arm).then_some((truth, signal));
         }
         truth = resized(&truth, arm, off)?;
     }
     None
+}
+
+/// Whether an arm that works may have it.
+fn is_plausible(truth: &Truth, arm: &Arm) -> bool {
+    let mass: f64 = arm.joints.iter().map(|joint| joint.mass).sum();
+    truth.values.iter().all(|(name, value)| {
+        let most = match truth.effect.quantity(arm, truth.place, name) {
+            Some(Quantity::Length) if truth.effect == Effect::PayloadCom => 0.1,
+            Some(Quantity::Length | Quantity::Angle) => 5e-3,
+            Some(Quantity::Mass) => 0.3 * mass,
+            Some(Quantity::PerKelvin) => 5e-5,
+            Some(Quantity::Ratio) => 0.2,
+            _ => f64::INFINITY,
+        };
+        value.abs() <= most
+    })
 }
 
 /// Rounded as a controller and a tracker write, and read back from the text.

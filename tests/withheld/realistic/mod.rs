@@ -4,8 +4,8 @@
 //! file, and `--nuisance base_frame,tool_frame`.
 //!
 //! ```text
-//! cargo test --release --test withheld -- --ignored --nocapture realistic::tuning
-//! cargo test --release --test withheld -- --ignored --nocapture realistic::kept_apart
+//! cargo test -p stiffarm --release --test withheld -- --ignored --nocapture realistic::tuning
+//! cargo test -p stiffarm --release --test withheld -- --ignored --nocapture realistic::kept_apart
 //! ```
 //!
 //! The first draws the arms of seeds 1 to 100, to work with; the second those of 1001 to 1100, which

@@ -1,9 +1,11 @@
 //! How large an effect is: what it does at the rows, and what is left of that beside all ordinary
 //! calibration.
 
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
+use stiffarm_gap::gap::row_gap;
 use stiffarm_gap::measurement::Measurements;
 use stiffarm_gap::plant::{Effect, Frames, Noise, Place, Plant, Truth};
+use stiffarm_gap::simulate::Reading;
 use stiffarm_kernels::generic::Arm;
 
 /// A small change of a frame or a row, m or rad: its columns are differences of the plant.
@@ -61,11 +63,10 @@ impl<'a> Bench<'a> {
     /// What an effect does, in units of the noise; `None` if the arm does not carry it.
     pub fn signal(&self, truth: &Truth) -> Option<DVector<f64>> {
         let with = exact(self.arm, self.design, self.frames, core::slice::from_ref(truth))?;
-        let all = [true; 6];
         let measured = self.design.kind.components();
         let rows = with.rows.iter().zip(&self.nominal.rows);
         let numbers = rows.flat_map(|(with, without)| {
-            let off = difference(&with.measured, &without.measured, measured == all);
+            let off = row_gap(self.design, with, &Reading::from_vector(&without.measured));
             let Noise { position, rotation } = self.scale;
             let white = move |k: usize| off[k] / if k < 3 { position } else { rotation };
             (0..6).filter(|k| measured[*k]).map(white).collect::<Vec<_>>()
@@ -101,17 +102,6 @@ pub fn exact(
     truths: &[Truth],
 ) -> Option<Measurements> {
     Plant::new(arm, truths).ok()?.with_frames(frames.clone()).exact(design).ok()
-}
-
-/// One reading less another; of whole rotations the rotation vector between them.
-pub fn difference(of: &Vector6<f64>, from: &Vector6<f64>, whole: bool) -> Vector6<f64> {
-    let mut off = of - from;
-    if whole {
-        let turn = |v: &Vector6<f64>| Rotation3::from_scaled_axis(Vector3::new(v[3], v[4], v[5]));
-        let between = (turn(of) * turn(from).inverse()).scaled_axis();
-        off.fixed_rows_mut::<3>(3).copy_from(&between);
-    }
-    off
 }
 
 /// A basis of what the columns span (Gram and Schmidt, twice over), each of so many rows.

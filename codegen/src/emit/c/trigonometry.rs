@@ -61,12 +61,12 @@ static void sin_cos(double angle, double *sine, double *cosine)
         const double x = r.number;
         const double z = x * x;
         const double z2 = z * z;
-        const double s0 = z * 0.008333333333323985 + (-0.1666666666666664);
-        const double s2 = z * 2.7557313989675982e-06 + (-0.0001984126983080591);
-        const double s4 = z * 1.5899093040436842e-10 + (-2.505080040632143e-08);
-        const double c0 = z * (-0.0013888888888881703) + 0.04166666666666665;
-        const double c2 = z * (-2.7557315441390607e-07) + 2.4801587293664423e-05;
-        const double c4 = z * (-1.136611701301712e-11) + 2.087585858796773e-09;
+        const double s0 = z * 0.008333333333322484 + (-0.16666666666666632);
+        const double s2 = z * 2.7557313704098867e-06 + (-0.0001984126982985116);
+        const double s4 = z * 1.5896875188647993e-10 + (-2.5050759714136158e-08);
+        const double c0 = z * (-0.001388888888887447) + 0.0416666666666666;
+        const double c2 = z * (-2.755731439923815e-07) + 2.4801587289666865e-05;
+        const double c4 = z * (-1.1359916899499847e-11) + 2.0875728988224267e-09;
         const double falls = z * (z2 * (z2 * c4 + c2) + c0) + (-0.5);
 
         s.number = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + rest);

@@ -35,8 +35,17 @@ impl Default for RustOptions {
     }
 }
 
-/// The items of a robot's module, ready to stand in a file of its own or between the braces of a
-/// `mod`. The same table always gives the same bytes.
+/// What the items of a module begin with in a file of its own (`pub mod arm;`), whose text is to stay as
+/// it was generated: rustfmt leaves it alone, and so do the lints of the crate that it stands in. Attributes
+/// like these may stand nowhere else: not where the text is included, nor after an item.
+pub const FILE_HEAD: &str = "\
+// Neither formatted nor linted: it is to stay as the table has it.
+#![cfg_attr(rustfmt, rustfmt_skip)]
+#![allow(clippy::all, clippy::cargo, clippy::nursery, clippy::pedantic, clippy::restriction)]
+";
+
+/// The items of a robot's module, ready to stand between the braces of a `mod`, to be included there, or,
+/// after [`FILE_HEAD`], to stand in a file of its own. The same table always gives the same bytes.
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();

@@ -8,7 +8,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::{Ended, Reached, Search, Target, loaded, reach};
 use crate::compensate::CompensateError;
-use crate::identify::random::between;
+use crate::random::between;
 
 fn arm(text: &str) -> Arm {
     let robot = Robot::from_toml(text, "arm.toml").unwrap().0;
@@ -134,7 +134,7 @@ fn what_makes_no_sense_is_refused() {
     let error = reach(&arm, &lost, &load, None, &search).unwrap_err();
     assert!(matches!(error, CompensateError::NotFinite { .. }));
     let error = reach(&arm, &target, &load, Some(&[0.0; 5]), &search).unwrap_err();
-    assert!(matches!(error, CompensateError::Chain(_)));
+    assert!(matches!(error, CompensateError::JointValues { .. }));
     let strict = Search { translation: 0.0, ..search };
     let error = reach(&arm, &target, &load, None, &strict).unwrap_err();
     assert!(matches!(error, CompensateError::NotPositive { .. }));

@@ -12,7 +12,7 @@ use super::Plan;
 use crate::dexterity::{
     DexterityError, Search, characteristic_length, influence, inverse_condition,
 };
-use crate::identify::random::between;
+use crate::random::between;
 
 /// Postures drawn per test wanted, and bounds of their number.
 const PER_TEST: usize = 40;

@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::candidates::Block;
-use crate::identify::random::uniform;
+use crate::random::uniform;
 
 /// Rounds of exchanges.
 const ROUNDS: usize = 8;

@@ -19,8 +19,8 @@ use super::candidates::{Block, Posture};
 use super::suspect::{Number, Suspect};
 use super::trial::{LineUp, Trial};
 use crate::dexterity::DexterityError;
-use crate::identify::random::uniform;
 use crate::measurement::Row;
+use crate::random::uniform;
 
 /// An effect is told from the other where its number is so many of its standard deviations.
 pub const DEVIATIONS: f64 = 3.0;

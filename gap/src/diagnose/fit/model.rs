@@ -5,9 +5,9 @@ use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
-use crate::chain::Displacement;
 use crate::diagnose::data::{LARGEST, Problem};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::displacement::Displacement;
 use crate::effects::{Effect, Scene, Spot};
 use crate::gap::row_gap;
 use crate::simulate::{Actual, Sim, Site, State};

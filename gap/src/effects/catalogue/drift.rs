@@ -7,7 +7,7 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use crate::chain::Displacement;
+use crate::displacement::Displacement;
 use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};

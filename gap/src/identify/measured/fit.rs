@@ -1,14 +1,13 @@
 //! The steps of Gauss and Newton, and how sure their end is.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::choose::{Choice, choose};
 use super::hold_out::Gap;
 use super::regress::{Line, STIFFEST, Sheet};
 use super::{Answer, MeasuredError, Parameter, Question, Status, Unknown};
-use crate::identify::hidden::{Pull, pull};
-use crate::identify::{Test, Weighting};
+use crate::identify::pull::{Pull, pull};
 
 /// Most steps; the gap is nearly linear in the compliances, so that a handful is enough.
 const MOST_STEPS: usize = 30;
@@ -266,15 +265,9 @@ impl Fitted {
 /// The pull that would show a joint in the postures of the file.
 fn advice(sheet: &Sheet<'_>, unknown: Unknown) -> Option<Pull> {
     let Unknown::Joint(joint) = unknown else { return None };
-    let tests: Vec<Test> = sheet
-        .data
-        .rows
-        .iter()
-        .map(|row| Test { q: row.q.clone(), wrench: row.wrench, displacement: row.measured })
-        .collect();
     let components = sheet.data.kind.components();
-    let part = |some: &[bool]| if some.contains(&true) { 1.0 } else { 0.0 };
-    let weighting =
-        Weighting::Rows { translation: part(&components[..3]), rotation: part(&components[3..]) };
-    pull(sheet.arm, &tests, &weighting, joint - 1)
+    let part = |k: usize| components[k / 3 * 3..][..3].contains(&true);
+    let weights = Vector6::from_fn(|k, _| f64::from(u8::from(part(k))));
+    let postures = sheet.data.rows.iter().map(|row| row.q.as_slice());
+    pull(sheet.arm, postures, |_| Some(Matrix6::from_diagonal(&weights)), joint - 1)
 }

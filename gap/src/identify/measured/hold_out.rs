@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::fit::{FITTED, Fitted, step};
 use super::regress::Sheet;
 use super::{MeasuredError, Question};
-use crate::identify::random::uniform;
+use crate::random::uniform;
 
 /// By default each pose is held out in turn up to so many poses.
 const FOLDS: usize = 10;

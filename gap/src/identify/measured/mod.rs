@@ -26,7 +26,7 @@ use core::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
-use super::hidden::Pull;
+use super::pull::Pull;
 use crate::measurement::Measurements;
 
 /// One number that is looked for.

@@ -6,7 +6,6 @@ use nalgebra::{Matrix6xX, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::{MeasuredError, Question, Unknown};
-use crate::identify::links::only_beam;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{State, equilibrium, rotation, translation};
 
@@ -219,4 +218,14 @@ fn subtract_means(lines: &mut [Line], rows: &[usize], constant: &[usize]) {
             line.columns -= columns / *count;
         }
     }
+}
+
+/// The arm with nothing that yields but one beam.
+fn only_beam(arm: &Arm, row: usize) -> Arm {
+    let mut only = arm.clone();
+    for (k, joint) in only.joints.iter_mut().enumerate() {
+        joint.compliance = 0.0;
+        joint.beam = joint.beam.take().filter(|_| k == row);
+    }
+    only
 }

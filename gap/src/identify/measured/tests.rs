@@ -7,8 +7,8 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Answer, MeasuredError, Question, Status, Unknown, identify_measured};
-use crate::identify::random::{between, normal};
 use crate::measurement::Measurements;
+use crate::random::{between, normal};
 use crate::simulate::equilibrium;
 
 fn kr240() -> (Robot, Arm) {

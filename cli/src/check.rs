@@ -1,0 +1,193 @@
+//! `stiffarm check`: whether what is generated from a table is right.
+
+use stiffarm_kernels::Output;
+use stiffarm_robots::{ARMS, SYMBOLIC};
+
+use super::{Verdict, robots};
+use crate::input::model::Model;
+use crate::input::source;
+use crate::input::source::{RobotArgs, Source};
+use crate::parity::{Agreement, Comparison, Line, Subject, agreement};
+use crate::terminal::failure::Failure;
+use crate::terminal::output::print;
+use crate::terminal::progress::Progress;
+use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm check kuka_kr240
+  stiffarm check arm.toml --count 1000
+  stiffarm check --all
+
+Of a built-in robot the compiled kernels are checked, of a file the derived graph. They are compared
+with the textbook (the same quantity by matrices at run time), in single precision too; with central
+differences of the textbook; and with the derivatives of the forward kinematics by dual numbers.
+Deviations are the largest over all postures, relative to the output's scale. Exit status 1 if one
+is larger than its arithmetic accounts for.";
+
+/// Generated = textbook = differences = dual numbers, at random postures and loads
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES, override_usage = "stiffarm check [OPTIONS] <ROBOT|--all>")]
+pub struct Args {
+    #[command(flatten)]
+    robot: Option<RobotArgs>,
+    /// Check every built-in robot, a line for each
+    #[arg(long, conflicts_with = "robot", required_unless_present = "robot")]
+    all: bool,
+    /// Postures and wrenches per robot
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    count: u32,
+    /// Seed of the postures and wrenches
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let checked = match &args.robot {
+        Some(robot) => vec![check(robot.load(quiet)?, args, quiet)?],
+        None => {
+            let each = ARMS.iter().map(|arm| check(source::open(arm.id, quiet)?, args, quiet));
+            each.collect::<Result<_, _>>()?
+        }
+    };
+    let failed = checked.iter().any(|c| !c.agrees());
+    let text = if args.all { summary(&checked, args) } else { checked[0].report(args) };
+    if failed || !quiet {
+        print(&text)?;
+    }
+    Ok(if failed { Verdict::Failed } else { Verdict::Good })
+}
+
+/// A robot and how well its implementations agree.
+struct Checked {
+    source: Source,
+    implementation: &'static str,
+    agreement: Agreement,
+}
+
+fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
+    let arm = source.arm()?;
+    let model = Model::new(&source, &Output::EACH);
+    let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);
+    let subject = Subject {
+        arm: &arm,
+        generated: &generated,
+        single: source.compiled.map(|arm| arm.kernels_f32),
+    };
+    let count = args.count as usize;
+    let progress = Progress::new(&source.given, count, quiet);
+    let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
+    let implementation = model.name();
+    Ok(Checked { source, implementation, agreement })
+}
+
+const HEADS: [&str; 4] = ["textbook", "f32", "differences", "dual numbers"];
+
+impl Checked {
+    fn agrees(&self) -> bool {
+        self.agreement.lines.iter().all(|line| line.exceeded().next().is_none())
+    }
+
+    /// A line per output.
+    fn report(&self, args: &Args) -> String {
+        let robot = &self.source.robot;
+        let mut text = format!(
+            "{}  {}\n\n",
+            bold(&robot.name),
+            dim(format!(
+                "{}, {}, {}: {} postures and wrenches, seed {}",
+                robots::motions(robot),
+                robots::convention(robot.convention),
+                self.implementation,
+                thousands(args.count as usize),
+                args.seed
+            ))
+        );
+        let mut rows = vec![heads("output")];
+        rows.extend(self.agreement.lines.iter().map(row));
+        rows.push(limits());
+        text.push_str(&indented(&table(&rows, &ALIGN), 2));
+        text.push('\n');
+        if self.agreement.unstable > 0 {
+            text.push_str(&format!(
+                "left out: {} evaluations in which the arm is not stable under its load\n",
+                thousands(self.agreement.unstable)
+            ));
+        }
+        text.push_str(&self.sentence());
+        text
+    }
+
+    fn sentence(&self) -> String {
+        let wrong = self.agreement.lines.iter().filter(|l| l.exceeded().next().is_some());
+        let wrong: Vec<&str> = wrong.map(|line| line.output.name()).collect();
+        if wrong.is_empty() {
+            return format!("{} all agree\n", good("✓"));
+        }
+        let (name, wrong) = (&self.source.given, wrong.join(", "));
+        format!("{} {name}: beyond what the arithmetic accounts for: {wrong}\n", bad("✗"))
+    }
+}
+
+const ALIGN: [Align; 5] = [Align::Left, Align::Right, Align::Right, Align::Right, Align::Right];
+
+fn heads(first: &str) -> Vec<String> {
+    std::iter::once(first).chain(HEADS).map(bold).collect()
+}
+
+fn limits() -> Vec<String> {
+    let each = Comparison::EACH.map(|c| dim(format!("{:.0e}", c.limit())));
+    std::iter::once(dim("at most")).chain(each).collect()
+}
+
+fn row(line: &Line) -> Vec<String> {
+    let mut cells = vec![line.output.name().to_owned()];
+    cells.extend(Comparison::EACH.iter().zip(line.worst).map(|(c, worst)| cell(*c, worst)));
+    cells
+}
+
+fn cell(comparison: Comparison, worst: Option<f64>) -> String {
+    match worst {
+        None => dim("–"),
+        Some(0.0) => "0".to_owned(),
+        Some(x) if x > comparison.limit() => bad(format!("{x:.1e}")),
+        Some(x) => format!("{x:.1e}"),
+    }
+}
+
+/// A line per robot: its largest deviations.
+fn summary(checked: &[Checked], args: &Args) -> String {
+    let mut rows = vec![heads("robot")];
+    for robot in checked {
+        let mut cells = vec![robot.source.given.clone()];
+        for (k, comparison) in Comparison::EACH.into_iter().enumerate() {
+            let worst = robot.agreement.lines.iter().filter_map(|line| line.worst[k]);
+            cells.push(cell(comparison, worst.reduce(f64::max)));
+        }
+        rows.push(cells);
+    }
+    rows.push(limits());
+    let count = thousands(args.count as usize);
+    let mut text = format!(
+        "{}  {}\n\n{}\n",
+        bold("Built-in robots"),
+        dim(format!("largest deviation of any output over {count} postures, seed {}", args.seed)),
+        indented(&table(&rows, &ALIGN), 2)
+    );
+    for robot in checked.iter().filter(|robot| !robot.agrees()) {
+        text.push_str(&robot.sentence());
+    }
+    if checked.iter().all(Checked::agrees) {
+        text.push_str(&format!("{} all agree\n", good("✓")));
+    }
+    let symbolic: Vec<&str> = SYMBOLIC.iter().map(|arm| arm.id).collect();
+    text.push_str(&dim(format!(
+        "not checked, having symbolic parameters: {}\n",
+        symbolic.join(", ")
+    )));
+    text
+}

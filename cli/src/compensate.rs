@@ -1,0 +1,276 @@
+//! `stiffarm compensate`: set-points at which the loaded arm stands where it should.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use stiffarm_gap::Measurements;
+use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
+use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
+
+use super::Verdict;
+use crate::input::source::{RobotArgs, Source};
+use crate::input::wrench::wrench;
+use crate::input::{data, quantity};
+use crate::terminal::failure::Failure;
+use crate::terminal::note::note;
+use crate::terminal::output::{Target, print};
+use crate::terminal::progress::Progress;
+use crate::terminal::text::{bold, dim, short};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm compensate arm.toml --targets path.csv --wrench 0,0,-500,0,0,0 --out corrected.csv
+  stiffarm compensate arm_stiff.toml --targets path.csv --tolerance 10um --out - | column -ts,
+
+TARGETS is a file like a measurement file: x y z and perhaps rx ry rz, where the tool should be in
+the base frame; perhaps q1 … qn, from where to start; perhaps fx … mz, a load for each row in place
+of --wrench. Without q1 … qn each row starts where the row before ended; the first, and any that
+does not come to its target so, from many postures, of which the one that gives way least is taken.
+
+OUT has the set-points of every row, what the loaded arm misses there (error) and what it would miss
+without compensation (before), and a status: reached, nearest (at limit: the joints named) or
+unstable. Exit status 1 if a row is not reached. The arm is that of the robot file at static
+equilibrium: springs, beams, weights, the load. `stiffarm identify --write-robot` puts measured
+springs into it.";
+
+/// Joint set-points at which the loaded arm stands at the targets
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Where the tool should be (CSV)
+    #[arg(long, value_name = "CSV")]
+    targets: PathBuf,
+    /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit [default: the
+    /// targets' own, else the links' weights alone]
+    #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
+    wrench: Option<String>,
+    /// Largest distance from a target
+    #[arg(long, value_name = "LENGTH", default_value = "1um", allow_hyphen_values = true)]
+    tolerance: String,
+    /// Largest angle from a target
+    #[arg(long, value_name = "ANGLE", default_value = "0.001mrad", allow_hyphen_values = true)]
+    tolerance_rotation: String,
+    /// Postures to start from where the first start does not lead to the target
+    #[arg(long, value_name = "N", default_value_t = 24)]
+    starts: u16,
+    /// Seed of these postures; the same seed gives the same bytes
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Write the set-points (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "CSV")]
+    out: Target,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the targets, the options, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let (length, angle) = (Dimension::Length, Dimension::Angle);
+    let search = Search {
+        translation: quantity::with_unit("--tolerance", &args.tolerance, length)?,
+        rotation: quantity::with_unit("--tolerance-rotation", &args.tolerance_rotation, angle)?,
+        starts: usize::from(args.starts),
+        seed: args.seed,
+    };
+    let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let (targets, starts) = targets(&args.targets, &source)?;
+    if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
+        let message = format!("--wrench: {} has loads of its own", args.targets.display());
+        return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));
+    }
+    if arm.joints.iter().all(|joint| joint.compliance == 0.0 && joint.beam.is_none()) {
+        note("nothing in the robot file gives way: the set-points are those of a rigid arm", quiet);
+    }
+    let progress = Progress::new(&source.given, targets.rows.len(), quiet);
+    let mut found: Vec<Reached> = Vec::new();
+    for row in &targets.rows {
+        let load = given.unwrap_or(row.wrench);
+        let before = found.last().filter(|end| end.ended == Ended::Reached);
+        let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
+        let end = reach(&arm, &goal(row, targets.kind), &load, from.map(Vec::as_slice), &search);
+        found.push(end.map_err(|error| {
+            Failure::new(format!("{}: line {}: {error}", targets.file, row.line))
+        })?);
+        progress.add(1);
+    }
+    drop(progress);
+    args.out.write(&file(&source, &targets, &found))?;
+    let missed = found.iter().filter(|end| end.ended != Ended::Reached).count();
+    if args.out != Target::Stdout && !quiet {
+        print(&screen(&source, &targets, &found))?;
+    }
+    if missed > 0 {
+        note(&format!("{} of {} targets are not reached", missed, found.len()), quiet);
+        return Ok(Verdict::Failed);
+    }
+    Ok(Verdict::Good)
+}
+
+/// The targets, and whether they have joint values to start from.
+fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let full = data::layout(source)?;
+    let starts = has_readings(&bytes);
+    // Without a column of joint values the reader is told of no joints.
+    let layout = if starts { full } else { Layout { motions: Vec::new(), ..full } };
+    let targets = data::from_bytes(path, &bytes, &layout)?;
+    let refused = |text: &str, help: &str| {
+        Err(Failure::with_help(format!("{}: {text}", path.display()), help))
+    };
+    if let Kind::Displacement { .. } = targets.kind {
+        return refused(
+            "found displacements, expected poses: x, y, z",
+            "a target is a place in the base frame",
+        );
+    }
+    if targets.rows.iter().any(|row| row.marker.is_some()) {
+        return refused(
+            "found a column of markers, expected targets of the tool origin",
+            "move the targets by the marker's offset, or the [tool] to the marker",
+        );
+    }
+    Ok((targets, starts))
+}
+
+/// Whether the header has a column `q1`, `q2`, ….
+fn has_readings(bytes: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(bytes);
+    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let reading = |cell: &str| {
+        let name = cell.trim().trim_matches('"');
+        name.strip_prefix('q').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    header.is_some_and(|header| header.split(',').any(reading))
+}
+
+fn goal(row: &Row, kind: Kind) -> Goal {
+    let m = &row.measured;
+    let rotation = matches!(kind, Kind::Pose { orientation: true })
+        .then(|| UnitQuaternion::from_scaled_axis(Vector3::new(m[3], m[4], m[5])));
+    Goal { position: Vector3::new(m[0], m[1], m[2]), rotation }
+}
+
+/// `[position, rotation]` of an error, m and rad.
+fn sizes(error: &Vector6<f64>) -> [f64; 2] {
+    [error.fixed_rows::<3>(0).norm(), error.fixed_rows::<3>(3).norm()]
+}
+
+/// A row for each target.
+fn file(source: &Source, targets: &Measurements, found: &[Reached]) -> String {
+    let turned = matches!(targets.kind, Kind::Pose { orientation: true });
+    let named = targets.rows.iter().any(|row| row.pose.is_some());
+    let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
+    let mut heads: Vec<String> = if named { vec!["pose".to_owned()] } else { Vec::new() };
+    heads.extend(
+        revolute
+            .iter()
+            .enumerate()
+            .map(|(j, turns)| format!("q{}[{}]", j + 1, if *turns { "deg" } else { "mm" })),
+    );
+    heads.extend(["x[mm]", "y[mm]", "z[mm]"].map(str::to_owned));
+    if turned {
+        heads.extend(["rx[deg]", "ry[deg]", "rz[deg]"].map(str::to_owned));
+    }
+    for (name, what) in [("error", "mm"), ("before", "mm")] {
+        heads.push(format!("{name}[{what}]"));
+        if turned {
+            heads.push(format!("{name}_rotation[mrad]"));
+        }
+    }
+    heads.push("status".to_owned());
+    let mut text = heads.join(",") + "\n";
+    for (row, end) in targets.rows.iter().zip(found) {
+        let mut cells: Vec<String> = Vec::new();
+        if named {
+            cells.push(quoted(row.pose.as_deref().unwrap_or_default()));
+        }
+        let stable = end.ended != Ended::Unstable;
+        cells.extend(end.q.iter().zip(&revolute).map(|(q, turns)| match (stable, turns) {
+            (false, _) => String::new(),
+            // To a nanoradian and a nanometre.
+            (true, true) => format!("{:.8}", rounded(q.to_degrees(), 1e8)),
+            (true, false) => format!("{:.6}", rounded(1e3 * q, 1e6)),
+        }));
+        cells.extend((0..3).map(|k| format!("{:.6}", 1e3 * row.measured[k])));
+        if turned {
+            cells.extend((3..6).map(|k| format!("{:.8}", row.measured[k].to_degrees())));
+        }
+        for error in [Some(&end.error).filter(|_| stable), end.uncompensated.as_ref()] {
+            let [p, r] = error.map_or([None; 2], |e| sizes(e).map(Some));
+            let shown = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{:.6}", 1e3 * x));
+            cells.push(shown(p));
+            if turned {
+                cells.push(shown(r));
+            }
+        }
+        cells.push(status(&end.ended));
+        text.push_str(&cells.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+/// To a part of one, without a minus before zero.
+fn rounded(x: f64, parts: f64) -> f64 {
+    (x * parts).round() / parts + 0.0
+}
+
+fn status(ended: &Ended) -> String {
+    match ended {
+        Ended::Reached => "reached".to_owned(),
+        Ended::Unstable => "unstable".to_owned(),
+        Ended::Nearest(joints) if joints.is_empty() => "nearest".to_owned(),
+        Ended::Nearest(joints) => {
+            let names: Vec<String> = joints.iter().map(|joint| format!("q{joint}")).collect();
+            format!("nearest (at limit: {})", names.join(" "))
+        }
+    }
+}
+
+/// A cell that may hold commas and quotes.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+fn screen(source: &Source, targets: &Measurements, found: &[Reached]) -> String {
+    let reached = || found.iter().filter(|end| end.ended == Ended::Reached);
+    let largest =
+        |value: &dyn Fn(&Reached) -> Option<f64>| reached().filter_map(value).fold(0.0, f64::max);
+    let before = largest(&|end| end.uncompensated.map(|e| sizes(&e)[0]));
+    let after = largest(&|end| Some(sizes(&end.error)[0]));
+    let mut text = format!(
+        "{}\n{}\n\n",
+        bold(&source.robot.name),
+        dim(format!("{}: {}", targets.file, quantity::counted(found.len(), "target")))
+    );
+    text.push_str(&format!("  reached  {} of {}\n", reached().count(), found.len()));
+    if reached().next().is_some() {
+        text.push_str(&format!("  without compensation  {} mm at most\n", short(1e3 * before)));
+        // What the steps leave is rounding; nobody needs its digits.
+        let left = if after < 1e-9 { "below 1e-6".to_owned() } else { short(1e3 * after) };
+        text.push_str(&format!("  with compensation     {left} mm at most\n"));
+    }
+    const SHOWN: usize = 5;
+    let missed: Vec<(&Row, &Reached)> =
+        targets.rows.iter().zip(found).filter(|(_, e)| e.ended != Ended::Reached).collect();
+    for (row, end) in missed.iter().take(SHOWN) {
+        let gap = match end.ended {
+            Ended::Unstable => String::new(),
+            _ => format!(", {} mm away", short(1e3 * sizes(&end.error)[0])),
+        };
+        text.push_str(&format!("  line {}: {}{gap}\n", row.line, status(&end.ended)));
+    }
+    if missed.len() > SHOWN {
+        text.push_str(&format!("  and {} more\n", missed.len() - SHOWN));
+    }
+    text
+}

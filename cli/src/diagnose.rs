@@ -1,0 +1,183 @@
+//! `stiffarm diagnose`: the gap between model and measurement, and what closes it.
+
+mod check;
+mod corrected;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use stiffarm_gap::diagnose::{Nuisance, Stage};
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
+
+pub use check::Check;
+
+use super::Verdict;
+use super::screen::Screen;
+use crate::input::data;
+use crate::input::quantity::{self, counted};
+use crate::input::source::RobotArgs;
+use crate::report::Report;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::note::note;
+use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::progress::Stages;
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm diagnose arm.toml run1.csv
+  stiffarm diagnose arm.toml run1.csv --nuisance base_frame,tool_frame --noise-position 30um
+  stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
+  stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
+
+DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
+mz; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz]; and optionally pose, marker,
+s1 … sn, temperature, time, and your own simulator's sim_x … or sim_dx ….";
+
+/// Why the real arm is not where the model says
+///
+/// The gap between robot file and measurements, which unmodelled effects cause it and how far it
+/// shrinks with them, judged on poses that no fit has seen.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// The measurement file (CSV)
+    data: PathBuf,
+    /// Frames known to be unknown, fitted along and never findings: base_frame, tool_frame
+    #[arg(long, value_name = "a,b", value_delimiter = ',')]
+    nuisance: Vec<String>,
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    noise_position: Option<String>,
+    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else estimated]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    noise_rotation: Option<String>,
+    /// Try only these effects
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
+    effects: Option<Vec<String>>,
+    /// Number of folds [default: one per pose up to 30 poses, else 10]
+    #[arg(long, value_name = "K")]
+    folds: Option<usize>,
+    /// Seed of folds, permutations and intervals; the same seed gives the same bytes
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
+    #[arg(long = "rival", value_name = "PREFIX")]
+    rivals: Vec<String>,
+    /// Predict another measurement file of the same arm with what was found
+    #[arg(long, value_name = "OTHER.csv")]
+    check: Option<PathBuf>,
+    /// Write the robot file with what was found put into it
+    #[arg(long, value_name = "OUT.toml")]
+    write_robot: Option<Target>,
+    /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+    /// Write the diagnosis as one self-contained page
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<Target>,
+}
+
+/// The diagnosis as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    #[serde(flatten)]
+    diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    check: Option<&'a Check>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    one_to_stdout(&[
+        ("--json", &args.json),
+        ("--write-robot", &args.write_robot),
+        ("--report", &args.report),
+    ])?;
+    let options = args.options()?;
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let layout = data::layout(&source)?;
+    let data = data::read(&args.data, &layout)?;
+    let other = args.check.as_ref().map(|path| data::read(path, &layout)).transpose()?;
+    let stages = Stages::new(quiet);
+    let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
+        .map_err(plain)?;
+    drop(stages);
+    let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
+    let check = check.map_err(plain)?;
+    let found = &diagnosed.diagnosis;
+    if let Some(target) = &args.json {
+        target.write(&json::text(&Written { diagnosis: found, check: check.as_ref() })?)?;
+    }
+    if let Some(target) = &args.write_robot {
+        target.write(&corrected::text(&source, &data, &diagnosed))?;
+        if data.sim_given.contains(&true) {
+            note(
+                "the robot file is corrected by what the simulator of the sim_ columns lacks",
+                quiet,
+            );
+        }
+    }
+    let screen =
+        Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check: check.as_ref() };
+    if let Some(target) = &args.report {
+        let (explanation, words) = (&diagnosed.explanation, screen.words());
+        let report = Report {
+            found,
+            data: &data,
+            arm: &arm,
+            placed: explanation.arm(),
+            gaps: &explanation.predict(&data).map_err(plain)?,
+            options: &options,
+            words: &words,
+        };
+        let page = report.html();
+        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
+        target.write(&page)?;
+    }
+    let written: Vec<_> =
+        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
+    let enough = quiet && !written.is_empty();
+    if !enough && !written.contains(&&Target::Stdout) {
+        print(&screen.text())?;
+    }
+    Ok(Verdict::Good)
+}
+
+fn in_words(stage: Stage) -> String {
+    match stage {
+        Stage::Align => "simulating the rows and fitting the unknown frames".to_owned(),
+        Stage::Search(found) => format!("looking for effects, {found} found"),
+        Stage::Judge(found) => format!("judging {} and their rivals", counted(found, "finding")),
+    }
+}
+
+fn plain(error: DiagnoseError) -> Failure {
+    Failure::new(error.to_string())
+}
+
+impl Args {
+    fn options(&self) -> Result<Options, Failure> {
+        let noise = |option, text: &Option<String>, dimension| {
+            text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
+        };
+        let nuisances = self.nuisance.iter().map(|name| Nuisance::parse(name));
+        Ok(Options {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            folds: self.folds,
+            seed: self.seed,
+            noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
+            noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
+            effects: self.effects.clone(),
+            nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
+            rivals: self.rivals.clone(),
+        })
+    }
+}

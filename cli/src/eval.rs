@@ -1,0 +1,213 @@
+//! `stiffarm eval`: everything elastostatic at one posture under one load.
+
+use serde::Serialize;
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::Output;
+
+use super::Verdict;
+use crate::input::model::Model;
+use crate::input::quantity;
+use crate::input::source::{RobotArgs, Source};
+use crate::input::wrench::wrench;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::output::{Target, print};
+use crate::terminal::text::{Align, bold, decimals, dim, indented, minus, table};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm eval ur5 --q 0,-90deg,90deg,0,90deg,0 --wrench 0,0,-100,0,0,0
+  stiffarm eval kuka_kr240 --q 0.1,-0.8,0.6,0,0.4,0 --wrench 0,0,-500,0,0,0 --json state.json
+  stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection";
+
+/// Pose, Jacobian, stiffness and deflection at one posture under one load
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Joint values, base to tip: rad (m if prismatic), or with a unit: 30deg, 50mm
+    #[arg(long, value_name = "q1,q2,…", allow_hyphen_values = true)]
+    q: String,
+    /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit: 50lbf
+    #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
+    wrench: Option<String>,
+    /// Let the links' weights count: in deflection, joint torque and K_C
+    #[arg(long)]
+    gravity: bool,
+    /// Write the result as JSON (`-`: to standard output) instead of a table
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+}
+
+/// The result as the format has it; matrices row by row.
+#[derive(Serialize)]
+struct Evaluation {
+    position: Vec<f64>,
+    rotation: Vec<Vec<f64>>,
+    jacobian: Vec<Vec<f64>>,
+    k_c: Vec<Vec<f64>>,
+    compliance: Vec<Vec<f64>>,
+    deflection: Vec<f64>,
+    joint_torque: Vec<f64>,
+}
+
+const OUTPUTS: [Output; 8] = [
+    Output::Pose,
+    Output::Jacobian,
+    Output::ComplementaryStiffness,
+    Output::JointTorque,
+    Output::GravityTorque,
+    Output::GravityStiffness,
+    Output::Compliance,
+    Output::Deflection,
+];
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the values, or the arm not stable under the load.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let source = args.robot.load(quiet)?;
+    let q = quantity::list("--q", &args.q, &source.readings(), &joints(&source))?;
+    let wrench = match &args.wrench {
+        None => [0.0; 6],
+        Some(text) => wrench("--wrench", text)?.into(),
+    };
+    let deflection = if args.gravity { Output::DeflectionWithGravity } else { Output::Deflection };
+    let model = Model::new(&source, &[&OUTPUTS[..7], &[deflection]].concat());
+    let result = evaluate(&model, &q, &wrench, args.gravity, deflection)?;
+    match &args.json {
+        Some(target) => target.write(&json::text(&result)?)?,
+        None => print(&screen(&source, &model, &q, &wrench, args.gravity, &result))?,
+    }
+    Ok(Verdict::Good)
+}
+
+fn joints(source: &Source) -> String {
+    let n = source.robot.dof();
+    let joints = quantity::counted(n, "joint");
+    format!("{} has {joints}: one value for each, base to tip", source.robot.name)
+}
+
+fn evaluate(
+    model: &Model,
+    q: &[f64],
+    wrench: &[f64; 6],
+    gravity: bool,
+    deflection: Output,
+) -> Result<Evaluation, Failure> {
+    let n = q.len();
+    let block = |output: Output| -> Result<Vec<f64>, Failure> {
+        let block = model.evaluate(output, q, wrench).map_err(|unstable| {
+            Failure::with_help(unstable.to_string(), "check the load, its unit and the stiffness")
+        })?;
+        if block.iter().all(|x| x.is_finite()) {
+            return Ok(block);
+        }
+        let name = output.name();
+        Err(Failure::new(format!("{name} is too large for a double: check the table's numbers")))
+    };
+    // With the links' weights, what they add.
+    let loaded = |of_wrench: Output, of_weights: Output| -> Result<Vec<f64>, Failure> {
+        let mut sum = block(of_wrench)?;
+        if gravity {
+            sum.iter_mut().zip(block(of_weights)?).for_each(|(x, weight)| *x += weight);
+        }
+        Ok(sum)
+    };
+    let pose = block(Output::Pose)?;
+    let k_c = loaded(Output::ComplementaryStiffness, Output::GravityStiffness)?;
+    Ok(Evaluation {
+        position: rows(&pose[9..], 3).into_iter().flatten().collect(),
+        rotation: rows(&pose[..9], 3),
+        jacobian: rows(&block(Output::Jacobian)?, 6),
+        k_c: rows(&k_c, n),
+        compliance: rows(&block(Output::Compliance)?, 6),
+        deflection: rows(&block(deflection)?, 6).concat(),
+        joint_torque: rows(&loaded(Output::JointTorque, Output::GravityTorque)?, n).concat(),
+    })
+}
+
+/// The rows of a column-major block; a negative zero is a zero.
+fn rows(block: &[f64], rows: usize) -> Vec<Vec<f64>> {
+    (0..rows).map(|r| block.iter().skip(r).step_by(rows).map(|x| x + 0.0).collect()).collect()
+}
+
+fn screen(
+    source: &Source,
+    model: &Model,
+    q: &[f64],
+    wrench: &[f64; 6],
+    gravity: bool,
+    result: &Evaluation,
+) -> String {
+    let si = |kind: &Dimension| kind.si().name;
+    let units: Vec<&str> = source.readings().iter().map(si).collect();
+    let weights = if gravity { ", links' weights included" } else { "" };
+    let mut text = format!(
+        "{}  {}\n\n",
+        bold(&source.robot.name),
+        dim(format!("{} by the {}{weights}", source.given, model.name()))
+    );
+    let mut part = |name: &str, unit: &str, rows: &[&[f64]]| {
+        let (power, matrix) = matrix(rows);
+        let factor = if power == 0 { String::new() } else { format!("× 1e{power}  ") };
+        let head = format!("{}  {}", bold(name), dim(format!("{factor}{unit}")));
+        text.push_str(&format!("{}\n{}", head.trim_end(), indented(&matrix, 2)));
+    };
+    part("q", &distinct(&units), &[q]);
+    part("wrench", "N, N·m", &[wrench]);
+    part("position", "m", &[&result.position]);
+    part("rotation", "", &borrowed(&result.rotation));
+    part(
+        "jacobian",
+        "base axes, at the tool: translations, then rotations",
+        &borrowed(&result.jacobian),
+    );
+    part("k_c", "row j, column i: ∂τ_j/∂q_i", &borrowed(&result.k_c));
+    part("joint_torque", "N·m, N if prismatic", &[&result.joint_torque]);
+    part("compliance", "m/N, rad/N; m/(N·m), rad/(N·m)", &borrowed(&result.compliance));
+    part("deflection", "m, m, m, rad, rad, rad", &[&result.deflection]);
+    text
+}
+
+fn distinct(units: &[&str]) -> String {
+    let mut seen: Vec<&str> = Vec::new();
+    units.iter().for_each(|u| {
+        if !seen.contains(u) {
+            seen.push(u)
+        }
+    });
+    if seen.len() < 2 { seen.concat() } else { units.join(", ") }
+}
+
+fn borrowed(rows: &[Vec<f64>]) -> Vec<&[f64]> {
+    rows.iter().map(Vec::as_slice).collect()
+}
+
+/// Numbers with the same digits behind the point, where they are small or large without a
+/// common power of ten.
+fn matrix(rows: &[&[f64]]) -> (i32, String) {
+    let largest = rows.iter().copied().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 && rows.len() > 1 {
+        return (0, "0 throughout\n".to_owned());
+    }
+    let plain = largest == 0.0 || (1e-2..1e6).contains(&largest);
+    let power = if plain { 0 } else { 3 * (largest.log10() / 3.0).floor() as i32 };
+    let scaled = |x: f64| x / 10f64.powi(power);
+    let digits = decimals(scaled(largest), 6).min(6);
+    let number = |x: &f64| {
+        let text = format!("{:.digits$}", scaled(*x));
+        // What rounds to zero shows no sign; what is zero shows no digits.
+        let zero = text.bytes().all(|b| b"-0.".contains(&b));
+        match (*x == 0.0, zero) {
+            (true, _) => "0".to_owned(),
+            (false, true) => text.replace('-', ""),
+            (false, false) => minus(text),
+        }
+    };
+    let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(number).collect()).collect();
+    let columns = rows.first().map_or(0, |row| row.len());
+    (power, table(&cells, &vec![Align::Right; columns]))
+}

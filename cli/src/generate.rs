@@ -1,0 +1,281 @@
+//! `stiffarm generate`: the closed form as text.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use stiffarm_codegen::derive::{Displacements, Output};
+use stiffarm_codegen::emit::{
+    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, c, c_name, dot, flexible_latex,
+    flexible_rust, latex, rust,
+};
+
+use super::Verdict;
+use crate::input::source::{self, Source};
+use crate::terminal::failure::Failure;
+use crate::terminal::output::{Target, print};
+use crate::terminal::text::{bad, dim, good};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm generate ur5 --emit rust --out src/ur5.rs
+  stiffarm generate ur5 --emit rust --check src/ur5.rs     (exit status 1 if it differs)
+  stiffarm generate ur5 --emit rust --fused --out src/ur5_fused.rs
+  stiffarm generate ur5 --emit c --precision f32 --out firmware/
+  stiffarm generate ur5 --emit c --precision f32 --check firmware/
+  stiffarm generate arm.toml --emit latex --output jacobian --output deflection > arm.tex
+  stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
+  stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
+
+/// The kernels as Rust or C, or the closed form as LaTeX or as a graph
+///
+/// The Rust text is what the macro `robot!` compiles, headed so that in a file of its own (`mod arm;`)
+/// rustfmt and lints leave it alone; the C text gives the same bits. The same table always gives the
+/// same bytes.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// A robot file (TOML), or the id of a built-in robot
+    robot: String,
+    /// What to write
+    #[arg(long, value_enum)]
+    emit: Emit,
+    /// An output to write, may be repeated [default: all of them as LaTeX, the Jacobian as dot]
+    #[arg(long = "output", value_name = "NAME", value_parser = outputs())]
+    outputs: Vec<String>,
+    /// The pose with displacements in the chain instead, exact and in both approximations: a list
+    /// of dx, dy, dz (m), dpsi, dbeta, dphi (rad, about x, y, z), of every link, or of one place
+    /// like dphi1, 0 is the base [all of them everywhere if there is no LIST]
+    #[arg(long, value_name = "LIST", num_args = 0..=1, default_missing_value = "")]
+    #[arg(conflicts_with = "outputs")]
+    flexible: Option<String>,
+    /// Path of the kernels crate in the Rust text [default: ::stiffarm::kernels]
+    #[arg(long, value_name = "PATH")]
+    kernels: Option<String>,
+    /// Fuse products into sums in Rust: faster where the target has the instruction and the kernels' feature
+    /// `fma` asks for it, and not the same bits everywhere
+    #[arg(long)]
+    #[arg(conflicts_with = "flexible")]
+    fused: bool,
+    /// Type of the numbers in C [default: f64]
+    #[arg(long, value_enum)]
+    precision: Option<Real>,
+    /// Where sines and cosines come from in C [default: polynomial]
+    #[arg(long, value_enum)]
+    sines: Option<SinesFrom>,
+    /// What the names and both files in C begin with [default: the robot's id or file name]
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Write into this file (`-`: to standard output); C: both files into this folder. A missing
+    /// folder is made
+    #[arg(long, value_name = "PATH")]
+    out: Option<Target>,
+    /// Compare with this file, byte by byte, and write nothing; C: with both files of this folder
+    #[arg(long, value_name = "PATH", conflicts_with = "out")]
+    check: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Emit {
+    /// A module with a function per output
+    Rust,
+    /// A header and a source, C99, with a function per output
+    C,
+    /// A document to lay beside a paper
+    Latex,
+    /// The expression graph, for Graphviz
+    Dot,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Real {
+    /// float
+    F32,
+    /// double
+    F64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SinesFrom {
+    /// The Rust kernels' own, written along: no library
+    Polynomial,
+    /// math.h
+    Math,
+    /// The caller: only the functions that take sines and cosines
+    Given,
+}
+
+fn outputs() -> Vec<&'static str> {
+    Output::EACH.map(Output::name).to_vec()
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, options that do not go together, a file that cannot be read or written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    args.go_together()?;
+    let source = source::open(&args.robot, quiet)?;
+    let mut verdict = Verdict::Good;
+    for (name, text) in args.files(&source)? {
+        // One text is the file that was named, several are in the folder that was named.
+        let place = |path: &Path| name.as_ref().map_or(path.to_path_buf(), |n| path.join(n));
+        match (&args.check, &args.out) {
+            (Some(path), _) if args.check(&place(path), &text, quiet)? == Verdict::Failed => {
+                verdict = Verdict::Failed;
+            }
+            (Some(_), _) => {}
+            (None, Some(Target::File(path))) => {
+                let file = place(path);
+                if let Some(folder) = file.parent() {
+                    std::fs::create_dir_all(folder)
+                        .map_err(|error| Failure::io("write", &file, &error))?;
+                }
+                Target::File(file).write(&text)?;
+            }
+            (None, Some(Target::Stdout) | None) => print(&text)?,
+        }
+    }
+    Ok(verdict)
+}
+
+impl Args {
+    fn go_together(&self) -> Result<(), Failure> {
+        let of_c = self.precision.is_some() || self.sines.is_some() || self.name.is_some();
+        match self.emit {
+            Emit::Rust | Emit::Latex | Emit::Dot if of_c => {
+                Err(Failure::new("--precision, --sines and --name are for c"))
+            }
+            Emit::Rust | Emit::C if !self.outputs.is_empty() => Err(Failure::new(
+                "--output is for latex and dot: the Rust module and the C files have every output",
+            )),
+            Emit::C | Emit::Dot if self.flexible.is_some() => {
+                Err(Failure::new("--flexible is for rust and latex"))
+            }
+            Emit::C | Emit::Latex | Emit::Dot if self.kernels.is_some() => {
+                Err(Failure::new("--kernels is for rust: c, latex and dot use no crate"))
+            }
+            Emit::C | Emit::Latex | Emit::Dot if self.fused => {
+                Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
+            }
+            Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
+                Err(Failure::with_help(
+                    "found no folder to write into: C is two files, a header and a source",
+                    "name the folder: --out FOLDER",
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What is to be written; C has two files, with names of their own.
+    fn files(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
+        let robot = &source.robot;
+        let asked = Output::EACH.into_iter();
+        let asked = asked.filter(|o| self.outputs.iter().any(|name| name == o.name()));
+        let asked: Vec<Output> = asked.collect();
+        let or =
+            |default: &[Output]| if asked.is_empty() { default.to_vec() } else { asked.clone() };
+        let text = match (self.emit, &self.flexible) {
+            (Emit::C, _) => return self.c(source),
+            (_, Some(list)) => self.flexible(list, source)?,
+            (Emit::Latex, None) => latex(robot, &or(&Output::EACH)),
+            (Emit::Dot, None) => dot(robot, &or(&[Output::Jacobian])),
+            (Emit::Rust, None) => rust(robot, &self.options()),
+        };
+        let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };
+        Ok(vec![(None, format!("{head}{text}"))])
+    }
+
+    /// The header and the source.
+    fn c(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
+        let options = self.c_options(source)?;
+        let CFiles { header, source: text } = c(&source.robot, &options).map_err(|error| {
+            let message = format!("{}: {error}", source.robot.name);
+            Failure::with_help(message, "write the numbers into a copy of the robot file")
+        })?;
+        let file = |end: &str| Some(format!("{}.{end}", options.name));
+        Ok(vec![(file("c"), text), (file("h"), header)])
+    }
+
+    fn c_options(&self, source: &Source) -> Result<COptions, Failure> {
+        let name = match &self.name {
+            Some(name) if *name != c_name(name) => {
+                return Err(Failure::with_help(
+                    format!("--name: found `{name}`, expected lower-case letters, digits and _"),
+                    format!("`{}` would do", c_name(name)),
+                ));
+            }
+            Some(name) => name.clone(),
+            None => {
+                let stem = Path::new(&source.given).file_stem().unwrap_or_default();
+                c_name(&stem.to_string_lossy())
+            }
+        };
+        let precision = match self.precision {
+            Some(Real::F32) => Precision::F32,
+            Some(Real::F64) | None => Precision::F64,
+        };
+        let sines = match self.sines {
+            Some(SinesFrom::Polynomial) | None => Sines::Polynomial,
+            Some(SinesFrom::Math) => Sines::Math,
+            Some(SinesFrom::Given) => Sines::Given,
+        };
+        Ok(COptions { name, precision, sines })
+    }
+
+    fn options(&self) -> RustOptions {
+        let kernels = self.kernels.clone().unwrap_or_else(|| RustOptions::default().kernels);
+        RustOptions { kernels, fused: self.fused }
+    }
+
+    fn flexible(&self, list: &str, Source { robot, .. }: &Source) -> Result<String, Failure> {
+        let displacements = match list {
+            "" => Displacements::all(robot.dof()),
+            list => Displacements::read(list, robot.dof()).map_err(Failure::new)?,
+        };
+        Ok(match self.emit {
+            Emit::Rust => flexible_rust(robot, &displacements, &self.options()),
+            Emit::C | Emit::Latex | Emit::Dot => flexible_latex(robot, &displacements),
+        })
+    }
+
+    fn check(&self, file: &Path, text: &str, quiet: bool) -> Result<Verdict, Failure> {
+        let found = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
+        let name = file.display();
+        if found == text.as_bytes() {
+            if !quiet {
+                print(&format!("{} {name} is what {} gives\n", good("✓"), self.robot))?;
+            }
+            return Ok(Verdict::Good);
+        }
+        let found = String::from_utf8_lossy(&found);
+        let (line, expected, found) = first_difference(text, &found);
+        let head = format!("{} {name} is not what {} gives", bad("✗"), self.robot);
+        let (want, have) = (dim("expected"), dim("   found"));
+        print(&format!("{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"))?;
+        Ok(Verdict::Failed)
+    }
+}
+
+/// The first line that differs, from 1, as it is in either text.
+fn first_difference(expected: &str, found: &str) -> (usize, String, String) {
+    // With their ends, for a missing one is a difference too.
+    let (mut left, mut right) = (expected.split_inclusive('\n'), found.split_inclusive('\n'));
+    let mut line = 1;
+    loop {
+        match (left.next(), right.next()) {
+            (Some(a), Some(b)) if a == b => line += 1,
+            (a, b) => return (line, shown(a, b), shown(b, a)),
+        }
+    }
+}
+
+/// A line as it can be printed; its end only where that is the difference.
+fn shown(line: Option<&str>, other: Option<&str>) -> String {
+    let Some(line) = line else { return dim("(the file has ended)") };
+    let bare = line.trim_end_matches(['\r', '\n']);
+    let same = other.is_some_and(|other| other.trim_end_matches(['\r', '\n']) == bare);
+    // What cannot be seen must not steer the terminal.
+    let visible = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
+    if same { format!("{line:?}") } else { bare.chars().map(visible).collect() }
+}

@@ -1,0 +1,280 @@
+//! `stiffarm identify`: stiffnesses from loaded measurements.
+
+mod page;
+mod screen;
+mod words;
+mod written;
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use stiffarm_gap::Measurements;
+use stiffarm_gap::identify::measured::{
+    Answer, Parameter, Question, Spread, Status, Unknown, identify_measured,
+};
+use stiffarm_gap::measurement::Dimension;
+
+use super::Verdict;
+use crate::input::source::{RobotArgs, Source};
+use crate::input::{data, quantity};
+use crate::report::identified::Identified;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::note::note;
+use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::progress::{PARTS, Progress};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm identify arm.toml run1.csv
+  stiffarm identify arm.toml run1.csv --noise-position 30um --write-robot arm_stiff.toml
+  stiffarm identify arm.toml run1.csv --links --base --json -
+  stiffarm identify arm.toml run1.csv --report springs.html
+
+DATA is a measurement file with loads (fx … mz) and displacements dx dy dz [drx dry drz], any subset
+of them; or with poses x y z [rx ry rz], each pose under two loads or more: only the differences
+between the loads of a pose count then, so that base, tool and geometry need not be exact.
+`stiffarm poses` plans such a file.
+
+Every spring is compared with the robot file at static equilibrium, weights and loaded geometry
+included. What the file does not show is held at the robot file's value, with the pull that would
+show it. The gap is judged on poses that the fit has not seen.";
+
+/// Joint stiffnesses, and if asked those of links and base, from loaded measurements
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// The measurement file (CSV)
+    data: PathBuf,
+    /// Identify the beams of the robot file too, each as a multiple of its flexibility
+    #[arg(long)]
+    links: bool,
+    /// Identify the foundation too: three translations, three rotations
+    #[arg(long)]
+    base: bool,
+    /// Standard deviation of a measured coordinate: 30um [default: from what is left]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    noise_position: Option<String>,
+    /// Standard deviation of a measured rotation: 0.02deg [default: from what is left]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    noise_rotation: Option<String>,
+    /// Number of folds [default: one per pose up to 10]
+    #[arg(long, value_name = "K")]
+    folds: Option<usize>,
+    /// Seed of the folds; the same seed gives the same bytes
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Write what was found as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+    /// Write the robot file with what was found
+    #[arg(long, value_name = "OUT.toml")]
+    write_robot: Option<Target>,
+    /// Write what was found as one self-contained page
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<Target>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    one_to_stdout(&[
+        ("--json", &args.json),
+        ("--write-robot", &args.write_robot),
+        ("--report", &args.report),
+    ])?;
+    let question = args.question()?;
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let data = data::read(&args.data, &data::layout(&source)?)?;
+    let progress = Progress::new(&source.given, PARTS, quiet);
+    let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
+    drop(progress);
+    let answer = answer.map_err(|error| Failure::new(error.to_string()))?;
+    let result = Written::new(&source, &data, &answer, &args.data.display().to_string());
+    if data.sim_given.contains(&true) {
+        note("the columns sim_… play no part: springs are compared with the robot file", quiet);
+    }
+    if let Some(target) = &args.json {
+        target.write(&json::text(&result)?)?;
+    }
+    if let Some(target) = &args.write_robot {
+        target.write(&written::robot(&source, &answer, &data.file))?;
+    }
+    let (said, units) = (words::said(&source, &answer), page::units(&answer));
+    let positions = data.kind.components()[..3].contains(&true);
+    let main = &units[usize::from(!positions)];
+    let sentence = words::sentence(&source, &answer, main, positions);
+    if let Some(target) = &args.report {
+        let identified = Identified {
+            data: &data,
+            arm: &arm,
+            answer: &answer,
+            sentence: sentence.clone(),
+            said: said.clone(),
+            advice: words::advice(&answer),
+            facts: page::facts(&question, &source, &data, &answer),
+            units,
+            json: json::value(&result)?,
+            version: env!("CARGO_PKG_VERSION"),
+        };
+        let page = identified.html();
+        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
+        target.write(&page)?;
+    }
+    let written: Vec<_> =
+        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
+    let enough = quiet && !written.is_empty();
+    if !enough && !written.contains(&&Target::Stdout) {
+        print(&screen::text(&source, &data, &answer, &said, &sentence))?;
+    }
+    Ok(Verdict::Good)
+}
+
+impl Args {
+    fn question(&self) -> Result<Question, Failure> {
+        let noise = |option, text: &Option<String>, dimension| {
+            text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
+        };
+        Ok(Question {
+            links: self.links,
+            base: self.base,
+            noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
+            noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
+            folds: self.folds,
+            seed: self.seed,
+            ..Question::default()
+        })
+    }
+}
+
+/// The result as it is written.
+#[derive(Serialize)]
+struct Written {
+    stiffarm: &'static str,
+    robot: String,
+    data: String,
+    measurements: usize,
+    poses: usize,
+    folds: usize,
+    gap: Gaps,
+    noise: NoiseIs,
+    freedom: usize,
+    reduced_chi2: Option<f64>,
+    scaled_condition: f64,
+    parameters: Vec<Entry>,
+}
+
+#[derive(Serialize)]
+struct Gaps {
+    before: Sizes,
+    held_out: Sizes,
+}
+
+#[derive(Serialize)]
+struct Sizes {
+    position_rms: f64,
+    position_max: f64,
+    rotation_rms: f64,
+}
+
+#[derive(Serialize)]
+struct NoiseIs {
+    position: Option<f64>,
+    rotation: Option<f64>,
+    from: &'static str,
+}
+
+/// One number, found or held; SI.
+#[derive(Serialize)]
+struct Entry {
+    place: String,
+    name: &'static str,
+    unit: &'static str,
+    status: &'static str,
+    value: f64,
+    ci95: [f64; 2],
+    /// 1/value where it is a compliance; `None` is rigid, or unbounded.
+    stiffness: Option<f64>,
+    stiffness_ci95: Option<[Option<f64>; 2]>,
+    file: f64,
+    with: Vec<String>,
+    to_show_it: Option<String>,
+}
+
+impl Written {
+    fn new(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Written {
+        let sizes = |s: &Spread| Sizes {
+            position_rms: s.position_rms,
+            position_max: s.position_max,
+            rotation_rms: s.rotation_rms,
+        };
+        Written {
+            stiffarm: env!("CARGO_PKG_VERSION"),
+            robot: source.robot.name.clone(),
+            data: file.to_owned(),
+            measurements: data.rows.len(),
+            poses: data.poses,
+            folds: answer.gap.folds,
+            gap: Gaps { before: sizes(&answer.gap.before), held_out: sizes(&answer.gap.held_out) },
+            noise: NoiseIs {
+                position: answer.noise.position,
+                rotation: answer.noise.rotation,
+                from: if answer.noise.given { "option" } else { "residual" },
+            },
+            freedom: answer.freedom,
+            reduced_chi2: answer.reduced_chi2,
+            scaled_condition: answer.scaled_condition,
+            parameters: answer.parameters.iter().map(|p| entry(source, p)).collect(),
+        }
+    }
+}
+
+/// Whether a compliance is a sliding one, m/N.
+fn slides(source: &Source, unknown: Unknown) -> bool {
+    match unknown {
+        Unknown::Joint(j) => source.readings().get(j - 1) == Some(&Dimension::Length),
+        Unknown::Link(_) => false,
+        Unknown::Base(k) => k < 3,
+    }
+}
+
+/// `1/c`; none where that is not a stiffness.
+fn stiffness(compliance: f64) -> Option<f64> {
+    (compliance > 0.0).then(|| 1.0 / compliance).filter(|k| k.is_finite())
+}
+
+fn entry(source: &Source, parameter: &Parameter) -> Entry {
+    let unknown = parameter.unknown;
+    let compliance = !matches!(unknown, Unknown::Link(_));
+    let unit = match (compliance, slides(source, unknown)) {
+        (false, _) => "1",
+        (true, true) => "m/N",
+        (true, false) => "rad/(N·m)",
+    };
+    let [low, high] = parameter.interval;
+    let (status, with, pull) = match &parameter.status {
+        Status::Determined => ("determined", Vec::new(), None),
+        Status::Weak(pull) => ("weak", Vec::new(), pull.as_ref()),
+        Status::Held { with, pull } => {
+            ("held", with.iter().map(Unknown::to_string).collect(), pull.as_ref())
+        }
+    };
+    Entry {
+        place: unknown.to_string(),
+        name: if compliance { "compliance" } else { "flexibility" },
+        unit,
+        status,
+        value: parameter.value,
+        ci95: parameter.interval,
+        stiffness: stiffness(parameter.value).filter(|_| compliance),
+        stiffness_ci95: compliance.then(|| [stiffness(high), stiffness(low)]),
+        file: parameter.file,
+        with,
+        to_show_it: pull.map(ToString::to_string),
+    }
+}

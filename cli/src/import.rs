@@ -1,0 +1,191 @@
+//! `stiffarm import`: a robot file from a URDF.
+
+use std::path::PathBuf;
+
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
+use stiffarm_codegen::robot::{Motion, Robot};
+
+use super::Verdict;
+use crate::input::source::text;
+use crate::terminal::failure::{Failure, Remark};
+use crate::terminal::note::note;
+use crate::terminal::output::Target;
+use crate::urdf::{self, Chain, Refusal, Table, Urdf, robot_file};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm import arm.urdf > arm.toml
+  stiffarm import arm.urdf --base base_link --tip tool0 --toml arm.toml
+  xacro arm.xacro > arm.urdf && stiffarm import arm.urdf --toml arm.toml
+
+Any serial chain of joints that turn or slide: fixed joints are folded away, each axis becomes a row
+of the modified Denavit-Hartenberg convention, inertials become mass and com, limits are kept. The
+zero of every joint is the URDF's. A URDF knows no stiffness: add `stiffness = …` to the rows.
+
+The table's base frame is the URDF's base link wherever axis 1 allows it; otherwise it is turned
+about the base link's z and moved along it, and the file says by how much. Before the file is
+written, its forward kinematics is compared with the URDF's.";
+
+/// A robot file from a URDF: any serial chain, exactly
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// The URDF
+    urdf: PathBuf,
+    /// The link at the end of the chain [default: the only link on which nothing hangs]
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+    /// The link at its foot [default: the root]
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// Write the robot file to OUT [default: standard output]
+    #[arg(long, value_name = "OUT", default_value = "-", hide_default_value = true)]
+    toml: Target,
+    /// Keep 1.5708 as 1.5708: by default a rounding of a simple multiple of π is that multiple
+    #[arg(long)]
+    as_written: bool,
+}
+
+/// Postures in which the file is compared with the URDF.
+const POSTURES: usize = 100;
+
+/// More than this, m and rad, is no rounding.
+const AGREES: f64 = 1e-9;
+
+/// Feet of normals farther away than this, m, leave less than ten digits to the arm itself.
+const FAR: f64 = 1e6;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: what is no URDF, or no serial chain; an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let source = text(&args.urdf)?;
+    let file = args.urdf.display().to_string();
+    let shown = |refusal| failure(&refusal, &file, &source);
+    let urdf = urdf::read(&source, args.as_written).map_err(shown)?;
+    let chain = Chain::new(&urdf.robot, args.base.as_deref(), args.tip.as_deref());
+    let chain = chain.map_err(shown)?;
+    let table = Table::new(&chain);
+    let robot = robot_file(&chain, &table);
+    let remarks = remarks(&urdf, &chain, &table);
+    let head: String = head(&file, &chain).iter().chain(&remarks).map(|r| comment(r)).collect();
+    let written = format!("{head}\n{}", robot.to_toml());
+    let deviation = deviation(&chain, &table, &written)?;
+    let farthest = table.rows.iter().map(|row| row.d.abs()).fold(0.0, f64::max);
+    if deviation.is_nan() || deviation > AGREES || farthest > FAR {
+        return Err(Failure::with_help(
+            format!(
+                "{file}: two neighbouring axes are so nearly parallel that they meet \
+                 {farthest:.0e} m away: no table in double precision holds that"
+            ),
+            "write the angles of axes that are meant to be parallel with all their digits, or \
+             round numbers that `stiffarm import` reads as multiples of π",
+        ));
+    }
+    remarks.iter().for_each(|remark| note(remark, quiet));
+    note(
+        &format!(
+            "forward kinematics as in the URDF to {deviation:.0e} m and rad at {POSTURES} random \
+             postures"
+        ),
+        quiet,
+    );
+    args.toml.write(&written)?;
+    Ok(Verdict::Good)
+}
+
+fn failure(refusal: &Refusal, file: &str, source: &str) -> Failure {
+    let span = urdf::bytes(source, &refusal.place);
+    let Refusal { message, help, .. } = refusal;
+    Failure::File(vec![Remark::error(message.clone(), help.clone(), file, source, span)])
+}
+
+fn head(file: &str, chain: &Chain) -> Vec<String> {
+    let Chain { base, tip, .. } = chain;
+    vec![format!("Imported by stiffarm from {file}: from link `{base}` to link `{tip}`.")]
+}
+
+/// What the file cannot say in its rows.
+fn remarks(urdf: &Urdf, chain: &Chain, table: &Table) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let [turn, height] = table.lead;
+    if turn.abs() > 1e-12 || height.abs() > 1e-12 {
+        remarks.push(format!(
+            "the base frame of this table is that of link `{}` turned by {turn:?} rad about its z \
+             and moved by {height:?} m along it: T_urdf = Rz({turn:?}) Tz({height:?}) T_table",
+            chain.base
+        ));
+    }
+    let on_the_way = |joint: &str| chain.steps.iter().any(|step| step.name == joint);
+    for (joint, found, exact) in &urdf.rounded {
+        let off = (found - exact).abs();
+        if on_the_way(joint) || off > AGREES {
+            remarks.push(format!(
+                "joint `{joint}`: {found} rad is read as {} (off by {off:.0e} rad; --as-written \
+                 keeps it)",
+                multiple(*exact)
+            ));
+        }
+    }
+    remarks.extend(chain.remarks.iter().cloned());
+    remarks
+}
+
+/// `pi/2`, `-2*pi/3`.
+fn multiple(x: f64) -> String {
+    let n = [1.0, 2.0, 3.0, 4.0, 6.0].into_iter().find(|n| {
+        let k = x * n / core::f64::consts::PI;
+        (k - k.round()).abs() < 1e-9
+    });
+    let n = n.unwrap_or(1.0);
+    let k = (x * n / core::f64::consts::PI).round();
+    let times = match k {
+        1.0 => String::new(),
+        -1.0 => "-".to_owned(),
+        k => format!("{k}*"),
+    };
+    if n == 1.0 { format!("{times}pi") } else { format!("{times}pi/{n}") }
+}
+
+/// One line of a comment; what a name may hold must not end it.
+fn comment(text: &str) -> String {
+    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    format!("# {plain}\n")
+}
+
+/// The largest difference of the tip's pose by the written file and by the URDF, m and rad.
+fn deviation(chain: &Chain, table: &Table, written: &str) -> Result<f64, Failure> {
+    let unsound = |error: String| Failure::new(format!("the robot file is not sound: {error}"));
+    let (robot, _) = Robot::from_toml(written, "the imported robot")
+        .map_err(|error| unsound(error.to_string()))?;
+    let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| unsound(error.to_string()))?;
+    let [turn, height] = table.lead;
+    let lead = IsometryMatrix3::from_parts(
+        Translation3::new(0.0, 0.0, height),
+        Rotation3::from_axis_angle(&Vector3::z_axis(), turn),
+    );
+    let mut worst = 0.0_f64;
+    for posture in 0..POSTURES {
+        // Fractions of the golden ratio and its like: spread evenly, the same for every run.
+        let part = |k: usize| (0.5 + posture as f64 * 0.618_034 + k as f64 * 0.414_214).fract();
+        let value = |(k, step): (usize, &urdf::Step)| {
+            let range = match step.motion {
+                Motion::Revolute => core::f64::consts::PI,
+                Motion::Prismatic => 1.0,
+            };
+            let [low, high] = step.limits.unwrap_or([-range, range]);
+            low + (high - low) * part(k * (1 + posture % 7))
+        };
+        let q: Vec<f64> = chain.steps.iter().enumerate().map(value).collect();
+        let (ours, theirs) = (arm.pose(&q), chain.pose(&q));
+        let rotation = lead.rotation * ours.rotation.to_rotation_matrix();
+        let tip = lead * nalgebra::Point3::from(ours.translation.vector);
+        let off = tip.coords - theirs.translation.vector;
+        worst = worst.max(off.amax()).max((rotation.matrix() - theirs.rotation.matrix()).amax());
+        if worst.is_nan() {
+            return Ok(f64::INFINITY);
+        }
+    }
+    Ok(worst)
+}

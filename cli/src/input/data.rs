@@ -1,0 +1,55 @@
+//! Measurement files, each mistake shown at its cell.
+
+use std::path::Path;
+
+use stiffarm_gap::measurement::{Layout, Mistake};
+use stiffarm_gap::{Measurements, ReadError};
+
+use super::source::Source;
+use crate::terminal::failure::{Failure, Remark};
+use crate::terminal::snippet;
+
+/// What the reader of a file must know of the robot.
+///
+/// # Errors
+/// [`Failure`] if a marker of the robot has no numbers.
+pub fn layout(source: &Source) -> Result<Layout, Failure> {
+    let layout = stiffarm_gap::robot::layout(&source.robot);
+    layout.map_err(|error| Failure::new(error.to_string()))
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// [`Failure`]: it cannot be read, or its mistakes.
+pub fn read(path: &Path, layout: &Layout) -> Result<Measurements, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    from_bytes(path, &bytes, layout)
+}
+
+/// Reads the bytes of a file.
+///
+/// # Errors
+/// [`Failure`]: its mistakes.
+pub fn from_bytes(path: &Path, bytes: &[u8], layout: &Layout) -> Result<Measurements, Failure> {
+    let file = path.display().to_string();
+    Measurements::from_bytes(&file, bytes, layout).map_err(|error| match &error {
+        ReadError::Open { .. } => Failure::new(error.to_string()),
+        ReadError::Mistakes { mistakes, more, .. } => {
+            let text = String::from_utf8(bytes.to_vec()).unwrap_or_default();
+            let mut remarks: Vec<Remark> =
+                mistakes.iter().map(|mistake| remark(mistake, &file, &text)).collect();
+            if *more > 0 {
+                let rest = format!("and {more} more mistakes");
+                remarks.push(Remark::error(rest, None, &file, "", None));
+            }
+            Failure::File(remarks)
+        }
+    })
+}
+
+fn remark(mistake: &Mistake, file: &str, text: &str) -> Remark {
+    let column = mistake.column.as_ref().map(|column| column.number);
+    let span = snippet::cell(text, mistake.line, column);
+    Remark::error(mistake.to_string(), None, file, text, span)
+}

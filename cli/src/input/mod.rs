@@ -1,0 +1,7 @@
+//! What is given on the command line: robots, data, numbers, loads.
+
+pub mod data;
+pub mod model;
+pub mod quantity;
+pub mod source;
+pub mod wrench;

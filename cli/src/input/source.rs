@@ -1,0 +1,197 @@
+//! The robot that a command is about: built-in by its id, or a file.
+
+use std::path::Path;
+
+use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::generic::Arm;
+use stiffarm_robots::{ARMS, SYMBOLIC};
+
+use super::quantity;
+use crate::terminal::failure::{Failure, Remark};
+
+/// Which robot.
+#[derive(clap::Args)]
+pub struct RobotArgs {
+    /// A robot file (TOML), or the id of a built-in robot
+    robot: String,
+    /// A number for a symbolic parameter, in SI or with a unit: L1=0.6, L1=24in
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+/// A robot that was read.
+pub struct Source {
+    /// As it was named on the command line.
+    pub given: String,
+    /// The model, parameters replaced by their numbers.
+    pub robot: Robot,
+    /// Its compiled kernels, if it is built in and has numbers for everything.
+    pub compiled: Option<&'static stiffarm_robots::Arm>,
+}
+
+impl RobotArgs {
+    /// Reads the robot and gives every symbolic parameter its number.
+    ///
+    /// # Errors
+    /// [`Failure`]: no such robot, the file's mistakes, parameters without numbers.
+    pub fn load(&self, quiet: bool) -> Result<Source, Failure> {
+        let source = open(&self.robot, quiet)?;
+        let symbols = source.robot.symbols();
+        let given = self.parameters(&source.robot.name, &symbols)?;
+        let value = |name: &str| given.iter().rev().find(|(n, _)| n == name).map(|(_, v)| *v);
+        match source.robot.with_parameters(value) {
+            Ok(robot) => Ok(Source { robot, ..source }),
+            Err(missing) => Err(Failure::with_help(
+                format!("{}: found no number for {}", source.robot.name, missing.join(", ")),
+                format!("give each one with --set NAME=VALUE: {}", listing(&symbols)),
+            )),
+        }
+    }
+
+    fn parameters(&self, robot: &str, symbols: &[Symbol]) -> Result<Vec<(String, f64)>, Failure> {
+        let each = self.set.iter().map(|text| {
+            let (name, value) = text.split_once('=').ok_or_else(|| {
+                Failure::new(format!("--set: found `{text}`, expected NAME=VALUE"))
+            })?;
+            let symbol = symbols.iter().find(|s| s.name == name.trim());
+            let symbol = symbol.ok_or_else(|| unknown(robot, name.trim(), symbols))?;
+            let number = quantity::read(value, dimension(symbol.dimension));
+            let number = number.ok_or_else(|| {
+                let unit = symbol.dimension.unit();
+                let expected = if unit.is_empty() { "a number" } else { "a number in " };
+                Failure::new(format!("--set {name}: found `{value}`, expected {expected}{unit}"))
+            })?;
+            Ok((symbol.name.clone(), number))
+        });
+        each.collect()
+    }
+}
+
+impl Source {
+    /// The robot as the textbook has it.
+    ///
+    /// # Errors
+    /// [`Failure`] if something in it has no number.
+    pub fn arm(&self) -> Result<Arm, Failure> {
+        stiffarm_gap::robot::arm(&self.robot).map_err(|error| Failure::new(error.to_string()))
+    }
+
+    /// What the joint values are, base to tip.
+    pub fn readings(&self) -> Vec<Dimension> {
+        let of = |motion| match motion {
+            Motion::Revolute => Dimension::Angle,
+            Motion::Prismatic => Dimension::Length,
+        };
+        self.robot.joints.iter().map(|joint| of(joint.motion)).collect()
+    }
+}
+
+/// Reads a robot; its symbolic parameters stay symbolic.
+///
+/// # Errors
+/// [`Failure`]: no such robot, or the file's mistakes.
+pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
+    let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
+    if !looks_like_a_path {
+        if let Some(arm) = stiffarm_robots::arm(given) {
+            let robot = parse(arm.toml, arm.id, true)?;
+            return Ok(Source { given: given.to_owned(), robot, compiled: Some(arm) });
+        }
+        if let Some(arm) = SYMBOLIC.iter().find(|arm| arm.id == given) {
+            let robot = parse(arm.toml, arm.id, true)?;
+            return Ok(Source { given: given.to_owned(), robot, compiled: None });
+        }
+        if !Path::new(given).exists() {
+            return Err(no_such_robot(given));
+        }
+    }
+    let text = text(Path::new(given))?;
+    let robot = parse(&text, given, quiet)?;
+    Ok(Source { given: given.to_owned(), robot, compiled: None })
+}
+
+fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
+    let remark = |located, doubt| Remark::located(located, text, doubt);
+    match Robot::from_toml(text, path) {
+        Ok((robot, warnings)) => {
+            for warning in warnings.iter().filter(|_| !quiet) {
+                remark(warning, true).print();
+            }
+            Ok(robot)
+        }
+        Err(error) => {
+            let remarks = error.errors.iter().map(|located| remark(located, false));
+            Err(Failure::File(remarks.collect()))
+        }
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`]: it cannot be read, or is not UTF-8.
+pub fn text(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
+        let line = bytes[..valid].iter().filter(|b| **b == b'\n').count() + 1;
+        let column = String::from_utf8_lossy(&bytes[..valid]).lines().last().map_or(0, |last| {
+            if bytes[..valid].ends_with(b"\n") { 0 } else { last.chars().count() }
+        });
+        Failure::with_help(
+            format!(
+                "{}: line {line}, column {}: found byte 0x{:02x}, expected UTF-8 text",
+                path.display(),
+                column + 1,
+                bytes[valid]
+            ),
+            "the file is TOML, saved as UTF-8",
+        )
+    })
+}
+
+fn no_such_robot(given: &str) -> Failure {
+    let ids = ARMS.iter().map(|arm| arm.id).chain(SYMBOLIC.iter().map(|arm| arm.id));
+    let near = nearest(given, ids);
+    let meant = near.map_or_else(String::new, |id| format!("did you mean `{id}`? "));
+    Failure::with_help(
+        format!("found no robot `{given}`, expected a robot file or the id of a built-in robot"),
+        format!("{meant}`stiffarm robots` lists the built-in ones"),
+    )
+}
+
+fn unknown(robot: &str, name: &str, symbols: &[Symbol]) -> Failure {
+    let message = format!("--set: {robot} has no symbolic parameter `{name}`");
+    if symbols.is_empty() {
+        return Failure::with_help(message, "every entry of its table is a number already");
+    }
+    let near = nearest(name, symbols.iter().map(|s| s.name.as_str()));
+    let meant = near.map_or_else(String::new, |n| format!("did you mean `{n}`? "));
+    Failure::with_help(message, format!("{meant}it has {}", listing(symbols)))
+}
+
+/// `L1 (m), E (Pa)`.
+fn listing(symbols: &[Symbol]) -> String {
+    let each = symbols.iter().map(|s| match s.dimension.unit() {
+        "" => s.name.clone(),
+        unit => format!("{} ({unit})", s.name),
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
+/// The name most like the one that was found, if one is near.
+fn nearest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let distance = |name: &str| strsim::damerau_levenshtein(found, name);
+    let reach = 1 + found.chars().count() / 4;
+    names.filter(|name| distance(name) <= reach).min_by_key(|name| distance(name))
+}
+
+/// The dimension whose units may stand behind a parameter's number.
+fn dimension(cell: Cell) -> Option<Dimension> {
+    match cell {
+        Cell::Length => Some(Dimension::Length),
+        Cell::Angle => Some(Dimension::Angle),
+        _ => None,
+    }
+}

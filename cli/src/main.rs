@@ -1,0 +1,118 @@
+//! The command line: `stiffarm --help` says what it does. One file per command; what they share lies
+//! in rooms: `input` (robots, data, numbers as they are given), `terminal` (text, errors, progress,
+//! files written), `screen` (a diagnosis in words), `plot`, `report`.
+#![forbid(unsafe_code)]
+
+mod check;
+mod compensate;
+mod completions;
+mod diagnose;
+mod eval;
+mod generate;
+mod identify;
+mod import;
+mod input;
+mod man;
+mod map;
+mod papers;
+mod parity;
+mod plot;
+mod poses;
+mod report;
+mod robots;
+mod screen;
+mod simulate;
+mod terminal;
+mod urdf;
+mod withhold;
+
+use std::process::ExitCode;
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Parser, Subcommand};
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Yellow.on_default().bold())
+    .usage(AnsiColor::Yellow.on_default().bold())
+    .literal(AnsiColor::Green.on_default())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form elastostatics, and \
+                     why the real arm is not where the model says";
+
+const AFTER: &str = "\
+A ROBOT is a robot file (TOML) or the id of a built-in robot (`stiffarm robots` lists them).
+Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
+
+Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was
+written.";
+
+/// The whole command line.
+#[derive(Parser)]
+#[command(name = "stiffarm", version, about = ABOUT, after_help = AFTER, styles = STYLES)]
+#[command(subcommand_required = true, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Print neither remarks nor progress, only results and errors
+    #[arg(long, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Eval(eval::Args),
+    Check(check::Args),
+    Robots(robots::Args),
+    Import(import::Args),
+    Generate(generate::Args),
+    Map(map::Args),
+    Poses(poses::Args),
+    Identify(identify::Args),
+    Diagnose(diagnose::Args),
+    Simulate(simulate::Args),
+    Withhold(withhold::Args),
+    Compensate(compensate::Args),
+    Papers(papers::Args),
+    Completions(completions::Args),
+    Man(man::Args),
+}
+
+/// How a command that could do its work ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// As it should.
+    Good,
+    /// What was to be checked is not so.
+    Failed,
+}
+
+/// Runs the command line.
+fn main() -> ExitCode {
+    let Cli { command, quiet } = Cli::parse();
+    let ended = match command {
+        Command::Eval(args) => eval::run(&args, quiet),
+        Command::Check(args) => check::run(&args, quiet),
+        Command::Robots(args) => robots::run(&args),
+        Command::Import(args) => import::run(&args, quiet),
+        Command::Generate(args) => generate::run(&args, quiet),
+        Command::Map(args) => map::run(&args, quiet),
+        Command::Poses(args) => poses::run(&args, quiet),
+        Command::Identify(args) => identify::run(&args, quiet),
+        Command::Diagnose(args) => diagnose::run(&args, quiet),
+        Command::Simulate(args) => simulate::run(&args, quiet),
+        Command::Withhold(args) => withhold::run(&args, quiet),
+        Command::Compensate(args) => compensate::run(&args, quiet),
+        Command::Papers(args) => papers::run(&args),
+        Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
+    };
+    match ended {
+        Ok(Verdict::Good) => ExitCode::SUCCESS,
+        Ok(Verdict::Failed) => ExitCode::from(1),
+        Err(failure) => {
+            failure.print();
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! What a diagnosis has learnt of the arm, for the map of what that is worth.
+
+use std::path::PathBuf;
+
+use nalgebra::Vector6;
+use stiffarm_gap::diagnose::{Expected, Explanation, Nuisance};
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::{DiagnoseError, Options, diagnose_with};
+use stiffarm_kernels::generic::Arm;
+
+use crate::input::source::Source;
+use crate::input::{data, quantity};
+use crate::terminal::failure::Failure;
+use crate::terminal::progress::Stages;
+
+/// Which measurements, and how they are diagnosed.
+#[derive(clap::Args)]
+pub struct LearntArgs {
+    /// The measurement file (CSV) of `--of shrink`, diagnosed first
+    #[arg(long, value_name = "DATA")]
+    data: Option<PathBuf>,
+    /// Frames known to be unknown, fitted along: base_frame, tool_frame
+    #[arg(long, value_name = "a,b", value_delimiter = ',', requires = "data")]
+    nuisance: Vec<String>,
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "data")]
+    noise_position: Option<String>,
+}
+
+/// The findings of a diagnosis.
+pub struct Learnt {
+    explanation: Explanation,
+    name: String,
+}
+
+impl Learnt {
+    /// Diagnoses the measurements if they are `wanted`.
+    ///
+    /// # Errors
+    /// [`Failure`]: no measurements, or ones that are not meant; their mistakes; nothing found.
+    pub fn new(
+        args: &LearntArgs,
+        wanted: bool,
+        source: &Source,
+        arm: &Arm,
+        quiet: bool,
+    ) -> Result<Option<Learnt>, Failure> {
+        let path = match (&args.data, wanted) {
+            (Some(path), true) => path,
+            (None, false) => return Ok(None),
+            (None, true) => {
+                let help = "name the measurements that are to be diagnosed: --data run.csv";
+                return Err(Failure::with_help("--of shrink: found no --data", help));
+            }
+            (Some(_), false) => return Err(Failure::new("--data is for --of shrink")),
+        };
+        let noise = args.noise_position.as_ref();
+        let noise = noise.map(|t| quantity::with_unit("--noise-position", t, Dimension::Length));
+        let nuisances = args.nuisance.iter().map(|name| Nuisance::parse(name));
+        let options = Options {
+            noise_position: noise.transpose()?,
+            nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
+            ..Options::default()
+        };
+        let data = data::read(path, &data::layout(source)?)?;
+        let stages = Stages::new(quiet);
+        stages.say(format!("diagnosing {}", path.display()));
+        let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;
+        drop(stages);
+        let findings = found.diagnosis.findings.len();
+        let file = path.display().to_string();
+        if findings == 0 {
+            let help = "`stiffarm diagnose` says what it could and could not have shown";
+            return Err(Failure::with_help(format!("{file}: the diagnosis finds no effect"), help));
+        }
+        let name = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
+        let name = format!("{} of {name}", quantity::counted(findings, "finding"));
+        Ok(Some(Learnt { explanation: found.explanation, name }))
+    }
+
+    /// The gap before and after at a posture.
+    ///
+    /// # Errors
+    /// [`DiagnoseError`] of the posture.
+    pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
+        self.explanation.expected(q, wrench)
+    }
+
+    /// `2 findings of run.csv`.
+    pub fn name(&self) -> String {
+        self.name.clone()
+    }
+}
+
+fn plain(error: DiagnoseError) -> Failure {
+    Failure::new(error.to_string())
+}

@@ -1,0 +1,168 @@
+//! `stiffarm poses`: a measurement file that is still to be measured.
+
+mod file;
+mod screen;
+
+use clap::ValueEnum;
+use nalgebra::Vector6;
+use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
+use stiffarm_gap::diagnose::Nuisance;
+use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::generic::Arm;
+
+use super::Verdict;
+use crate::input::quantity;
+use crate::input::source::RobotArgs;
+use crate::input::wrench::wrench;
+use crate::terminal::failure::Failure;
+use crate::terminal::output::{Target, print};
+use crate::terminal::progress::{PARTS, Progress};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm poses arm.toml --count 20 --load 0,0,-50kgf,0,0,0 --csv plan.csv
+  stiffarm poses kuka_kr240 --count 15 --load 0,0,-2kN,0,0,0 --load 2kN,0,0,0,0,0 --csv plan.csv
+  stiffarm poses arm.toml --count 30 --for diagnose --load 0,0,-100,0,0,0 --csv plan.csv
+  stiffarm poses arm.toml --count 10 --for separate 'joint_compliance@joint 2' \\
+      'link_compliance@link 2' --load 0,0,-2kN,0,0,0 --load 0,1kN,0,0,0,0 --csv plan.csv
+
+Postures are drawn within the joint limits; those that are not dexterous are left out, and those in
+which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
+are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
+loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. For `separate`
+those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
+`stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
+
+Fill in the empty columns, put the readings that the controller shows into q1 … qn, and give the
+file to `stiffarm identify` or `stiffarm diagnose`. Nothing here knows of floor, cables or cell:
+leave out the rows that cannot be reached.";
+
+/// Test postures and loads that say most, as a measurement file to fill in
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// How many postures
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    count: u16,
+    /// What the measurements are for
+    #[arg(long = "for", value_enum, value_name = "PURPOSE", default_value_t = For::Identify)]
+    purpose: For,
+    /// The two effects of `--for separate`, each effect@place
+    #[arg(value_name = "EFFECT")]
+    effects: Vec<String>,
+    /// Frames known to be unknown, fitted along by `--for separate`: base_frame, tool_frame
+    #[arg(long, value_name = "a,b", value_delimiter = ',')]
+    nuisance: Vec<String>,
+    /// A load to choose from, given as often as there are loads; base axes, at the tool origin; N
+    /// and N·m, or with a unit [default: pulls of 100 N along ±x, ±y and −z]
+    #[arg(long = "load", value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
+    loads: Vec<String>,
+    /// Rotations will be measured too
+    #[arg(long)]
+    rotations: bool,
+    /// Standard deviation of a measured coordinate
+    #[arg(long, value_name = "LENGTH", default_value = "30um", allow_hyphen_values = true)]
+    noise_position: String,
+    /// Standard deviation of a measured rotation
+    #[arg(long, value_name = "ANGLE", default_value = "0.1mrad", allow_hyphen_values = true)]
+    noise_rotation: String,
+    /// Seed of the postures that are chosen from; the same seed gives the same bytes
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Write the measurement file (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    csv: Target,
+}
+
+/// What the measurements are for.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum For {
+    /// The joints' stiffnesses
+    Identify,
+    /// Zeros and stiffnesses of the joints, and whatever else shows
+    Diagnose,
+    /// To tell two effects apart: give both behind it
+    Separate,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the options, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let plan = args.plan(&arm)?;
+    let progress = Progress::new(&source.given, PARTS, quiet);
+    let found = design(&arm, &plan, &|part| progress.reach(part, PARTS));
+    drop(progress);
+    let found = found.map_err(|error| Failure::new(error.to_string()))?;
+    args.csv.write(&file::file(&source, &plan, &found))?;
+    if args.csv != Target::Stdout && !quiet {
+        print(&screen::screen(&source, &arm, &plan, &found))?;
+    }
+    Ok(Verdict::Good)
+}
+
+impl Args {
+    fn plan(&self, arm: &Arm) -> Result<Plan, Failure> {
+        let given = self.loads.iter().map(|text| wrench("--load", text));
+        let mut loads: Vec<Vector6<f64>> = given.collect::<Result<_, _>>()?;
+        if loads.is_empty() {
+            let pull = |x: f64, y: f64, z: f64| Vector6::new(x, y, z, 0.0, 0.0, 0.0) * 100.0;
+            loads = vec![
+                pull(1.0, 0.0, 0.0),
+                pull(-1.0, 0.0, 0.0),
+                pull(0.0, 1.0, 0.0),
+                pull(0.0, -1.0, 0.0),
+                pull(0.0, 0.0, -1.0),
+            ];
+        }
+        let (length, angle) = (Dimension::Length, Dimension::Angle);
+        let turned = quantity::with_unit("--noise-rotation", &self.noise_rotation, angle)?;
+        Ok(Plan {
+            count: usize::from(self.count),
+            purpose: self.purpose(arm)?,
+            along: self.along(arm)?,
+            loads,
+            noise_position: quantity::with_unit("--noise-position", &self.noise_position, length)?,
+            noise_rotation: self.rotations.then_some(turned),
+            seed: self.seed,
+        })
+    }
+
+    fn purpose(&self, arm: &Arm) -> Result<Purpose, Failure> {
+        let suspect = |text: &String| {
+            Suspect::parse(text, arm).map_err(|error| Failure::new(format!("--for: {error}")))
+        };
+        let found = self.effects.len();
+        match (self.purpose, &self.effects[..]) {
+            (For::Identify, []) => Ok(Purpose::Identify),
+            (For::Diagnose, []) => Ok(Purpose::Diagnose),
+            (For::Separate, [a, b]) => Ok(Purpose::Separate([suspect(a)?, suspect(b)?])),
+            (For::Separate, _) => Err(Failure::with_help(
+                format!(
+                    "--for separate: found {}, expected two",
+                    quantity::counted(found, "effect")
+                ),
+                "name both: --for separate 'joint_compliance@joint 2' 'link_compliance@link 2'",
+            )),
+            (_, [first, ..]) => Err(Failure::new(format!(
+                "found `{first}`, expected an option: effects are named for --for separate"
+            ))),
+        }
+    }
+
+    fn along(&self, arm: &Arm) -> Result<Vec<Suspect>, Failure> {
+        if self.purpose != For::Separate && !self.nuisance.is_empty() {
+            return Err(Failure::new("--nuisance is for --for separate"));
+        }
+        let each = self.nuisance.iter().map(|name| {
+            let known = Nuisance::parse(name).map_err(|error| Failure::new(error.to_string()))?;
+            Suspect::parse(known.identifier(), arm).map_err(|error| Failure::new(error.to_string()))
+        });
+        each.collect()
+    }
+}

@@ -1,0 +1,203 @@
+//! A diagnosis on one screen.
+
+mod effect;
+mod finding;
+mod hidden;
+mod notes;
+mod sentence;
+mod size;
+mod unit;
+mod words;
+
+pub use size::Size;
+
+use stiffarm_gap::diagnose::Rival;
+use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
+use stiffarm_gap::{Diagnosis, Measurements};
+use stiffarm_kernels::generic::Arm;
+
+use super::diagnose::Check;
+use crate::input::quantity::counted;
+use crate::terminal::text::{
+    Align, bad, bar, bold, dim, fixed, good, indented, minus, table, wrapped,
+};
+
+/// Entries of a list before the rest is counted.
+const MOST: usize = 4;
+
+/// Width of the bars.
+const BAR: usize = 20;
+
+/// Width of the screen.
+const WIDTH: usize = 100;
+
+/// What is to be shown.
+pub struct Screen<'a> {
+    /// The diagnosis.
+    pub found: &'a Diagnosis,
+    /// What it was made of.
+    pub data: &'a Measurements,
+    /// The arm without any finding.
+    pub arm: &'a Arm,
+    /// Prefixes of the columns that were used as rivals.
+    pub rivals: &'a [String],
+    /// Another file, predicted.
+    pub check: Option<&'a Check>,
+}
+
+impl Screen<'_> {
+    /// The whole screen.
+    pub fn text(&self) -> String {
+        let sentence = wrapped(&self.sentence(), WIDTH, 0);
+        let parts =
+            [self.head(), format!("\n{sentence}\n"), self.gap(), self.findings(), self.compared()];
+        let mut text = parts.concat();
+        text.push_str(&self.notes(text.lines().count()));
+        text
+    }
+
+    fn head(&self) -> String {
+        let (found, data) = (self.found, self.data);
+        let names = match data.kind {
+            Kind::Pose { .. } => POSE_NAMES,
+            Kind::Displacement { .. } => DISPLACEMENT_NAMES,
+        };
+        let measured = names.iter().zip(data.kind.components()).filter(|(_, is)| *is);
+        let measured: Vec<&str> = measured.map(|(name, _)| *name).collect();
+        let held_out = if found.held_out.folds == data.poses {
+            "each pose held out in turn".to_owned()
+        } else {
+            format!("held out in {} folds of poses", found.held_out.folds)
+        };
+        let rows = counted(found.measurements, "measurement");
+        let poses = counted(data.poses, "pose");
+        let facts =
+            format!("{}: {rows} of {} at {poses}, {held_out}", data.file, measured.join(" "));
+        let own = match data.sim_given.contains(&true) {
+            true => ", against the simulator of its sim_ columns",
+            false => "",
+        };
+        format!(
+            "{}\n{}\n",
+            bold(&found.robot),
+            dim(wrapped(&format!("{facts}{own}"), WIDTH, 2).trim_end())
+        )
+    }
+
+    fn gap(&self) -> String {
+        let (gap, shown) = (&self.found.gap, self.main());
+        let (position, rotation) = (self.measures(0..3), self.measures(3..6));
+        let turned = self
+            .angle(gap.before.rotation_rms.min(gap.after.rotation_rms), gap.before.rotation_rms);
+        let mut heads = vec![bold("Gap")];
+        if position {
+            heads.extend(["rms", "95 %", "max"].map(|h| format!("{h} {}", shown.name)).map(dim));
+        }
+        if rotation {
+            heads.push(dim(format!("rms {}", turned.name)));
+        }
+        if shown.name == "mil" {
+            heads.push(dim("1 mil = 0.001 in"));
+        }
+        let main = |s: f64, r: f64| if position { s } else { r };
+        let whole = main(gap.before.position_rms, gap.before.rotation_rms);
+        let line = |name: &str, position_is: [Option<f64>; 3], rotation_is: f64| {
+            let mut cells = vec![name.to_owned()];
+            if position {
+                cells.extend(position_is.map(|x| x.map_or_else(String::new, |x| shown.number(x))));
+            }
+            if rotation {
+                cells.push(turned.number(rotation_is));
+            }
+            let size = main(position_is[0].unwrap_or(0.0), rotation_is);
+            cells.push(bar(if whole > 0.0 { size / whole } else { 0.0 }, BAR));
+            cells
+        };
+        let of =
+            |s: &Statistics| [Some(s.position_rms), Some(s.position_p95), Some(s.position_max)];
+        let first = match self.found.nuisances.is_empty() {
+            true => "as the robot file is",
+            false => "with the unknown frames fitted",
+        };
+        let mut rows = vec![heads, line(first, of(&gap.before), gap.before.rotation_rms)];
+        if !self.found.findings.is_empty() {
+            let name = match self.found.findings.len() {
+                1 => "with the finding, held out",
+                _ => "with the findings, held out",
+            };
+            rows.push(line(name, of(&gap.after), gap.after.rotation_rms));
+        }
+        let from = match gap.noise.from {
+            "residual" => "noise, from what is left",
+            "repeats" => "noise, from repeats",
+            _ => "noise, as given",
+        };
+        rows.push(line(from, [Some(gap.noise.position_rms), None, None], gap.noise.rotation_rms));
+        let mut align = vec![Align::Right; rows[1].len()];
+        (align[0], align[rows[1].len() - 1]) = (Align::Left, Align::Left);
+        let lines = table(&rows, &align);
+        // The heading stands out to the left.
+        let (head, rest) = lines.split_once('\n').unwrap_or((&lines, ""));
+        format!("{}\n{}", head.replacen("  ", "    ", 1), indented(rest, 2))
+    }
+
+    fn compared(&self) -> String {
+        let Some(rivals) = self.found.rivals.as_ref().filter(|r| !r.is_empty()) else {
+            return String::new();
+        };
+        let shown = self.main();
+        let square = |si: f64| minus(format!("{:.*}", shown.decimals, si / shown.size.powi(2)));
+        let row = |r: &Rival| {
+            let [low, high] = r.ci95.map(square);
+            vec![
+                r.name.clone(),
+                shown.number(r.rms),
+                shown.number(r.held_out_rms),
+                format!("{} [{low} to {high}]", square(r.mean_square_gain)),
+                self.verdict(r),
+            ]
+        };
+        let unit = shown.name;
+        let heads = [
+            "rival".to_owned(),
+            format!("its rms {unit}"),
+            "ours, held out".to_owned(),
+            format!("gain in mean square {unit}²"),
+        ];
+        let mut rows = vec![heads.map(dim).to_vec()];
+        rows.extend(rivals.iter().map(row));
+        use Align::{Left, Right};
+        let lines = indented(&table(&rows, &[Left, Right, Right, Left, Left]), 2);
+        let poses = counted(self.data.poses, "pose");
+        let what = dim(format!("with other models' predictions in the file, over {poses} ours is"));
+        format!("\n{}  {what}\n{lines}", bold("Compared"))
+    }
+
+    fn verdict(&self, rival: &Rival) -> String {
+        match (rival.significant, rival.mean_square_gain > 0.0) {
+            (true, true) => good("significantly better"),
+            (true, false) => bad("significantly worse"),
+            (false, true) => "not significantly better".to_owned(),
+            (false, false) => "not better".to_owned(),
+        }
+    }
+}
+
+/// `joint_compliance` as it is said.
+fn words(identifier: &str) -> String {
+    identifier.replace('_', " ")
+}
+
+/// The first entries of a list, and how many more there are.
+fn listed(entries: &[String], most: usize) -> String {
+    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
+    match entries.len().checked_sub(most) {
+        None | Some(0) => shown,
+        Some(rest) => format!("{shown} and {rest} more"),
+    }
+}
+
+fn percent(part: f64) -> String {
+    format!("{} %", fixed(100.0 * part, 0))
+}

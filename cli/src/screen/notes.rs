@@ -1,0 +1,154 @@
+//! Where the gap lies, what a diagnosis leaves open, what could not be seen, what was not read.
+
+use stiffarm_gap::diagnose::{NuisanceReport, Share};
+
+use super::{MOST, Screen, WIDTH, listed, percent, words};
+use crate::input::quantity::counted;
+use crate::terminal::text::{bold, short, wrapped};
+
+/// Lines of the whole screen: reasons for which something could not be seen are left out beyond.
+const HEIGHT: usize = 40;
+
+/// Reasons that are given in any case.
+const LEAST_REASONS: usize = 2;
+
+/// Where the text beside the names begins.
+const MARGIN: usize = 14;
+
+/// Parts smaller than this are not shown.
+const LEAST: f64 = 0.01;
+
+/// A part that is everything is none.
+const MOST_OF_IT: f64 = 0.995;
+
+impl Screen<'_> {
+    /// The remarks below the findings, each with its name in front; `above` lines stand before
+    /// them.
+    pub(super) fn notes(&self, above: usize) -> String {
+        let places = shares(&self.found.places);
+        let places = match places.is_empty() {
+            true => places,
+            false => format!("{places} (each alone; they overlap)"),
+        };
+        let parts = self.found.parts.iter().filter(|p| (LEAST..MOST_OF_IT).contains(&p.share));
+        let parts: Vec<String> =
+            parts.map(|p| format!("{} {}", p.part, percent(p.share))).collect();
+        let mut text = [
+            note("Where", &places),
+            note("Goes with", &listed(&parts, MOST + 2)),
+            note("Fitted along", &self.frames()),
+            note("Check", &self.checked()),
+            note("Unexplained", &self.unexplained()),
+        ]
+        .concat();
+        let last = note("Not used", &self.not_used());
+        let reasons = self.hidden();
+        for (k, reason) in reasons.iter().enumerate() {
+            let line = note(if k == 0 { "Cannot see" } else { "" }, reason);
+            let lines = [&text, &line, &last].map(|t| t.lines().count()).iter().sum::<usize>();
+            // A line stands between findings and remarks, another may count the reasons left out.
+            if k >= LEAST_REASONS && above + lines + 2 > HEIGHT {
+                let rest = counted(reasons.len() - k, "more reason");
+                text.push_str(&note("", &format!("and what is hidden for {rest}: --json")));
+                break;
+            }
+            text.push_str(&line);
+        }
+        text.push_str(&last);
+        if text.is_empty() { text } else { format!("\n{text}") }
+    }
+
+    fn frames(&self) -> String {
+        let frame = |n: &NuisanceReport| {
+            let [x, y, z] = n.translation.map(|x| short(1e3 * x));
+            format!("{} at ({x}, {y}, {z}) mm", words(&n.name))
+        };
+        let frames: Vec<String> = self.found.nuisances.iter().map(frame).collect();
+        listed(&frames, MOST)
+    }
+
+    fn checked(&self) -> String {
+        let Some(check) = self.check else { return String::new() };
+        let of = format!("{} of the {} rows of {}", check.inside, check.rows, check.file);
+        let (Some(before), Some(after)) = (check.before, check.after) else {
+            return format!(
+                "{of} lie within the joint ranges and loads of this data: none is judged"
+            );
+        };
+        let position = self.measures(0..3);
+        let sizes = if position {
+            let shown = self.length(
+                before.position_rms.min(after.position_rms),
+                before.position_rms.max(after.position_rms),
+            );
+            let arrow = |a: f64, b: f64| format!("{} → {}", shown.number(a), shown.with_unit(b));
+            format!(
+                "{} rms, 95 % {}, max {}",
+                arrow(before.position_rms, after.position_rms),
+                arrow(before.position_p95, after.position_p95),
+                arrow(before.position_max, after.position_max)
+            )
+        } else {
+            let (a, b) = (before.rotation_rms, after.rotation_rms);
+            let shown = self.angle(a.min(b), a.max(b));
+            format!("{} → {} rms", shown.number(a), shown.with_unit(b))
+        };
+        let outside = match check.rows - check.inside {
+            0 => "no row lies outside".to_owned(),
+            n => format!("{n} outside are not judged"),
+        };
+        format!("{sizes} on {of} that lie within this data's joint ranges and loads; {outside}")
+    }
+
+    fn unexplained(&self) -> String {
+        let left = &self.found.unexplained;
+        if !left.present {
+            return match self.found.gap.noise.from {
+                "residual" => String::new(),
+                _ => "nothing beyond the noise".to_owned(),
+            };
+        }
+        let mut text = format!("{} beyond the noise", self.left());
+        let places = shares(&left.places);
+        if !places.is_empty() {
+            text.push_str(&format!(", at {places}"));
+        }
+        if !left.depends_on.is_empty() {
+            text.push_str(&format!("; it depends on {}", listed(&left.depends_on, MOST)));
+        }
+        text
+    }
+
+    fn not_used(&self) -> String {
+        let rival = |name: &str| {
+            self.rivals
+                .iter()
+                .any(|r| name.strip_prefix(r.as_str()).is_some_and(|n| n.starts_with('_')))
+        };
+        let unknown = self.data.extra.iter().filter(|column| !rival(&column.name));
+        let unknown = unknown.map(|column| match &column.suggestion {
+            Some(meant) => format!("{} (did you mean {meant}?)", column.column.header),
+            None => column.column.header.clone(),
+        });
+        let unused = self.data.unused.iter().map(|c| format!("{} (not measured)", c.header));
+        let all: Vec<String> = unknown.chain(unused).collect();
+        if all.is_empty() { String::new() } else { format!("columns {}", all.join(", ")) }
+    }
+}
+
+/// A remark with its name in front; nothing if there is none.
+fn note(name: &str, text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let pad = " ".repeat(MARGIN - name.len());
+    let head = if name.is_empty() { String::new() } else { bold(name) };
+    wrapped(&format!("{head}{pad}{text}"), WIDTH, MARGIN)
+}
+
+/// `joint 1 99 %, joint 2 92 %`.
+fn shares(places: &[Share]) -> String {
+    let there = places.iter().filter(|s| s.share >= LEAST);
+    let each: Vec<String> = there.map(|s| format!("{} {}", s.place, percent(s.share))).collect();
+    listed(&each, MOST)
+}

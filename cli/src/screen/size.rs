@@ -1,0 +1,77 @@
+//! Found numbers in the units that people use.
+
+use stiffarm_gap::diagnose::{Finding, ParameterReport};
+
+use super::Screen;
+use crate::terminal::text::short;
+
+/// A unit of the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    pub name: &'static str,
+    /// What one of it is in SI.
+    pub si: f64,
+}
+
+/// Below this a thousandth of the unit is shown.
+const SMALL: f64 = 2e-4;
+
+const HOUR: f64 = 3600.0;
+
+impl Size {
+    /// The unit for numbers up to `most`; one that is not known here stays as it is.
+    pub fn of(unit: &'static str, most: f64) -> Size {
+        let size = |name, si| Size { name, si };
+        let by = |small, large| if most < SMALL { size(small, 1e-6) } else { size(large, 1e-3) };
+        match unit {
+            "m" => by("µm", "mm"),
+            "rad" => by("µrad", "mrad"),
+            "rad/rad" => by("µrad/rad", "mrad/rad"),
+            "rad/(N·m)" => by("µrad/(N·m)", "mrad/(N·m)"),
+            "m/N" => by("µm/N", "mm/N"),
+            "rad/m" => by("µrad/m", "mrad/m"),
+            "m/rad" => by("µm/rad", "mm/rad"),
+            "m/row" => by("µm/row", "mm/row"),
+            "rad/row" => by("µrad/row", "mrad/row"),
+            "m/s" => size("µm/h", 1e-6 / HOUR),
+            "rad/s" => size("µrad/h", 1e-6 / HOUR),
+            "1/K" => size("ppm/K", 1e-6),
+            "1" if most < 1e-3 => size("ppm", 1e-6),
+            "1" => size("%", 1e-2),
+            "rows" => size("", 1.0),
+            other => size(other, 1.0),
+        }
+    }
+
+    /// A number in SI.
+    pub fn number(self, si: f64) -> String {
+        short(si / self.si)
+    }
+
+    /// A number in SI, with the unit.
+    pub fn with_unit(self, si: f64) -> String {
+        let space = if self.name.is_empty() { "" } else { " " };
+        format!("{}{space}{}", self.number(si), self.name)
+    }
+}
+
+impl Screen<'_> {
+    /// The unit for all numbers of a finding that have the unit of `p`.
+    pub(super) fn size(&self, finding: &Finding, p: &ParameterReport) -> Size {
+        let alike = finding.parameters.iter().filter(|other| other.unit == p.unit);
+        let most = alike.map(|other| other.value.abs()).fold(0.0, f64::max);
+        self.unit(finding.effect, p.unit, most)
+    }
+
+    /// The unit for numbers up to `most`, inches where the file has them.
+    pub(super) fn unit(&self, effect: &str, unit: &'static str, most: f64) -> Size {
+        match unit {
+            "m" => {
+                let shown = self.length(most, most);
+                Size { name: shown.name, si: shown.size }
+            }
+            "1" if effect == "joint_coupling" => Size::of("rad/rad", most),
+            other => Size::of(other, most),
+        }
+    }
+}

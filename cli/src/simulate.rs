@@ -1,0 +1,304 @@
+//! `stiffarm simulate`: measurements of an arm with chosen effects.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use stiffarm_gap::Measurements;
+use stiffarm_gap::measurement::{Dimension, Kind};
+use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
+use stiffarm_kernels::generic::Arm;
+
+use super::Verdict;
+use crate::input::quantity::counted;
+use crate::input::source::{RobotArgs, Source};
+use crate::input::{data, quantity};
+use crate::terminal::failure::Failure;
+use crate::terminal::output::Target;
+use crate::terminal::text::short;
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm simulate ur5 --effect 'backlash@joint 2=0.3 mrad' --csv run.csv
+  stiffarm simulate arm.toml --effect 'joint_compliance@joint 2=1.5e-7 rad/(N·m)' \\
+      --effect 'tool_frame:x=1mm,rz=0.5mrad' --design force --payload 500N --csv -
+  stiffarm simulate arm.toml run1.csv --effect 'slip@tool:after=40,x=0.3mm' \\
+      --withhold --csv blind.csv
+
+An EFFECT is effect@place=value, which sets its first parameter, or effect@place:name=value,…
+Effects and places are those that `stiffarm diagnose` looks for; a value has its unit or is in SI.";
+
+/// Measurements of an arm with chosen effects
+///
+/// Exact transforms at static equilibrium on the loaded geometry, with noise. Without DATA the
+/// poses and loads are drawn; with DATA they are those of the file, and only what was measured is
+/// replaced.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Take poses, loads, order and measured components of this measurement file
+    data: Option<PathBuf>,
+    /// What reality does and the robot file does not say [default: nothing]
+    #[arg(long = "effect", value_name = "EFFECT")]
+    effects: Vec<String>,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    /// `unknown`: measure in frames that are nowhere near those of the robot file
+    #[arg(long)]
+    frames: Option<FramesArg>,
+    /// Add sim_ columns: the robot file's model to first order in the load
+    #[arg(long)]
+    first_order_sim: bool,
+    /// Leave out of the comments what the effects are
+    #[arg(long)]
+    withhold: bool,
+    /// Where the measurement file goes (`-`: to standard output)
+    #[arg(long, value_name = "OUT")]
+    csv: Target,
+}
+
+/// What is measured, and how well.
+#[derive(clap::Args)]
+pub struct ExperimentArgs {
+    /// Which poses and loads are drawn
+    #[arg(long, value_enum, conflicts_with = "data", default_value_t = DesignArg::Payload)]
+    design: DesignArg,
+    /// Number of poses that are drawn
+    #[arg(long, value_name = "N", conflicts_with = "data", default_value_t = 40)]
+    poses: usize,
+    /// The full load: a mass (10kg), or a force (100N)
+    #[arg(long, value_name = "LOAD", conflicts_with = "data", default_value = "10kg")]
+    payload: String,
+    /// How often each pose and load is measured
+    #[arg(long, value_name = "R", conflicts_with = "data", default_value_t = 1)]
+    repeats: usize,
+    /// What is measured
+    #[arg(long, value_enum, conflicts_with = "data", default_value_t = MeasureArg::Pose)]
+    measure: MeasureArg,
+    /// Standard deviation of each measured coordinate
+    #[arg(long, value_name = "LENGTH", default_value = "30um")]
+    noise_position: String,
+    /// Standard deviation of each component of a measured rotation
+    #[arg(long, value_name = "ANGLE", default_value = "0.005deg")]
+    noise_rotation: String,
+    /// Decides poses, loads and noise; the same seed gives the same bytes
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FramesArg {
+    Unknown,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum DesignArg {
+    /// No, half and full payload at every pose
+    Payload,
+    /// No load and three forces in various directions at every pose
+    Force,
+    /// Payload, within a tenth of the joints' ranges
+    Narrow,
+    /// Payload, every joint coming to rest from below
+    OneSided,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MeasureArg {
+    /// Position and orientation
+    Pose,
+    /// Position alone
+    Position,
+    /// Loaded minus unloaded, all six components
+    Displacement,
+}
+
+/// Most rows that are drawn.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data, an effect that this arm cannot have, a load that it cannot
+/// carry, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let truths = args.truths(&arm)?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm)?;
+    let noise = args.experiment.noise()?;
+    let seed = args.experiment.seed;
+    let mut plant = Plant::new(&arm, &truths).map_err(plain)?;
+    if args.frames.is_some() {
+        plant = plant.with_frames(Frames::unknown(seed));
+    }
+    if args.first_order_sim {
+        plant = plant.with_first_order_sim();
+    }
+    let measured = plant.measure(&design, noise, seed).map_err(plain)?;
+    args.csv.write(&csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
+    Ok(Verdict::Good)
+}
+
+/// A sentence of the plant's.
+pub fn plain(error: impl std::error::Error) -> Failure {
+    Failure::new(error.to_string())
+}
+
+impl Args {
+    fn truths(&self, arm: &Arm) -> Result<Vec<Truth>, Failure> {
+        self.effects.iter().map(|text| Truth::parse(text, arm).map_err(plain)).collect()
+    }
+
+    fn comments(
+        &self,
+        design: &Measurements,
+        noise: Noise,
+        truths: &[Truth],
+        arm: &Arm,
+    ) -> Vec<String> {
+        let rows = counted(design.rows.len(), "row");
+        let poses = counted(design.poses, "pose");
+        let mut lines = vec![
+            format!("{}, simulated: {}, {rows} at {poses}", arm.name, design.file),
+            format!(
+                "noise {} um in each coordinate, {} mrad in each rotation; seed {}",
+                short(1e6 * noise.position),
+                short(1e3 * noise.rotation),
+                self.experiment.seed
+            ),
+        ];
+        if self.frames.is_some() {
+            lines
+                .push("measured in unknown frames: base_frame and tool_frame are nuisances".into());
+        }
+        match truths {
+            _ if self.withhold => lines.push("effects withheld".to_owned()),
+            [] => lines.push("no effect: the arm is as the robot file says".to_owned()),
+            some => lines.extend(some.iter().map(|truth| format!("effect {truth} (SI)"))),
+        }
+        lines
+    }
+}
+
+impl ExperimentArgs {
+    /// The rows that are to be measured: of the file, or drawn.
+    ///
+    /// # Errors
+    /// [`Failure`]: the file's mistakes, or numbers that make no design.
+    pub fn rows(
+        &self,
+        file: Option<&PathBuf>,
+        source: &Source,
+        arm: &Arm,
+    ) -> Result<Measurements, Failure> {
+        let layout = data::layout(source)?;
+        match file {
+            Some(path) => data::read(path, &layout),
+            None => Ok(self.design()?.rows(arm)),
+        }
+    }
+
+    /// Four sessions of the same design at other poses.
+    ///
+    /// # Errors
+    /// [`Failure`]: numbers that make no design.
+    pub fn other_sessions(&self, arm: &Arm) -> Result<Vec<Measurements>, Failure> {
+        let design = self.design()?;
+        let other = |k| Design { seed: design.seed.wrapping_add(k), ..design }.rows(arm);
+        Ok((1..=4).map(other).collect())
+    }
+
+    fn design(&self) -> Result<Design, Failure> {
+        for (option, found) in [("--poses", self.poses), ("--repeats", self.repeats)] {
+            if found == 0 {
+                return Err(Failure::new(format!("{option}: found 0, expected at least 1")));
+            }
+        }
+        if self.poses.saturating_mul(self.repeats).saturating_mul(4) > MOST_ROWS {
+            let message = format!(
+                "--poses {} with --repeats {}: expected at most {MOST_ROWS} rows",
+                self.poses, self.repeats
+            );
+            return Err(Failure::with_help(message, "measure fewer poses or repeats"));
+        }
+        let payload = payload(&self.payload)?;
+        if self.measure == MeasureArg::Displacement && payload == 0.0 {
+            return Err(Failure::with_help(
+                "--measure displacement: found no load, expected one",
+                "a displacement is loaded minus unloaded: give a --payload",
+            ));
+        }
+        Ok(Design {
+            shape: match self.design {
+                DesignArg::Payload => Shape::Payload,
+                DesignArg::Force => Shape::Force,
+                DesignArg::Narrow => Shape::Narrow,
+                DesignArg::OneSided => Shape::OneSided,
+            },
+            poses: self.poses,
+            repeats: self.repeats,
+            payload,
+            kind: match self.measure {
+                MeasureArg::Pose => Kind::Pose { orientation: true },
+                MeasureArg::Position => Kind::Pose { orientation: false },
+                MeasureArg::Displacement => Kind::Displacement { components: [true; 6] },
+            },
+            seed: self.seed,
+        })
+    }
+
+    /// The instrument's noise.
+    ///
+    /// # Errors
+    /// [`Failure`] for what is no length or angle, or below zero.
+    pub fn noise(&self) -> Result<Noise, Failure> {
+        let read = |option: &str, text: &str, dimension: Dimension| {
+            let bare = quantity::read(text, None).is_some();
+            let value = quantity::read(text, Some(dimension)).filter(|x| *x >= 0.0 && !bare);
+            value.ok_or_else(|| {
+                let units = dimension.units();
+                Failure::new(format!(
+                    "{option}: found `{text}`, expected a number that is not negative and its \
+                     unit, one of {units}"
+                ))
+            })
+        };
+        Ok(Noise {
+            position: read("--noise-position", &self.noise_position, Dimension::Length)?,
+            rotation: read("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
+        })
+    }
+}
+
+/// What hangs at the tool, kg: a mass, or the mass whose weight is a force.
+fn payload(text: &str) -> Result<f64, Failure> {
+    const STANDARD_GRAVITY: f64 = 9.80665;
+    let mass = text.trim().strip_suffix("kg").unwrap_or(text);
+    let of_force = || quantity::read(text, Some(Dimension::Force)).map(|f| f / STANDARD_GRAVITY);
+    let read = quantity::read(mass, None).or_else(of_force);
+    read.filter(|mass| (0.0..=1e9).contains(mass)).ok_or_else(|| {
+        let forces = Dimension::Force.units();
+        Failure::new(format!(
+            "--payload: found `{text}`, expected a mass in kg, or a force in one of {forces}"
+        ))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_payload_is_a_mass_or_a_force() {
+        assert_eq!(payload("12.5kg").unwrap(), 12.5);
+        assert_eq!(payload(" 3 ").unwrap(), 3.0);
+        assert_eq!(payload("9.80665 N").unwrap(), 1.0);
+        assert_eq!(payload("2kgf").unwrap(), 2.0);
+        for wrong in ["", "heavy", "-1kg", "10mm", "1e12kg", "nankg"] {
+            assert!(payload(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! What is said and written: text, JSON, errors with their place, remarks, progress, files.
+
+pub mod failure;
+pub mod json;
+pub mod note;
+pub mod output;
+pub mod progress;
+pub mod snippet;
+pub mod text;

@@ -1,0 +1,228 @@
+//! `stiffarm withhold`: what an experiment can find, before anyone runs it.
+
+use std::path::PathBuf;
+
+use stiffarm_gap::Options;
+use stiffarm_gap::plant::Effect;
+use stiffarm_gap::withhold::{Plan, Rate, Report, with_findings, withhold};
+
+use super::Verdict;
+use super::simulate::{ExperimentArgs, plain};
+use crate::input::quantity::counted;
+use crate::input::source::RobotArgs;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::output::{Target, print};
+use crate::terminal::progress::Progress;
+use crate::terminal::text::{Align, bold, dim, indented, short, table};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm withhold ur5 --cases 40 --report check.html
+  stiffarm withhold arm.toml run1.csv --noise-position 30um --json check.json
+  stiffarm withhold arm.toml --design force --payload 500N --effects backlash,joint_compliance
+
+Effects are put into a plant one at a time, in pairs and not at all, and also with the effect taken
+out of what the diagnosis knows; the diagnosis is not told. Each is sized so that its gap is so many
+times the noise.";
+
+/// What an experiment can find, before anyone runs it
+///
+/// With DATA, the poses and loads of that file; without, a drawn design.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Take poses, loads, order and measured components of this measurement file
+    data: Option<PathBuf>,
+    /// Put in only these effects [default: all]
+    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
+    effects: Option<Vec<String>>,
+    /// Number of cases
+    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with = "full")]
+    cases: usize,
+    /// As many cases as it takes to tell 95 % from 98 %: 500
+    #[arg(long)]
+    full: bool,
+    /// Smallest and largest size of an effect's gap, in multiples of the noise
+    #[arg(long, value_name = "FROM,TO", default_value = "8,20", value_delimiter = ',')]
+    sizes: Vec<f64>,
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+    /// Write everything as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+    /// Write a self-contained page
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<Target>,
+}
+
+/// Cases of the full form.
+const FULL: usize = 500;
+
+/// Cases that are worked on at once.
+const THREADS: usize = 2;
+
+/// Confusions that are shown.
+const MOST: usize = 6;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
+/// that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let effects = args.effects()?;
+    let [from, to] = args.sizes[..] else {
+        let found = counted(args.sizes.len(), "value");
+        return Err(Failure::new(format!("--sizes: found {found}, expected two: 8,20")));
+    };
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm)?;
+    let fresh = match args.data {
+        Some(_) => Vec::new(),
+        None => args.experiment.other_sessions(&arm)?,
+    };
+    let predict = with_findings(&arm);
+    let options = Options { version: env!("CARGO_PKG_VERSION").to_owned(), ..Options::default() };
+    let cases = if args.full { FULL } else { args.cases };
+    let plan = Plan {
+        arm: &arm,
+        design: &design,
+        fresh: &fresh,
+        predict: Some(&predict),
+        noise: args.experiment.noise()?,
+        frames: None,
+        effects: &effects,
+        cases,
+        multiple: [from, to],
+        seed: args.experiment.seed,
+        options: &options,
+        threads: THREADS,
+    };
+    let progress = Progress::new("withheld cases", cases, quiet);
+    let report = withhold(&plan, &|_, _| progress.add(1)).map_err(plain)?;
+    drop(progress);
+    if let Some(target) = &args.json {
+        target.write(&json::text(&report)?)?;
+    }
+    if let Some(target) = &args.report {
+        let page = crate::report::withheld::html(&report);
+        target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
+    }
+    let piped = [&args.json, &args.report].contains(&&Some(Target::Stdout));
+    let unasked = quiet && args.json.is_some();
+    if !(piped || unasked) {
+        print(&screen(&report))?;
+    }
+    Ok(Verdict::Good)
+}
+
+impl Args {
+    fn effects(&self) -> Result<Vec<Effect>, Failure> {
+        let Some(names) = &self.effects else { return Ok(Effect::ALL.to_vec()) };
+        let each = names.iter().map(|name| {
+            Effect::named(name.trim()).ok_or_else(|| {
+                let known = Effect::ALL.map(Effect::identifier);
+                let near =
+                    known.iter().copied().min_by_key(|k| strsim::damerau_levenshtein(k, name));
+                let near = near.filter(|k| strsim::damerau_levenshtein(k, name) <= 3);
+                let meant = near.map_or_else(String::new, |k| format!("; did you mean `{k}`?"));
+                Failure::with_help(
+                    format!("--effects: found the unknown effect `{name}`{meant}"),
+                    format!("expected some of {}", known.join(", ")),
+                )
+            })
+        });
+        each.collect()
+    }
+}
+
+fn screen(report: &Report) -> String {
+    let facts = format!(
+        "{}: {} at {}, noise {} µm and {} mrad; {}, sizes {} to {} × noise",
+        report.design,
+        counted(report.measurements, "measurement"),
+        counted(report.poses, "pose"),
+        short(1e6 * report.noise_position),
+        short(1e3 * report.noise_rotation),
+        counted(report.cases.len(), "case"),
+        short(report.multiple[0]),
+        short(report.multiple[1]),
+    );
+    let mut text = format!("{}\n{}\n\n{}\n", bold(&report.robot), dim(facts), bold("Found"));
+    text.push_str(&indented(&rates(report), 2));
+    text.push_str(&confusions(report));
+    if !report.cannot_plant.is_empty() {
+        let names = report.cannot_plant.join(", ");
+        text.push_str(&format!("\n{}  {names}\n", bold("Does not show here")));
+    }
+    if report.failed > 0 {
+        let error = report.cases.iter().find_map(|case| case.error.as_deref()).unwrap_or_default();
+        let failed = counted(report.failed, "diagnosis without result");
+        text.push_str(&format!("\n{}  {failed}, the first: {error}\n", bold("Failed")));
+    }
+    text
+}
+
+fn rates(report: &Report) -> String {
+    let mut rows = Vec::new();
+    let mut add = |what: &str, rate: Rate, remark: String| {
+        let percent = |x: f64| format!("{:.0}", 100.0 * x);
+        let Some((value, [low, high])) = rate.rate.zip(rate.ci95) else { return };
+        rows.push(vec![
+            what.to_owned(),
+            format!("{} %", percent(value)),
+            format!("[{} to {}]", percent(low), percent(high)),
+            format!("{} of {}", rate.hits, rate.of),
+            remark,
+        ]);
+    };
+    let none = String::new;
+    add("an effect where there is none", report.false_alarms, none());
+    add("something unexplained where there is none", report.false_unexplained, none());
+    add("the effect and its place, named first", report.single.first_named, none());
+    let size = report.single.mean_set_size;
+    let size = size.map_or_else(none, |s| format!("mean set size {}", short(s)));
+    add("  or not to be told from what is", report.single.in_set, size);
+    add("both of two", report.pairs.both_in_sets, none());
+    add("that an unknown effect is unexplained", report.removed.flagged, none());
+    let open = report.removed.flagged_of_open;
+    add("  where the known ones leave a gap", open, none());
+    add("  and at which joint", report.removed.right_joint, none());
+    let median = report.after.median.map_or_else(none, |m| format!("median {}", short(m)));
+    add("gap left at most 1.2 × noise", report.after.within_1_2_of_noise, median);
+    if let Some(shrink) = &report.shrink {
+        add("shrink at new poses as predicted", shrink.inside, none());
+    }
+    use Align::{Left, Right};
+    table(&rows, &[Left, Right, Left, Left, Left])
+}
+
+fn confusions(report: &Report) -> String {
+    let wrong = |c: &&stiffarm_gap::withhold::Confusion| {
+        c.named.as_deref() != Some(c.truth) || !c.at_its_place
+    };
+    let row = |c: &stiffarm_gap::withhold::Confusion| {
+        let named = match &c.named {
+            None => "nothing".to_owned(),
+            Some(named) if named == c.truth => format!("{named}, at another place"),
+            Some(named) => named.clone(),
+        };
+        vec![c.truth.to_owned(), format!("→ {named}"), counted(c.cases, "case")]
+    };
+    let all: Vec<_> = report.confusion.iter().filter(wrong).collect();
+    if all.is_empty() {
+        return String::new();
+    }
+    let rows: Vec<_> = all.iter().take(MOST).map(|c| row(c)).collect();
+    let rest: usize = all.iter().skip(MOST).map(|c| c.cases).sum();
+    let rest = match rest {
+        0 => String::new(),
+        n => format!("  and {} more\n", counted(n, "case")),
+    };
+    let lines = indented(&table(&rows, &[]), 2);
+    format!("\n{}\n{lines}{rest}", bold("Taken for another"))
+}

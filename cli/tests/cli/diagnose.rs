@@ -1,0 +1,143 @@
+//! `stiffarm diagnose`.
+
+mod plant;
+
+use serde_json::Value;
+
+use crate::support::{Folder, read, stiffarm, text};
+
+const LIN: [&str; 3] =
+    ["diagnose", "robots/arms/lin_planar.toml", "robots/data/lin1991_table3.csv"];
+const RIVALS: [&str; 4] = ["--rival", "ycd", "--rival", "ytd"];
+
+fn lin(extra: &[&str]) -> String {
+    stiffarm(&[&LIN[..], extra].concat()).good()
+}
+
+fn line<'a>(out: &'a str, begins: &str) -> Vec<&'a str> {
+    let found = out.lines().find(|line| line.trim_start().starts_with(begins));
+    found.unwrap_or_else(|| panic!("no line `{begins}` in\n{out}")).split_whitespace().collect()
+}
+
+/// The output with its lines joined.
+fn flat(out: &str) -> String {
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn lins_gap_is_closed_by_a_spring_at_joint_1() {
+    let out = lin(&RIVALS);
+    // What bending links alone leave is 7.41 mil rms; with the spring 0.89 mil, leave-one-out.
+    assert_eq!(line(&out, "as the robot file is")[5], "7.41");
+    assert_eq!(line(&out, "with the finding, held out")[5], "0.89");
+    assert!(out.contains("rms mil"), "{out}");
+    let said = flat(&out);
+    let sentence = "Joint 1 twists 41.4 µrad/(N·m) more than modelled; modelling it removes 88 % \
+                    of the gap, 7.41 mil → 0.89 mil.";
+    assert!(said.contains(sentence), "{out}");
+    assert!(out.contains("joint compliance at joint 1  7.41 → 0.89 mil"), "{out}");
+    assert!(said.contains("stiffness 2.42e4 N·m/rad ["), "{out}");
+    assert!(said.contains("] = 2.14e5 in·lbf/rad [1.99e5 to 2.31e5]"), "{out}");
+    // Twelve points decide neither between it and the link's own compliance,
+    assert!(said.contains("This data does not tell it from "), "{out}");
+    assert!(said.contains("link compliance at link 1 (leaves 1.03 mil)"), "{out}");
+    assert!(said.contains("to tell them apart: measure the pose of line "), "{out}");
+    // nor between it and the paper's own explanation.
+    assert!(out.contains("over 12 poses ours is"), "{out}");
+    for rival in ["ycd", "ytd"] {
+        let line = line(&out, rival).join(" ");
+        assert!(line.ends_with("not significantly better"), "{line}");
+    }
+    assert!(!out.contains("Not used"), "{out}");
+    let lines: Vec<&str> = out.lines().collect();
+    assert!(lines.len() <= 40 && lines.iter().all(|l| l.chars().count() <= 100), "{out}");
+}
+
+#[test]
+fn the_readme_shows_what_is_printed() {
+    let readme = read("README.md");
+    let out = lin(&RIVALS);
+    assert!(readme.contains(&format!("```text\n{out}```\n")), "put this into README.md:\n{out}");
+}
+
+#[test]
+fn columns_that_are_not_used_are_named() {
+    let out = lin(&[]);
+    assert!(flat(&out).ends_with("Not used columns ycd_dy[in], ytd_dy[in]"), "{out}");
+    assert!(!out.contains("Compared"), "{out}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let folder = Folder::new();
+    let json = |name: &str, seed: &str| {
+        let file = text(&folder.path(name));
+        let screen = lin(&[&RIVALS[..], &["--json", &file, "--seed", seed]].concat());
+        assert!(screen.contains("7.41"), "{screen}");
+        std::fs::read_to_string(file).expect("written")
+    };
+    let (first, again, other) = (json("a", "3"), json("b", "3"), json("c", "4"));
+    assert_eq!(first, again);
+    assert_ne!(first, other);
+    assert!(first.ends_with("}\n"));
+    assert_eq!(folder.names(), ["a", "b", "c"]);
+    let printed = lin(&[&RIVALS[..], &["--json", "-", "--seed", "3"]].concat());
+    assert_eq!(printed, first);
+    assert_eq!(lin(&["--json", &text(&folder.path("d")), "--quiet"]), "");
+}
+
+#[test]
+fn the_json_is_the_formats() {
+    let out = lin(&["--json", "-"]);
+    let found: Value = serde_json::from_str(&out).expect("JSON");
+    let keys: Vec<&String> = found.as_object().expect("an object").keys().collect();
+    let expected = [
+        "stiffarm",
+        "robot",
+        "measurements",
+        "held_out",
+        "gap",
+        "where",
+        "findings",
+        "cannot_see",
+        "unexplained",
+    ];
+    assert_eq!(keys[..9], expected);
+    for key in &keys[9..] {
+        assert!(["parts", "by", "covers"].contains(&key.as_str()), "{key}");
+    }
+    assert_eq!(found["stiffarm"], env!("CARGO_PKG_VERSION"));
+    let finding = &found["findings"][0];
+    assert_eq!(finding["effect"], "joint_compliance");
+    assert_eq!(finding["place"], "joint 1");
+    let mil = |v: &Value| v.as_f64().expect("a number") / 2.54e-5;
+    assert!((mil(&found["gap"]["before"]["position_rms"]) - 7.41).abs() < 5e-3);
+    assert!((mil(&found["gap"]["after"]["position_rms"]) - 0.89).abs() < 5e-3);
+    let rivals: Value =
+        serde_json::from_str(&lin(&[&RIVALS[..], &["--json", "-"]].concat())).expect("JSON");
+    assert_eq!(rivals["rivals"][0]["significant"], false);
+}
+
+#[test]
+fn no_finding_is_said_too() {
+    let folder = Folder::new();
+    let robot = folder.file(
+        "arm.toml",
+        "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1.0\n",
+    );
+    // Without a load no spring shows.
+    let run = folder.file("run.csv", "q1,dx,dy\n0.1,1e-4,0\n0.2,-1e-4,1e-5\n0.3,0,-2e-5\n");
+    let out = stiffarm(&["diagnose", &robot, &run]).good();
+    assert!(!out.contains("Findings"), "{out}");
+    let said = flat(&out);
+    assert!(said.contains("no effect that was tried "), "{out}");
+    assert!(said.contains("joint compliance"), "{out}");
+    assert!(said.contains("at joint 1: no load of this data reaches the joint"), "{out}");
+    // Nor does anything where there is no gap.
+    let run = folder.file("none.csv", "q1,dx,dy\n0.1,0,0\n0.2,0,0\n0.3,0,0\n");
+    let out = stiffarm(&["diagnose", &robot, &run]).good();
+    assert!(
+        out.contains("There is no gap: the measurements are what the model predicts."),
+        "{out}"
+    );
+}

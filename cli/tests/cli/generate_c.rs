@@ -1,0 +1,67 @@
+//! `stiffarm generate --emit c`: two files, their check, what is refused.
+
+use crate::support::{Folder, stiffarm, text};
+
+/// The exit status, standard output and standard error of `stiffarm generate`.
+fn generate(arguments: &[&str]) -> (i32, String, String) {
+    let run = stiffarm(&[&["generate"], arguments].concat());
+    (run.status, run.out, run.err)
+}
+
+#[test]
+fn both_files_are_written_and_checked() {
+    let folder = Folder::new();
+    let place = text(&folder.path(""));
+    let place = place.as_str();
+    let by_id = ["ur5", "--emit", "c", "--precision", "f32"];
+    let by_file = ["robots/arms/ur5.toml", "--emit", "c", "--precision", "f32"];
+    let with = |robot: &[&str], extra: [&str; 2]| generate(&[robot, &extra].concat());
+    assert_eq!(with(&by_id, ["--out", place]), (0, String::new(), String::new()));
+    assert_eq!(folder.names(), ["ur5.c", "ur5.h"]);
+
+    for robot in [&by_id, &by_file] {
+        let (status, out, _) = with(robot, ["--check", place]);
+        assert_eq!((status, out.matches("is what").count()), (0, 2), "{out}");
+    }
+    // In another precision neither file is the same.
+    let (status, out, _) = generate(&["ur5", "--emit", "c", "--check", place]);
+    assert_eq!((status, out.matches("is not what").count()), (1, 2), "{out}");
+    // By hand: one file differs, the other is still told to be good.
+    let source = std::fs::read_to_string(folder.path("ur5.c")).expect("written");
+    folder.file("ur5.c", source.replacen("0.425f", "0.426f", 1));
+    let (status, out, _) = with(&by_id, ["--check", place]);
+    assert_eq!((status, out.matches("is not what").count()), (1, 1), "{out}");
+    assert!(out.contains("0.426f"), "{out}");
+}
+
+#[test]
+fn names_are_the_caller_s() {
+    let folder = Folder::new();
+    let place = text(&folder.path(""));
+    let place = place.as_str();
+    let of = |name| generate(&["ur5", "--emit", "c", "--name", name, "--out", place]);
+    assert_eq!(of("left_arm").0, 0);
+    let header = std::fs::read_to_string(folder.path("left_arm.h")).expect("written");
+    assert!(header.contains("void left_arm_pose(const double q[LEFT_ARM_JOINTS]"));
+    let (status, _, error) = of("Left-Arm");
+    assert_eq!(status, 2);
+    assert!(error.contains("`Left-Arm`") && error.contains("`left_arm`"), "{error}");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    for (arguments, told) in [
+        (&["ur5", "--emit", "c"][..], "--out FOLDER"),
+        (&["ur5", "--emit", "c", "--out", "-"], "--out FOLDER"),
+        (&["ur5", "--emit", "c", "--out", "/", "--output", "pose"], "every output"),
+        (&["ur5", "--emit", "c", "--out", "/", "--flexible"], "rust and latex"),
+        (&["ur5", "--emit", "c", "--out", "/", "--kernels", "k"], "--kernels is for rust"),
+        (&["ur5", "--emit", "rust", "--precision", "f32"], "for c"),
+        (&["ur5", "--emit", "latex", "--sines", "math"], "for c"),
+        (&["jweeg_two_link", "--emit", "c", "--out", "/"], "found no number for"),
+    ] {
+        let (status, out, error) = generate(arguments);
+        assert_eq!((status, out.as_str()), (2, ""), "{arguments:?}");
+        assert!(error.contains(told), "{arguments:?}: {error}");
+    }
+}

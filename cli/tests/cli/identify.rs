@@ -1,0 +1,122 @@
+//! `stiffarm identify`.
+
+use nalgebra::Vector6;
+use serde_json::Value;
+use stiffarm_gap::simulate::equilibrium;
+
+use crate::support::{Folder, arm, read, stiffarm, text};
+
+/// Stiffnesses of the arm that is measured; the robot file has others.
+const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
+
+/// A file of a KR 240-2 with the true springs: `poses` postures, each under some loads, read to
+/// a hundredth of a millimetre.
+fn run(folder: &Folder, poses: usize, loads: &[[f64; 3]]) -> (String, String) {
+    let mut robot = read("robots/arms/kuka_kr240.toml");
+    robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
+    let mut arm = arm("kuka_kr240");
+    arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
+    for (joint, k) in arm.joints.iter_mut().zip(TRUE) {
+        joint.compliance = 1.0 / k;
+    }
+    let mut rows =
+        "# by hand\nq1[deg],q2[deg],q3[deg],q4[deg],q5[deg],q6[deg],fx[kN],fy[kN],fz[kN],\
+                    dx[mm],dy[mm],dz[mm]\n"
+            .to_owned();
+    for k in 0..poses {
+        let turn = |j: usize| ((k * (17 + 12 * j) + 31 * j) % 97) as f64 - 48.0;
+        let q: [f64; 6] = [turn(0), turn(1) + 60.0, turn(2) - 60.0, turn(3), turn(4), turn(5)];
+        let radians = q.map(f64::to_radians);
+        for force in loads {
+            let wrench = Vector6::new(force[0], force[1], force[2], 0.0, 0.0, 0.0) * 1e3;
+            let at = |w: &Vector6<f64>| {
+                equilibrium(&arm, &radians, w).expect("stable").tool.translation.vector
+            };
+            let moved = (at(&wrench) - at(&Vector6::zeros())) * 1e3;
+            let cells = q.iter().chain(force).map(f64::to_string);
+            let read = moved.iter().map(|x| format!("{x:.2}"));
+            rows.push_str(&cells.chain(read).collect::<Vec<_>>().join(","));
+            rows.push('\n');
+        }
+    }
+    (folder.file("arm.toml", robot), folder.file("run.csv", rows))
+}
+
+const LOADS: [[f64; 3]; 3] = [[0.0, 0.0, -2.0], [1.5, -1.0, 0.0], [0.0, 1.5, 0.5]];
+
+fn json(arguments: &[&str]) -> Value {
+    let out = stiffarm(&[&["identify"], arguments, &["--json", "-"]].concat()).good();
+    serde_json::from_str(&out).expect("JSON")
+}
+
+#[test]
+fn stiffnesses_are_found_and_written() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 20, &LOADS);
+    let found = json(&[&robot, &data]);
+    let parameters = found["parameters"].as_array().expect("a list");
+    for (parameter, k) in parameters.iter().zip(TRUE) {
+        let bound = |at: usize| parameter["stiffness_ci95"][at].as_f64().expect("bounded");
+        let (low, high) = (bound(0), bound(1));
+        // Four of the interval's two standard deviations.
+        let middle = parameter["stiffness"].as_f64().expect("a stiffness");
+        assert!((middle - k).abs() < 2.0 * (high - low), "{parameter}");
+        assert!(high - low < 0.2 * k, "{parameter}");
+        assert_eq!(parameter["status"], "determined");
+    }
+    let sizes = |when: &str| found["gap"][when]["position_rms"].as_f64().expect("a size");
+    // Rounding to 0.01 mm: 0.0029 mm per coordinate, 0.005 mm over three.
+    assert!(sizes("held_out") < 7e-6 && sizes("before") > 2e-5, "{found}");
+    let out = text(&folder.path("stiff.toml"));
+    let screen = stiffarm(&["identify", &robot, &data, "--write-robot", &out]).good();
+    for expected in ["joint 1", "N·m/rad", "with what was found, held out", "rms mm"] {
+        assert!(screen.contains(expected), "no `{expected}` in\n{screen}");
+    }
+    let again = json(&[&out, &data]);
+    let rms = again["gap"]["before"]["position_rms"].as_f64().expect("a size");
+    assert!(rms <= sizes("held_out"), "{rms}");
+    assert_eq!(stiffarm(&["identify", &robot, &data]).good(), screen);
+}
+
+#[test]
+fn what_a_hanging_weight_does_not_show_is_said() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 8, &LOADS[..1]);
+    let screen = stiffarm(&["identify", &robot, &data]).good();
+    assert!(screen.contains("leaves no trace"), "{screen}");
+    assert!(screen.contains("joint 1: to show it, pull along ["), "{screen}");
+    let out = text(&folder.path("stiff.toml"));
+    stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
+    let toml = std::fs::read_to_string(&out).expect("written");
+    assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
+    assert!(toml.contains("stiffness = 3800000.0"), "{toml}");
+}
+
+#[test]
+fn the_base_can_be_asked_for() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 12, &LOADS);
+    let screen = stiffarm(&["identify", &robot, &data, "--base"]).good();
+    assert!(screen.contains("base along x") && screen.contains("N/µm"), "{screen}");
+    assert!(screen.contains("shows only together with joint 1"), "{screen}");
+}
+
+#[test]
+fn what_cannot_be_identified_is_refused() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 4, &LOADS);
+    let refused = |arguments: &[&str], expected: &str| {
+        let err = stiffarm(&[&["identify"], arguments].concat()).refused();
+        assert!(err.contains(expected), "no `{expected}` in\n{err}");
+    };
+    refused(&[&robot, &data, "--folds", "9"], "found 9 folds, expected 2 to 4");
+    refused(&[&robot, &data, "--noise-position", "3"], "expected a positive number and its unit");
+    refused(&[&robot, "no.csv"], "cannot read no.csv");
+    refused(&[&robot, &data, "--json", "-", "--write-robot", "-"], "cannot both go");
+    let unloaded = folder.file("unloaded.csv", "q1,q2,q3,q4,q5,q6,dx\n0,0,0,0,0,0,1e-3\n");
+    refused(&[&robot, &unloaded], "found no load in any row");
+    let broken = folder.file("broken.csv", "q1,q2,q3,q4,q5,q6,fx,dx\n0,0,0,0,0,0,a,1e-3\n");
+    refused(&[&robot, &broken], "broken.csv:2:13\n");
+    let missing = text(&folder.path("no/such.toml"));
+    refused(&[&robot, &data, "--write-robot", &missing], "no such file or folder");
+}

@@ -1,0 +1,23 @@
+//! The command line as its users meet it: what it prints, writes and returns.
+
+mod check;
+mod committed;
+mod compensate;
+mod diagnose;
+mod errors;
+mod eval;
+mod every;
+mod generate;
+mod generate_c;
+mod identify;
+mod import;
+mod map;
+mod others;
+mod papers;
+mod pinocchio;
+mod poses;
+mod report;
+mod simulate;
+mod support;
+mod withhold;
+mod workbench;

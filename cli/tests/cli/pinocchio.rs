@@ -1,0 +1,159 @@
+//! Our kinematics against the numbers of another program: Pinocchio's, on the robots' URDFs.
+
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
+use serde_json::Value;
+use stiffarm_kernels::Output;
+use stiffarm_kernels::generic::Arm;
+
+use crate::support::{Folder, arm, read, stiffarm, text};
+
+/// One posture, by Pinocchio.
+struct Sample {
+    q: Vec<f64>,
+    /// Rotation by columns, then position: as our pose stands.
+    pose: Vec<f64>,
+    /// By columns.
+    jacobian: Vec<f64>,
+    gravity_torque: Vec<f64>,
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+/// A list of rows, column by column.
+fn columns(value: &Value) -> Vec<f64> {
+    let rows: Vec<Vec<f64>> = value.as_array().expect("rows").iter().map(numbers).collect();
+    (0..rows[0].len()).flat_map(|c| rows.iter().map(move |row| row[c])).collect()
+}
+
+fn data(robot: &str) -> (Value, Vec<Sample>) {
+    let text = read(&format!("tests/data/pinocchio/{robot}.json"));
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let samples = file["samples"].as_array().expect("samples").iter().map(|s| Sample {
+        q: numbers(&s["q"]),
+        pose: [columns(&s["rotation"]), numbers(&s["position"])].concat(),
+        jacobian: columns(&s["jacobian"]),
+        gravity_torque: numbers(&s["gravity_torque"]),
+    });
+    let samples: Vec<Sample> = samples.collect();
+    assert_eq!(samples.len(), 50);
+    (file, samples)
+}
+
+/// Two programs that each round some dozens of operations on numbers of about 1 (torques: 100).
+#[track_caller]
+fn near(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (f, e) in found.iter().zip(expected) {
+        assert!((f - e).abs() <= tolerance, "{what}: {f} is not {e}");
+    }
+}
+
+fn kernel(id: &str, output: Output, q: &[f64]) -> Vec<f64> {
+    let kernels = stiffarm_robots::arm(id).expect("built in").kernels;
+    let (rows, columns) = output.shape(kernels.dof());
+    let mut out = vec![0.0; rows * columns];
+    kernels.evaluate(output, q, &[0.0; 6], &mut out).expect("defined everywhere");
+    out
+}
+
+#[test]
+fn the_kernels_of_ur5_and_panda_agree() {
+    for id in ["ur5", "panda"] {
+        for sample in data(id).1 {
+            near(&kernel(id, Output::Pose, &sample.q), &sample.pose, 1e-12, id);
+            near(&kernel(id, Output::Jacobian, &sample.q), &sample.jacobian, 1e-12, id);
+            if id == "panda" {
+                let torque = kernel(id, Output::GravityTorque, &sample.q);
+                near(&torque, &sample.gravity_torque, 1e-11, "gravity");
+            }
+        }
+    }
+}
+
+/// The paper's zeros and directions of the KR 240-2 are not the controller's: `q3 = −(A3 + 90°)`,
+/// the others `−A`.
+#[test]
+fn the_kernels_of_the_kr240_agree() {
+    for sample in data("kr240").1 {
+        let mut q: Vec<f64> = sample.q.iter().map(|a| -a).collect();
+        q[2] -= core::f64::consts::FRAC_PI_2;
+        near(&kernel("kuka_kr240", Output::Pose, &q), &sample.pose, 1e-12, "pose");
+        let jacobian: Vec<f64> =
+            kernel("kuka_kr240", Output::Jacobian, &q).iter().map(|x| -x).collect();
+        near(&jacobian, &sample.jacobian, 1e-12, "jacobian");
+    }
+}
+
+/// `Rz(…) Tz(…)` of the remark that the robot file begins with; the identity without one.
+fn lead(toml: &str) -> IsometryMatrix3<f64> {
+    let number = |head: &str| {
+        let (_, rest) = toml.split_once(head)?;
+        rest.split_once(')')?.0.parse::<f64>().ok()
+    };
+    let (turn, height) = (number("T_urdf = Rz(").unwrap_or(0.0), number(" Tz(").unwrap_or(0.0));
+    IsometryMatrix3::from_parts(
+        Translation3::new(0.0, 0.0, height),
+        Rotation3::from_axis_angle(&Vector3::z_axis(), turn),
+    )
+}
+
+#[test]
+fn imported_robots_agree() {
+    let folder = Folder::new();
+    for robot in ["ur5", "kr240", "panda", "oblique"] {
+        let (file, samples) = data(robot);
+        let word = |key: &str| file[key].as_str().expect("text").to_owned();
+        let out = text(&folder.path("arm.toml"));
+        let (base, tip) = (word("base"), word("tip"));
+        stiffarm(&[
+            "--quiet",
+            "import",
+            &word("urdf"),
+            "--base",
+            &base,
+            "--tip",
+            &tip,
+            "--toml",
+            &out,
+        ])
+        .good();
+        let toml = std::fs::read_to_string(&out).expect("written");
+        let (parsed, warnings) =
+            stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");
+        assert!(warnings.is_empty());
+        let arm: Arm = stiffarm_gap::robot::arm(&parsed).expect("numbers");
+        let lead = lead(&toml);
+        assert_eq!(lead == IsometryMatrix3::identity(), robot != "oblique", "{robot}");
+        for sample in samples {
+            let pose = arm.pose(&sample.q);
+            let rotation = lead.rotation * pose.rotation.to_rotation_matrix();
+            let tip = lead * nalgebra::Point3::from(pose.translation.vector);
+            let found = [rotation.matrix().as_slice(), tip.coords.as_slice()].concat();
+            near(&found, &sample.pose, 1e-12, robot);
+            let jacobian = arm.jacobian(&sample.q);
+            let turned = jacobian.column_iter().flat_map(|column| {
+                let part = |at: usize| {
+                    let v: Vector3<f64> = column.fixed_rows::<3>(at).into_owned();
+                    <[f64; 3]>::from(lead.rotation * v)
+                };
+                [part(0), part(3)].concat()
+            });
+            near(&turned.collect::<Vec<f64>>(), &sample.jacobian, 1e-12, robot);
+            let torque = arm.gravity_torque(&sample.q);
+            near(torque.as_slice(), &sample.gravity_torque, 1e-11, robot);
+        }
+    }
+}
+
+/// The textbook is what everything else is compared with.
+#[test]
+fn the_textbook_agrees() {
+    let panda = arm("panda");
+    for sample in data("panda").1 {
+        near(panda.jacobian(&sample.q).as_slice(), &sample.jacobian, 1e-12, "jacobian");
+        let torque = panda.gravity_torque(&sample.q);
+        near(torque.as_slice(), &sample.gravity_torque, 1e-11, "gravity");
+    }
+}

@@ -1,0 +1,150 @@
+//! `stiffarm poses`.
+
+use nalgebra::Vector6;
+use stiffarm_gap::simulate::equilibrium;
+
+use crate::support::{Folder, arm, read, stiffarm, text};
+
+const PULLS: [&str; 4] = ["--load", "0,0,-2kN,0,0,0", "--load", "1500,-1000,0,0,0,0"];
+
+/// A robot file whose last joint shows, and its plan.
+fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String) {
+    let mut robot = read("robots/arms/kuka_kr240.toml");
+    robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
+    let robot = folder.file("arm.toml", robot);
+    let csv = text(&folder.path("plan.csv"));
+    let arguments = [&["poses", &robot, "--count", count, "--csv", &csv], &PULLS[..], extra];
+    let screen = stiffarm(&arguments.concat()).good();
+    (robot, std::fs::read_to_string(csv).expect("written"), screen)
+}
+
+/// The empty cells filled by simulating an arm with some softer springs, in the units of the header.
+fn measured(plan: &str, softer: &[usize]) -> String {
+    let mut arm = arm("kuka_kr240");
+    arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
+    softer.iter().for_each(|joint| arm.joints[joint - 1].compliance *= 1.25);
+    let mut lines = plan.lines();
+    let remark = lines.next().expect("a remark");
+    let header = lines.next().expect("a header");
+    let names: Vec<&str> = header.split(',').collect();
+    let absolute = names.contains(&"x[mm]");
+    let mut text = format!("{remark}\n{header}\n");
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let cell = |name: &str| {
+            let at = names.iter().position(|n| *n == name)?;
+            cells[at].parse::<f64>().ok()
+        };
+        let q: Vec<f64> =
+            (1..=6).map(|j| cell(&format!("q{j}[deg]")).expect("a reading").to_radians()).collect();
+        let force = ["fx[N]", "fy[N]", "fz[N]"].map(|name| cell(name).unwrap_or(0.0));
+        let wrench = Vector6::new(force[0], force[1], force[2], 0.0, 0.0, 0.0);
+        let at = |w: &Vector6<f64>| {
+            equilibrium(&arm, &q, w).expect("stable").tool.translation.vector * 1e3
+        };
+        let read = if absolute { at(&wrench) } else { at(&wrench) - at(&Vector6::zeros()) };
+        let filled = cells[..cells.len() - 3].iter().map(|c| (*c).to_owned());
+        let row: Vec<String> = filled.chain(read.iter().map(|x| format!("{x:.6}"))).collect();
+        text.push_str(&row.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn a_plan_that_is_filled_in_identifies_the_springs() {
+    let folder = Folder::new();
+    for (purpose, rows) in [("identify", 8), ("diagnose", 16)] {
+        let (robot, plan, screen) = plan(&folder, "8", &["--for", purpose]);
+        assert!(screen.contains("joint 6") && screen.contains("of the file's"), "{screen}");
+        let empty: Vec<&str> = plan.lines().skip(2).collect();
+        assert_eq!(empty.len(), rows, "{plan}");
+        assert!(empty.iter().all(|row| row.ends_with(",,,")), "{plan}");
+        let run = folder.file("run.csv", measured(&plan, &[1, 2, 3, 4, 5, 6]));
+        let out = stiffarm(&["identify", &robot, &run, "--json", "-"]).good();
+        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        for (parameter, file) in found["parameters"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .zip(arm("kuka_kr240").joints.iter().map(|j| j.compliance))
+        {
+            let value = parameter["value"].as_f64().expect("a number");
+            // Read to a nanometre.
+            assert!((value / (1.25 * file) - 1.0).abs() < 1e-3, "{purpose}: {parameter}");
+        }
+    }
+}
+
+/// Measured as planned, the diagnosis names the one that is there and not the other.
+#[test]
+fn a_plan_that_separates_does() {
+    let folder = Folder::new();
+    let pair = ["--for", "separate", "joint_compliance@joint 2", "link_compliance@link2"];
+    let (robot, plan, screen) = plan(&folder, "12", &pair);
+    assert!(screen.contains("Told from the other") && screen.contains("µrad/(N·m)"), "{screen}");
+    assert!(plan.contains(",dx[mm],dy[mm],dz[mm]\n") && !plan.contains("s1"), "{plan}");
+    let run = folder.file("run.csv", measured(&plan, &[2]));
+    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).good();
+    let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    let finding = &found["findings"][0];
+    assert_eq!(finding["effect"], "joint_compliance", "{found}");
+    assert_eq!(finding["place"], "joint 2", "{found}");
+    let others = finding["alternatives"].as_array().expect("a list");
+    let bending = |o: &&serde_json::Value| o["effect"] == "link_compliance";
+    let at = others.iter().filter(bending).find(|o| o["place"] == "link 2").expect("tried");
+    assert_eq!(at["separable"], true, "{others:?}");
+}
+
+/// What shows without a load is planned as poses, what depends on the side with sides.
+#[test]
+fn sides_are_planned_where_they_matter() {
+    let arguments = ["poses", "ur10", "--count", "4", "--csv", "-", "--nuisance", "base_frame"];
+    let pair = ["--for", "separate", "backlash@joint 2", "friction_hysteresis@joint 2"];
+    let out = stiffarm(&[&arguments[..], &pair].concat()).good();
+    assert!(out.contains("s1,s2,s3,s4,s5,s6,x[mm],y[mm],z[mm]\n"), "{out}");
+    assert_eq!(out.lines().filter(|line| !line.starts_with('#')).count(), 9, "{out}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let arguments = ["poses", "ur5", "--count", "3", "--rotations", "--csv", "-"];
+    let first = stiffarm(&arguments).good();
+    assert_eq!(stiffarm(&arguments).good(), first);
+    let header = first.lines().nth(1).expect("a header");
+    assert!(
+        header.ends_with("fz[N],dx[mm],dy[mm],dz[mm],drx[mrad],dry[mrad],drz[mrad]"),
+        "{first}"
+    );
+    let other = stiffarm(&[&arguments[..], &["--seed", "5"]].concat()).good();
+    assert_ne!(first, other);
+}
+
+#[test]
+fn sliding_joints_are_in_millimetres() {
+    let out = stiffarm(&["poses", "stanford", "--count", "2", "--csv", "-"]).good();
+    assert!(out.contains("q2[deg],q3[mm],q4[deg]"), "{out}");
+}
+
+#[test]
+fn plans_that_cannot_be_made_are_refused() {
+    let refused = |extra: &[&str], expected: &str| {
+        let err = stiffarm(&[&["poses", "ur5"], extra].concat()).refused();
+        assert!(err.contains(expected), "no `{expected}` in\n{err}");
+    };
+    refused(&["--count", "3"], "--csv <OUT>");
+    refused(&["--count", "0", "--csv", "-"], "--count");
+    refused(&["--count", "3", "--csv", "-", "--load", "1,2"], "--load: found 2 values");
+    refused(&["--count", "3", "--csv", "-", "--load", "0,0,0,0,0,0"], "number of loads");
+    refused(&["--count", "3", "--csv", "-", "--for", "fun"], "identify, diagnose, separate");
+    let separate = |more: &[&str], expected: &str| {
+        refused(&[&["--count", "3", "--csv", "-", "--for", "separate"], more].concat(), expected);
+    };
+    separate(&["backlash@joint 2"], "--for separate: found 1 effect, expected two");
+    separate(&["backlas@joint 2", "drift"], "did you mean `backlash`?");
+    separate(&["backlash@joint 2", "drift"], "no test of this plan shows drift at base");
+    separate(&["base_frame", "base_frame"], "no test of this plan tells base frame at base from");
+    separate(&["drift", "drift", "--nuisance", "frame"], "unknown nuisance `frame`");
+    refused(&["backlash", "--count", "3", "--csv", "-"], "found `backlash`, expected an option");
+    refused(&["--count", "3", "--csv", "no/such.csv"], "no such file or folder");
+}

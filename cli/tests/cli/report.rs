@@ -1,0 +1,157 @@
+//! `stiffarm diagnose --report` and `identify --report`: the pages, and the pages in a browser.
+
+mod browser;
+
+use stiffarm_gap::measurement::Kind;
+use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::{Noise, Plant, Truth, csv};
+
+use crate::support::{Folder, stiffarm, text};
+
+const LIN: [&str; 5] =
+    ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv", "--rival", "ycd"];
+
+const ROBOT: &str = r#"
+name = "shoulder and elbow"
+convention = "modified"
+[[joint]]
+type = "revolute"
+d = 0.4
+mass = 20.0
+com = [0.0, 0.1, 0.0]
+[[joint]]
+type = "revolute"
+alpha = "pi/2"
+a = 0.1
+mass = 20.0
+com = [0.3, 0.0, 0.0]
+[[joint]]
+type = "revolute"
+a = 0.7
+d = 0.1
+mass = 8.0
+com = [0.3, 0.0, 0.0]
+[tool]
+translation = [0.5, 0.0, 0.1]
+"#;
+
+/// A report of a plant with a spring and a wave that its robot file does not have.
+fn plant(folder: &Folder) -> String {
+    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot");
+    let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
+    let truths =
+        ["joint_compliance@joint 2=6e-6 rad/(N·m)", "transmission_error@joint 3: cos 2 = 0.4 mrad"];
+    let truth = |t: &str| Truth::parse(t, &arm).expect("an effect of this arm");
+    let design = Design {
+        shape: Shape::Payload,
+        poses: 24,
+        repeats: 1,
+        payload: 15.0,
+        kind: Kind::Pose { orientation: true },
+        seed: 1,
+    };
+    let plant = Plant::new(&arm, &truths.map(truth)).expect("a plant");
+    let noise = Noise { position: 2e-5, rotation: 4e-5 };
+    let measured = plant.measure(&design.rows(&arm), noise, 1).expect("it stands");
+    let file = folder.file("arm.toml", ROBOT);
+    let run = folder.file("run.csv", csv(&arm, &measured, &[]));
+    let page = text(&folder.path("report.html"));
+    stiffarm(&["diagnose", &file, &run, "--report", &page]).good();
+    std::fs::read_to_string(page).expect("written")
+}
+
+/// The sentence that the page opens with, as text.
+fn sentence(page: &str) -> String {
+    let (_, rest) = page.split_once(r#"<p id="sentence" class="sentence">"#).expect("a sentence");
+    let (sentence, _) = rest.split_once("</p>").expect("its end");
+    sentence.to_owned()
+}
+
+#[test]
+fn the_page_says_what_the_screen_says() {
+    let folder = Folder::new();
+    let path = text(&folder.path("out.html"));
+    let screen = stiffarm(&[&LIN[..], &["--report", &path]].concat()).good();
+    let page = std::fs::read_to_string(&path).expect("written");
+    let said = sentence(&page);
+    assert!(said.starts_with("Joint 1 twists 41.4 µrad/(N·m) more than modelled; "), "{said}");
+    assert!(said.contains("7.41 mil → 0.89 mil"), "{said}");
+    let screen: Vec<&str> = screen.split_whitespace().collect();
+    assert!(screen.join(" ").contains(&said), "{said}");
+    assert!(page.contains("<dt>seed</dt><dd>0</dd>"));
+    assert!(!page.contains("http"));
+    // The same bytes on standard output, in place of the screen.
+    let printed = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
+    assert_eq!(printed, page);
+    assert_eq!(folder.names(), ["out.html"]);
+}
+
+#[test]
+fn a_report_that_cannot_be_written_is_said() {
+    let folder = Folder::new();
+    let path = text(&folder.path("no/such/folder.html"));
+    let said = stiffarm(&[&LIN[..], &["--report", &path]].concat()).refused();
+    assert!(said.contains("folder.html"), "{said}");
+    assert!(folder.names().is_empty());
+}
+
+const WORKBENCH: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
+
+#[test]
+fn the_page_of_an_identification_says_what_its_screen_says() {
+    let folder = Folder::new();
+    let path = text(&folder.path("out.html"));
+    let screen = stiffarm(&[&WORKBENCH[..], &["--report", &path]].concat()).good();
+    let page = std::fs::read_to_string(&path).expect("written");
+    let said = sentence(&page);
+    assert!(said.starts_with("Joint 2 is 1.83 times as soft as the robot file says, "), "{said}");
+    assert!(said.contains("0.797 → 0.034 mm"), "{said}");
+    let screen: Vec<&str> = screen.split_whitespace().collect();
+    assert!(screen.join(" ").contains(&said), "{said}");
+    assert!(page.contains("<td class=\"number\">3.61e6 N·m/rad</td>"));
+    assert!(!page.contains("http"));
+    let both = [&WORKBENCH[..], &["--report", "-", "--json", "-"]].concat();
+    let err = stiffarm(&both).refused();
+    assert!(err.contains("--json and --report cannot both go to standard output"), "{err}");
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn needs_chromium_a_browser_turns_the_arm_and_follows_the_links() {
+    let folder = Folder::new();
+    let lin = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
+    let springs = stiffarm(&[&WORKBENCH[..], &["--report", "-"]].concat()).good();
+    for (page, json) in
+        [(plant(&folder), "diagnosis.json"), (lin, "diagnosis.json"), (springs, "identified.json")]
+    {
+        let said = sentence(&page);
+        let seen = browser::visit(&folder, &page);
+        assert_eq!(seen["problems"], serde_json::json!([]));
+        assert_eq!(seen["sentence"], said);
+        for what in ["turned", "dragged", "switched", "redrawn", "dark", "component"] {
+            assert_eq!(seen[what], true, "{what} in {seen}");
+        }
+        let files = seen["files"].as_object().expect("one for each link");
+        for name in ["rows.csv", "gap.csv", "places.csv", "vectors.csv", json] {
+            let lines = files.get(name).and_then(serde_json::Value::as_u64);
+            assert!(lines.is_some_and(|n| n >= 3), "{name} in {seen}");
+        }
+        assert!(seen["panels"].as_u64() >= Some(3), "{seen}");
+    }
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn needs_chromium_a_browser_reads_the_ledger_and_the_withheld_check() {
+    let folder = Folder::new();
+    let ledger = stiffarm(&["papers", "--report"]).good();
+    let withheld = ["withhold", "lin_planar", "--cases", "4", "--poses", "8", "--report", "-"];
+    let withheld = stiffarm(&withheld).good();
+    for (page, file, least) in [(ledger, "ledger.csv", 800), (withheld, "withheld_cases.csv", 5)] {
+        let seen = browser::read(&folder, &page);
+        assert_eq!(seen["problems"], serde_json::json!([]));
+        assert_eq!(seen["sentence"], sentence(&page));
+        assert_eq!(seen["dark"], true, "{seen}");
+        assert!(seen["files"][file].as_u64() >= Some(least), "{seen}");
+    }
+}

@@ -1,0 +1,105 @@
+//! Running the binary.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+/// How a run ended.
+#[derive(Debug)]
+pub struct Run {
+    pub status: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl Run {
+    /// The standard output of a run that must have gone well and said nothing else.
+    #[track_caller]
+    pub fn good(self) -> String {
+        assert_eq!((self.status, self.err.as_str()), (0, ""), "{}", self.out);
+        self.out
+    }
+
+    /// The standard error of a run that must have refused its work and printed nothing.
+    #[track_caller]
+    pub fn refused(self) -> String {
+        assert_eq!((self.status, self.out.as_str()), (2, ""), "{}", self.err);
+        assert!(!self.err.contains("panicked"), "{}", self.err);
+        self.err
+    }
+}
+
+/// The repository's folder: robots, documents and data lie there.
+pub const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+/// The binary, in the repository's folder, without a terminal.
+pub fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stiffarm"));
+    command.args(arguments).current_dir(REPOSITORY).stdin(Stdio::null());
+    for variable in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        command.env_remove(variable);
+    }
+    command
+}
+
+/// Runs it to its end.
+pub fn stiffarm(arguments: &[&str]) -> Run {
+    let output = command(arguments).output().expect("the binary runs");
+    let text = |bytes| String::from_utf8(bytes).expect("the output is text");
+    Run {
+        status: output.status.code().expect("no signal"),
+        out: text(output.stdout),
+        err: text(output.stderr),
+    }
+}
+
+/// A folder of one test, removed with it.
+pub struct Folder(TempDir);
+
+impl Folder {
+    pub fn new() -> Folder {
+        Folder(TempDir::new().expect("a folder for the test"))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file and returns its path.
+    pub fn file(&self, name: &str, content: impl AsRef<[u8]>) -> String {
+        let path = self.path(name);
+        std::fs::write(&path, content).expect("the folder can be written to");
+        text(&path)
+    }
+
+    /// The names in it, sorted.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("the folder is there");
+        let name = |e: std::io::Result<std::fs::DirEntry>| {
+            e.expect("an entry").file_name().to_string_lossy().into_owned()
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+}
+
+/// A path as an argument.
+pub fn text(path: &Path) -> String {
+    path.to_str().expect("a path in UTF-8").to_owned()
+}
+
+/// The text of a file: of this repository, where its path is relative.
+#[track_caller]
+pub fn read(path: &str) -> String {
+    let read = std::fs::read_to_string(Path::new(REPOSITORY).join(path));
+    read.unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The robot of a robot file of this repository.
+pub fn arm(id: &str) -> stiffarm_kernels::generic::Arm {
+    let text = read(&format!("robots/arms/{id}.toml"));
+    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, id).expect("it is right");
+    stiffarm_gap::robot::arm(&robot).expect("it has numbers for everything")
+}

@@ -1,0 +1,199 @@
+//! What a printed equation should say: an entry of what the generator derives of a robot, or of a
+//! product of elementary transforms.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::product::{Matrix, product};
+use super::rational::{Rational, Reading};
+use crate::latex::notation::Notation;
+use crate::latex::tree::Angle;
+use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};
+use stiffarm_codegen::robot::Robot;
+
+/// What an equation's derivation may refer to.
+#[derive(Clone, Debug, Default)]
+pub struct Setting {
+    /// The robots of the file.
+    pub robots: BTreeMap<String, Robot>,
+    /// The robot that the equation is about.
+    pub robot: Option<String>,
+    /// Angles of its joints; `theta1`, `theta2`, … where none are given.
+    pub joints: Option<Vec<Angle>>,
+    /// The wrench on its tool.
+    pub wrench: Vec<Rational>,
+    /// The equation's product of transforms.
+    pub product: Vec<String>,
+    /// What names stand for, in the formulas and in the robot's table.
+    pub defined: HashMap<String, Rational>,
+    /// Symbols that grow without bounds: what they divide vanishes.
+    pub infinite: Vec<String>,
+    /// The paper's notation.
+    pub notation: Notation,
+}
+
+/// A path such as `jacobian[3][2]`, `compliance[1][1] of joint 2`, `arm: pose[1][4]`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Path<'p> {
+    robot: Option<&'p str>,
+    name: &'p str,
+    /// From 0.
+    indices: Vec<usize>,
+    joint: Option<usize>,
+}
+
+impl<'p> Path<'p> {
+    fn read(text: &'p str) -> Result<Self, String> {
+        let (robot, rest) = match text.split_once(':') {
+            Some((robot, rest)) => (Some(robot.trim()), rest.trim()),
+            None => (None, text.trim()),
+        };
+        let (rest, joint) = match rest.split_once(" of joint ") {
+            Some((rest, joint)) => (rest.trim(), Some(index(joint)?)),
+            None => (rest, None),
+        };
+        let (name, brackets) = rest.split_at(rest.find('[').unwrap_or(rest.len()));
+        let mut indices = Vec::new();
+        let mut brackets = brackets;
+        while let Some(inner) = brackets.strip_prefix('[') {
+            let (number, rest) = inner.split_once(']').ok_or("`[` is never closed")?;
+            indices.push(index(number)?);
+            brackets = rest;
+        }
+        if !brackets.is_empty() || indices.len() > 2 {
+            return Err(format!("`{text}` is no path like jacobian[3][2]"));
+        }
+        Ok(Path { robot, name: name.trim(), indices, joint })
+    }
+}
+
+fn index(text: &str) -> Result<usize, String> {
+    let number = text.trim().parse::<usize>().ok().filter(|n| (1..=1000).contains(n));
+    number.map(|n| n - 1).ok_or_else(|| format!("`{text}` is no index counted from 1"))
+}
+
+/// Derives what a path names: a matrix, or a single entry as a 1×1 matrix.
+///
+/// # Errors
+/// Why it cannot be derived.
+pub fn derived(path: &str, setting: &Setting) -> Result<Matrix, String> {
+    let path = Path::read(path)?;
+    let whole = match path.name {
+        "product" => product(&setting.product, &setting.notation, &setting.defined)?,
+        "transport_transposed" => product(&setting.product, &setting.notation, &setting.defined)?
+            .transport()
+            .map_err(|why| format!("{why:?}"))?
+            .transposed(),
+        "transport" => product(&setting.product, &setting.notation, &setting.defined)?
+            .transport()
+            .map_err(|why| format!("{why:?}"))?,
+        name => return output(name, &path, setting),
+    };
+    entry(&whole, &path.indices)
+}
+
+fn entry(whole: &Matrix, indices: &[usize]) -> Result<Matrix, String> {
+    let found = match indices {
+        [] => return Ok(whole.clone()),
+        [row] if whole.columns == 1 => whole.get(*row, 0),
+        [row, column] => whole.get(*row, *column),
+        _ => None,
+    };
+    let found = found
+        .ok_or_else(|| format!("the index lies outside of {}×{}", whole.rows(), whole.columns))?;
+    Ok(Matrix { columns: 1, entries: vec![found.clone()] })
+}
+
+/// What of a robot's derivation a path names.
+enum Derivation {
+    Output(Output),
+    /// The pose with displacements in the chain: `flexible_published(dx,dy,dphi)`.
+    Flexible(Form, String),
+}
+
+impl Derivation {
+    fn read(name: &str) -> Result<Self, String> {
+        if let Some((form, list)) = name.strip_suffix(')').and_then(|name| name.split_once('(')) {
+            let form = form.strip_prefix("flexible_");
+            let known = Form::EACH.into_iter().find(|known| form == Some(known.name()));
+            if let Some(known) = known {
+                return Ok(Derivation::Flexible(known, list.to_owned()));
+            }
+        }
+        let output = Output::EACH.into_iter().find(|output| output.name() == name);
+        output.map(Derivation::Output).ok_or_else(|| {
+            let names: Vec<&str> = Output::EACH.iter().map(|o| o.name()).collect();
+            format!(
+                "`{name}` is none of product, transport, transport_transposed, {}, or a pose with \
+                 displacements such as flexible_exact(dx,dy,dphi), flexible_published(…), \
+                 flexible_first_order(…)",
+                names.join(", ")
+            )
+        })
+    }
+
+    fn derive(&self, robot: &Robot) -> Result<Program, String> {
+        Ok(match self {
+            Derivation::Output(output) => derive_in(robot, &[*output], 0),
+            Derivation::Flexible(form, list) => {
+                flexible(robot, &Displacements::read(list, robot.dof())?, *form)
+            }
+        })
+    }
+}
+
+fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, String> {
+    let derivation = Derivation::read(name)?;
+    let which = path.robot.or(setting.robot.as_deref()).ok_or("no robot is named")?;
+    let mut robot =
+        setting.robots.get(which).cloned().ok_or_else(|| format!("there is no robot `{which}`"))?;
+    if let Some(joint) = path.joint {
+        for (row, j) in robot.joints.iter_mut().enumerate() {
+            j.beam = None;
+            j.stiffness = j.stiffness.take().filter(|_| row == joint);
+        }
+    }
+    let n = robot.dof();
+    let program = derivation.derive(&robot)?;
+    let (rows, columns) = program.blocks[0].output.shape(n);
+    let joints = match &setting.joints {
+        Some(joints) => joints.clone(),
+        None => (1..=n).map(|k| Angle::single(&format!("theta{k}"))).collect(),
+    };
+    if joints.len() != n {
+        return Err(format!("{} angles are given for {n} joints", joints.len()));
+    }
+    let parameters = setting.defined.clone();
+    let reading = Reading { joints, wrench: setting.wrench.clone(), parameters };
+    let entries = &program.blocks[0].entries;
+    let of = |row: usize, column: usize| {
+        let e = entries.get(column * rows + row).copied();
+        let e = e.ok_or_else(|| format!("the index lies outside of {rows}×{columns}"))?;
+        let exact = reading.of(&program.graph, e);
+        let exact = exact.map_err(|why| format!("entry {},{}: {why:?}", row + 1, column + 1))?;
+        limited(exact, &setting.infinite)
+    };
+    let single = |value| Matrix { columns: 1, entries: vec![value] };
+    match path.indices.as_slice() {
+        [row] if columns == 1 && *row < rows => Ok(single(of(*row, 0)?)),
+        [row, column] if *row < rows && *column < columns => Ok(single(of(*row, *column)?)),
+        [] => {
+            let places = (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c)));
+            let entries = places.map(|(r, c)| of(r, c)).collect::<Result<_, _>>()?;
+            Ok(Matrix { columns, entries })
+        }
+        _ => Err(format!("the index lies outside of {rows}×{columns}")),
+    }
+}
+
+/// With some symbols grown without bounds.
+pub(crate) fn limited(value: Rational, infinite: &[String]) -> Result<Rational, String> {
+    if infinite.is_empty() {
+        return Ok(value);
+    }
+    let message = "the limit needs a polynomial that does not grow with the symbol";
+    let polynomial = value.polynomial().ok_or(message)?;
+    Ok(polynomial.limit(infinite).ok_or(message)?.into())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,295 @@
+//! Quotients of polynomials: what an expression of the graph or a printed formula is, exactly.
+
+use std::collections::{BTreeSet, HashMap};
+
+use num_rational::Ratio;
+use num_traits::{One, Zero};
+
+use super::polynomial::{Polynomial, TooLong, Variable};
+use crate::latex::tree::{Angle, Tree};
+use stiffarm_codegen::expr::{Expr, Graph, Node, Symbol};
+use stiffarm_codegen::number::Number;
+
+/// Why an expression has no exact form here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Inexact {
+    /// It is too long.
+    TooLong,
+    /// A root of something that is no square.
+    Root,
+    /// A division by zero.
+    Zero,
+    /// An integral of something that is no polynomial in the variable.
+    Integral,
+    /// A rounded constant, or an angle with an offset that is no multiple of a quarter turn.
+    Rounded,
+}
+
+impl From<TooLong> for Inexact {
+    fn from(_: TooLong) -> Self {
+        Inexact::TooLong
+    }
+}
+
+/// `numerator / denominator`; the denominator is one wherever it is a single term in plain symbols.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rational {
+    /// Numerator.
+    pub above: Polynomial,
+    /// Denominator, not zero.
+    pub below: Polynomial,
+}
+
+impl From<Polynomial> for Rational {
+    fn from(above: Polynomial) -> Self {
+        Rational { above, below: Polynomial::one() }
+    }
+}
+
+impl Rational {
+    /// A number.
+    pub fn number(n: Ratio<i128>) -> Self {
+        Polynomial::number(n).into()
+    }
+
+    /// Whether it is zero.
+    pub fn is_zero(&self) -> bool {
+        self.above.is_zero()
+    }
+
+    /// `self + sign · other`.
+    pub fn plus(&self, other: &Self, sign: i128) -> Result<Self, Inexact> {
+        let sign = Ratio::from(sign);
+        if self.below == other.below {
+            let above = self.above.clone().plus(&other.above, sign)?;
+            return Ok(Rational { above, below: self.below.clone() });
+        }
+        let left = self.above.times(&other.below)?;
+        let right = other.above.times(&self.below)?;
+        Ok(Rational { above: left.plus(&right, sign)?, below: self.below.times(&other.below)? })
+    }
+
+    /// `self · other`.
+    pub fn times(&self, other: &Self) -> Result<Self, Inexact> {
+        let above = self.above.times(&other.above)?;
+        Ok(Rational { above, below: self.below.times(&other.below)? })
+    }
+
+    /// `1/self`.
+    pub fn reciprocal(&self) -> Result<Self, Inexact> {
+        if self.is_zero() {
+            return Err(Inexact::Zero);
+        }
+        match self.above.reciprocal() {
+            Some(inverse) => Ok(self.below.times(&inverse)?.into()),
+            None => Ok(Rational { above: self.below.clone(), below: self.above.clone() }),
+        }
+    }
+
+    /// A whole power.
+    pub fn power(&self, n: i32) -> Result<Self, Inexact> {
+        let base = if n < 0 { self.reciprocal()? } else { self.clone() };
+        let n = n.unsigned_abs();
+        Ok(Rational { above: base.above.power(n)?, below: base.below.power(n)? })
+    }
+
+    /// The square root of a single term.
+    pub fn root(&self) -> Result<Self, Inexact> {
+        let root = |p: &Polynomial| p.root().ok_or(Inexact::Root);
+        Ok(Rational { above: root(&self.above)?, below: root(&self.below)? })
+    }
+
+    /// Whether the two are the same function.
+    pub fn equals(&self, other: &Self) -> Result<bool, Inexact> {
+        if self.below == other.below {
+            return Ok(self.above == other.above);
+        }
+        Ok(self.above.times(&other.below)? == other.above.times(&self.below)?)
+    }
+
+    /// A printed formula; the names in `defined` stand for what they are given there.
+    pub fn of_tree(tree: &Tree, defined: &HashMap<String, Rational>) -> Result<Self, Inexact> {
+        let of = |tree: &Tree| Self::of_tree(tree, defined);
+        match tree {
+            Tree::Number(n) => Ok(Self::number(*n)),
+            Tree::Symbol(name) => {
+                Ok(defined.get(name).cloned().unwrap_or_else(|| Polynomial::symbol(name).into()))
+            }
+            Tree::Trig(function, angle) => Ok(Polynomial::trig(*function, angle)?.into()),
+            Tree::Sum(terms) => {
+                terms.iter().try_fold(Self::number(Ratio::zero()), |sum, (negative, term)| {
+                    sum.plus(&of(term)?, if *negative { -1 } else { 1 })
+                })
+            }
+            Tree::Product(factors) => factors
+                .iter()
+                .try_fold(Self::number(Ratio::one()), |product, f| product.times(&of(f)?)),
+            Tree::Quotient(a, b) => of(a)?.times(&of(b)?.reciprocal()?),
+            Tree::Power(base, n) => of(base)?.power(*n),
+            Tree::Sqrt(inner) => of(inner)?.root(),
+            Tree::Derivative(body, by) => {
+                let body = of(body)?.polynomial().ok_or(Inexact::Integral)?;
+                Ok(body.derivative(by).into())
+            }
+            Tree::Integral { body, over, ends } => {
+                let body = of(body)?.polynomial().ok_or(Inexact::Integral)?;
+                let rising = body.integral(over).ok_or(Inexact::Integral)?;
+                let (from, to) = (of(&ends.0)?, of(&ends.1)?);
+                substitute(&rising, over, &to)?.plus(&substitute(&rising, over, &from)?, -1)
+            }
+        }
+    }
+
+    /// Adds the angles and the plain symbols in it.
+    pub fn names(&self, angles: &mut BTreeSet<String>, symbols: &mut BTreeSet<String>) {
+        let monomials = self.above.terms().chain(self.below.terms());
+        for (variable, _) in monomials.flat_map(|(m, _)| m) {
+            match variable {
+                Variable::Symbol(name) => symbols.insert(name.to_string()),
+                Variable::Sin(name) | Variable::Cos(name) => angles.insert(name.to_string()),
+            };
+        }
+    }
+
+    /// The numerator, if the denominator is one.
+    pub fn polynomial(self) -> Option<Polynomial> {
+        (self.below == Polynomial::one()).then_some(self.above)
+    }
+}
+
+/// The polynomial with a plain symbol replaced.
+fn substitute(p: &Polynomial, name: &str, value: &Rational) -> Result<Rational, Inexact> {
+    p.by_power(name).into_iter().try_fold(Rational::number(Ratio::zero()), |sum, (power, rest)| {
+        sum.plus(&value.power(power)?.times(&rest.into())?, 1)
+    })
+}
+
+/// What the symbols of a graph stand for in a paper's notation.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The angle of each joint.
+    pub joints: Vec<Angle>,
+    /// The wrench on the tool; zero where it is not given.
+    pub wrench: Vec<Rational>,
+    /// Parameters that stand for something else than a symbol of their own name.
+    pub parameters: HashMap<String, Rational>,
+}
+
+impl Reading {
+    /// The exact form of an expression of the graph.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn of(&self, graph: &Graph, e: Expr) -> Result<Rational, Inexact> {
+        let used = graph.reachable(&[e]);
+        let mut values: Vec<Option<Rational>> = vec![None; e.node() + 1];
+        for at in 0..=e.node() {
+            if used[at] && !self.only_angle(graph, at, &used, e.node()) {
+                values[at] = Some(self.node(graph, at, &values)?);
+            }
+        }
+        signed(&values, e)
+    }
+
+    fn node(
+        &self,
+        graph: &Graph,
+        at: usize,
+        values: &[Option<Rational>],
+    ) -> Result<Rational, Inexact> {
+        let of = |e: Expr| signed(values, e);
+        match graph.nodes()[at] {
+            Node::Number(Number::Exact(n)) => Ok(Rational::number(n)),
+            Node::Number(Number::Rounded(_)) => Err(Inexact::Rounded),
+            Node::Symbol(s) => self.symbol(graph.symbol_of(s)),
+            Node::Add(a, b) => of(a)?.plus(&of(b)?, 1),
+            Node::Mul(a, b) => of(a)?.times(&of(b)?),
+            Node::Recip(a) => of(a)?.reciprocal(),
+            Node::Sqrt(a) => of(a)?.root(),
+            Node::Sin(a) => self.trig(graph, crate::latex::tree::Function::Sin, a),
+            Node::Cos(a) => self.trig(graph, crate::latex::tree::Function::Cos, a),
+        }
+    }
+
+    fn symbol(&self, symbol: &Symbol) -> Result<Rational, Inexact> {
+        match symbol {
+            Symbol::Parameter(name) => Ok(match self.parameters.get(name) {
+                Some(value) => value.clone(),
+                None => Polynomial::symbol(name).into(),
+            }),
+            Symbol::Wrench(k) => {
+                Ok(self.wrench.get(*k).cloned().unwrap_or_else(|| Rational::number(Ratio::zero())))
+            }
+            // A sliding joint's coordinate is a length of its own name.
+            Symbol::Joint(joint) => {
+                let name = self.joints.get(*joint).map(ToString::to_string);
+                Ok(Polynomial::symbol(&name.unwrap_or_else(|| format!("q{}", joint + 1))).into())
+            }
+            Symbol::Displacement { place, component } => {
+                Ok(Polynomial::symbol(&displacement(*place, *component)).into())
+            }
+            Symbol::Deflection { .. } => Err(Inexact::Root),
+        }
+    }
+
+    fn trig(
+        &self,
+        graph: &Graph,
+        function: crate::latex::tree::Function,
+        of: Expr,
+    ) -> Result<Rational, Inexact> {
+        let mut angle = Angle::default();
+        self.collect(graph, of, 1, &mut angle)?;
+        Ok(Polynomial::trig(function, &angle)?.into())
+    }
+
+    fn collect(&self, graph: &Graph, e: Expr, times: i64, into: &mut Angle) -> Result<(), Inexact> {
+        let times = if e.is_negative() { -times } else { times };
+        match graph.node(e) {
+            Node::Symbol(s) => {
+                match graph.symbol_of(s) {
+                    Symbol::Joint(joint) => match self.joints.get(*joint) {
+                        Some(angle) => angle.terms().for_each(|(n, k)| into.add(n, k * times)),
+                        None => into.add(&format!("q{}", joint + 1), times),
+                    },
+                    Symbol::Parameter(name) => into.add(name, times),
+                    Symbol::Displacement { place, component } => {
+                        into.add(&displacement(*place, *component), times);
+                    }
+                    _ => return Err(Inexact::Rounded),
+                }
+                Ok(())
+            }
+            Node::Add(a, b) => {
+                self.collect(graph, a, times, into)?;
+                self.collect(graph, b, times, into)
+            }
+            _ => Err(Inexact::Rounded),
+        }
+    }
+
+    /// Whether a node is used inside sines and cosines alone.
+    fn only_angle(&self, graph: &Graph, at: usize, used: &[bool], last: usize) -> bool {
+        at != last
+            && matches!(graph.nodes()[at], Node::Add(..) | Node::Number(_))
+            && (at + 1..=last).filter(|k| used[*k]).all(|k| {
+                let node = graph.nodes()[k];
+                let uses = node.operands().any(|o| o.node() == at);
+                !uses || matches!(node, Node::Sin(_) | Node::Cos(_))
+            })
+    }
+}
+
+/// The name of a displacement in the notation of Jweeg & Al-Khafaji: `\delta x_1`, `d\phi_1`.
+fn displacement(place: usize, component: usize) -> String {
+    let names = ["deltax", "deltay", "deltaz", "dpsi", "dbeta", "dphi"];
+    format!("{}{place}", names[component])
+}
+
+fn signed(values: &[Option<Rational>], e: Expr) -> Result<Rational, Inexact> {
+    let value = values.get(e.node()).and_then(Option::as_ref).ok_or(Inexact::Rounded)?;
+    if e.is_negative() { value.times(&Rational::number((-1).into())) } else { Ok(value.clone()) }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,60 @@
+//! Small arms that the tests of this crate share.
+
+use nalgebra::{Isometry3, Vector3};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
+
+fn joint(a: f64, alpha: f64, d: f64) -> Joint {
+    Joint {
+        motion: Motion::Revolute,
+        theta: 0.0,
+        d,
+        a,
+        alpha,
+        compliance: 0.0,
+        mass: 12.0,
+        com: Vector3::new(-a / 2.0, 0.0, 0.02),
+        limits: None,
+        beam: None,
+    }
+}
+
+/// An elbow of three rigid joints with weights.
+pub(crate) fn rigid() -> Arm {
+    let half = core::f64::consts::FRAC_PI_2;
+    Arm {
+        name: "elbow".to_owned(),
+        convention: Convention::Standard,
+        joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
+        tool: Isometry3::translation(0.1, 0.0, 0.05),
+        tool_rotation_vector: Vector3::zeros(),
+        gravity: Vector3::new(0.0, 0.0, -9.80665),
+    }
+}
+
+/// The same with a spring at every joint.
+pub(crate) fn springy() -> Arm {
+    let mut arm = rigid();
+    for (joint, compliance) in arm.joints.iter_mut().zip([2e-6, 3e-6, 5e-6]) {
+        joint.compliance = compliance;
+    }
+    arm
+}
+
+/// The same with bending links too.
+pub(crate) fn bent() -> Arm {
+    let mut arm = springy();
+    for joint in &mut arm.joints[1..] {
+        joint.beam = Some(Beam {
+            youngs_modulus: 70e9,
+            shear_modulus: 26e9,
+            area: 2e-3,
+            iy: 3e-6,
+            iz: 3e-6,
+            j: 6e-6,
+            density: 2700.0,
+            shear_coefficient: None,
+        });
+    }
+    arm
+}

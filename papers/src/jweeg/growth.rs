@@ -1,0 +1,155 @@
+//! How the difference between the flexible kinematics and its approximations grows with
+//! flexibility: Jweeg & Al-Khafaji's conclusion ("with increasing the flexibility of links this
+//! difference will be increase") as numbers.
+
+use nalgebra::Vector3;
+use stiffarm_kernels::generic::Arm;
+
+use super::rpy;
+use super::two_link::{Bend, TwoLink};
+use crate::chain::displacement::{lag, versine};
+use crate::chain::transport::along;
+use crate::chain::{Chain, ChainError, Displacement};
+
+/// One row of the two-link arm's table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoLinkGrowth {
+    /// dφ1, rad.
+    pub phi: f64,
+    /// `|approximate − flexible|`, m: `ρ √((1 − cos f)² + (f − sin f)²)`.
+    pub difference: f64,
+    /// Its leading term `ρ dφ1²/2`, m.
+    pub leading: f64,
+}
+
+/// The size of [`TwoLink::difference`] for each turn dφ1 in
+/// `turns` (rad). `reach` is ρ = |(a2 + δx2, δy2)|, m; the posture does not matter.
+pub fn two_link(reach: f64, turns: &[f64]) -> Vec<TwoLinkGrowth> {
+    let row = |&phi: &f64| TwoLinkGrowth {
+        phi,
+        difference: reach * versine(phi).hypot(lag(phi)),
+        leading: reach * phi * phi / 2.0,
+    };
+    turns.iter().map(row).collect()
+}
+
+/// A largest difference and where it stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Largest {
+    /// m.
+    pub size: f64,
+    /// The joint angles, degrees, as the paper counts them.
+    pub degrees: [f64; 2],
+}
+
+/// The largest differences in px and in py on the paper's grid of postures (θ1 from 4° by 5° to
+/// 29°, θ2 from −35° by 5° to 60°), where a weight at the arm's tip turns the tip of the first
+/// link, a cantilever, by `dφ1 = w (a1² cos θ1/2 + a1 a2 cos θ12)`. `w` is the weight over the
+/// link's E I, 1/m²; `offset`, degrees, is added to θ1.
+pub fn largest(two: TwoLink, w: f64, offset: f64) -> [Largest; 2] {
+    let mut found = [Largest { size: 0.0, degrees: [0.0; 2] }; 2];
+    for i in 0..6 {
+        for j in 0..20 {
+            let degrees = [4.0 + 5.0 * f64::from(i), -35.0 + 5.0 * f64::from(j)];
+            let t = [(degrees[0] + offset).to_radians(), degrees[1].to_radians()];
+            let bending = two.a1 * t[0].cos() / 2.0 + two.a2 * (t[0] + t[1]).cos();
+            let bend = Bend { phi: w * two.a1 * bending, ..Bend::default() };
+            let difference = two.difference(t, [bend, Bend::default()]);
+            for (best, size) in found.iter_mut().zip(difference.iter()) {
+                if size.abs() > best.size {
+                    *best = Largest { size: size.abs(), degrees };
+                }
+            }
+        }
+    }
+    found
+}
+
+/// One row of the table of any chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// What all displacements were multiplied with.
+    pub scale: f64,
+    /// How far the errors move the tool, eq. 20 with eq. 18, m.
+    pub moved: f64,
+    /// Distance between the tool by eq. 18 and by eq. 19 in eq. 20, m: the published difference.
+    pub approximate: f64,
+    /// Distance between the tool by eq. 18 and by the strict first order, m.
+    pub strict: f64,
+}
+
+/// The same in space for any arm: its `errors`, roll-pitch-yaw, multiplied with each of `scales`.
+///
+/// # Errors
+/// Those of [`Chain`].
+pub fn chain(
+    arm: &Arm,
+    q: &[f64],
+    errors: &[Displacement],
+    scales: &[f64],
+) -> Result<Vec<Growth>, ChainError> {
+    let nominal: Vector3<f64> = arm_tool(arm, q)?;
+    let row = |&scale: &f64| {
+        let scaled: Vec<_> =
+            errors.iter().map(|error| Displacement::new(&(error.vector() * scale))).collect();
+        let chain = Chain::new(arm, &scaled)?;
+        let place = |form: fn(&Displacement) -> nalgebra::Matrix4<f64>| {
+            chain.product(q, form).map(|t| t.fixed_view::<3, 1>(0, 3).into_owned())
+        };
+        let (exact, approximate) = (place(rpy::matrix)?, place(rpy::first_order)?);
+        let first_order = chain.displacement_first_order(q)?;
+        let strict = nominal + first_order.fixed_rows::<3>(0);
+        Ok(Growth {
+            scale,
+            moved: (exact - nominal).norm(),
+            approximate: (exact - approximate).norm(),
+            strict: (exact - strict).norm(),
+        })
+    };
+    scales.iter().map(row).collect()
+}
+
+fn arm_tool(arm: &Arm, q: &[f64]) -> Result<Vector3<f64>, ChainError> {
+    Ok(along(crate::chain::steps(arm, q)?).translation.vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::bent;
+    use nalgebra::Vector6;
+
+    /// a2 = 0.4 m: the difference to the digits that a table would print, and how long its leading
+    /// term holds.
+    #[test]
+    fn the_table_of_the_two_link_arm() {
+        let expected = [
+            (1e-4, 2.0e-9),
+            (1e-3, 2.0e-7),
+            (1e-2, 2.0e-5),
+            (0.03, 1.8e-4),
+            (0.1, 2.0e-3),
+            (0.2, 8.0e-3),
+            (0.3, 1.80e-2),
+        ];
+        let turns: Vec<f64> = expected.iter().map(|row| row.0).collect();
+        for (row, (phi, size)) in two_link(0.4, &turns).iter().zip(expected) {
+            assert_eq!(row.phi, phi);
+            assert!((row.difference / size - 1.0).abs() < 5e-3, "{row:?}");
+            let least = if phi > 0.1 { 0.9975 } else { 0.9997 };
+            let part = row.leading / row.difference;
+            assert!((least - 5e-5..1.003).contains(&part), "{row:?} {part}");
+        }
+    }
+
+    #[test]
+    fn in_space_both_approximations_lose_quadratically() {
+        let entry = |k: usize| 1e-3 * ((7 * k % 11) as f64 - 5.0);
+        let errors: Vec<_> =
+            (0..5).map(|i| Displacement::new(&Vector6::from_fn(|k, _| entry(6 * i + k)))).collect();
+        let rows = chain(&bent(), &[0.4, -0.9, 1.3], &errors, &[0.1, 1.0]).unwrap();
+        assert!((rows[1].moved / rows[0].moved - 10.0).abs() < 0.1);
+        assert!((rows[1].approximate / rows[0].approximate - 100.0).abs() < 1.0);
+        assert!((rows[1].strict / rows[0].strict - 100.0).abs() < 1.0);
+    }
+}

@@ -1,0 +1,191 @@
+//! The two-link arm of Jweeg & Al-Khafaji (Table 1: α = d = 0): its flexible kinematics, their
+//! approximation, the strict first order, and the difference in closed form.
+//!
+//! The three poses are generated from the table (`stiffarm generate jweeg_two_link --emit rust
+//! --flexible dx,dy,dphi`, in [`closed_form`]); the same command gives them for any other arm.
+//! Angles θ and dφ are in rad, lengths in m, positions in the base's x-y plane. With `x = a2 + δx2`
+//! and `y = δy2` the tool is, exactly,
+//!
+//! ```text
+//! px = cos θ1 (a1 + δx1) − sin θ1 δy1 + cos(θ12 + dφ1) x − sin(θ12 + dφ1) y
+//! py = sin θ1 (a1 + δx1) + cos θ1 δy1 + sin(θ12 + dφ1) x + cos(θ12 + dφ1) y
+//! ```
+//!
+//! where θ12 = θ1 + θ2: the turn dφ2 of the last tip does not enter the position.
+
+use nalgebra::Vector2;
+use stiffarm_kernels::Pose;
+
+use crate::chain::displacement::{lag, versine};
+
+/// The closed forms, as `stiffarm generate` writes them.
+#[rustfmt::skip]
+pub mod closed_form;
+
+/// How one link's tip is displaced in the frame of its undeformed tip (eq. 27).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bend {
+    /// δx, along the link, m.
+    pub dx: f64,
+    /// δy, across it, m.
+    pub dy: f64,
+    /// dφ, rad.
+    pub phi: f64,
+}
+
+/// Lengths of the two links.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoLink {
+    /// a1, m.
+    pub a1: f64,
+    /// a2, m.
+    pub a2: f64,
+}
+
+impl TwoLink {
+    /// The flexible kinematic equation, eqs. 44 to 54, corrected.
+    pub fn flexible(&self, theta: [f64; 2], bends: [Bend; 2]) -> Pose<f64> {
+        closed_form::exact(&self.parameters(), &theta, &places(bends))
+    }
+
+    /// The approximate flexible kinematic equation: the product of eq. 20 with the matrices of eq.
+    /// 19, its position eqs. 57 and 58 to the letter. It keeps the products dφ1 δx2 and dφ1 δy2,
+    /// which the paper says are taken as zero: [`TwoLink::strict`] leaves them out.
+    pub fn approximate(&self, theta: [f64; 2], bends: [Bend; 2]) -> Pose<f64> {
+        closed_form::published(&self.parameters(), &theta, &places(bends))
+    }
+
+    /// The strict first order in δx, δy and dφ: the position is that of eqs. 57 and 58 plus `dφ1
+    /// (δx2 s12 + δy2 c12)` and `dφ1 (−δx2 c12 + δy2 s12)`. On the paper's rig these products are
+    /// about as large as the difference that it publishes.
+    pub fn strict(&self, theta: [f64; 2], bends: [Bend; 2]) -> Pose<f64> {
+        closed_form::first_order(&self.parameters(), &theta, &places(bends))
+    }
+
+    fn parameters(&self) -> closed_form::Parameters<f64> {
+        closed_form::Parameters { a1: self.a1, a2: self.a2 }
+    }
+
+    /// The approximate minus the flexible equation, m, without cancellation at any size:
+    ///
+    /// ```text
+    /// Δpx = X (1 − cos f) − Y (f − sin f)      X = c12 (a2 + δx2) − s12 δy2
+    /// Δpy = Y (1 − cos f) + X (f − sin f)      Y = s12 (a2 + δx2) + c12 δy2,  f = dφ1
+    /// ```
+    ///
+    /// Neither δx1, δy1 nor dφ2 enters. It grows with the square of dφ1.
+    pub fn difference(&self, theta: [f64; 2], bends: [Bend; 2]) -> Vector2<f64> {
+        let (s12, c12) = (theta[0] + theta[1]).sin_cos();
+        let (x, y) = (self.a2 + bends[1].dx, bends[1].dy);
+        let arm = Vector2::new(c12 * x - s12 * y, s12 * x + c12 * y);
+        let (square, cube) = (versine(bends[0].phi), lag(bends[0].phi));
+        Vector2::new(arm.x * square - arm.y * cube, arm.y * square + arm.x * cube)
+    }
+}
+
+/// The displacements of the chain's four places: base, the tips of both links, tool.
+fn places(bends: [Bend; 2]) -> [[f64; 6]; 4] {
+    let [one, two] = bends.map(|b| [b.dx, b.dy, 0.0, 0.0, 0.0, b.phi]);
+    [[0.0; 6], one, two, [0.0; 6]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ARM: TwoLink = TwoLink { a1: 0.4, a2: 0.35 };
+
+    fn bend(dx: f64, dy: f64, phi: f64) -> Bend {
+        Bend { dx, dy, phi }
+    }
+
+    /// The compact form of this file's head.
+    fn compact([t1, t2]: [f64; 2], [one, two]: [Bend; 2]) -> Vector2<f64> {
+        let turn = nalgebra::Rotation2::new;
+        turn(t1) * Vector2::new(ARM.a1 + one.dx, one.dy)
+            + turn(t1 + t2 + one.phi) * Vector2::new(ARM.a2 + two.dx, two.dy)
+    }
+
+    fn place(pose: Pose<f64>) -> Vector2<f64> {
+        assert_eq!(pose.position[2], 0.0);
+        Vector2::new(pose.position[0], pose.position[1])
+    }
+
+    /// θ = 20°, 30°, dφ = 0.01, 0.02: eqs. 45, 47 and 48 corrected, and what the printed ones give.
+    #[test]
+    fn orientation_and_the_misprints() {
+        let theta = [20f64.to_radians(), 30f64.to_radians()];
+        let bends = [bend(0.0, 0.0, 0.01), bend(0.0, 0.0, 0.02)];
+        let [[_, ny, _], [ox, oy, _], a] = ARM.flexible(theta, bends).rotation;
+        assert_eq!(a, [0.0, 0.0, 1.0]);
+        assert!((ny - 0.784980484849).abs() < 1e-12);
+        assert!((ox + 0.784980484849).abs() < 1e-12);
+        assert!((oy - 0.619520490707).abs() < 1e-12);
+
+        let ((s1, c1), (s2, c2)) = (theta[0].sin_cos(), theta[1].sin_cos());
+        let ((sp, cp), (sm, cm)) = (0.03f64.sin_cos(), (-0.01f64).sin_cos());
+        let (s12, c12) = (theta[0] + theta[1]).sin_cos();
+        let eq45 = c1 * c2 * sp + s1 * s2 * sm + c2 * s1 * cm + c1 * s2 * cp;
+        let eq47 = s1 * s2 * sm - c1 * c2 * sp - c1 * s2 * cm - s1 * c2 * cp;
+        let eq48 = c12 * cp - s12 * sm;
+        assert!((eq45 - 0.788518414654).abs() < 1e-12);
+        assert!((eq47 + 0.792008012567).abs() < 1e-12);
+        assert!((eq48 - 0.650158693713).abs() < 1e-12);
+        // What the misprints add, in closed form.
+        let [t1, t2] = theta;
+        let added = 2.0 * 0.01f64.sin() * t1.sin() * (t2 + 0.02).sin();
+        assert!((eq45 - ny - added).abs() < 1e-15);
+        let added = -2.0 * 0.02f64.sin() * t2.sin() * (t1 + 0.01).sin();
+        assert!((eq47 - ox - added).abs() < 1e-15);
+        let added = 2.0 * 0.02f64.sin() * 0.01f64.cos() * (t1 + t2).sin();
+        assert!((eq48 - oy - added).abs() < 1e-15);
+    }
+
+    /// Deflections like those of the paper's rig: the products that eqs. 57 and 58 keep are as
+    /// large as the published difference.
+    #[test]
+    fn kept_products_are_as_large_as_the_difference() {
+        let theta = [0.07, -0.09];
+        let bends = [bend(3e-6, 1.25e-4, 5.6e-4), bend(3e-6, 5e-5, 2e-4)];
+        let kept = (place(ARM.strict(theta, bends)) - place(ARM.approximate(theta, bends))).norm();
+        assert!((kept - 2.8e-8).abs() < 1e-9, "{kept}");
+        let difference = ARM.difference(theta, bends).norm();
+        assert!((0.4..2.0).contains(&(kept / difference)), "{difference}");
+    }
+
+    proptest! {
+        #[test]
+        fn flexible_is_the_compact_form(
+            t in prop::array::uniform2(-3.0..3.0f64), e in prop::array::uniform6(-0.3..0.3f64),
+        ) {
+            let bends = [bend(e[0], e[1], e[2]), bend(e[3], e[4], e[5])];
+            prop_assert!((place(ARM.flexible(t, bends)) - compact(t, bends)).amax() < 1e-14);
+            let direct = place(ARM.approximate(t, bends)) - place(ARM.flexible(t, bends));
+            prop_assert!((ARM.difference(t, bends) - direct).amax() < 1e-14);
+        }
+
+        /// Against its own series: no digit is lost in small turns.
+        #[test]
+        fn the_difference_is_stable(t in -3.0..3.0f64, exponent in -12.0..-3.0f64) {
+            let phi = 10f64.powf(exponent);
+            let found = ARM.difference([t, 0.2], [bend(0.0, 0.0, phi), Bend::default()]);
+            let (s, c) = (t + 0.2).sin_cos();
+            let (square, cube) = (phi * phi / 2.0, phi * phi * phi / 6.0);
+            let (square, cube) =
+                (square * (1.0 - phi * phi / 12.0), cube * (1.0 - phi * phi / 20.0));
+            let expected =
+                ARM.a2 * Vector2::new(c * square - s * cube, s * square + c * cube);
+            prop_assert!((found - expected).norm() < 1e-11 * expected.norm());
+        }
+
+        #[test]
+        fn strict_is_linear(t in prop::array::uniform2(-3.0..3.0f64)) {
+            let bends = |h: f64| [bend(h, 2.0 * h, -h), bend(-h, 3.0 * h, h)];
+            let change = |h: f64| place(ARM.strict(t, bends(h))) - place(ARM.strict(t, bends(0.0)));
+            prop_assert!((change(1.0) - change(1e-2) * 100.0).amax() < 1e-12);
+            let exact = place(ARM.flexible(t, bends(1e-6))) - place(ARM.flexible(t, bends(0.0)));
+            prop_assert!((change(1e-6) - exact).amax() < 1e-10);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! A joint vector at which two formulas differ.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::verdict::Witness;
+use crate::exact::evaluate::{Arithmetic, Real};
+use crate::exact::rational::Rational;
+use crate::latex::tree::Tree;
+
+/// Degrees for angles, in the order of their names.
+const DEGREES: [f64; 9] = [20.0, 35.0, -50.0, 65.0, 40.0, -25.0, 15.0, 70.0, -10.0];
+
+/// Values for all names in printed and derived, and what both come to there. `given` are values of
+/// the data file; angles in radians.
+pub fn witness(
+    printed: &Tree,
+    derived: &Rational,
+    defined: &HashMap<String, Rational>,
+    given: &HashMap<String, f64>,
+) -> Option<Witness> {
+    let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
+    names_of_tree(printed, &mut angles, &mut symbols);
+    derived.names(&mut angles, &mut symbols);
+    let used: Vec<String> = symbols.iter().cloned().collect();
+    for name in used {
+        if let Some(value) = defined.get(&name) {
+            symbols.remove(&name);
+            value.names(&mut angles, &mut symbols);
+        }
+    }
+    for shift in 0..DEGREES.len() {
+        let degrees = |k: usize| DEGREES[(k + shift) % DEGREES.len()];
+        let mut values: HashMap<String, f64> = HashMap::new();
+        for (k, name) in angles.iter().enumerate() {
+            values
+                .insert(name.clone(), given.get(name).copied().unwrap_or(degrees(k).to_radians()));
+        }
+        for (k, name) in symbols.iter().filter(|s| !angles.contains(*s)).enumerate() {
+            let value = 1.0 + 0.25 * (k + shift) as f64;
+            values.insert(name.clone(), given.get(name).copied().unwrap_or(value));
+        }
+        let plain = Real(|name: &str| values.get(name).copied());
+        let resolved = Real(|name: &str| match defined.get(name) {
+            Some(value) if !values.contains_key(name) => plain.rational(value),
+            _ => values.get(name).copied(),
+        });
+        let (Some(p), Some(d)) = (resolved.tree(printed), plain.rational(derived)) else {
+            continue;
+        };
+        if (p - d).abs() > 1e-6 * p.abs().max(d.abs()) {
+            let plain: Vec<_> = symbols.iter().filter(|s| !angles.contains(*s)).collect();
+            return Some(Witness {
+                angles: angles.iter().map(|n| (n.clone(), values[n].to_degrees())).collect(),
+                symbols: plain.into_iter().map(|n| (n.clone(), values[n])).collect(),
+                printed: p,
+                derived: d,
+            });
+        }
+    }
+    None
+}
+
+fn names_of_tree(tree: &Tree, angles: &mut BTreeSet<String>, symbols: &mut BTreeSet<String>) {
+    match tree {
+        Tree::Number(_) => {}
+        Tree::Symbol(name) => {
+            symbols.insert(name.clone());
+        }
+        Tree::Trig(_, angle) => angles.extend(angle.terms().map(|(n, _)| n.to_owned())),
+        Tree::Sum(terms) => terms.iter().for_each(|(_, t)| names_of_tree(t, angles, symbols)),
+        Tree::Product(fs) => fs.iter().for_each(|t| names_of_tree(t, angles, symbols)),
+        Tree::Quotient(a, b) => {
+            names_of_tree(a, angles, symbols);
+            names_of_tree(b, angles, symbols);
+        }
+        Tree::Power(inner, _) | Tree::Sqrt(inner) | Tree::Derivative(inner, _) => {
+            names_of_tree(inner, angles, symbols);
+        }
+        Tree::Integral { body, .. } => names_of_tree(body, angles, symbols),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::latex::notation::Notation;
+    use crate::latex::parser::parse;
+
+    #[test]
+    fn a_witness_tells_two_formulas_apart() {
+        let read = |text: &str| parse(text, &Notation::default()).unwrap();
+        let exact = Rational::of_tree(&read("a \\cos\\theta_1"), &HashMap::new()).unwrap();
+        let given = HashMap::from([("a".to_owned(), 2.0)]);
+        let found = witness(&read("a \\sin\\theta_1"), &exact, &HashMap::new(), &given).unwrap();
+        assert_eq!(found.angles.len(), 1);
+        assert_eq!(found.symbols, [("a".to_owned(), 2.0)]);
+        assert!((found.derived - 2.0 * 20f64.to_radians().cos()).abs() < 1e-12);
+        let same = witness(&read("a \\cos\\theta_1"), &exact, &HashMap::new(), &given);
+        assert_eq!(same, None);
+    }
+}

@@ -1,0 +1,85 @@
+//! Compensation of the static deflection at the end-effector: Lin, Chiang & Cui, *An improved
+//! method for on-line calculation and compensation of the static deflection at a robot
+//! end-effector*, J. Robotic Systems 8(2), 1991.
+//!
+//! * [`pose_jacobian`], [`orientation_jacobian`], [`differential_jacobian`]: the paper's three
+//!   Jacobians (eqs. 5, 25 and 37-41).
+//! * [`generalized_forces`]: the load and all weights at every joint (eq. 8).
+//! * [`deflections`]: what the links do to the tool, of any table: YT, YC and YD (eqs. 18-36, 46).
+//! * [`TwoLink`], [`ElbowLinks`]: the same in closed form for the paper's two arms.
+//! * [`ParallelElbow`]: all inverse solutions of an arm whose axes 2, 3 and 4 are parallel.
+//! * [`correction`], [`compensate`], [`plan`]: the joint corrections, and the ten steps.
+//!
+//! # Definitions
+//!
+//! * Any one consistent system of units, radians. A twist or displacement is `[dx dy dz drx dry
+//!   drz]`, a wrench `[fx fy fz mx my mz]`. The tool's load is constant in base axes and acts at
+//!   the tool origin.
+//! * Frames are those of `stiffarm_kernels::generic`; the paper's table is a standard one.
+//! * Deflections are displacements of the arm, so that a load along −y gives a negative y; the
+//!   paper's tables print their magnitudes.
+//! * Misprints of the paper that are corrected here: eq. 28 (`C1³` must read `C1²`), eq. 38 (the
+//!   last component must read `−a_x p_y + a_y p_x`), eq. 45 (row 2: `+ L2 C12`), and in the
+//!   appendix the terms that [`ElbowLinks`] lists.
+
+mod correction;
+mod deflections;
+mod elbow;
+mod forces;
+mod inverse;
+mod iterate;
+mod jacobians;
+mod plan;
+mod two_link;
+
+pub use correction::{Correction, Damping, correction};
+pub use deflections::{Deflections, LinkDeflection, deflections};
+pub use elbow::ElbowLinks;
+pub use forces::generalized_forces;
+pub use inverse::{Branch, InverseError, Inverses, Missing, ParallelElbow, Sign, Solution};
+pub use iterate::{Compensation, Ended, Forward, Options, compensate, loaded_pose};
+pub use jacobians::{differential_jacobian, orientation_jacobian, pose_jacobian};
+pub use plan::{Candidate, Measure, Model, Plan, PlanOptions, plan};
+pub use two_link::TwoLink;
+
+use crate::chain::ChainError;
+
+/// Why no deflection or compensation could be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CompensateError {
+    /// Joint values that do not fit the arm, or an equilibrium that does not exist.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+    /// The target has no inverse solution.
+    #[error(transparent)]
+    Inverse(#[from] InverseError),
+    /// A number that is infinite or not a number.
+    #[error("{what} is not a finite number")]
+    NotFinite {
+        /// Which number.
+        what: &'static str,
+    },
+    /// A setting that cannot be worked with.
+    #[error("found {found} as {what}, expected a positive number")]
+    NotPositive {
+        /// Which setting.
+        what: &'static str,
+        /// As given.
+        found: f64,
+    },
+    /// The joint springs do not hold the load.
+    #[error("the arm has no stable rest under its load: the joint springs would buckle")]
+    Unstable,
+}
+
+/// Refuses a vector of which an element is infinite or not a number.
+fn finite<'a>(
+    what: &'static str,
+    values: impl IntoIterator<Item = &'a f64>,
+) -> Result<(), CompensateError> {
+    if values.into_iter().all(|value| value.is_finite()) {
+        Ok(())
+    } else {
+        Err(CompensateError::NotFinite { what })
+    }
+}

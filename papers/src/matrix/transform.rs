@@ -1,0 +1,41 @@
+//! Numbers of a product of elementary transforms.
+
+use super::dense::Dense;
+use crate::exact::derived::Setting;
+use crate::exact::evaluate::{Arithmetic, Real};
+use crate::exact::product::{Matrix, product};
+
+/// A part of a product of elementary transforms: its rotation, its position, the matrix of the
+/// cross product with the position, or the transport of a wrench through it. Its symbols have
+/// random values.
+pub(super) fn transform(
+    part: &str,
+    elements: &[String],
+    setting: &Setting,
+) -> Result<Dense, String> {
+    let whole = product(elements, &setting.notation, &setting.defined)?;
+    let value = |name: &str| {
+        let sum =
+            name.bytes().fold(7u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
+        Some(0.3 + f64::from(sum % 1000) / 700.0)
+    };
+    let numbers = |matrix: &Matrix| {
+        let each: Option<Vec<f64>> =
+            matrix.entries.iter().map(|entry| Real(value).rational(entry)).collect();
+        let columns = matrix.columns;
+        each.map(|each| Dense::from_fn(each.len() / columns, columns, |r, c| each[r * columns + c]))
+            .ok_or("the product has no value here")
+    };
+    if part == "transport" {
+        let transport = whole.transport().map_err(|why| format!("{why:?}"))?;
+        return Ok(numbers(&transport)?);
+    }
+    let whole = numbers(&whole)?;
+    let p: [f64; 3] = core::array::from_fn(|k| whole.at(k, 3));
+    let cross = [[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]];
+    Ok(match part {
+        "rotation" => Dense::from_fn(3, 3, |r, c| whole.at(r, c)),
+        "position" => Dense::from_fn(3, 1, |r, _| p[r]),
+        _ => Dense::from_fn(3, 3, |r, c| cross[r][c]),
+    })
+}

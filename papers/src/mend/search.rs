@@ -1,0 +1,261 @@
+//! The search for the smallest change.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::brackets::{brackets, moved_brackets};
+use super::core::{Core, Pair};
+use super::edit::{Edit, Slip, apply};
+use super::slips::{Inventory, slips};
+use crate::exact::evaluate::Arithmetic;
+use crate::exact::field::Modular;
+use crate::exact::rational::Rational;
+use crate::latex::lexer::{Lexeme, Token};
+use crate::latex::notation::{Notation, key};
+use crate::latex::parser::parse_tokens;
+use crate::latex::tree::Tree;
+
+/// What is to be mended, and into what.
+pub struct Search<'a> {
+    /// As printed.
+    pub tokens: &'a [Token],
+    /// The paper's notation.
+    pub notation: &'a Notation,
+    /// Names that may have been confused.
+    pub inventory: &'a Inventory,
+    /// What the formula should be.
+    pub truth: &'a Rational,
+    /// What names stand for.
+    pub defined: &'a HashMap<String, Rational>,
+}
+
+/// More slips than this are not combined.
+const MOST: usize = 4000;
+/// Ways to mend a formula that are looked at exactly.
+const TRIED: usize = 40;
+/// Formulas of at most this many tokens have all pairs of slips tried.
+const SHORT: usize = 14;
+
+/// Changes that mend the formula, as few as are found; `confirm` decides exactly.
+pub fn mend(search: &Search<'_>, confirm: impl Fn(&[Token]) -> bool) -> Option<Vec<Edit>> {
+    let eye = Eye::new(search)?;
+    let inventory = wanted_names(search);
+    let single = slips(search.tokens, search.notation, search.inventory, &inventory);
+    let bracket = brackets(search.tokens);
+    let accept = |edits: &[&Edit]| {
+        let tokens = apply(search.tokens, edits);
+        eye.agrees(&tokens) && confirm(&tokens)
+    };
+    let owned = |edits: &[&Edit]| Some(edits.iter().map(|e| (*e).clone()).collect());
+    for edit in single.iter().chain(&bracket) {
+        if accept(&[edit]) {
+            return owned(&[edit]);
+        }
+    }
+    for edit in &moved_brackets(search.tokens) {
+        if accept(&[edit]) {
+            return owned(&[edit]);
+        }
+    }
+    if let Some(found) = same_term(&single, &accept) {
+        return owned(&found);
+    }
+    if let Some(found) = eye.combine(&[], &single, 2, &accept) {
+        return owned(&found);
+    }
+    // On top of a bracket, what is likely.
+    let likely = |e: &&Edit| !matches!(e.slip, Slip::Missing | Slip::Extra | Slip::Power);
+    let likely: Vec<Edit> = single.iter().filter(likely).cloned().collect();
+    for count in [1, 2] {
+        for base in &bracket {
+            if let Some(found) = eye.combine(&[base], &likely, count, &accept) {
+                return owned(&found);
+            }
+        }
+    }
+    if search.tokens.len() <= SHORT
+        && let Some(found) = every_pair(&single, &bracket, &accept)
+    {
+        return owned(&found);
+    }
+    let mut more = single.clone();
+    more.extend(compounds(&single));
+    for (count, slips) in [(2, &more), (3, &single)] {
+        if let Some(found) = eye.combine(&[], slips, count, &accept) {
+            return owned(&found);
+        }
+    }
+    None
+}
+
+/// The names of the formula and of what it should be.
+fn wanted_names(search: &Search<'_>) -> Inventory {
+    let mut names = Inventory::default();
+    names.add(search.tokens);
+    let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
+    search.truth.names(&mut angles, &mut symbols);
+    for token in search.inventory.tokens() {
+        let Lexeme::Name { base, sub } = &token.is else { continue };
+        let name = key(base, sub.as_deref());
+        if angles.contains(&name) || symbols.contains(&name) {
+            names.add(std::slice::from_ref(token));
+        }
+    }
+    for name in symbols.iter().filter(|name| name.chars().count() == 1) {
+        let is = Lexeme::Name { base: name.clone(), sub: None };
+        names.add(&[Token { is, text: name.clone(), at: 0..0 }]);
+    }
+    names
+}
+
+/// A sign together with a name of the term that it begins, as one change.
+fn compounds(single: &[Edit]) -> Vec<Edit> {
+    let place = |e: &Edit| e.parts[0].0.start;
+    let mut out = Vec::new();
+    for sign in single.iter().filter(|e| e.slip == Slip::Sign) {
+        let names = single.iter().filter(|e| matches!(e.slip, Slip::Function | Slip::Index));
+        for name in names.filter(|e| (place(sign) + 1..place(sign) + 5).contains(&place(e))) {
+            let mut both = sign.clone();
+            both.parts.extend(name.parts.iter().cloned());
+            both.what = format!("{}, {}: {}", sign.what, name.slip.name(), name.what);
+            out.push(both);
+        }
+    }
+    out
+}
+
+/// A sign and a name of the term that it begins: the two multiply, so that their effects do not
+/// add.
+fn same_term<'e>(single: &'e [Edit], accept: &dyn Fn(&[&Edit]) -> bool) -> Option<Vec<&'e Edit>> {
+    let place = |e: &Edit| e.parts[0].0.start;
+    for sign in single.iter().filter(|e| e.slip == Slip::Sign) {
+        let names = single.iter().filter(|e| matches!(e.slip, Slip::Function | Slip::Index));
+        for name in names.filter(|e| (place(sign) + 1..place(sign) + 5).contains(&place(e))) {
+            if accept(&[sign, name]) {
+                return Some(vec![sign, name]);
+            }
+        }
+    }
+    None
+}
+
+fn every_pair<'e>(
+    single: &'e [Edit],
+    bracket: &'e [Edit],
+    accept: &dyn Fn(&[&Edit]) -> bool,
+) -> Option<Vec<&'e Edit>> {
+    let all: Vec<&Edit> = single.iter().chain(bracket).collect();
+    for (i, a) in all.iter().enumerate() {
+        for b in &all[i + 1..] {
+            if !a.clashes(b) && accept(&[a, b]) {
+                return Some(vec![a, b]);
+            }
+        }
+    }
+    None
+}
+
+/// Tokens between the first and the last of some edits.
+fn spread(edits: &[&Edit]) -> usize {
+    let places = || edits.iter().flat_map(|e| &e.parts).map(|(at, _)| at.start);
+    places().max().unwrap_or(0) - places().min().unwrap_or(0)
+}
+
+/// Looks at formulas at two points.
+struct Eye<'a> {
+    search: &'a Search<'a>,
+    points: [Modular; 2],
+    truth: Pair,
+}
+
+impl<'a> Eye<'a> {
+    fn new(search: &'a Search<'a>) -> Option<Self> {
+        let mut points = Vec::new();
+        let mut truth = Vec::new();
+        for seed in 1..40 {
+            let mut point = Modular::point(seed);
+            for (name, value) in search.defined {
+                let value = point.rational(value)?;
+                point.defined.insert(name.clone(), value);
+            }
+            if let Some(value) = point.rational(search.truth) {
+                points.push(point);
+                truth.push(value);
+            }
+            if points.len() == 2 {
+                break;
+            }
+        }
+        let points: [Modular; 2] = points.try_into().ok()?;
+        let truth: Pair = truth.try_into().ok()?;
+        Some(Eye { search, points, truth })
+    }
+
+    fn tree(&self, tokens: &[Token]) -> Option<Tree> {
+        parse_tokens(tokens, self.search.notation, 0).ok()
+    }
+
+    fn agrees(&self, tokens: &[Token]) -> bool {
+        let Some(tree) = self.tree(tokens) else { return false };
+        (0..2).all(|k| self.points[k].tree(&tree) == Some(self.truth[k]))
+    }
+
+    /// Up to `count` slips in different terms, on top of `base`; of several ways the one in which
+    /// they stand nearest to each other.
+    fn combine<'e>(
+        &self,
+        base: &[&'e Edit],
+        slips: &'e [Edit],
+        count: usize,
+        accept: &dyn Fn(&[&Edit]) -> bool,
+    ) -> Option<Vec<&'e Edit>> {
+        let printed = apply(self.search.tokens, base);
+        let start = Core::of(&self.tree(&printed)?, &self.points)?;
+        let wanted = start.wanted(self.truth, &self.points)?;
+        let mut changes: Vec<(Pair, &Edit)> = Vec::new();
+        for edit in slips.iter().take(MOST).filter(|e| !base.iter().any(|b| b.clashes(e))) {
+            let mut edits = base.to_vec();
+            edits.push(edit);
+            let tree = self.tree(&apply(self.search.tokens, &edits));
+            let Some(core) = tree.and_then(|t| Core::of(&t, &self.points)) else { continue };
+            if core.rest == start.rest && core.root == start.root && core.value != start.value {
+                changes.push((self.minus(core.value, start.value), edit));
+            }
+        }
+        let table: HashMap<Pair, &Edit> =
+            changes.iter().rev().map(|(change, edit)| (*change, *edit)).collect();
+        let mut found: Vec<Vec<&Edit>> = Vec::new();
+        for goal in wanted {
+            let gap = self.minus(goal, start.value);
+            found.extend(table.get(&gap).map(|edit| vec![*edit]));
+            for (i, (change, edit)) in changes.iter().enumerate().filter(|_| count > 1) {
+                let gap = self.minus(gap, *change);
+                let others: &[(Pair, &Edit)] = if count > 2 { &changes[i + 1..] } else { &[] };
+                let thirds = others.iter().map(|(c, e)| (self.minus(gap, *c), Some(*e)));
+                for (gap, second) in std::iter::once((gap, None)).chain(thirds) {
+                    if let Some(last) = table.get(&gap) {
+                        let mut edits = vec![*edit];
+                        edits.extend(second);
+                        edits.push(last);
+                        found.push(edits);
+                    }
+                }
+            }
+        }
+        found.retain(|edits| {
+            let clash = |a: usize| edits[a + 1..].iter().any(|b| edits[a].clashes(b));
+            !(0..edits.len()).any(clash)
+        });
+        found.sort_by_key(|edits| (edits.len(), spread(edits)));
+        found.into_iter().take(TRIED).find_map(|edits| {
+            let all: Vec<&Edit> = base.iter().copied().chain(edits).collect();
+            accept(&all).then_some(all)
+        })
+    }
+
+    fn minus(&self, a: Pair, b: Pair) -> Pair {
+        [self.points[0].sub(a[0], b[0]), self.points[1].sub(a[1], b[1])]
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,175 @@
+//! K_X, κ_F and the characteristic length.
+
+use nalgebra::{DMatrix, Matrix6, Vector6};
+use stiffarm_gap::dexterity::{
+    DexterityError, Search, best_length, characteristic_length, condition_number, influence,
+    inverse_condition, normalised_jacobian,
+};
+use stiffarm_papers::dumas::{NoStiffness, cartesian_stiffness};
+
+use crate::robot::{LENGTH, kr240, near};
+
+const POSTURE: [f64; 6] = [0.3, 1.1, -1.7, 0.6, -0.9, 2.1];
+
+fn dynamic(m: &nalgebra::Matrix6xX<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(6, m.ncols(), |r, c| m[(r, c)])
+}
+
+/// K_X of eq. 10 against the slope of the forces of an arm whose springs hold: moving the joints by
+/// a small δ changes the wrench that keeps `Jᵀ w = τ` by K_X J δ.
+#[test]
+fn k_x_is_the_tangent_of_the_wrench() {
+    let arm = kr240();
+    let w = Vector6::new(5e3, -8e3, -2e4, 3e3, -1e3, 4e3);
+    let k_x = cartesian_stiffness(&arm, &POSTURE, &w).unwrap();
+    let inverse_transposed = |q: &[f64]| -> Matrix6<f64> {
+        let j: Matrix6<f64> = arm.jacobian(q).fixed_columns::<6>(0).into_owned();
+        j.transpose().try_inverse().unwrap()
+    };
+    let torque = arm.joint_torque(&POSTURE, &w);
+    let (step, jacobian) = (1e-5, arm.jacobian(&POSTURE));
+    for k in 0..6 {
+        let at = |side: f64| {
+            let mut q = POSTURE;
+            q[k] += side * step;
+            let mut load = torque.clone();
+            load[k] += side * step / arm.joints[k].compliance;
+            inverse_transposed(&q) * Vector6::from_column_slice(load.as_slice())
+        };
+        let slope = (at(1.0) - at(-1.0)) / (2.0 * step);
+        let want = k_x * jacobian.column(k);
+        assert!((slope - want).norm() < 1e-6 * want.norm(), "{k}: {slope} {want}");
+    }
+}
+
+#[test]
+fn a_singular_posture_has_no_k_x() {
+    let arm = kr240();
+    let wrist = [0.3, 1.1, -1.7, 0.6, 0.0, 2.1];
+    let w = Vector6::repeat(100.0);
+    let error = cartesian_stiffness(&arm, &wrist, &w).unwrap_err();
+    assert!(
+        matches!(error, NoStiffness::Posture(DexterityError::Singular { ratio }) if ratio < 1e-12)
+    );
+    assert!(error.to_string().contains("singular"), "{error}");
+    near(inverse_condition(&arm, &wrist, LENGTH).unwrap(), 0.0, 1e-7);
+    // The outstretched arm of Fig. 3's horizontal line: tan θ3 = −r4/d4, −87.14°.
+    let mut outstretched = POSTURE;
+    outstretched[2] = (-1.1_f64).atan2(0.055);
+    near(outstretched[2].to_degrees(), -87.14, 5e-3);
+    assert!(cartesian_stiffness(&arm, &outstretched, &w).is_err());
+    assert!(influence(&arm, &outstretched, &w).is_ok());
+    let mut unread = POSTURE;
+    unread[4] = f64::NAN;
+    let error = cartesian_stiffness(&arm, &unread, &w).unwrap_err();
+    assert_eq!(error, NoStiffness::Posture(DexterityError::NotFinite { joint: 5 }));
+    let mut rigid = arm.clone();
+    rigid.joints[3].compliance = 0.0;
+    let error = cartesian_stiffness(&rigid, &POSTURE, &w).unwrap_err();
+    assert_eq!(error, NoStiffness::Rigid { joint: 4 });
+    assert!(matches!(
+        cartesian_stiffness(&arm, &POSTURE[..5], &w),
+        Err(NoStiffness::Posture(DexterityError::Posture { found: 5, expected: 6 }))
+    ));
+}
+
+/// By singular values: `κ_F = (1/m) √(Σ σ² Σ σ⁻²)`.
+#[test]
+fn the_condition_number_is_that_of_the_singular_values() {
+    let arm = kr240();
+    let normalised = dynamic(&normalised_jacobian(&arm, &POSTURE, LENGTH).unwrap());
+    for m in [normalised.clone(), normalised.rows(0, 4).into(), normalised.columns(0, 4).into()] {
+        let values = m.singular_values();
+        let squares: f64 = values.iter().map(|s| s * s).sum();
+        let inverse: f64 = values.iter().map(|s| 1.0 / (s * s)).sum();
+        let want = (squares * inverse).sqrt() / values.len() as f64;
+        near(condition_number(&m), want, 1e-12 * want);
+    }
+    let got = inverse_condition(&arm, &POSTURE, LENGTH).unwrap();
+    near(got, 1.0 / condition_number(&normalised), 1e-12);
+    near(condition_number(&(DMatrix::identity(3, 3) * 7.0)), 1.0, 1e-15);
+    assert_eq!(condition_number(&DMatrix::zeros(2, 3)), f64::INFINITY);
+}
+
+#[test]
+fn the_best_length_of_a_posture_is_a_maximum() {
+    let arm = kr240();
+    let best = best_length(&arm, &POSTURE).unwrap();
+    let at = |length: f64| inverse_condition(&arm, &POSTURE, length).unwrap();
+    near(at(best.length), best.inverse_condition, 1e-12);
+    for factor in [0.5, 0.9, 0.999, 1.001, 1.1, 2.0] {
+        assert!(at(factor * best.length) < best.inverse_condition);
+    }
+}
+
+/// Printed: 0.682 m. Within the joint limits 0.68215 at (θ2, θ3, |θ5|) = (23.4, −219.9, 99.6)°,
+/// θ4 = 0 or 180°.
+#[test]
+fn the_characteristic_length_is_the_printed_one() {
+    let arm = kr240();
+    let found = characteristic_length(&arm, Search::default()).unwrap();
+    near(found.length, 0.68215, 1e-5);
+    near(found.inverse_condition, 0.79523, 1e-5);
+    assert!(found.agreeing >= 2, "{}", found.agreeing);
+    let degrees: Vec<f64> = found.posture.iter().map(|q| q.to_degrees()).collect();
+    near(degrees[1], 23.4, 0.1);
+    near(degrees[2], -219.9, 0.1);
+    near(degrees[3].to_radians().sin(), 0.0, 1e-3);
+    near(degrees[4].abs(), 99.6, 0.1);
+    for (value, joint) in found.posture.iter().zip(&arm.joints) {
+        let [low, high] = joint.limits.unwrap();
+        assert!(low <= *value && *value <= high);
+    }
+}
+
+/// No posture of a grid over θ2 to θ5 with any length is better than the one that was found.
+#[test]
+fn no_posture_of_a_grid_is_better() {
+    let arm = kr240();
+    let steps = |low: f64, high: f64, count: usize| -> Vec<f64> {
+        let at = |k: usize| low + (high - low) * k as f64 / (count - 1) as f64;
+        (0..count).map(|k| at(k).to_radians()).collect()
+    };
+    let mut best: f64 = 0.0;
+    for q2 in steps(0.0, 146.0, 10) {
+        for q3 in steps(-245.0, 29.0, 16) {
+            for q4 in steps(-180.0, 180.0, 7) {
+                for q5 in steps(-120.0, 120.0, 9) {
+                    let found = best_length(&arm, &[0.0, q2, q3, q4, q5, 0.0]);
+                    best = best.max(found.map_or(0.0, |b| b.inverse_condition));
+                }
+            }
+        }
+    }
+    assert!((0.75..0.79523).contains(&best), "{best}");
+}
+
+/// Without limits the best posture is another one, and the length would round to 0.683.
+#[test]
+fn the_limits_decide_the_third_digit() {
+    let arm = kr240();
+    let free = Search { limits: false, ..Search::default() };
+    let found = characteristic_length(&arm, free).unwrap();
+    near(found.length, 0.68260, 1e-5);
+    near(found.inverse_condition, 0.79903, 1e-5);
+}
+
+#[test]
+fn what_cannot_be_searched_is_refused() {
+    let mut arm = kr240();
+    let none = Search { starts: 0, ..Search::default() };
+    assert!(matches!(characteristic_length(&arm, none), Err(DexterityError::Setting { .. })));
+    arm.joints[2].motion = stiffarm_kernels::Motion::Prismatic;
+    arm.joints[2].limits = None;
+    let error = characteristic_length(&arm, Search::default()).unwrap_err();
+    assert_eq!(error, DexterityError::Unlimited { joint: 3 });
+    arm.joints.pop();
+    let error = characteristic_length(&arm, Search::default()).unwrap_err();
+    assert_eq!(error, DexterityError::TooFewJoints { found: 5 });
+    for length in [0.0, -1.0, f64::NAN] {
+        assert!(matches!(
+            inverse_condition(&kr240(), &POSTURE, length),
+            Err(DexterityError::Length { .. })
+        ));
+    }
+}

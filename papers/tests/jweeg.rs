@@ -1,0 +1,230 @@
+//! Jweeg & Al-Khafaji, "Kinematic analysis of semi-flexible robot" (2012): their equations against
+//! the chain, and the size of the difference that they publish.
+
+use nalgebra::{Matrix4, Vector3, Vector6};
+use proptest::prelude::*;
+use stiffarm_codegen::derive::{Displacements, Form, flexible};
+use stiffarm_codegen::emit::{RustOptions, flexible_rust};
+use stiffarm_codegen::expr::Symbol;
+use stiffarm_codegen::robot::Robot;
+use stiffarm_kernels::generic::Arm;
+use stiffarm_papers::chain::{Chain, Displacement};
+use stiffarm_papers::jweeg::two_link::{Bend, TwoLink};
+use stiffarm_papers::jweeg::{growth, rpy};
+
+/// Table 1 with lengths put in.
+fn arm(a1: f64, a2: f64) -> Arm {
+    let text = include_str!("../../robots/arms/jweeg_two_link.toml")
+        .replace("a = \"a1\"", &format!("a = {a1:?}"))
+        .replace("a = \"a2\"", &format!("a = {a2:?}"));
+    stiffarm_gap::robot::arm(&Robot::from_toml(&text, "jweeg.toml").unwrap().0).unwrap()
+}
+
+fn planar(bend: Bend) -> Displacement {
+    let translation = Vector3::new(bend.dx, bend.dy, 0.0);
+    Displacement { translation, rotation: Vector3::new(0.0, 0.0, bend.phi) }
+}
+
+fn errors(bends: [Bend; 2]) -> [Displacement; 4] {
+    [Displacement::ZERO, planar(bends[0]), planar(bends[1]), Displacement::ZERO]
+}
+
+fn bends(e: [f64; 6]) -> [Bend; 2] {
+    [Bend { dx: e[0], dy: e[1], phi: e[2] }, Bend { dx: e[3], dy: e[4], phi: e[5] }]
+}
+
+/// A pose as a homogeneous matrix.
+fn matrix(columns: [[f64; 3]; 4]) -> Matrix4<f64> {
+    Matrix4::from_fn(|row, column| match row {
+        3 => f64::from(column == 3),
+        row => columns[column][row],
+    })
+}
+
+/// The chain in each form: eq. 20 with eq. 18, with eq. 19, and to the strict first order.
+fn forms(arm: &Arm, errors: &[Displacement], q: &[f64]) -> [Matrix4<f64>; 3] {
+    let chain = Chain::new(arm, errors).unwrap();
+    let nominal = arm.pose(q).to_homogeneous();
+    let twist = chain.displacement_first_order(q).unwrap();
+    let mut strict = nominal;
+    let swung = twist.fixed_rows::<3>(3).into_owned().cross_matrix();
+    let turned = nominal.fixed_view::<3, 3>(0, 0) + swung * nominal.fixed_view::<3, 3>(0, 0);
+    strict.fixed_view_mut::<3, 3>(0, 0).copy_from(&turned);
+    let moved = nominal.fixed_view::<3, 1>(0, 3) + twist.fixed_rows::<3>(0);
+    strict.fixed_view_mut::<3, 1>(0, 3).copy_from(&moved);
+    let product = |form: fn(&Displacement) -> Matrix4<f64>| chain.product(q, form).unwrap();
+    [product(rpy::matrix), product(rpy::first_order), strict]
+}
+
+/// The committed closed forms of the two-link arm are what the table gives.
+#[test]
+fn the_closed_forms_are_generated() {
+    let text = include_str!("../../robots/arms/jweeg_two_link.toml");
+    let (robot, _) = Robot::from_toml(text, "jweeg.toml").unwrap();
+    let kept = Displacements::read("dx,dy,dphi", 2).unwrap();
+    let options = RustOptions { kernels: "::stiffarm_kernels".into(), fused: false };
+    let committed = include_str!("../src/jweeg/two_link/closed_form.rs");
+    assert_eq!(flexible_rust(&robot, &kept, &options), committed);
+}
+
+/// The generated forms of arms in space, standard and modified, turning and sliding, with tools,
+/// against the chain.
+#[test]
+fn generated_forms_are_the_chain() {
+    for text in [
+        include_str!("../../robots/arms/ur5.toml"),
+        include_str!("../../robots/arms/kuka_kr240.toml"),
+        include_str!("../../robots/arms/stanford.toml"),
+        TOOL,
+    ] {
+        let (robot, _) = Robot::from_toml(text, "arm.toml").unwrap();
+        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
+        let n = robot.dof();
+        let q: Vec<f64> = (0..n).map(|k| 0.9 - 0.37 * k as f64).collect();
+        let entry = |place: usize, k: usize| 0.02 * ((7 * place + 3 * k) % 11) as f64 - 0.1;
+        let errors: Vec<_> = (0..n + 2)
+            .map(|place| Displacement::new(&Vector6::from_fn(|k, _| entry(place, k))))
+            .collect();
+        for (form, expected) in Form::EACH.into_iter().zip(forms(&arm, &errors, &q)) {
+            let program = flexible(&robot, &Displacements::all(n), form);
+            let found = program.graph.evaluate(&program.blocks[0].entries, |s| match s {
+                Symbol::Joint(joint) => q[*joint],
+                Symbol::Displacement { place, component } => entry(*place, *component),
+                _ => f64::NAN,
+            });
+            let columns = core::array::from_fn(|c| core::array::from_fn(|r| found[3 * c + r]));
+            // A few dozen roundings of numbers of order one.
+            let off = (matrix(columns) - expected).amax();
+            assert!(off < 1e-13, "{} {form:?} {off}", robot.name);
+        }
+    }
+}
+
+/// A tool turned about no axis of the last frame.
+const TOOL: &str = "name = 'tool'\nconvention = 'standard'\n\
+    [[joint]]\ntype = 'revolute'\nalpha = 'pi/2'\nd = 0.3\n\
+    [[joint]]\ntype = 'prismatic'\ntheta = 'pi/6'\na = 0.2\nalpha = 0.4\n\
+    [[joint]]\ntype = 'revolute'\na = 0.1\n\
+    [tool]\ntranslation = [0.1, 0.2, -0.3]\nrotation = [0.3, -0.2, 0.9]\n";
+
+proptest! {
+    /// Eq. 20 with eq. 18 is eqs. 44-54, with eq. 19 it is eqs. 57 and 58, and its first order is
+    /// the strict one.
+    #[test]
+    fn the_two_link_arm_is_the_chain(
+        t in prop::array::uniform2(-3.0..3.0f64), e in prop::array::uniform6(-0.2..0.2f64),
+    ) {
+        let (arm, two) = (arm(0.4, 0.35), TwoLink { a1: 0.4, a2: 0.35 });
+        let (bends, errors) = (bends(e), errors(bends(e)));
+        let found = [two.flexible(t, bends), two.approximate(t, bends), two.strict(t, bends)];
+        for (found, expected) in found.into_iter().zip(forms(&arm, &errors, &t)) {
+            prop_assert!((matrix(found.columns()) - expected).amax() < 1e-14);
+        }
+        let vector = Chain::new(&arm, &errors).unwrap().pose(&t).unwrap().to_homogeneous();
+        prop_assert!((matrix(found[0].columns()) - vector).amax() < 1e-14);
+    }
+
+    /// Eqs. 57 and 58, to the letter.
+    #[test]
+    fn the_published_position(
+        t in prop::array::uniform2(-3.0..3.0f64), e in prop::array::uniform6(-0.2..0.2f64),
+    ) {
+        let (two, [a1, a2]) = (TwoLink { a1: 0.4, a2: 0.35 }, [0.4, 0.35]);
+        let [x1, y1, f, x2, y2, _] = e;
+        let ((s1, c1), (s2, c2)) = (t[0].sin_cos(), t[1].sin_cos());
+        let px = c1 * c2 * (x2 + a2 - f * y2) - c1 * s2 * (y2 + f * (x2 + a2))
+            - s1 * c2 * (f * (x2 + a2) + y2) + s1 * s2 * (f * y2 - (x2 + a2))
+            + c1 * (x1 + a1) - s1 * y1;
+        let py = s1 * c2 * (x2 + a2 - f * y2) - s1 * s2 * (f * (x2 + a2) + y2)
+            + c1 * c2 * (f * (x2 + a2) + y2) + c1 * s2 * (x2 + a2 - f * y2)
+            + c1 * y1 + s1 * (x1 + a1);
+        let [x, y, _] = two.approximate(t, bends(e)).position;
+        prop_assert!((x - px).abs() < 1e-14 && (y - py).abs() < 1e-14);
+    }
+
+    /// Eqs. 41-43: the position with any α and d, links bending in their x-y planes.
+    #[test]
+    fn the_general_position(
+        t in prop::array::uniform2(-3.0..3.0f64),
+        alpha in prop::array::uniform2(-3.0..3.0f64),
+        d in prop::array::uniform2(-0.5..0.5f64),
+        e in prop::array::uniform6(-0.2..0.2f64),
+    ) {
+        let mut arm = arm(0.4, 0.35);
+        for (k, joint) in arm.joints.iter_mut().enumerate() {
+            (joint.alpha, joint.d) = (alpha[k], d[k]);
+        }
+        let ([one, two], errors) = (bends(e), errors(bends(e)));
+        let found = Chain::new(&arm, &errors).unwrap().pose(&t).unwrap().translation.vector;
+        let ((s1, c1), (s2, c2)) = (t[0].sin_cos(), t[1].sin_cos());
+        let ((sa1, ca1), (sa2, ca2)) = (alpha[0].sin_cos(), alpha[1].sin_cos());
+        let (sd1, cd1) = one.phi.sin_cos();
+        let (x, y) = (two.dx + 0.35, two.dy);
+        let px = c1 * c2 * (cd1 * x - sd1 * y * ca2) - c1 * s2 * (cd1 * ca2 * y + sd1 * x)
+            - s1 * c2 * (ca1 * sd1 * x + ca1 * cd1 * y * ca2)
+            + s1 * s2 * (ca1 * sd1 * ca2 * y - ca1 * cd1 * x)
+            + sa1 * s1 * sa2 * y + sa1 * s1 * d[1] + c1 * (one.dx + 0.4) - ca1 * s1 * one.dy;
+        let py = s1 * c2 * (cd1 * x - sd1 * y * ca2) - s1 * s2 * (sd1 * x + cd1 * ca2 * y)
+            + c1 * c2 * (sd1 * ca1 * x + cd1 * ca1 * y * ca2)
+            + c1 * s2 * (cd1 * ca1 * x - sd1 * ca1 * ca2 * y)
+            + c1 * (ca1 * one.dy - sa1 * sa2 * y - sa1 * d[1]) + s1 * (one.dx + 0.4);
+        let pz = c2 * (sa1 * sd1 * x + sa1 * cd1 * y * ca2)
+            + s2 * (sa1 * cd1 * x - sa1 * sd1 * ca2 * y)
+            + ca1 * sa2 * y + ca1 * d[1] + sa1 * one.dy + d[0];
+        prop_assert!((found - Vector3::new(px, py, pz)).amax() < 1e-14);
+    }
+}
+
+/// The published largest differences are 6.3e-8 m in px and 2.9e-8 m in py. A weight at the tip of
+/// two equal links that gives the first gives the second; it scales with the square of the weight.
+#[test]
+fn the_published_difference() {
+    for length in [0.2, 0.4, 1.0] {
+        let two = TwoLink { a1: length, a2: length };
+        let unit = growth::largest(two, 1e-3, 0.0);
+        assert!((unit[1].size / unit[0].size - 0.459).abs() < 5e-4);
+        let w = 1e-3 * (6.3e-8 / unit[0].size).sqrt();
+        let [px, py] = growth::largest(two, w, 0.0);
+        assert!((px.size / 6.3e-8 - 1.0).abs() < 1e-3);
+        assert!((py.size - 2.89e-8).abs() < 1e-10, "{py:?}");
+        assert_eq!((px.degrees, py.degrees), ([4.0, -5.0], [4.0, 40.0]));
+        for (part, expected) in [(1.0 / 3.0, [7.0e-9, 3.2e-9]), (2.0 / 3.0, [2.8e-8, 1.28e-8])] {
+            let less = growth::largest(two, w * part, 0.0);
+            assert!((less[0].size / expected[0] - 1.0).abs() < 0.01);
+            assert!((less[1].size / expected[1] - 1.0).abs() < 0.01);
+        }
+        // The other reading of "the angles of joint with addition 40" cannot be told apart.
+        let [px, py] = growth::largest(two, 1e-3, 40.0);
+        assert!((py.size / px.size - 0.4536).abs() < 5e-4);
+        assert_eq!((px.degrees, py.degrees), ([4.0, -35.0], [4.0, -5.0]));
+    }
+}
+
+/// The turn that the published px implies, for lengths of the second link that the text leaves
+/// open.
+#[test]
+fn the_turn_behind_the_published_difference() {
+    for (a2, phi) in
+        [(0.2, 7.94e-4), (0.3, 6.48e-4), (0.4, 5.61e-4), (0.5, 5.02e-4), (1.0, 3.55e-4)]
+    {
+        let row = growth::two_link(a2, &[phi])[0];
+        assert!((row.difference / 6.3e-8 - 1.0).abs() < 3e-3, "{row:?}");
+    }
+}
+
+/// The difference in space: a six-joint arm's errors grown tenfold make it a hundred times larger.
+#[test]
+fn growth_in_space() {
+    let text = include_str!("../../robots/arms/ur5.toml");
+    let arm = stiffarm_gap::robot::arm(&Robot::from_toml(text, "ur5.toml").unwrap().0).unwrap();
+    let error = Displacement {
+        translation: Vector3::new(1e-4, -2e-4, 1e-4),
+        rotation: Vector3::new(2e-4, -1e-4, 3e-4),
+    };
+    let q = [0.3, -1.2, 0.9, 0.4, -0.8, 1.1];
+    let rows = growth::chain(&arm, &q, &[error; 8], &[0.1, 1.0, 10.0]).unwrap();
+    for pair in rows.windows(2) {
+        assert!((pair[1].approximate / pair[0].approximate - 100.0).abs() < 3.0);
+        assert!((pair[1].strict / pair[0].strict - 100.0).abs() < 3.0);
+    }
+}
