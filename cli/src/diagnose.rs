@@ -6,7 +6,7 @@ mod corrected;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Nuisance, Stage};
+use stiffarm_gap::diagnose::{Nuisance, Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
 
@@ -19,6 +19,7 @@ use crate::input::quantity::{self, counted};
 use crate::input::source::RobotArgs;
 use crate::report::Report;
 use crate::terminal::failure::Failure;
+use crate::terminal::interrupt;
 use crate::terminal::json;
 use crate::terminal::note::note;
 use crate::terminal::output::{Target, one_to_stdout, print};
@@ -107,6 +108,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let data = data::read(&args.data, &layout)?;
     let other = args.check.as_ref().map(|path| data::read(path, &layout)).transpose()?;
     let stages = Stages::new(quiet);
+    interrupt::ends(&options.stop);
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
         .map_err(plain)?;
     drop(stages);
@@ -125,8 +127,14 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             );
         }
     }
-    let screen =
-        Screen { found, data: &data, arm: &arm, rivals: &args.rivals, check: check.as_ref() };
+    let screen = Screen {
+        found,
+        data: &data,
+        arm: &arm,
+        catalogue: &options.catalogue,
+        rivals: &args.rivals,
+        check: check.as_ref(),
+    };
     if let Some(target) = &args.report {
         let (explanation, words) = (&diagnosed.explanation, screen.words());
         let report = Report {
@@ -155,6 +163,12 @@ fn in_words(stage: Stage) -> String {
     match stage {
         Stage::Align => "simulating the rows and fitting the unknown frames".to_owned(),
         Stage::Search(found) => format!("looking for effects, {found} found"),
+        Stage::Try(found, effect, place) => {
+            format!(
+                "looking for effects, {found} found: fitting {} at {place}",
+                effect.replace('_', " ")
+            )
+        }
         Stage::Judge(found) => format!("judging {} and their rivals", counted(found, "finding")),
     }
 }
@@ -178,6 +192,8 @@ impl Args {
             effects: self.effects.clone(),
             nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
             rivals: self.rivals.clone(),
+            stop: Stop::default(),
+            ..Options::default()
         })
     }
 }

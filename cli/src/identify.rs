@@ -197,7 +197,8 @@ struct Entry {
     unit: &'static str,
     status: &'static str,
     value: f64,
-    ci95: [f64; 2],
+    /// `None` of one that is held.
+    ci95: Option<[f64; 2]>,
     /// 1/value where it is a compliance; `None` is rigid, or unbounded.
     stiffness: Option<f64>,
     stiffness_ci95: Option<[Option<f64>; 2]>,
@@ -234,8 +235,8 @@ impl Written {
     }
 }
 
-/// Whether a compliance is a sliding one, m/N.
-fn slides(source: &Source, unknown: Unknown) -> bool {
+/// Whether a compliance is that of a translation, m/N.
+fn is_translation(source: &Source, unknown: Unknown) -> bool {
     match unknown {
         Unknown::Joint(j) => source.readings().get(j - 1) == Some(&Dimension::Length),
         Unknown::Link(_) => false,
@@ -251,12 +252,11 @@ fn stiffness(compliance: f64) -> Option<f64> {
 fn entry(source: &Source, parameter: &Parameter) -> Entry {
     let unknown = parameter.unknown;
     let compliance = !matches!(unknown, Unknown::Link(_));
-    let unit = match (compliance, slides(source, unknown)) {
+    let unit = match (compliance, is_translation(source, unknown)) {
         (false, _) => "1",
         (true, true) => "m/N",
         (true, false) => "rad/(N·m)",
     };
-    let [low, high] = parameter.interval;
     let (status, with, pull) = match &parameter.status {
         Status::Determined => ("determined", Vec::new(), None),
         Status::Weak(pull) => ("weak", Vec::new(), pull.as_ref()),
@@ -270,9 +270,10 @@ fn entry(source: &Source, parameter: &Parameter) -> Entry {
         unit,
         status,
         value: parameter.value,
-        ci95: parameter.interval,
+        ci95: parameter.interval(),
         stiffness: stiffness(parameter.value).filter(|_| compliance),
-        stiffness_ci95: compliance.then(|| [stiffness(high), stiffness(low)]),
+        stiffness_ci95: (parameter.interval().filter(|_| compliance))
+            .map(|[low, high]| [stiffness(high), stiffness(low)]),
         file: parameter.file,
         with,
         to_show_it: pull.map(ToString::to_string),

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use nalgebra::Vector6;
 use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 
@@ -135,7 +136,8 @@ impl Args {
 
     fn purpose(&self, arm: &Arm) -> Result<Purpose, Failure> {
         let suspect = |text: &String| {
-            Suspect::parse(text, arm).map_err(|error| Failure::new(format!("--for: {error}")))
+            let suspect = Suspect::parse(text, arm, &Catalogue::default());
+            suspect.map_err(|error| Failure::new(format!("--for: {error}")))
         };
         let found = self.effects.len();
         match (self.purpose, &self.effects[..]) {
@@ -161,7 +163,8 @@ impl Args {
         }
         let each = self.nuisance.iter().map(|name| {
             let known = Nuisance::parse(name).map_err(|error| Failure::new(error.to_string()))?;
-            Suspect::parse(known.identifier(), arm).map_err(|error| Failure::new(error.to_string()))
+            let suspect = Suspect::parse(known.identifier(), arm, &Catalogue::default());
+            suspect.map_err(|error| Failure::new(error.to_string()))
         });
         each.collect()
     }

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use stiffarm_gap::Options;
-use stiffarm_gap::plant::Effect;
+use stiffarm_gap::effects::Effect;
+use stiffarm_gap::plant;
 use stiffarm_gap::withhold::{Plan, Rate, Report, with_findings, withhold};
 
 use super::Verdict;
@@ -85,8 +86,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         Some(_) => Vec::new(),
         None => args.experiment.other_sessions(&arm)?,
     };
-    let predict = with_findings(&arm);
     let options = Options { version: env!("CARGO_PKG_VERSION").to_owned(), ..Options::default() };
+    let predict = with_findings(&arm, &options.catalogue);
     let cases = if args.full { FULL } else { args.cases };
     let plan = Plan {
         arm: &arm,
@@ -121,11 +122,13 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 }
 
 impl Args {
-    fn effects(&self) -> Result<Vec<Effect>, Failure> {
-        let Some(names) = &self.effects else { return Ok(Effect::ALL.to_vec()) };
+    fn effects(&self) -> Result<Vec<&'static dyn Effect>, Failure> {
+        let all = plant::effects();
+        let Some(names) = &self.effects else { return Ok(all) };
         let each = names.iter().map(|name| {
-            Effect::named(name.trim()).ok_or_else(|| {
-                let known = Effect::ALL.map(Effect::identifier);
+            let known = all.iter().copied().find(|effect| effect.identifier() == name.trim());
+            known.ok_or_else(|| {
+                let known: Vec<&str> = all.iter().map(|effect| effect.identifier()).collect();
                 let near =
                     known.iter().copied().min_by_key(|k| strsim::damerau_levenshtein(k, name));
                 let near = near.filter(|k| strsim::damerau_levenshtein(k, name) <= 3);

@@ -38,10 +38,16 @@ impl Number {
         Number::Exact(Ratio::new(n, d))
     }
 
-    /// A finite double that stands for an irrational value.
+    /// A finite double that stands for an irrational value, right to a few units of its own rounding.
     pub fn rounded(x: f64) -> Self {
         debug_assert!(x.is_finite());
-        snap(x, x.abs().max(1.0))
+        snap(x, x.abs())
+    }
+
+    /// A component of a unit vector, right to a few units of the rounding of 1: below that it is 0.
+    pub fn cosine(x: f64) -> Self {
+        debug_assert!(x.is_finite());
+        snap(x, 1.0)
     }
 
     /// Reads a decimal literal (`-1.25e-3`, `350`, `1_000`) exactly; `None` if it is not one, or
@@ -238,6 +244,18 @@ mod tests {
         let c = Number::ratio(1, 2).sqrt().unwrap();
         assert_eq!(c * c + c * c, Number::ONE);
         assert!((c + -c).is_zero());
+    }
+
+    #[test]
+    fn the_reciprocal_of_a_large_constant_is_small_and_not_zero() {
+        let large = Number::rounded(2.9e14_f64.sqrt()) * Number::rounded(1e16_f64.sqrt() * 1.1);
+        for x in [large, Number::Rounded(1e15 / 3.0), Number::Rounded(1e300)] {
+            let product = x.recip().unwrap().to_f64() * x.to_f64();
+            assert!((product - 1.0).abs() < 1e-15, "{x}: {product}");
+        }
+        let tiny = Number::Rounded(1e-20 / 3.0).sqrt().unwrap().to_f64();
+        assert!((tiny * tiny * 3e20 - 1.0).abs() < 1e-15);
+        assert!(Number::cosine(libm::cos(core::f64::consts::FRAC_PI_2)).is_zero());
     }
 
     #[test]

@@ -1,19 +1,35 @@
-//! The small linear system of the deflection, `(Kθ − K_C) δθ = τ`.
+//! The small linear system of the deflection, `(Kθ − K_C) δθ = τ`, and when the arm bears the load.
+//!
+//! **Stability.** The arm is stable where the symmetric part of `Kθ − K_C` is positive definite: then
+//! `δθᵀ (Kθ − K_C) δθ > 0`, every small displacement takes work, in whatever direction.
+//!
+//! * Under forces and weights `Kθ − K_C` is symmetric, the second derivative of the potential energy, and
+//!   this is the buckling load (Lagrange and Dirichlet).
+//! * A moment that stays constant in base axes has no potential (its work depends on the order of two
+//!   rotations) and gives `K_C` an antisymmetric part. Positive work in every direction (Hill's criterion)
+//!   then excludes that the arm gives way statically, also with any of its joints locked or coupled; it
+//!   does not depend on how the joints are numbered or measured. It is on the safe side: the first load that
+//!   it refuses may be borne by an arm that is damped. The pivots of `Kθ − K_C` itself say less: under a
+//!   pure moment they are the springs, whatever the moment, and `[1, −10; 10, −50]`, which falls, has
+//!   pivots 1 and 50.
+//!
+//! The test are the pivots of `L D Lᵀ` of the symmetric part, half as many operations as an elimination.
+//! Where they are positive those of `Kθ − K_C` are too, so that it is solved without exchanging rows.
 
 use core::fmt;
 
 use crate::Scalar;
 
-/// The loaded arm is not in stable equilibrium: under this load `Kθ − K_C` has a pivot that is not
-/// positive (or the input was not finite), so it would buckle rather than deflect.
+/// The loaded arm is not in stable equilibrium: under this load the symmetric part of `Kθ − K_C` is not
+/// positive definite (or the input was not finite), so that some displacement takes no work and the arm
+/// would buckle rather than deflect. Forces and weights reach this at the buckling load; for a moment
+/// constant in base axes, which has no potential, it is the safe side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unstable;
 
 impl fmt::Display for Unstable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(
-            "the arm is not stable under this load: K_theta - K_C has a pivot that is not positive",
-        )
+        f.write_str("the arm is not stable under this load: K_theta - K_C is not positive definite")
     }
 }
 
@@ -21,13 +37,13 @@ impl core::error::Error for Unstable {}
 
 /// Solves `a · x = b` by elimination without pivoting; `a` is column-major, `a[column][row]`.
 ///
-/// `Kθ − K_C` is unsymmetric under a moment, so this is LU and not Cholesky. In a stable equilibrium
-/// its symmetric part is positive definite, and then every pivot is positive and none needs exchanging.
+/// `Kθ − K_C` is unsymmetric under a moment, so this is LU and not Cholesky.
 ///
 /// # Errors
-/// [`Unstable`] if a pivot is not positive (in some lane).
+/// [`Unstable`] if the symmetric part of `a` is not positive definite (in some lane).
 #[inline]
 pub fn solve<S: Scalar, const N: usize>(a: [[S; N]; N], b: [S; N]) -> Result<[S; N], Unstable> {
+    definite(a, |x, factor, y| x - factor * y)?;
     eliminate(a, b, |x, factor, y| x - factor * y)
 }
 
@@ -40,6 +56,7 @@ pub fn solve_fused<S: Scalar, const N: usize>(
     a: [[S; N]; N],
     b: [S; N],
 ) -> Result<[S; N], Unstable> {
+    definite(a, |x, factor, y| S::mul_add(-factor, y, x))?;
     eliminate(a, b, |x, factor, y| S::mul_add(-factor, y, x))
 }
 
@@ -75,6 +92,7 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
     mut b: [S; N],
     less: impl Fn(S, S, S) -> S,
 ) -> Result<[S; N], Unstable> {
+    definite(a, &less)?;
     let leading: [[S; M]; M] = core::array::from_fn(|k| core::array::from_fn(|i| a[k][i]));
     let x = eliminate(leading, core::array::from_fn(|i| b[i]), &less)?;
     let mut stable = true;
@@ -95,6 +113,39 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
 /// Unknowns up to which all loops have fixed bounds, so that the compiler writes them out and keeps the
 /// system in registers: three times as fast for six.
 const WRITTEN_OUT: usize = 8;
+
+/// Whether the pivots of `L D Lᵀ` of `a + aᵀ` are positive; column by column, the lower triangle alone.
+#[inline(always)]
+fn definite<S: Scalar, const N: usize>(
+    a: [[S; N]; N],
+    less: impl Fn(S, S, S) -> S,
+) -> Result<(), Unstable> {
+    let (mut twice, mut inverse, mut factors) = (a, a[0], a[0]);
+    let mut stable = true;
+    let begin = |k: usize| if N <= WRITTEN_OUT { 0 } else { k };
+    let end = |k: usize| if N <= WRITTEN_OUT { N } else { k };
+    for column in 0..N {
+        for k in 0..end(column) {
+            if k < column {
+                factors[k] = twice[k][column] * inverse[k];
+            }
+        }
+        for row in begin(column)..N {
+            if row >= column {
+                let mut entry = a[column][row] + a[row][column];
+                for k in 0..end(column) {
+                    if k < column {
+                        entry = less(entry, factors[k], twice[k][row]);
+                    }
+                }
+                twice[column][row] = entry;
+            }
+        }
+        stable &= twice[column][column].is_positive();
+        inverse[column] = twice[column][column].recip();
+    }
+    if stable { Ok(()) } else { Err(Unstable) }
+}
 
 /// Elimination with `less(x, factor, y)` for `x - factor·y`.
 #[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
@@ -202,6 +253,19 @@ mod tests {
         a[4][4] = 1.0;
         a[0][0] = f64::NAN;
         assert_eq!(solve_leading_fused::<_, 5, 3>(a, b), Err(Unstable));
+    }
+
+    /// Positive pivots are not enough: a moment far beyond the springs, and an arm that falls.
+    #[test]
+    fn refuses_what_its_pivots_do_not_show() {
+        let triangular = |m: f64| [[1.0, m], [0.0, 1.0]];
+        assert!(solve(triangular(1.999), [1.0, 0.0]).is_ok());
+        assert_eq!(solve(triangular(2.001), [1.0, 0.0]), Err(Unstable));
+        assert_eq!(solve([[1.0, 10.0], [-10.0, -50.0]], [1.0, 0.0]), Err(Unstable));
+        let alone = |m: f64| [[1.0, 0.0, m], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert!(solve_leading::<f64, 3, 2>(alone(1.999), [1.0; 3]).is_ok());
+        assert_eq!(solve_leading::<f64, 3, 2>(alone(2.001), [1.0; 3]), Err(Unstable));
+        assert_eq!(solve_leading_fused::<f64, 3, 2>(alone(-2.001), [1.0; 3]), Err(Unstable));
     }
 
     #[test]

@@ -1,13 +1,33 @@
 //! Printed equations against derived ones, and the papers' methods.
 //!
-//! A data file ([`file`]) gives each equation of a paper as it is printed, in LaTeX, and what it is
-//! an equation of. The formula is read ([`latex`]), what it should be is derived from the graph
-//! ([`exact`]), both are brought to one exact form and compared; where they differ, the smallest
-//! change of what is printed that mends it is looked for ([`mend`]). Relations between matrices are
-//! compared at points ([`matrix`]). The result of all papers is the [`ledger`].
+//! # From the file to the verdict
+//!
+//! 1. [`file`]: a data file gives each equation of a paper as it is printed, in LaTeX, and what it
+//!    is an equation of: an output of the generator, a formula, a relation between matrices.
+//! 2. [`latex`]: the equation is cut at its equals signs and into the cells of its matrices
+//!    ([`latex::formula`]), each cell becomes tokens in the paper's notation ([`latex::lexer`]) and
+//!    a tree ([`latex::parser`]).
+//! 3. [`exact`]: what it should be is derived from the graph ([`exact::derived`]); both are brought
+//!    to one quotient of polynomials in symbols, sines and cosines ([`exact::rational`]) in which
+//!    equal functions are equal. What has no exact form is evaluated, in doubles and modulo a prime
+//!    ([`exact::evaluate`], [`exact::field`]).
+//! 4. [`matrix`]: a relation between matrices is evaluated at random postures, loads and parameters.
+//! 5. [`mend`]: where the two differ, the smallest change of what is printed that makes it true.
+//! 6. [`ledger`]: the finding becomes a [`Verdict`] with its correction, its change and a joint
+//!    vector at which the two differ ([`verdict`]); so does each cell of a printed table. The ledger
+//!    is written as text, Markdown, JSON or a page.
 //!
 //! What needs a paper's whole method is worked out by it: [`bicchi`], [`dumas`], [`jweeg`],
-//! [`knapczyk`], [`lin`], on the [`chain`] with an error at every place.
+//! [`knapczyk`], [`lin`], on the [`chain`] with an error at every place. `methods` calls them by the
+//! names that the data files use.
+//!
+//! # Ours, and libraries
+//!
+//! The exact forms are ours: polynomials whose symbols may have negative powers, in which s² + c² = 1
+//! is eliminated and which say so when a coefficient overflows. So are the readers of LaTeX: which
+//! letters make a name is known only once a paper's notation is read, a mistake points at its
+//! character, and mending works on tokens as they are printed. JSON, the page, MathML, matrices and
+//! rational numbers are those of libraries.
 #![forbid(unsafe_code)]
 
 pub mod bicchi;
@@ -22,11 +42,12 @@ pub mod knapczyk;
 pub mod latex;
 pub mod ledger;
 pub mod lin;
-mod matrix;
+pub mod matrix;
 pub mod mend;
 mod methods;
+pub mod verdict;
 
 pub use file::{Paper, read};
-pub use ledger::verdict::{Entry, Kind, Verdict, Witness};
 pub use ledger::{Ledger, built_in};
 pub use methods::column;
+pub use verdict::{Entry, Kind, Verdict, Witness};

@@ -67,7 +67,7 @@ fn the_closed_forms_are_generated() {
     assert_eq!(flexible_rust(&robot, &kept, &options), committed);
 }
 
-/// The generated forms of arms in space, standard and modified, turning and sliding, with tools,
+/// The generated forms of arms in space, standard and modified, revolute and prismatic, with tools,
 /// against the chain.
 #[test]
 fn generated_forms_are_the_chain() {

@@ -85,16 +85,18 @@ pub fn compile(compiler: &str, folder: &Folder, arguments: &[&str]) {
 
 /// Runs a program of the folder with this input and gives what it prints.
 pub fn run(folder: &Folder, program: &str, input: &str) -> String {
-    let mut child = Command::new(folder.path().join(program))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
+    spoken(Command::new(folder.path().join(program)), input)
+}
+
+/// What a program prints to this input.
+pub fn spoken(mut program: Command, input: &str) -> String {
+    let mut child =
+        program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program starts");
     let mut stdin = child.stdin.take().expect("piped");
     let input = input.to_owned();
     let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()));
     let output = child.wait_with_output().expect("the program ends");
     writer.join().expect("no panic").expect("all of the input is read");
-    assert!(output.status.success(), "{program} ended with {}", output.status);
+    assert!(output.status.success(), "{program:?} ended with {}", output.status);
     String::from_utf8(output.stdout).expect("UTF-8")
 }

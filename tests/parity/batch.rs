@@ -89,7 +89,7 @@ fn batches_are_poses_one_by_one() {
 }
 
 #[test]
-fn poses_that_buckle_are_named_and_left_alone() {
+fn poses_that_buckle_are_named_and_left_single() {
     let robot = &stiffarm_robots::kuka_kr240::Robot;
     let poses = 3000;
     let mut case = case::<f64>(6, poses, &mut Draws::new(9));
@@ -100,8 +100,8 @@ fn poses_that_buckle_are_named_and_left_alone() {
         case.wrenches[6 * pose..][..6].copy_from_slice(&[-1e9, 0.0, -1e9, 0.0, 0.0, 0.0]);
         let wrench = core::array::from_fn(|k| case.wrenches[6 * pose + k]);
         let q = &case.q[6 * pose..][..6];
-        let alone = Kernels::<f64>::evaluate(robot, Output::Deflection, q, &wrench, &mut [0.0; 6]);
-        assert_eq!(alone, Err(stiffarm::kernels::Error::Unstable));
+        let single = Kernels::<f64>::evaluate(robot, Output::Deflection, q, &wrench, &mut [0.0; 6]);
+        assert_eq!(single, Err(stiffarm::kernels::Error::Unstable));
     }
     for run in [evaluate::<f64, _>, evaluate_parallel::<f64, _>] {
         let mut out = vec![f64::NAN; 6 * poses];

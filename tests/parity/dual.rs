@@ -6,7 +6,7 @@ use num_dual::{Dual64, DualNum};
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
 use crate::compare::{Draws, relative};
-use crate::zoo;
+use crate::fixtures;
 
 /// num-dual's number as a scalar of kernels.
 #[derive(Clone, Copy, Debug)]
@@ -136,22 +136,22 @@ fn jacobian_and_stiffness_are_derivatives() {
     check(&iiwa14::Robot, 3.0);
     check(&panda::Robot, 3.0);
     check(&stanford::Robot, 1.0);
-    check(&zoo::oblique::Robot, 3.0);
-    check(&zoo::sliding::Robot, 0.5);
-    check(&zoo::parallel::Robot, 3.0);
+    check(&fixtures::oblique::Robot, 3.0);
+    check(&fixtures::sliding::Robot, 0.5);
+    check(&fixtures::parallel::Robot, 3.0);
 }
 
 #[test]
 fn the_regressor_is_the_derivative_by_joint_compliance() {
     // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
-    use zoo::symbolic::{Constants, deflection_first_order, stiffness_regressor};
+    use fixtures::symbolic::{Constants, deflection_first_order, stiffness_regressor};
     let mut draws = Draws::new(5);
-    let p = zoo::PARAMETERS;
+    let p = fixtures::PARAMETERS;
     for _ in 0..200 {
         let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
         let wrench = wrench(&mut draws);
         let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
-        let mut dual = zoo::parameters_as(Dual::lit);
+        let mut dual = fixtures::parameters_as(Dual::lit);
         dual.k2.0.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);
         let (q, wrench) = (q.map(Dual::lit), wrench.map(Dual::lit));

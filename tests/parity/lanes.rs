@@ -5,7 +5,7 @@ use stiffarm::kernels::lanes::{f32x8, f64x4, f64x8};
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
 use crate::compare::Draws;
-use crate::zoo;
+use crate::fixtures;
 
 /// Sets of lanes that each output is tried with.
 const COUNT: usize = 200;
@@ -35,10 +35,10 @@ fn check<S, L, const N: usize>(
             robot.evaluate(output, &q_lanes, &wrench_lanes, &mut together).expect("stable");
             for lane in 0..N {
                 let q: Vec<S> = q.iter().map(|q| q[lane]).collect();
-                let mut alone = vec![S::lit(0.0); rows * columns];
+                let mut single = vec![S::lit(0.0); rows * columns];
                 let wrench = wrench.map(|w| w[lane]);
-                robot.evaluate(output, &q, &wrench, &mut alone).expect("stable");
-                for (a, b) in together.iter().zip(alone) {
+                robot.evaluate(output, &q, &wrench, &mut single).expect("stable");
+                for (a, b) in together.iter().zip(single) {
                     let a = each(*a)[lane];
                     assert!(same(a, b), "{} lane {lane}: {a:?} {b:?}", output.name());
                 }
@@ -65,5 +65,5 @@ fn lanes_are_scalars_side_by_side() {
     check_all(&ur10::Robot);
     check_all(&iiwa14::Robot);
     check_all(&stanford::Robot);
-    check_all(&zoo::oblique::Robot);
+    check_all(&fixtures::oblique::Robot);
 }

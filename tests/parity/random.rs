@@ -1,135 +1,78 @@
-//! Random tables: 1 to 9 joints, both conventions, prismatic joints, tools, masses, beams.
+//! The graph's own evaluation on random tables of 1 to 9 joints.
 
 use proptest::prelude::*;
 use stiffarm::kernels::Output;
-use stiffarm_codegen::derive::{Output as Derived, Passes, derive, derive_in, derive_with};
-use stiffarm_codegen::robot::Robot;
+use stiffarm::kernels::generic::Arm;
+use stiffarm_codegen::derive::{
+    Output as Derived, Passes, Program, derive, derive_in, derive_with,
+};
 
+use crate::boundary::{KINDS, around};
 use crate::compare::{CANCELLED, Draws, relative, terms};
+use crate::tables::{Table, table};
 
-fn angle() -> impl Strategy<Value = String> {
-    prop_oneof![
-        3 => (-4i32..=4).prop_map(|k| format!("\"{} deg\"", 90 * k)),
-        1 => (-12i32..=12).prop_map(|k| format!("\"{k}*pi/12\"")),
-        1 => (-3.0f64..3.0).prop_map(|x| format!("{x:.2}")),
-    ]
-}
-
-fn length() -> impl Strategy<Value = String> {
-    prop_oneof![
-        2 => Just("0.0".to_string()),
-        3 => (-900i32..=900).prop_map(|mm| format!("\"{mm} mm\"")),
-    ]
-}
-
-fn beam(telescope: bool) -> impl Strategy<Value = String> {
-    let section = prop_oneof![
-        Just("{ shape = \"tube\", outer_diameter = 0.12, inner_diameter = 0.1 }"),
-        Just("{ shape = \"box\", outer = [0.1, 0.14], inner = [0.09, 0.12] }"),
-        Just("{ area = 2e-3, iy = 3e-6, iz = 5e-6, j = 4e-6 }"),
-    ];
-    (section, any::<bool>(), any::<bool>()).prop_map(move |(section, heavy, shear)| {
-        let density = if heavy && !telescope { "density = 2700.0\n" } else { "" };
-        let shear = if shear { "shear_coefficient = 0.5\n" } else { "" };
-        format!(
-            "[joint.beam]\nyoungs_modulus = 69e9\nshear_modulus = 26e9\nsection = {section}\n\
-             {density}{shear}"
-        )
-    })
-}
-
-prop_compose! {
-    fn joint()(prismatic in prop::bool::weighted(0.2))(
-        prismatic in Just(prismatic),
-        theta in angle(),
-        alpha in angle(),
-        a in length(),
-        d in length(),
-        stiffness in prop::option::weighted(0.8, 1u32..100),
-        mass in prop::option::of((1u32..30, -300i32..300, -300i32..300, -300i32..300)),
-        beam in prop::option::of(beam(prismatic)),
-    ) -> String {
-        let kind = if prismatic { "prismatic" } else { "revolute" };
-        let mut text = format!(
-            "[[joint]]\ntype = \"{kind}\"\ntheta = {theta}\nalpha = {alpha}\na = {a}\nd = {d}\n"
-        );
-        if let Some(k) = stiffness {
-            text += &format!("stiffness = {k}e5\n");
-        }
-        if let Some((m, x, y, z)) = mass {
-            text += &format!("mass = {m}\ncom = [\"{x} mm\", \"{y} mm\", \"{z} mm\"]\n");
-        }
-        // A chord of no length is refused by the validator.
-        if let Some(beam) = beam.filter(|_| prismatic || a != "0.0" && a != "\"0 mm\"") {
-            text += &beam;
-        }
-        text
+impl Table {
+    /// One output as the program evaluates it.
+    fn by(&self, program: &Program, q: &[f64], wrench: &[f64; 6]) -> Option<Vec<f64>> {
+        let value = |name: &str| self.value(name).unwrap_or(f64::NAN);
+        Some(program.evaluate(q, wrench, value).ok()?.concat())
     }
 }
 
-prop_compose! {
-    fn robot()(
-        standard in any::<bool>(),
-        joints in prop::collection::vec(joint(), 1..=9),
-        tool in prop::option::of((prop::array::uniform3(length()), prop::array::uniform3(angle()))),
-        gravity in prop::array::uniform3(-10i32..=10),
-    ) -> String {
-        let convention = if standard { "standard" } else { "modified" };
-        let [x, y, z] = gravity;
-        let mut text = format!(
-            "name = \"random\"\nconvention = \"{convention}\"\ngravity = [{x}.0, {y}.0, {z}.0]\n"
-        );
-        text += &joints.concat();
-        if let Some((t, r)) = tool {
-            text += &format!("[tool]\ntranslation = [{}]\nrotation = [{}]\n", t.join(", "), r.join(", "));
-        }
-        text
-    }
+fn drawn(table: &Table, seed: u64) -> (Arm, Vec<f64>, [f64; 6]) {
+    let arm = table.arm();
+    let mut draws = Draws::new(seed);
+    let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
+    (arm, q, wrench)
+}
+
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, ..ProptestConfig::default() }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(cases(200))]
 
     #[test]
-    fn the_graph_agrees_with_the_textbook(text in robot(), seed in any::<u64>()) {
-        let (robot, _) = Robot::from_toml(&text, "random").unwrap_or_else(|e| panic!("{e}\n{text}"));
-        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
-        let mut draws = Draws::new(seed);
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
+    fn the_graph_agrees_with_the_textbook(table in table(1..=9), seed in any::<u64>()) {
+        let (arm, q, wrench) = drawn(&table, seed);
+        let robot = table.robot();
         for (output, derived) in Output::EACH.into_iter().zip(Derived::EACH) {
-            let Ok(expected) = arm.evaluate(output, &q, &wrench) else { continue };
-            let program = derive(&robot, &[derived]);
-            let got = program.evaluate(&q, &wrench, |_| f64::NAN).unwrap();
-            let worst = relative(&got[0], &expected, CANCELLED * terms(&arm, output, &q, &wrench));
-            prop_assert!(worst <= 1e-11, "{} {worst:e}\n{text}", output.name());
+            let expected = arm.evaluate(output, &q, &wrench).ok();
+            let got = table.by(&derive(&robot, &[derived]), &q, &wrench);
+            prop_assert_eq!(expected.is_some(), got.is_some());
+            let (Some(expected), Some(got)) = (expected, got) else { continue };
+            let worst = relative(&got, &expected, CANCELLED * terms(&arm, output, &q, &wrench));
+            prop_assert!(worst <= 1e-11, "{} {worst:e}\n{}", output.name(), table.text);
         }
     }
 
     #[test]
-    fn the_working_frame_does_not_matter(text in robot(), cut in 0usize..40, seed in any::<u64>()) {
-        let (robot, _) = Robot::from_toml(&text, "random").unwrap();
-        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
-        let mut draws = Draws::new(seed);
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
+    fn the_working_frame_does_not_matter(
+        table in table(1..=9), cut in 0usize..40, seed in any::<u64>()
+    ) {
+        let (arm, q, wrench) = drawn(&table, seed);
+        let robot = table.robot();
         let cut = cut % (4 * robot.dof() + 1);
-        let outputs = [Derived::Jacobian, Derived::ComplementaryStiffness, Derived::Compliance];
-        let there = derive_in(&robot, &outputs, cut).evaluate(&q, &wrench, |_| f64::NAN).unwrap();
-        let base = derive_in(&robot, &outputs, 0).evaluate(&q, &wrench, |_| f64::NAN).unwrap();
-        let kinds = [Output::Jacobian, Output::ComplementaryStiffness, Output::Compliance];
-        for ((a, b), output) in there.iter().zip(&base).zip(kinds) {
-            let worst = relative(a, b, CANCELLED * terms(&arm, output, &q, &wrench));
-            prop_assert!(worst <= 1e-11, "{worst:e}\n{text}");
+        let kinds = [
+            (Output::Jacobian, Derived::Jacobian),
+            (Output::ComplementaryStiffness, Derived::ComplementaryStiffness),
+            (Output::Compliance, Derived::Compliance),
+        ];
+        for (output, derived) in kinds {
+            let at = |cut| table.by(&derive_in(&robot, &[derived], cut), &q, &wrench).unwrap();
+            let floor = CANCELLED * terms(&arm, output, &q, &wrench);
+            let worst = relative(&at(cut), &at(0), floor);
+            prop_assert!(worst <= 1e-11, "{worst:e}\n{}", table.text);
         }
     }
 
     #[test]
     fn passes_change_nothing_but_the_cost(
-        text in robot(), off in 0usize..5, output in 0usize..14, seed in any::<u64>()
+        table in table(1..=9), off in 0usize..5, output in 0usize..14, seed in any::<u64>()
     ) {
-        let (robot, _) = Robot::from_toml(&text, "random").unwrap();
-        let arm = stiffarm_gap::robot::arm(&robot).unwrap();
-        let mut draws = Draws::new(seed);
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
+        let (arm, q, wrench) = drawn(&table, seed);
+        let robot = table.robot();
         let passes = match off {
             0 => Passes { frame: false, ..Passes::ALL },
             1 => Passes { sums: false, ..Passes::ALL },
@@ -138,12 +81,38 @@ proptest! {
             _ => Passes::NONE,
         };
         let (output, derived) = (Output::EACH[output], Derived::EACH[output]);
-        let all = derive(&robot, &[derived]).evaluate(&q, &wrench, |_| f64::NAN);
-        let some = derive_with(&robot, &[derived], passes).evaluate(&q, &wrench, |_| f64::NAN);
-        if let (Ok(all), Ok(some)) = (all, some) {
+        let all = table.by(&derive(&robot, &[derived]), &q, &wrench);
+        let some = table.by(&derive_with(&robot, &[derived], passes), &q, &wrench);
+        prop_assert_eq!(all.is_some(), some.is_some());
+        if let (Some(all), Some(some)) = (all, some) {
             let floor = CANCELLED * terms(&arm, output, &q, &wrench);
-            let worst = relative(&some[0], &all[0], floor);
-            prop_assert!(worst <= 1e-11, "{} {passes:?} {worst:e}\n{text}", output.name());
+            let worst = relative(&some, &all, floor);
+            prop_assert!(worst <= 1e-11, "{} {passes:?} {worst:e}\n{}", output.name(), table.text);
+        }
+    }
+}
+
+proptest! {
+    // Each case has six boundaries to find.
+    #![proptest_config(cases(60))]
+
+    #[test]
+    fn the_graph_refuses_what_the_textbook_refuses(table in table(1..=9), seed in any::<u64>()) {
+        let (arm, q, _) = drawn(&table, seed);
+        let robot = table.robot();
+        let mut draws = Draws::new(seed ^ 1);
+        for kind in KINDS {
+            let direction = kind.direction(&mut draws);
+            for (output, derived) in [
+                (Output::Deflection, Derived::Deflection),
+                (Output::DeflectionWithGravity, Derived::DeflectionWithGravity),
+            ] {
+                let Some([borne, refused]) = around(&arm, output, &q, &direction, f64::EPSILON)
+                else { continue };
+                let program = derive(&robot, &[derived]);
+                prop_assert!(table.by(&program, &q, &borne).is_some(), "{kind:?}\n{}", table.text);
+                prop_assert!(table.by(&program, &q, &refused).is_none(), "{kind:?}\n{}", table.text);
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The robots whose text is looked at: the collection, the odd tables of the parity tests, long arms.
+//! The robots whose text is looked at: the collection, the fixtures of the parity tests, long arms.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use stiffarm_codegen::robot::{Robot, Source, parse_tokens};
@@ -12,9 +12,9 @@ pub fn collection() -> Vec<(&'static str, &'static str, Robot)> {
     numeric.chain(symbolic).map(read).collect()
 }
 
-/// The invocations of `robot!` with which the parity tests make their odd tables.
+/// The invocations of `robot!` with which the parity tests make their fixtures.
 pub fn invocations() -> Vec<TokenStream> {
-    let source: TokenStream = include_str!("../parity/zoo.rs").parse().expect("Rust");
+    let source: TokenStream = include_str!("../parity/fixtures.rs").parse().expect("Rust");
     let tokens: Vec<TokenTree> = source.into_iter().collect();
     let invocation = |window: &[TokenTree]| match window {
         [TokenTree::Ident(name), TokenTree::Punct(_), TokenTree::Group(input)]
@@ -25,7 +25,7 @@ pub fn invocations() -> Vec<TokenStream> {
         _ => None,
     };
     let found: Vec<TokenStream> = tokens.windows(3).filter_map(invocation).collect();
-    assert!(found.len() >= 5, "the odd tables are found");
+    assert!(found.len() >= 5, "the fixtures are found");
     found
 }
 

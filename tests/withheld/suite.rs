@@ -3,7 +3,7 @@
 use stiffarm_gap::Options;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Effect, Noise};
+use stiffarm_gap::plant::{Noise, effects};
 use stiffarm_gap::withhold::{Case, Plan, Report, with_findings, withhold};
 
 use crate::arms::arm;
@@ -54,8 +54,8 @@ pub fn run(setting: &Setting, cases: usize) -> Report {
     };
     let rows = design(setting.seed).rows(&arm);
     let fresh = [1000, 2000, 3000, 4000].map(|more| design(setting.seed + more).rows(&arm));
-    let predict = with_findings(&arm);
     let options = Options { version: "test".to_owned(), ..Options::default() };
+    let predict = with_findings(&arm, &options.catalogue);
     let plan = Plan {
         arm: &arm,
         design: &rows,
@@ -63,7 +63,7 @@ pub fn run(setting: &Setting, cases: usize) -> Report {
         predict: Some(&predict),
         noise: Noise { position: 30e-6, rotation: 0.1e-3 },
         frames: None,
-        effects: &Effect::ALL,
+        effects: &effects(),
         cases,
         multiple: [8.0, 20.0],
         seed: setting.seed,

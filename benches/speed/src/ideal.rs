@@ -232,7 +232,7 @@ pub struct All<S> {
 /// All together, from one set of sines and cosines.
 ///
 /// # Errors
-/// `Unstable` where a pivot is not positive.
+/// `Unstable` where the symmetric part of `Kθ − K_C` is not positive definite.
 #[inline(always)]
 pub fn all<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<All<S>, Unstable> {
     let angles = [q[0], q[1], q[1] + q[2], q[3], q[4], q[5]];

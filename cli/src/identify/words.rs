@@ -2,7 +2,7 @@
 
 use stiffarm_gap::identify::measured::{Answer, Parameter, Status, Unknown};
 
-use super::{slides, stiffness};
+use super::{is_translation, stiffness};
 use crate::input::source::Source;
 use crate::report::Unit;
 use crate::report::identified::Said;
@@ -20,7 +20,7 @@ fn one(source: &Source, parameter: &Parameter) -> Said {
     let place = parameter.unknown.to_string();
     let is_link = matches!(parameter.unknown, Unknown::Link(_));
     let (unit, size) =
-        if slides(source, parameter.unknown) { ("N/µm", 1e6) } else { ("N·m/rad", 1.0) };
+        if is_translation(source, parameter.unknown) { ("N/µm", 1e6) } else { ("N·m/rad", 1.0) };
     let stiff = |c: f64| stiffness(c).map(|k| short(k / size));
     let file = match parameter.unknown {
         Unknown::Base(_) => "rigid".to_owned(),
@@ -34,7 +34,7 @@ fn one(source: &Source, parameter: &Parameter) -> Said {
         };
         return Said { place, found: "held".to_owned(), interval: String::new(), file, verdict };
     }
-    let [low, high] = parameter.interval;
+    let [low, high] = parameter.interval().unwrap_or([parameter.value; 2]);
     let (found, interval) = if is_link {
         (short(parameter.value), format!("[{} to {}]", short(low), short(high)))
     } else {
@@ -80,12 +80,12 @@ pub fn advice(answer: &Answer) -> Vec<String> {
 
 /// The springs that are not the file's, and what putting them in does to the gap.
 pub fn sentence(source: &Source, answer: &Answer, unit: &Unit, positions: bool) -> String {
-    let outside = |p: &&Parameter| {
-        let [low, high] = p.interval;
-        p.usable() && !(low..=high).contains(&p.file)
+    let mut changed: Vec<&Parameter> =
+        answer.parameters.iter().filter(|p| p.usable() && p.differs()).collect();
+    let surprise = |p: &Parameter| {
+        let deviation = p.spread.map_or(f64::MAX, |s| s.deviation.max(f64::MIN_POSITIVE));
+        ((p.value - p.file) / deviation).abs()
     };
-    let mut changed: Vec<&Parameter> = answer.parameters.iter().filter(outside).collect();
-    let surprise = |p: &Parameter| ((p.value - p.file) / p.deviation.max(f64::MIN_POSITIVE)).abs();
     changed.sort_by(|a, b| surprise(b).total_cmp(&surprise(a)));
     let gap = &answer.gap;
     let size = |s: &stiffarm_gap::identify::measured::Spread| {
@@ -103,7 +103,10 @@ pub fn sentence(source: &Source, answer: &Answer, unit: &Unit, positions: bool) 
     let rest = changed.len().saturating_sub(NAMED);
     let mut named: Vec<String> =
         changed.iter().take(NAMED).map(|p| difference(source, p)).collect();
-    named[0].push_str(" as the robot file says");
+    named[0].push_str(match changed[0].file {
+        0.0 => " where the robot file has none",
+        _ => " as the robot file says",
+    });
     match rest {
         0 => {}
         1 => named.push("1 more differs".to_owned()),

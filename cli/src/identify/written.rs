@@ -23,9 +23,15 @@ pub fn robot(source: &Source, answer: &Answer, data: &str) -> String {
             Unknown::Joint(j) => {
                 let joint = &mut robot.joints[j - 1];
                 joint.stiffness = Some(six(1.0 / parameter.value));
-                let [low, high] = parameter.interval.map(|c| 1.0 / c);
-                let bound = |k: f64| if k > 0.0 { format!("{k:.3e}") } else { "rigid".to_owned() };
-                remarks.push(format!("{unknown}: 95 % from {} to {}.", bound(high), bound(low)));
+                let bound =
+                    |c: f64| if c > 0.0 { format!("{:.3e}", 1.0 / c) } else { "rigid".to_owned() };
+                if let Some([low, high]) = parameter.interval() {
+                    remarks.push(format!(
+                        "{unknown}: 95 % from {} to {}.",
+                        bound(high),
+                        bound(low)
+                    ));
+                }
             }
             Unknown::Link(row) => {
                 if let Some(beam) = &mut robot.joints[row - 1].beam {

@@ -112,7 +112,7 @@ fn values(arm: &Arm, joint: usize, steps: usize) -> Result<Vec<f64>, Failure> {
         (None, stiffarm_kernels::Motion::Revolute) => [-PI, PI],
         (None, stiffarm_kernels::Motion::Prismatic) => {
             return Err(Failure::with_help(
-                format!("--over: joint {} slides and has no limits", joint + 1),
+                format!("--over: joint {} is prismatic and has no limits", joint + 1),
                 "give it `limits` in the robot file",
             ));
         }

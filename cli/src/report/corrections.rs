@@ -4,11 +4,12 @@ use std::collections::HashMap;
 
 use nalgebra::Vector6;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::effects::{Curve, Over};
 use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
 use stiffarm_gap::measurement::Kind;
 
 use super::experiment::{Experiment, Share};
-use super::shape::{Curve, Over, lever, torque};
+use super::shape::{Shaped, lever, torque};
 
 /// The joints (from 0) whose springs were found, with what that adds to the file's compliance.
 pub fn corrected(answer: &Answer) -> impl Iterator<Item = (&Parameter, usize, f64)> + '_ {
@@ -19,12 +20,12 @@ pub fn corrected(answer: &Answer) -> impl Iterator<Item = (&Parameter, usize, f6
 }
 
 /// A correction as a function of the joint's torque.
-pub fn curve((_, joint, change): (&Parameter, usize, f64)) -> Curve<'static> {
-    Curve {
+pub fn curve((_, joint, change): (&Parameter, usize, f64)) -> Shaped<'static> {
+    let value = Box::new(move |torque| change * torque);
+    Shaped {
         title: format!("compliance at joint {}", joint + 1),
         joint,
-        over: Over::Torque,
-        value: Box::new(move |torque| change * torque),
+        curve: Curve { over: Over::Torque, proportional: true, value },
     }
 }
 
@@ -46,11 +47,10 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
             subtract_means(&mut moves, experiment.data);
         }
         let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };
-        let [low, high] = parameter.interval;
         Share {
             place: parameter.unknown.to_string(),
             share: Some(part),
-            found: !(low..=high).contains(&parameter.file),
+            found: parameter.differs(),
         }
     };
     let mut shares: Vec<Share> = corrected(answer).map(share).collect();

@@ -29,7 +29,7 @@ struct Embedded<'a> {
 /// [`serde_json::Error`] if something in it is no JSON.
 pub fn json(report: &Report<'_>) -> Result<String, serde_json::Error> {
     let experiment = report.experiment();
-    let curves = curves(report.found, report.data);
+    let curves = curves(report.found, report.data, &report.options.catalogue);
     let embedded = Embedded {
         rows: rows(&experiment),
         scene: scene(&experiment),

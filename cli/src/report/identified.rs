@@ -18,7 +18,7 @@ use super::forest::{Forest, Multiple, forest};
 use super::page::{SCRIPT, percent};
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
-use super::shape::{Curve, Shape, shape};
+use super::shape::{Shape, Shaped, shape};
 use super::table::{Table, number};
 use super::waterfall::{Step, Waterfall, waterfall};
 use super::words::Unit;
@@ -116,7 +116,7 @@ impl Identified<'_> {
     pub fn html(&self) -> Result<String, askama::Error> {
         let mut experiment = self.experiment();
         experiment.shares = shares(&experiment, self.answer);
-        let curves: Vec<Curve<'_>> = corrected(self.answer).map(curve).collect();
+        let curves: Vec<Shaped<'_>> = corrected(self.answer).map(curve).collect();
         let embedded = Embedded {
             rows: rows(&experiment),
             scene: scene(&experiment),
@@ -169,10 +169,11 @@ impl Identified<'_> {
     fn multiples(&self) -> Vec<Multiple> {
         let parameters = self.answer.parameters.iter().zip(&self.said);
         let multiple = |(p, said): (&Parameter, &Said)| {
-            (p.usable() && p.file > 0.0).then(|| Multiple {
+            let interval = p.interval().filter(|_| p.usable() && p.file > 0.0);
+            interval.map(|interval| Multiple {
                 label: said.place.clone(),
                 value: p.value / p.file,
-                interval: p.interval.map(|end| (end / p.file).max(f64::MIN_POSITIVE)),
+                interval: interval.map(|end| (end / p.file).max(f64::MIN_POSITIVE)),
                 text: format!("{} ×", crate::plot::number(rounded(p.value / p.file))),
             })
         };
@@ -214,7 +215,10 @@ impl Identified<'_> {
         let mut parameters = Table::new(&["place", "value", "low", "high", "robot_file", "held"]);
         for p in &self.answer.parameters {
             let mut row: Vec<Value> = vec![p.unknown.to_string().into()];
-            row.extend([p.value, p.interval[0], p.interval[1], p.file].map(number));
+            let ends = p.interval().map_or([Value::Null, Value::Null], |ends| ends.map(number));
+            row.push(number(p.value));
+            row.extend(ends);
+            row.push(number(p.file));
             row.push((!p.usable()).into());
             parameters.rows.push(row);
         }

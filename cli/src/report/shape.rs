@@ -7,6 +7,7 @@
 use nalgebra::{Vector3, Vector6};
 use serde::Serialize;
 use serde_json::Value;
+use stiffarm_gap::effects::{Curve, Over};
 use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::Motion;
@@ -43,32 +44,19 @@ struct Axis {
     si: f64,
 }
 
-/// Over what a joint's motion is a function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Over {
-    /// What load and weight do to it.
-    Torque,
-    /// Its reading.
-    Reading,
-    /// From which side it came to rest.
-    Direction,
-}
-
 /// What was found at a joint as a function of one thing.
-pub struct Curve<'a> {
+pub struct Shaped<'a> {
     /// What it is.
     pub title: String,
     /// From 0.
     pub joint: usize,
-    /// Its argument.
-    pub over: Over,
-    /// The joint's motion, rad (m).
-    pub value: Box<dyn Fn(f64) -> f64 + 'a>,
+    /// The joint's motion.
+    pub curve: Curve<'a>,
 }
 
 /// A curve with the rows around it; none where its argument does not vary.
-pub fn shape(experiment: &Experiment<'_>, curve: &Curve<'_>) -> Option<Shape> {
-    let Curve { title, joint, over, value } = curve;
+pub fn shape(experiment: &Experiment<'_>, shaped: &Shaped<'_>) -> Option<Shape> {
+    let Shaped { title, joint, curve: Curve { over, value, .. } } = shaped;
     let (joint, over) = (*joint, *over);
     let motion = experiment.arm.joints.get(joint)?.motion;
     let rows = &experiment.data.rows;

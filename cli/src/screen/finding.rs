@@ -128,9 +128,7 @@ impl Screen<'_> {
 
     /// The joint of a compliance that was found.
     fn spring(&self, finding: &Finding) -> Option<&stiffarm_kernels::generic::Joint> {
-        let number =
-            finding.place.strip_prefix("joint ").filter(|_| finding.effect == "joint_compliance");
-        self.arm.joints.get(number?.parse::<usize>().ok()?.checked_sub(1)?)
+        self.effect(finding)?.spring(self.arm, finding.place.parse().ok()?)
     }
 
     /// Stiffness and compliance in pounds and inches, if the file has such units.

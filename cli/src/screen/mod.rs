@@ -12,6 +12,7 @@ mod words;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 use stiffarm_gap::{Diagnosis, Measurements};
@@ -40,6 +41,8 @@ pub struct Screen<'a> {
     pub data: &'a Measurements,
     /// The arm without any finding.
     pub arm: &'a Arm,
+    /// The effects that there are.
+    pub catalogue: &'a Catalogue,
     /// Prefixes of the columns that were used as rivals.
     pub rivals: &'a [String],
     /// Another file, predicted.
@@ -50,11 +53,26 @@ impl Screen<'_> {
     /// The whole screen.
     pub fn text(&self) -> String {
         let sentence = wrapped(&self.sentence(), WIDTH, 0);
-        let parts =
-            [self.head(), format!("\n{sentence}\n"), self.gap(), self.findings(), self.compared()];
+        let parts = [
+            self.head(),
+            self.stopped(),
+            format!("\n{sentence}\n"),
+            self.gap(),
+            self.findings(),
+            self.compared(),
+        ];
         let mut text = parts.concat();
         text.push_str(&self.notes(text.lines().count()));
         text
+    }
+
+    /// Said of a search that was told to stop.
+    fn stopped(&self) -> String {
+        if !self.found.stopped {
+            return String::new();
+        }
+        let text = "Stopped before the search was at its end: there may be more to be found.";
+        format!("{}\n", bad(text))
     }
 
     fn head(&self) -> String {

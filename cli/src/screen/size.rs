@@ -60,18 +60,20 @@ impl Screen<'_> {
     pub(super) fn size(&self, finding: &Finding, p: &ParameterReport) -> Size {
         let alike = finding.parameters.iter().filter(|other| other.unit == p.unit);
         let most = alike.map(|other| other.value.abs()).fold(0.0, f64::max);
-        self.unit(finding.effect, p.unit, most)
+        self.unit(finding, p.unit, most)
     }
 
     /// The unit for numbers up to `most`, inches where the file has them.
-    pub(super) fn unit(&self, effect: &str, unit: &'static str, most: f64) -> Size {
+    pub(super) fn unit(&self, finding: &Finding, unit: &'static str, most: f64) -> Size {
         match unit {
             "m" => {
                 let shown = self.length(most, most);
                 Size { name: shown.name, si: shown.size }
             }
-            "1" if effect == "joint_coupling" => Size::of("rad/rad", most),
-            other => Size::of(other, most),
+            other => {
+                let shown = self.effect(finding).map_or(other, |effect| effect.shown_in(other));
+                Size::of(shown, most)
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is said and written: text, JSON, errors with their place, remarks, progress, files.
 
 pub mod failure;
+pub mod interrupt;
 pub mod json;
 pub mod note;
 pub mod output;

@@ -85,11 +85,28 @@ fn what_a_hanging_weight_does_not_show_is_said() {
     let screen = stiffarm(&["identify", &robot, &data]).good();
     assert!(screen.contains("leaves no trace"), "{screen}");
     assert!(screen.contains("joint 1: to show it, pull along ["), "{screen}");
+    let held = &json(&[&robot, &data])["parameters"][0];
+    assert_eq!(held["status"], "held");
+    assert!(held["ci95"].is_null() && held["stiffness_ci95"].is_null(), "{held}");
     let out = text(&folder.path("stiff.toml"));
     stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
     let toml = std::fs::read_to_string(&out).expect("written");
     assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
     assert!(toml.contains("stiffness = 3800000.0"), "{toml}");
+}
+
+#[test]
+fn a_spring_where_the_file_has_none_is_said_as_such() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 12, &LOADS);
+    let soft = std::fs::read_to_string(&robot).expect("written");
+    let springs = |line: &&str| !line.trim_start().starts_with("stiffness");
+    let rigid: Vec<&str> = soft.lines().filter(springs).collect();
+    let rigid = folder.file("rigid.toml", rigid.join("\n"));
+    let screen = stiffarm(&["identify", &rigid, &data]).good();
+    let said = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("N·m/rad where the robot file has none"), "{screen}");
+    assert!(!said.contains("as the robot file says"), "{screen}");
 }
 
 #[test]

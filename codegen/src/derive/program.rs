@@ -242,6 +242,21 @@ impl Program {
 /// Gaussian elimination of a column-major system whose symmetric part is positive definite.
 fn eliminate(mut a: Vec<f64>, mut b: Vec<f64>) -> Result<Vec<f64>, Unstable> {
     let n = b.len();
+    let mut symmetric: Vec<f64> = (0..n * n).map(|at| a[at] + a[at % n * n + at / n]).collect();
+    reduce(&mut symmetric, &mut vec![0.0; n])?;
+    reduce(&mut a, &mut b)?;
+    for k in (0..n).rev() {
+        b[k] /= a[k * n + k];
+        for i in 0..k {
+            b[i] -= a[k * n + i] * b[k];
+        }
+    }
+    Ok(b)
+}
+
+/// The system as a triangular one.
+fn reduce(a: &mut [f64], b: &mut [f64]) -> Result<(), Unstable> {
+    let n = b.len();
     for k in 0..n {
         let pivot = a[k * n + k];
         if !pivot.is_finite() || pivot <= 0.0 {
@@ -255,11 +270,5 @@ fn eliminate(mut a: Vec<f64>, mut b: Vec<f64>) -> Result<Vec<f64>, Unstable> {
             b[i] -= factor * b[k];
         }
     }
-    for k in (0..n).rev() {
-        b[k] /= a[k * n + k];
-        for i in 0..k {
-            b[i] -= a[k * n + i] * b[k];
-        }
-    }
-    Ok(b)
+    Ok(())
 }

@@ -90,8 +90,8 @@ impl Turn {
         if self.is_constant() {
             let total = self.radians.to_f64() + to_radians(self.pi);
             return (
-                g.number(Number::rounded(libm::sin(total))),
-                g.number(Number::rounded(libm::cos(total))),
+                g.number(Number::cosine(libm::sin(total))),
+                g.number(Number::cosine(libm::cos(total))),
             );
         }
         let quarters = (self.pi * 2).floor();
@@ -99,7 +99,7 @@ impl Turn {
         let constant = match (*rest.numer() == 0, self.radians.is_zero()) {
             (true, _) => self.radians,
             (false, true) => Number::rounded(to_radians(rest)),
-            (false, false) => Number::rounded(to_radians(rest) + self.radians.to_f64()),
+            (false, false) => Number::rounded(to_radians(rest)) + self.radians,
         };
         let constant = g.number(constant);
         let angle = g.add(self.variable, constant);

@@ -31,8 +31,8 @@ pub enum CompensateError {
         /// As given.
         found: f64,
     },
-    /// A sliding joint without limits cannot be searched.
-    #[error("joint {joint} slides and has no limits: give it limits, or a start")]
+    /// A prismatic joint without limits cannot be searched.
+    #[error("joint {joint} is prismatic and has no limits: give it limits, or a start")]
     Unlimited {
         /// From 1.
         joint: usize,

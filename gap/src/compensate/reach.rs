@@ -218,7 +218,7 @@ fn unlimited(arm: &Arm) -> Option<usize> {
     arm.joints.iter().position(free).map(|k| k + 1)
 }
 
-/// What random starts are drawn from; none if a joint slides without limits.
+/// What random starts are drawn from; none if a prismatic joint has no limits.
 fn bounds(arm: &Arm) -> Option<Vec<[f64; 2]>> {
     unlimited(arm)
         .is_none()

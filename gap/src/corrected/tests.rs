@@ -2,8 +2,10 @@
 
 use stiffarm_kernels::generic;
 
+use nalgebra::Vector6;
+
 use super::*;
-use crate::diagnose::{Options, diagnose_with};
+use crate::diagnose::{Finding, Options, diagnose_with};
 use crate::effects::{CATALOGUE, Spot};
 use crate::fixture::{row, table};
 use crate::measurement::Kind;
@@ -60,11 +62,11 @@ fn put(robot: &Robot, effect: &str, place: &str, values: &[f64]) -> (Vec<Fate>, 
     let data = table(vec![row(&q, w), row(&q, w)], Kind::Pose { orientation: true });
     let effect = *CATALOGUE.iter().find(|e| e.identifier() == effect).unwrap();
     let at = effect.places(&nominal).into_iter().find(|p| p.to_string() == place).unwrap();
-    let parameters = effect.parameters(&nominal, Spot::at(at), &data);
+    let parameters = effect.parameters(&nominal, Spot::at(at));
     assert_eq!(parameters.len(), values.len());
     let reports = parameters.iter().zip(values).map(|(p, &value)| {
         let ci95 = [value, value];
-        ParameterReport { name: p.name.to_string(), value, unit: p.unit, ci95 }
+        ParameterReport { name: p.name.to_string(), value, unit: p.quantity.unit(), ci95 }
     });
     let mut diagnosed = diagnose_with(&nominal, &data_of(&nominal), &quick(), &|_| {}).unwrap();
     diagnosed.diagnosis.findings = vec![Finding {
@@ -143,7 +145,7 @@ fn a_link_without_mass_is_weighed_at_its_middle() {
     assert_eq!(fates, [Fate::PutIn("mass of joint 4".to_owned())]);
     assert!(off < 1e-10, "{off}");
     assert_eq!(found.joints[3].com[0].number().unwrap().to_f64(), -0.1);
-    // Seen from its frame the middle of a row that slides, or begins with `a`, moves with q.
+    // Seen from its frame the middle of a prismatic row, or one that begins with `a`, moves with q.
     for (modified, link) in [(false, "link 3"), (true, "link 2")] {
         let (fates, found, _) = put(&robot(modified), "link_weight", link, &[3.0]);
         assert!(matches!(fates[..], [Fate::LeftOut(_)]), "{fates:?}");

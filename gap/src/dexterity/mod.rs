@@ -59,8 +59,8 @@ pub enum DexterityError {
         /// Smallest singular value of J over the largest.
         ratio: f64,
     },
-    /// A sliding joint without limits cannot be searched.
-    #[error("joint {joint} slides and has no limits: give it limits to search between")]
+    /// A prismatic joint without limits cannot be searched.
+    #[error("joint {joint} is prismatic and has no limits: give it limits to search between")]
     Unlimited {
         /// From 1.
         joint: usize,

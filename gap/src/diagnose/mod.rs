@@ -33,12 +33,13 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use crate::effects::ParameterReport;
 pub use options::{DiagnoseError, Nuisance, Options};
-pub use progress::Stage;
+pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, FoundEffect, Prediction};
 pub use report::{
     Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, NoiseReport,
-    NuisanceReport, ParameterReport, Part, Rival, Share, Shrink, Slice, Unexplained,
+    NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
 };
 
 use crate::gap::Statistics;
@@ -94,13 +95,13 @@ pub fn diagnose_with(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let model = fit::aligned(&problem)?;
-    let begun =
-        Search { problem: &problem, folds: &folds, candidates: &[], options }.begin(model)?;
+    let first = Search { problem: &problem, folds: &folds, candidates: &[], options, progress };
+    let begun = first.begin(model)?;
     let before = begun.fit.predicted.gaps.clone();
     let size = Statistics::of(&before);
     let is_there =
         size.position_max > ROUNDING * (1.0 + problem.reach) || size.rotation_rms > ROUNDING;
-    let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
+    let search = Search { candidates: &candidates, ..first };
     let seen = search.first(&begun);
     let cannot_see = search.cannot_see(&effects, &begun, &seen);
     let gauge = search.gauges(&seen);
@@ -112,11 +113,11 @@ pub fn diagnose_with(
     if !is_there {
         candidates.clear();
     }
-    let search = Search { problem: &problem, folds: &folds, candidates: &candidates, options };
-    let first = begun.fit.model.clone();
+    let search = Search { candidates: &candidates, ..first };
+    let nominal = begun.fit.model.clone();
     let start = begun.without_states();
-    let explained = search.explain(begun, &|found| progress(Stage::Search(found)))?;
-    let (explained, judged) = search.judged(&start, explained, &before, is_there, progress)?;
+    let explained = search.explain(begun)?;
+    let (explained, judged) = search.judged(&start, explained, &before, is_there)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
     let statistics = Statistics::of(&after);
     let compared = compared.iter().map(|r| r.compare(data, &after, options.seed)).collect();
@@ -136,10 +137,16 @@ pub fn diagnose_with(
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
         covers: verdict::cover(&problem),
         rivals: (!options.rivals.is_empty()).then_some(compared),
+        stopped: options.stop.is_asked(),
     };
     let spread = search.spread(&explained);
-    let explanation =
-        Explanation::new(&problem, [first, explained.fit.model], spread, &diagnosis.covers);
+    let explanation = Explanation::new(
+        &problem,
+        [nominal, explained.fit.model],
+        spread,
+        &diagnosis.covers,
+        &options.catalogue,
+    );
     Ok(Diagnosed { diagnosis, explanation })
 }
 

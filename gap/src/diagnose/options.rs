@@ -1,6 +1,7 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
-use crate::effects::{CATALOGUE, Effect};
+use super::progress::Stop;
+use crate::effects::{BaseFrame, Catalogue, Effect, ToolFrame};
 use crate::measurement::nearest;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
@@ -13,27 +14,38 @@ pub enum Nuisance {
 }
 
 impl Nuisance {
-    /// By its identifier, `base_frame` or `tool_frame`.
+    /// Both.
+    pub const ALL: [Nuisance; 2] = [Nuisance::BaseFrame, Nuisance::ToolFrame];
+
+    /// The effect that moves the frame.
+    pub fn effect(self) -> &'static dyn Effect {
+        match self {
+            Self::BaseFrame => &BaseFrame,
+            Self::ToolFrame => &ToolFrame,
+        }
+    }
+
+    /// The frame that an effect moves, if that is all it does.
+    pub fn of(effect: &dyn Effect) -> Option<Self> {
+        Self::ALL.into_iter().find(|frame| frame.effect() == effect)
+    }
+
+    /// By its effect's identifier.
     ///
     /// # Errors
     /// [`DiagnoseError::UnknownNuisance`].
     pub fn parse(found: &str) -> Result<Self, DiagnoseError> {
-        match found.trim() {
-            "base_frame" => Ok(Self::BaseFrame),
-            "tool_frame" => Ok(Self::ToolFrame),
-            _ => Err(DiagnoseError::UnknownNuisance {
+        Self::ALL.into_iter().find(|frame| frame.identifier() == found.trim()).ok_or_else(|| {
+            DiagnoseError::UnknownNuisance {
                 found: found.to_owned(),
-                suggestion: nearest(found, ["base_frame", "tool_frame"]),
-            }),
-        }
+                suggestion: nearest(found, Self::ALL.map(Self::identifier)),
+            }
+        })
     }
 
-    /// Its identifier.
+    /// Its effect's identifier.
     pub fn identifier(self) -> &'static str {
-        match self {
-            Self::BaseFrame => "base_frame",
-            Self::ToolFrame => "tool_frame",
-        }
+        self.effect().identifier()
     }
 }
 
@@ -50,13 +62,17 @@ pub struct Options {
     pub noise_position: Option<f64>,
     /// Standard deviation of each measured component of a rotation, rad.
     pub noise_rotation: Option<f64>,
-    /// Identifiers of the effects to be tried; `None` is all.
+    /// The effects that there are: stiffarm's, and one's own.
+    pub catalogue: Catalogue,
+    /// Identifiers of those to be tried; `None` is all.
     pub effects: Option<Vec<String>>,
     /// Frames that are known to be unknown.
     pub nuisances: Vec<Nuisance>,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,
+    /// Ends the search early when it is asked.
+    pub stop: Stop,
 }
 
 /// Why there is no diagnosis. Every message that concerns the data names the file.
@@ -138,19 +154,16 @@ impl Options {
     /// [`DiagnoseError::UnknownEffect`] for a name that is not in the catalogue.
     pub(crate) fn effects(&self) -> Result<Vec<&'static dyn Effect>, DiagnoseError> {
         // A frame that is fitted along is no finding.
-        let fitted =
-            |e: &&dyn Effect| self.nuisances.iter().any(|n| n.identifier() == e.identifier());
-        let all = CATALOGUE.into_iter().filter(|e| !fitted(e));
+        let fitted = |e: &&dyn Effect| self.nuisances.iter().any(|n| n.effect() == *e);
+        let all = self.catalogue.iter().filter(|e| !fitted(e));
         let Some(names) = &self.effects else { return Ok(all.collect()) };
-        for found in names {
-            if !CATALOGUE.iter().any(|e| e.identifier() == found) {
-                let known: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
-                return Err(DiagnoseError::UnknownEffect {
-                    found: found.clone(),
-                    suggestion: nearest(found, known.iter().copied()),
-                    known: known.join(", "),
-                });
-            }
+        if let Some(found) = names.iter().find(|name| self.catalogue.named(name).is_none()) {
+            let known = self.catalogue.identifiers();
+            return Err(DiagnoseError::UnknownEffect {
+                found: found.clone(),
+                suggestion: nearest(found, known.iter().copied()),
+                known: known.join(", "),
+            });
         }
         Ok(all.filter(|e| names.iter().any(|n| n == e.identifier())).collect())
     }
@@ -173,7 +186,10 @@ mod tests {
 
     #[test]
     fn effects_are_chosen_by_name() {
-        assert_eq!(Options::default().effects().unwrap().len(), CATALOGUE.len());
+        assert_eq!(
+            Options::default().effects().unwrap().len(),
+            Catalogue::default().iter().count()
+        );
         let only = |name: &str| {
             Options { effects: Some(vec![name.to_owned()]), ..Options::default() }.effects().err()
         };

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::effects::ParameterReport;
 use crate::gap::Statistics;
 
 /// The result of a diagnosis. Serialised, it is the format's JSON; every number is finite.
@@ -43,6 +44,9 @@ pub struct Diagnosis {
     /// Other models' predictions against this one's; only if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rivals: Option<Vec<Rival>>,
+    /// Whether it was told to stop before the search was at its end: there may be more to be found.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub stopped: bool,
 }
 
 /// A number of the geometry that is one with others: only a sum of them is seen.
@@ -167,19 +171,6 @@ pub struct Finding {
     /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
     /// if all are separable.
     pub to_separate: Option<String>,
-}
-
-/// One fitted number.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParameterReport {
-    /// What it is.
-    pub name: String,
-    /// Its value, added to what the robot file has.
-    pub value: f64,
-    /// Of the value.
-    pub unit: &'static str,
-    /// 95 % interval: least squares, the residual's variance, Student's t.
-    pub ci95: [f64; 2],
 }
 
 /// The gap on measurements that no fit has seen: position, m (rotation, rad, if no position is

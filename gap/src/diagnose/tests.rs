@@ -433,3 +433,29 @@ fn fewer_rows_than_parameters_are_refused() {
          measure more"
     );
 }
+
+/// A search that is told to stop after its first finding keeps it, and says that it was stopped.
+#[test]
+fn what_was_found_before_a_stop_is_told() {
+    let arm = bent();
+    let data = data(24, [4e-6, 6e-6, 8e-6], 1e-5, 3);
+    let options = Options::default();
+    let tried = std::sync::Mutex::new(Vec::new());
+    let diagnosed = diagnose_with(&arm, &data, &options, &|stage| {
+        if let Stage::Try(_, effect, place) = stage {
+            tried.lock().unwrap().push((effect, place));
+        }
+        if stage == Stage::Search(1) {
+            options.stop.ask();
+        }
+    });
+    let stopped = diagnosed.unwrap().diagnosis;
+    assert!(stopped.stopped && stopped.findings.len() == 1, "{:?}", stopped.findings);
+    let (effect, place) = tried.lock().unwrap()[0];
+    assert_eq!(
+        (effect, place.to_string()),
+        (stopped.findings[0].effect, stopped.findings[0].place.clone())
+    );
+    let whole = diagnose(&arm, &data, &Options::default()).unwrap();
+    assert!(!whole.stopped && whole.findings.len() > 1);
+}

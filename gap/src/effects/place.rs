@@ -1,6 +1,7 @@
 //! Where an effect acts.
 
 use std::fmt;
+use std::str::FromStr;
 
 /// Where an effect acts; numbers count from 1 at the base, as they are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -42,6 +43,22 @@ impl fmt::Display for Place {
     }
 }
 
+/// Reads what [`Place`] prints; spaces are as you like.
+impl FromStr for Place {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let text: String = text.split_whitespace().collect();
+        let number = |prefix: &str| -> Option<usize> {
+            text.strip_prefix(prefix)?.parse().ok().filter(|number| *number > 0)
+        };
+        let numbered =
+            number("joint").map(Place::Joint).or_else(|| number("link").map(Place::Link));
+        let named = [Place::Base, Place::Tool, Place::Arm, Place::Instrument];
+        numbered.or_else(|| named.into_iter().find(|p| p.to_string() == text)).ok_or(())
+    }
+}
+
 /// A place and a form of the effect there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Spot {
@@ -72,6 +89,10 @@ mod tests {
         assert_eq!(Place::Joint(2).to_string(), "joint 2");
         assert_eq!(Place::Link(3).to_string(), "link 3");
         assert_eq!(Place::Instrument.to_string(), "instrument");
+        for place in [Place::Joint(12), Place::Link(1), Place::Base, Place::Arm] {
+            assert_eq!(place.to_string().parse(), Ok(place));
+        }
+        assert_eq!(("joint3".parse(), "joint 0".parse::<Place>()), (Ok(Place::Joint(3)), Err(())));
         assert_eq!((Place::Link(3).row(), Place::Base.row()), (2, 0));
     }
 }

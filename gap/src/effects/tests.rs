@@ -7,20 +7,20 @@ use stiffarm_kernels::generic::{Arm, Convention};
 use super::*;
 use crate::fixture::{bent, row, springy, table};
 use crate::measurement::{Kind, Measurements};
-use crate::simulate::{Reading, Sim, moments};
+use crate::simulate::{Actual, Reading, Sim, moments};
 
-/// An arm of each convention, one with a slide; soft enough for loads to matter.
+/// An arm of each convention, one with a prismatic joint; soft enough for loads to matter.
 fn arms() -> Vec<Arm> {
     let mut modified = bent();
     modified.convention = Convention::Modified;
-    let mut slide = bent();
-    slide.joints[2].motion = Motion::Prismatic;
-    slide.joints[2].alpha = 0.4;
+    let mut prismatic = bent();
+    prismatic.joints[2].motion = Motion::Prismatic;
+    prismatic.joints[2].alpha = 0.4;
     let mut plain = springy();
     plain.convention = Convention::Modified;
-    let mut plain_slide = slide.clone();
-    plain_slide.joints.iter_mut().for_each(|j| j.beam = None);
-    vec![bent(), modified, slide, springy(), plain, plain_slide]
+    let mut plain_prismatic = prismatic.clone();
+    plain_prismatic.joints.iter_mut().for_each(|j| j.beam = None);
+    vec![bent(), modified, prismatic, springy(), plain, plain_prismatic]
 }
 
 fn data(kind: Kind) -> Measurements {
@@ -57,7 +57,7 @@ fn both(
             actual
         }
     };
-    let count = effect.parameters(arm, spot, data).len();
+    let count = effect.parameters(arm, spot).len();
     let zero = vec![0.0; count];
     let [x, y, z] = row.offset.unwrap_or_default();
     let measured = Isometry3::translation(x, y, z);
@@ -136,7 +136,7 @@ fn a_joint_is_at_most_rigid() {
     let arm = bent();
     let data = data(Kind::Pose { orientation: true });
     let spot = Spot::at(Place::Joint(2));
-    let parameters = JointCompliance.parameters(&arm, spot, &data);
+    let parameters = JointCompliance.parameters(&arm, spot);
     assert_eq!(parameters[0].least, -arm.joints[1].compliance);
     let mut actual = Actual::new(&arm, &[0.0; 3], &Vector6::zeros());
     JointCompliance.alter(&mut actual, &data.rows[0], &moments(&data)[0], spot, &[-1.0]);

@@ -24,7 +24,7 @@ pub struct Pull {
     pub q: Vec<f64>,
     /// Unit vector in base axes: of a force on the tool origin, or of a moment.
     pub direction: Vector3<f64>,
-    /// Distance of the force's line from the joint's axis, m (1 for a sliding joint); none for a
+    /// Distance of the force's line from the joint's axis, m (1 for a prismatic joint); none for a
     /// moment.
     pub lever: Option<f64>,
 }

@@ -144,6 +144,11 @@ pub struct ExtraColumn {
 }
 
 impl Measurements {
+    /// Whether every row has a time.
+    pub fn is_timed(&self) -> bool {
+        self.rows.iter().all(|row| row.time.is_some())
+    }
+
     /// Reads a measurement file for a robot of the given layout.
     ///
     /// # Errors

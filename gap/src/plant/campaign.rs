@@ -1,9 +1,10 @@
 //! A campaign as it is: an arm that does not come back to the same place, readings that flutter, an
 //! instrument with heavy tails, and now and then a row that is just wrong.
 
-use super::noise::{Dice, Noise, Stream};
+use super::noise::Noise;
 use super::observe::Shown;
 use super::{Plant, PlantError, only};
+use crate::dice::{Dice, Stream};
 use crate::measurement::Measurements;
 
 /// An instrument whose errors are Student's t.

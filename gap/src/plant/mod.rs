@@ -1,7 +1,7 @@
 //! A plant: the real arm with chosen effects, to be measured by a diagnosis that is not told.
 //!
-//! It shares with the diagnosis the robot file's table, the rows that are to be measured, and the
-//! definition of the effects; nothing else. Its transforms are its own 4×4 products, every effect
+//! It shares with the diagnosis the robot file's table, the rows that are to be measured, and names,
+//! places and parameters of the effects; nothing else. Its transforms are its own 4×4 products, every effect
 //! is a true transform or number at its place, and equilibrium is found on the deformed arm from
 //! the work that the loads do in each displacement, not by passing wrenches down the chain.
 //!
@@ -17,11 +17,10 @@ mod assemble;
 mod balance;
 mod campaign;
 mod chain;
-mod effect;
 mod law;
-pub(crate) mod noise;
+mod laws;
+mod noise;
 mod observe;
-mod quantity;
 mod reading;
 mod reality;
 mod text;
@@ -33,13 +32,13 @@ pub mod design;
 use stiffarm_kernels::generic::Arm;
 
 pub use campaign::{Campaign, Instrument, Scatter};
-pub use effect::{Effect, MOST_ORDERS, Place};
-pub use noise::{Dice, Noise, Stream};
+pub use laws::{effects, has_law};
+pub use noise::Noise;
 pub use observe::Frames;
-pub use quantity::Quantity;
 pub use text::csv;
 pub use truth::{Truth, TruthError};
 
+use crate::dice::{Dice, Stream};
 use crate::measurement::{Measurements, Row};
 use observe::{InOrder, Shown};
 use reality::Reality;
@@ -194,7 +193,7 @@ fn in_order(design: &Measurements, k: usize) -> InOrder<'_> {
 
 /// Measurements with noise added. Of a rotation of which only some components are measured, those
 /// are what is disturbed.
-pub(crate) fn blurred(exact: &Measurements, noise: Noise, seed: u64) -> Measurements {
+pub fn blurred(exact: &Measurements, noise: Noise, seed: u64) -> Measurements {
     let mut dice = Dice::new(seed, Stream::Noise);
     let components = exact.kind.components();
     let mut measured = exact.clone();

@@ -5,10 +5,11 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector6};
 use super::assemble::Situation;
 use super::balance::{Unstable, rest};
 use super::campaign::Instrument;
-use super::noise::{Dice, Noise, Stream};
+use super::noise::Noise;
 use super::reading::direction;
-use super::reality::{Reality, Slip};
+use super::reality::{Jump, Reality};
 use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
+use crate::dice::{Dice, Stream};
 use crate::measurement::{Kind, Row};
 
 /// Frames that nobody knows.
@@ -123,7 +124,7 @@ impl InOrder<'_> {
 
 impl Reality {
     fn situation(&self, at: InOrder<'_>, wrench: &Vector6<f64>) -> Situation {
-        let after = |slips: &[Slip]| {
+        let after = |slips: &[Jump]| {
             let over = slips.iter().filter(|slip| at.number > slip.after);
             over.map(|slip| slip.by).sum::<Vector6<f64>>()
         };

@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::Motion;
 
-use super::effect::Order;
+use super::laws::Order;
 use super::reality::{RealJoint, Reality};
 use crate::measurement::Row;
 

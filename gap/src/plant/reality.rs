@@ -4,7 +4,7 @@ use nalgebra::{Matrix4, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention};
 
-use super::effect::{Effect, Order, Place, order};
+use super::laws::{Order, law};
 use super::transform;
 use super::truth::Truth;
 
@@ -31,8 +31,8 @@ pub(super) struct Reality {
     pub(super) instrument_scale: f64,
     /// Per second, or per row.
     pub(super) drift: Vector6<f64>,
-    pub(super) base_slips: Vec<Slip>,
-    pub(super) tool_slips: Vec<Slip>,
+    pub(super) base_slips: Vec<Jump>,
+    pub(super) tool_slips: Vec<Jump>,
     /// How much of the loaded geometry the user's sim leaves out.
     pub(super) geometric: f64,
 }
@@ -84,7 +84,7 @@ pub(super) struct RealBeam {
 
 /// A frame that jumps.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slip {
+pub(super) struct Jump {
     /// The last row before it, counted from 1.
     pub(super) after: usize,
     pub(super) by: Vector6<f64>,
@@ -102,11 +102,6 @@ impl RealBeam {
             line_density: beam.density * beam.area,
         }
     }
-}
-
-fn sixfold(truth: &Truth) -> Vector6<f64> {
-    let names = ["x", "y", "z", "rx", "ry", "rz"];
-    Vector6::from_fn(|k, _| truth.value(names[k]))
 }
 
 impl Reality {
@@ -161,7 +156,13 @@ impl Reality {
     pub(super) fn new(arm: &Arm, truths: &[Truth]) -> Result<Reality, String> {
         let mut reality = Reality::nominal(arm);
         for truth in truths {
-            reality.put(truth);
+            let put = law(truth.effect).ok_or_else(|| {
+                format!(
+                    "plant has no law for {}: simulate it by its own",
+                    truth.effect.identifier()
+                )
+            })?;
+            put(&mut reality, truth);
         }
         for (j, joint) in reality.joints.iter().enumerate() {
             let beam = joint.beam.unwrap_or_default();
@@ -181,37 +182,6 @@ impl Reality {
         not_negative("giving compliance of the base", reality.give)?;
         Ok(reality)
     }
-
-    fn put(&mut self, truth: &Truth) {
-        let value = |name: &str| truth.value(name);
-        match truth.place {
-            Place::Joint(i) => return self.joints[i - 1].put_at_joint(truth),
-            Place::Link(i) => return self.joints[i - 1].put_at_link(truth),
-            _ => {}
-        }
-        let slip = Slip { after: value("after") as usize, by: sixfold(truth) };
-        match (truth.effect, truth.place) {
-            (Effect::BaseFrame, _) => self.base_frame += sixfold(truth),
-            (Effect::ToolFrame, _) => self.tool_frame += sixfold(truth),
-            (Effect::BaseCompliance, _) => {
-                self.rock[0] += value("rock_x");
-                self.rock[1] += value("rock_y");
-                self.give += value("give");
-            }
-            (Effect::WrenchScale, _) => self.wrench_scale += value("scale"),
-            (Effect::PayloadCom, _) => {
-                self.payload += Vector3::new(value("x"), value("y"), value("z"));
-            }
-            (Effect::ThermalGrowth, _) => self.expansion += value("expansion"),
-            (Effect::InstrumentScale, _) => self.instrument_scale += value("scale"),
-            (Effect::Drift, _) => self.drift += sixfold(truth),
-            (Effect::Slip, Place::Tool) => self.tool_slips.push(slip),
-            (Effect::Slip, _) => self.base_slips.push(slip),
-            (Effect::GeometricStiffness, _) => self.geometric += value("fraction"),
-            // The others act at joints and links.
-            _ => {}
-        }
-    }
 }
 
 fn not_negative(what: &str, total: f64) -> Result<(), String> {
@@ -219,57 +189,4 @@ fn not_negative(what: &str, total: f64) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("the {what} comes to {total:e}, expected at least 0: make the effect smaller"))
-}
-
-impl RealJoint {
-    fn put_at_joint(&mut self, truth: &Truth) {
-        let value = |name: &str| truth.value(name);
-        match truth.effect {
-            Effect::JointOffset => self.offset += value("offset"),
-            Effect::JointCompliance => self.compliance += value("compliance"),
-            Effect::JointHardening => self.cubic += value("cubic"),
-            Effect::BearingCompliance => {
-                self.tilt[0] += value("tilt_x");
-                self.tilt[1] += value("tilt_y");
-            }
-            Effect::Backlash => self.width += value("width"),
-            Effect::FrictionHysteresis => self.windup += value("windup"),
-            Effect::JointRatio => self.ratio += value("ratio"),
-            Effect::SettlingLag => self.lag += value("fraction"),
-            Effect::TransmissionError => {
-                let terms = truth.values.iter().filter_map(|(n, v)| order(n).map(|o| (o, *v)));
-                self.orders.extend(terms);
-            }
-            Effect::JointCoupling => {
-                let number = |name: &str| name.strip_prefix("joint ")?.parse::<usize>().ok();
-                let terms = truth.values.iter().filter_map(|(n, v)| Some((number(n)? - 1, *v)));
-                self.couplings.extend(terms);
-            }
-            // The others do not act at joints.
-            _ => {}
-        }
-    }
-
-    fn put_at_link(&mut self, truth: &Truth) {
-        let value = |name: &str| truth.value(name);
-        match truth.effect {
-            Effect::LinkGeometry => {
-                self.theta += value("theta");
-                self.d += value("d");
-                self.a += value("a");
-                self.alpha += value("alpha");
-                self.beta += value("beta");
-            }
-            Effect::LinkWeight if self.mass > 0.0 => self.mass += value("mass"),
-            Effect::LinkWeight => self.mass_on_chord += value("mass"),
-            Effect::LinkCompliance => {
-                let beam = self.beam.get_or_insert_default();
-                beam.bend_y += value("bending");
-                beam.bend_z += value("bending");
-                beam.torsion += value("torsion");
-            }
-            // The others do not act at links.
-            _ => {}
-        }
-    }
 }

@@ -4,10 +4,11 @@ use stiffarm_kernels::generic::{Arm, Convention};
 use super::assemble::Situation;
 use super::balance::rest;
 use super::chain::{Chain, Part};
-use super::noise::{Dice, Stream};
 use super::reality::Reality;
 use super::transform::{carried, rotation, rotation_vector};
-use super::{Effect, Place, Truth, TruthError};
+use super::{Truth, TruthError, effects};
+use crate::dice::{Dice, Stream};
+use crate::effects::{Backlash, Effect, Place};
 use crate::fixture;
 
 fn truth(text: &str, arm: &Arm) -> Truth {
@@ -150,7 +151,7 @@ fn refused(text: &str) -> String {
 fn truths_are_read() {
     let arm = fixture::springy();
     let one = truth("backlash@joint 2=0.3 mrad", &arm);
-    assert_eq!((one.effect, one.place), (Effect::Backlash, Place::Joint(2)));
+    assert_eq!((one.effect, one.place), (&Backlash as &dyn Effect, Place::Joint(2)));
     assert_eq!(one.values, [("width".to_owned(), 0.3e-3)]);
     let two = truth("tool_frame@tool:x=1mm, rz=0.5mrad", &arm);
     assert_eq!((two.value("x"), two.value("rz"), two.value("y")), (1e-3, 0.5e-3, 0.0));
@@ -194,11 +195,11 @@ fn mistakes_say_what_was_found_and_expected() {
 #[test]
 fn every_effect_has_its_parameters_everywhere() {
     for arm in [fixture::bent(), fixture::springy()] {
-        for effect in Effect::ALL {
-            assert_eq!(Effect::named(effect.identifier()), Some(effect));
+        for effect in effects() {
             for place in effect.places(&arm) {
-                for (name, quantity) in effect.parameters(&arm, place) {
-                    assert_eq!(effect.quantity(&arm, place, &name), Some(quantity));
+                for number in effect.numbers(&arm, place) {
+                    let found = effect.number(&arm, place, &number.name);
+                    assert_eq!(found.map(|(_, found)| found), Some(number));
                 }
             }
         }

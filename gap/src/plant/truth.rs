@@ -14,14 +14,15 @@ use core::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
-use super::effect::{Effect, Place};
+use super::laws::effects;
+use crate::effects::{Effect, Forms, Parameter, Place, Spot};
 use crate::measurement::nearest;
 
 /// One effect at one place, with its size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// What reality does.
-    pub effect: Effect,
+    pub effect: &'static dyn Effect,
     /// Where.
     pub place: Place,
     /// Names and values of its parameters, SI; those not named are 0.
@@ -68,7 +69,8 @@ impl Truth {
             Some((name, place)) => (name.trim(), Some(place.trim())),
             None => (head.trim(), None),
         };
-        let effect = Effect::named(name).ok_or_else(|| wrong(unknown_effect(name)))?;
+        let known = effects().into_iter().find(|effect| effect.identifier() == name);
+        let effect = known.ok_or_else(|| wrong(unknown_effect(name)))?;
         let place = read_place(effect, place, arm).map_err(wrong)?;
         let values = match size.strip_prefix(':') {
             Some(list) => named_values(effect, place, arm, list).map_err(wrong)?,
@@ -80,6 +82,11 @@ impl Truth {
         let truth = Truth { effect, place, values };
         truth.check(arm).map_err(wrong)?;
         Ok(truth)
+    }
+
+    /// The spots of the effect with the values of all parameters there.
+    pub fn spots(&self, arm: &Arm) -> Vec<(Spot, Vec<f64>)> {
+        self.effect.spots(arm, self.place, &self.values)
     }
 
     /// The value of a parameter; 0 if it is not named.
@@ -97,7 +104,7 @@ impl Truth {
             return Err(cannot_act(*effect, &place.to_string(), arm));
         }
         for (k, (name, value)) in values.iter().enumerate() {
-            if effect.quantity(arm, *place, name).is_none() {
+            if effect.number(arm, *place, name).is_none() {
                 return Err(unknown_parameter(*effect, *place, arm, name));
             }
             if !value.is_finite() {
@@ -107,11 +114,14 @@ impl Truth {
                 return Err(format!("found `{name}` twice, expected one value for it"));
             }
         }
-        if *effect == Effect::Slip && !values.iter().any(|(name, _)| name == "after") {
-            let expected = "expected the row after which it slips: `slip@tool:after=40,x=0.3mm`";
-            return Err(format!("found no `after`, {expected}"));
+        let form = effect.form_number().map(|number| number.name);
+        let is_form = |name: &String| form.as_deref() == Some(name);
+        if let Some(form) = form.as_deref().filter(|_| !values.iter().any(|(n, _)| is_form(n))) {
+            let at = format!("{}@{place}", effect.identifier());
+            let expected = format!("expected the row after which it happens: `{at}:{form}=40,…`");
+            return Err(format!("found no `{form}`, {expected}"));
         }
-        if values.iter().all(|(name, value)| name == "after" || *value == 0.0) {
+        if values.iter().all(|(name, value)| is_form(name) || *value == 0.0) {
             let names = effect.names(arm, *place);
             return Err(format!("found nothing but zeros, expected a size for {names}"));
         }
@@ -120,12 +130,12 @@ impl Truth {
 }
 
 fn unknown_effect(found: &str) -> String {
-    let all = Effect::ALL.map(Effect::identifier);
-    let near = did_you_mean(nearest(found, all));
+    let all: Vec<&str> = effects().into_iter().map(Effect::identifier).collect();
+    let near = did_you_mean(nearest(found, all.iter().copied()));
     format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
 }
 
-fn cannot_act(effect: Effect, found: &str, arm: &Arm) -> String {
+fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
     let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
     let name = effect.identifier();
     if places.is_empty() {
@@ -135,7 +145,7 @@ fn cannot_act(effect: Effect, found: &str, arm: &Arm) -> String {
     format!("found the place `{found}`, expected one of {} for {name}{near}", places.join(", "))
 }
 
-fn read_place(effect: Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
+fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
     let places = effect.places(arm);
     let Some(found) = found else {
         return match places.as_slice() {
@@ -149,9 +159,9 @@ fn read_place(effect: Effect, found: Option<&str>, arm: &Arm) -> Result<Place, S
     meant.ok_or_else(|| cannot_act(effect, found, arm))
 }
 
-fn unknown_parameter(effect: Effect, place: Place, arm: &Arm, found: &str) -> String {
-    let known: Vec<String> = effect.parameters(arm, place).into_iter().map(|(n, _)| n).collect();
-    let near = did_you_mean(nearest(found, known.iter().map(String::as_str)));
+fn unknown_parameter(effect: &dyn Effect, place: Place, arm: &Arm, found: &str) -> String {
+    let known = effect.numbers(arm, place);
+    let near = did_you_mean(nearest(found, known.iter().map(|p| p.name.as_ref())));
     let names = effect.names(arm, place);
     format!(
         "found the parameter `{found}`, expected {names} for {} at {place}{near}",
@@ -160,14 +170,14 @@ fn unknown_parameter(effect: Effect, place: Place, arm: &Arm, found: &str) -> St
 }
 
 fn read_value(
-    effect: Effect,
+    effect: &dyn Effect,
     place: Place,
     arm: &Arm,
     name: &str,
     text: &str,
 ) -> Result<(String, f64), String> {
-    let quantity = effect
-        .quantity(arm, place, name)
+    let (_, Parameter { quantity, .. }) = effect
+        .number(arm, place, name)
         .ok_or_else(|| unknown_parameter(effect, place, arm, name))?;
     let value = quantity.read(text).ok_or_else(|| {
         let found = text.trim();
@@ -177,15 +187,14 @@ fn read_value(
 }
 
 fn first_value(
-    effect: Effect,
+    effect: &dyn Effect,
     place: Place,
     arm: &Arm,
     text: &str,
 ) -> Result<(String, f64), String> {
-    let parameters = effect.parameters(arm, place);
-    let natural = !matches!(effect, Effect::JointCoupling | Effect::Slip);
-    match parameters.first().filter(|_| natural) {
-        Some((name, _)) => read_value(effect, place, arm, name, text),
+    let natural = !matches!(effect.forms_are(), Forms::Joints | Forms::Rows);
+    match effect.numbers(arm, place).first().filter(|_| natural) {
+        Some(first) => read_value(effect, place, arm, &first.name, text),
         None => Err(format!(
             "found a size without a name, expected {} for {}: `{}@{place}:NAME=VALUE`",
             effect.names(arm, place),
@@ -196,7 +205,7 @@ fn first_value(
 }
 
 fn named_values(
-    effect: Effect,
+    effect: &dyn Effect,
     place: Place,
     arm: &Arm,
     list: &str,

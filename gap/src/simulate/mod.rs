@@ -12,8 +12,10 @@ mod rest;
 mod sim;
 mod site;
 mod state;
+mod tangent;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_kernels::Unstable;

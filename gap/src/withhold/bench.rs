@@ -2,11 +2,14 @@
 
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
 
-use super::draw::{resized, typical};
+use super::draw::resized;
+use super::exact;
 use super::{Plan, WithholdError};
+use crate::diagnose::Nuisance;
+use crate::dice::Dice;
+use crate::effects::{Draw, Effect, Place};
 use crate::measurement::Measurements;
-use crate::plant::noise::Dice;
-use crate::plant::{Effect, Place, Plant, PlantError, Truth};
+use crate::plant::{PlantError, Truth};
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -38,7 +41,7 @@ impl<'a> Bench<'a> {
                 return Err(WithholdError::NoNoise { what });
             }
         }
-        let nominal = plant(plan, &[])?.exact(plan.design)?;
+        let nominal = exact(plan.arm, &[], plan.frames.as_ref(), plan.design)?;
         let mut bench = Bench { plan, nominal, nuisance: None };
         if plan.frames.is_some() {
             bench.nuisance = Some(bench.what_frames_do()?);
@@ -48,12 +51,17 @@ impl<'a> Bench<'a> {
 
     /// What an instrument without noise shows of these truths.
     pub(super) fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
-        plant(self.plan, truths)?.exact(self.plan.design)
+        exact(self.plan.arm, truths, self.plan.frames.as_ref(), self.plan.design)
     }
 
     /// An effect at a place of chance, its gap about `multiple` times the noise. `None` if it does
     /// not show anywhere on this design.
-    pub(super) fn plant(&self, effect: Effect, multiple: f64, dice: &mut Dice) -> Option<Planted> {
+    pub(super) fn plant(
+        &self,
+        effect: &'static dyn Effect,
+        multiple: f64,
+        dice: &mut Dice,
+    ) -> Option<Planted> {
         let mut places = effect.places(self.plan.arm);
         dice.shuffle(&mut places);
         places.into_iter().find_map(|place| self.plant_at(effect, place, multiple, dice))
@@ -61,15 +69,15 @@ impl<'a> Bench<'a> {
 
     fn plant_at(
         &self,
-        effect: Effect,
+        effect: &'static dyn Effect,
         place: Place,
         multiple: f64,
         dice: &mut Dice,
     ) -> Option<Planted> {
         let Plan { arm, design, .. } = self.plan;
-        let first = typical(effect, place, arm, design, dice);
-        if effect == Effect::GeometricStiffness {
-            // It has the size that it has.
+        let values = effect.draw(&mut Draw::new(arm, place, design, dice));
+        let first = Truth { effect, place, values };
+        if effect.has_one_size() {
             return self.shown(first).filter(|planted| planted.multiple >= multiple);
         }
         let mut planted = self.shown(first)?;
@@ -119,11 +127,13 @@ impl<'a> Bench<'a> {
 
     fn what_frames_do(&self) -> Result<DMatrix<f64>, PlantError> {
         let mut columns = Vec::new();
-        for (effect, place) in [(Effect::BaseFrame, Place::Base), (Effect::ToolFrame, Place::Tool)]
-        {
-            for name in ["x", "y", "z", "rx", "ry", "rz"] {
-                let truth = Truth { effect, place, values: vec![(name.to_owned(), 1e-5)] };
-                columns.push(self.whitened(&self.exact(&[truth])?));
+        for effect in Nuisance::ALL.map(Nuisance::effect) {
+            let places = effect.places(self.plan.arm).into_iter();
+            for (place, number) in places
+                .flat_map(|p| effect.numbers(self.plan.arm, p).into_iter().map(move |n| (p, n)))
+            {
+                let values = vec![(number.name.into_owned(), 1e-5)];
+                columns.push(self.whitened(&self.exact(&[Truth { effect, place, values }])?));
             }
         }
         Ok(orthonormal(columns))
@@ -145,14 +155,6 @@ fn orthonormal(columns: Vec<DVector<f64>>) -> DMatrix<f64> {
         }
     }
     if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
-}
-
-fn plant(plan: &Plan<'_>, truths: &[Truth]) -> Result<Plant, PlantError> {
-    let plant = Plant::new(plan.arm, truths)?;
-    Ok(match &plan.frames {
-        Some(frames) => plant.with_frames(frames.clone()),
-        None => plant,
-    })
 }
 
 /// Measured less predicted; of whole rotations the rotation vector between them.

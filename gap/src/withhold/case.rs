@@ -2,9 +2,14 @@
 
 use super::Kind;
 use super::bench::{Bench, Planted};
+use crate::diagnose::Nuisance;
+use crate::dice::{Dice, Stream, seed_of};
+use crate::effects::Effect;
 use crate::measurement::Measurements;
-use crate::plant::noise::{Dice, Stream, seed_of};
-use crate::plant::{Effect, PlantError};
+use crate::plant::PlantError;
+
+/// Effects in some order.
+type Effects = Vec<&'static dyn Effect>;
 
 /// A case before it is diagnosed.
 pub(super) struct Setup {
@@ -35,12 +40,16 @@ impl Bench<'_> {
     ///
     /// # Errors
     /// [`PlantError`] if two effects together are too much for the arm.
-    pub(super) fn set_up(&self, k: usize, effects: &[Effect]) -> Result<Setup, PlantError> {
+    pub(super) fn set_up(
+        &self,
+        k: usize,
+        effects: &[&'static dyn Effect],
+    ) -> Result<Setup, PlantError> {
         let (kind, nth) = turn(k);
         let seed = seed_of(self.plan.seed, k);
         let mut dice = Dice::new(seed, Stream::Truths);
         let [low, high] = self.plan.multiple;
-        let mut put = |effect: Effect| {
+        let mut put = |effect: &'static dyn Effect| {
             let multiple = dice.between(low, high);
             self.plant(effect, multiple, &mut dice)
         };
@@ -77,13 +86,12 @@ impl Bench<'_> {
 
     /// Which of the plan's effects show on this design at some place, in random order, and which do
     /// not.
-    pub(super) fn shows(&self) -> (Vec<Effect>, Vec<Effect>) {
+    pub(super) fn shows(&self) -> (Effects, Effects) {
         let [_, high] = self.plan.multiple;
-        let moves_frames =
-            |effect: &Effect| matches!(effect, Effect::BaseFrame | Effect::ToolFrame);
+        let moves_frames = |effect: &&dyn Effect| Nuisance::of(*effect).is_some();
         let wanted = self.plan.effects.iter().copied();
         let to_be_put = wanted.filter(|e| self.plan.frames.is_none() || !moves_frames(e));
-        let (mut shown, hidden): (Vec<Effect>, Vec<Effect>) = to_be_put.partition(|effect| {
+        let (mut shown, hidden): (Effects, Effects) = to_be_put.partition(|effect| {
             let mut dice = Dice::new(self.plan.seed, Stream::Truths);
             self.plant(*effect, high, &mut dice).is_some()
         });

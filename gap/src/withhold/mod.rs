@@ -7,6 +7,7 @@
 mod bench;
 mod case;
 mod draw;
+mod exact;
 mod predict;
 mod report;
 mod run;
@@ -15,15 +16,17 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
-pub use draw::{resized, typical};
+pub use draw::resized;
+pub use exact::exact;
 pub use predict::{Predict, with_findings};
 pub use report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
 pub use run::withhold;
 pub use verdict::Verdict;
 
 use crate::diagnose::{DiagnoseError, Options};
+use crate::effects::Effect;
 use crate::measurement::Measurements;
-use crate::plant::{Effect, Frames, Noise, PlantError};
+use crate::plant::{Frames, Noise, PlantError};
 
 /// What kind of case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -56,7 +59,7 @@ pub struct Plan<'a> {
     /// them are then not put in.
     pub frames: Option<Frames>,
     /// The effects that are put in.
-    pub effects: &'a [Effect],
+    pub effects: &'a [&'static dyn Effect],
     /// Number of cases.
     pub cases: usize,
     /// The size of an effect's gap in multiples of the noise: from, to.

@@ -4,9 +4,11 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use super::bench::difference;
+use super::exact;
 use crate::diagnose::Diagnosis;
+use crate::effects::Catalogue;
 use crate::measurement::Measurements;
-use crate::plant::{Effect, Plant, Truth};
+use crate::plant::Truth;
 
 /// What the arm with a diagnosis' findings is predicted to read in each row of a design; `None`
 /// where the findings do not say. Only position and orientation as a file has them.
@@ -14,23 +16,23 @@ pub type Predict<'a> = dyn Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f
 
 /// The prediction of a plant that has the findings, with the values that were found: what they mean
 /// by the definition of the effects, whatever the diagnosis itself makes of them.
-pub fn with_findings(
-    arm: &Arm,
-) -> impl Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f64>>> + Sync + '_ {
-    |found, design| {
+pub fn with_findings<'a>(
+    arm: &'a Arm,
+    catalogue: &'a Catalogue,
+) -> impl Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f64>>> + Sync + 'a {
+    move |found, design| {
         let truths: Option<Vec<Truth>> = found
             .findings
             .iter()
             .map(|finding| {
-                let effect = Effect::named(finding.effect)?;
-                let place =
-                    effect.places(arm).into_iter().find(|p| p.to_string() == finding.place)?;
+                let effect = catalogue.named(finding.effect)?;
+                let place = finding.place.parse().ok()?;
                 let values = finding.parameters.iter().filter(|p| p.value != 0.0);
                 let values = values.map(|p| (p.name.to_string(), p.value)).collect();
                 Some(Truth { effect, place, values })
             })
             .collect();
-        let exact = Plant::new(arm, &truths?).ok()?.exact(design).ok()?;
+        let exact = exact(arm, &truths?, None, design).ok()?;
         Some(exact.rows.into_iter().map(|row| row.measured).collect())
     }
 }

@@ -7,11 +7,10 @@ use super::case::Setup;
 use super::predict::squares;
 use super::report::{Case, Named, Report};
 use super::verdict::Verdict;
-use super::{Kind, Plan, WithholdError, summary};
+use super::{Kind, Plan, WithholdError, exact, summary};
 use crate::diagnose::{DiagnoseError, Diagnosis, Options, diagnose};
-use crate::effects::CATALOGUE;
-use crate::plant::noise::seed_of;
-use crate::plant::{Plant, Truth, blurred};
+use crate::dice::seed_of;
+use crate::plant::{Truth, blurred};
 
 /// Runs the check. `progress` is told how many cases of how many are done; the result does not
 /// depend on how many are worked on at once.
@@ -98,7 +97,7 @@ fn options(plan: &Plan<'_>, setup: &Setup, labels: &[Named]) -> Options {
     options.noise_position = Some(plan.noise.position).filter(|_| components[..3].contains(&true));
     options.noise_rotation = Some(plan.noise.rotation).filter(|_| components[3..].contains(&true));
     if setup.kind == Kind::Removed {
-        let known = CATALOGUE.iter().map(|effect| effect.identifier().to_string());
+        let known = options.catalogue.identifiers().into_iter().map(str::to_owned);
         let allowed = |name: &String| options.effects.as_ref().is_none_or(|e| e.contains(name));
         let removed = |name: &String| labels.iter().any(|label| label.effect == *name);
         options.effects = Some(known.filter(|name| allowed(name) && !removed(name)).collect());
@@ -123,13 +122,12 @@ fn in_noise(plan: &Plan<'_>, verdict: &Verdict) -> f64 {
 fn realised_of(plan: &Plan<'_>, setup: &Setup, found: &Diagnosis) -> Option<f64> {
     let predict = plan.predict?;
     let truths: Vec<Truth> = setup.planted.iter().map(|p| p.truth.clone()).collect();
-    let real = Plant::new(plan.arm, &truths).ok()?;
-    let nominal = Plant::new(plan.arm, &[]).ok()?;
     let (mut before, mut after) = (0.0, 0.0);
     for (k, fresh) in plan.fresh.iter().enumerate() {
         let seed = seed_of(setup.seed, k);
-        let measured = real.measure(fresh, plan.noise, seed).ok()?;
-        let sums = squares(&measured, &nominal.exact(fresh).ok()?, &predict(found, fresh)?);
+        let shown = |truths: &[Truth]| exact(plan.arm, truths, None, fresh).ok();
+        let measured = blurred(&shown(&truths)?, plan.noise, seed);
+        let sums = squares(&measured, &shown(&[])?, &predict(found, fresh)?);
         before += sums[0];
         after += sums[1];
     }

@@ -6,13 +6,17 @@ use stiffarm_kernels::generic::{Arm, Convention};
 
 use super::report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
 use super::{Kind, Plan};
-use crate::plant::Effect;
+use crate::effects::Effect;
 
 /// Up to this many times the noise a gap counts as closed.
 const CLOSED: f64 = 1.2;
 
 /// The result of some cases.
-pub(super) fn report(plan: &Plan<'_>, cases: Vec<Case>, hidden: Vec<Effect>) -> Report {
+pub(super) fn report(
+    plan: &Plan<'_>,
+    cases: Vec<Case>,
+    hidden: Vec<&'static dyn Effect>,
+) -> Report {
     let of = |kind: Kind| cases.iter().filter(move |case| case.kind == kind);
     let known = || of(Kind::Single).chain(of(Kind::Pair));
     let open = |case: &&Case| is_unexplained(case) || !case.after.is_some_and(|x| x <= CLOSED);
@@ -49,7 +53,7 @@ pub(super) fn report(plan: &Plan<'_>, cases: Vec<Case>, hidden: Vec<Effect>) -> 
             median: median(known().filter_map(|case| case.after).collect()),
         },
         shrink: shrunk(&cases),
-        confusion: confusion(of(Kind::Single)),
+        confusion: confusion(plan, of(Kind::Single)),
         cannot_plant: hidden.into_iter().map(Effect::identifier).collect(),
         failed: cases.iter().filter(|case| case.verdict.is_none()).count(),
         cases,
@@ -120,11 +124,12 @@ fn shrunk(cases: &[Case]) -> Option<Shrunk> {
     Some(Shrunk { median_off: median(off)?, inside: Rate::of(pairs.iter().map(inside)) })
 }
 
-fn confusion<'a>(cases: impl Iterator<Item = &'a Case>) -> Vec<Confusion> {
+fn confusion<'a>(plan: &Plan<'_>, cases: impl Iterator<Item = &'a Case>) -> Vec<Confusion> {
     let mut counts: BTreeMap<(&'static str, Option<String>, bool), usize> = BTreeMap::new();
     for case in cases {
         let Some(label) = case.labels.first() else { continue };
-        let Some(truth) = Effect::named(&label.effect) else { continue };
+        let truth = plan.effects.iter().find(|e| e.identifier() == label.effect);
+        let Some(truth) = truth else { continue };
         let named = first(case);
         let at_its_place = named.is_some_and(|named| named.place == label.place);
         let key = (truth.identifier(), named.map(|n| n.effect.clone()), at_its_place);

@@ -1,4 +1,7 @@
 use super::*;
+use crate::effects::{
+    Backlash, BaseFrame, Catalogue, JointCompliance, JointOffset, JointRatio, WrenchScale,
+};
 use crate::fixture;
 use crate::measurement;
 use crate::plant::design::{Design, Shape};
@@ -10,8 +13,9 @@ fn design(seed: u64) -> Measurements {
 }
 
 fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
+    let catalogue = Catalogue::default();
     let (arm, design, fresh) = (fixture::springy(), design(1), [design(2), design(3)]);
-    let predict = with_findings(&arm);
+    let predict = with_findings(&arm, &catalogue);
     let options =
         Options { effects: Some(vec!["joint_compliance".to_owned()]), ..Options::default() };
     let mut plan = Plan {
@@ -21,7 +25,7 @@ fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
         predict: Some(&predict),
         noise: Noise { position: 3e-5, rotation: 1e-4 },
         frames: None,
-        effects: &[Effect::JointCompliance],
+        effects: &[&JointCompliance],
         cases: 20,
         multiple: [8.0, 20.0],
         seed: 4,
@@ -69,7 +73,7 @@ fn what_does_not_show_is_said() {
         predict: None,
         noise: Noise { position: 3e-5, rotation: 1e-4 },
         frames: None,
-        effects: &[Effect::WrenchScale, Effect::JointOffset],
+        effects: &[&WrenchScale, &JointOffset],
         cases: 4,
         multiple: [8.0, 20.0],
         seed: 4,
@@ -94,7 +98,7 @@ fn plans_that_make_no_sense_are_refused() {
 #[test]
 fn frames_that_are_unknown_hide_what_moves_them() {
     use super::bench::Bench;
-    use crate::plant::noise::{Dice, Stream};
+    use crate::dice::{Dice, Stream};
     let (arm, design) = (fixture::springy(), design(1));
     let options = Options::default();
     let plan = Plan {
@@ -104,7 +108,7 @@ fn frames_that_are_unknown_hide_what_moves_them() {
         predict: None,
         noise: Noise { position: 3e-5, rotation: 1e-4 },
         frames: Some(Frames::unknown(3)),
-        effects: &Effect::ALL,
+        effects: &crate::plant::effects(),
         cases: 1,
         multiple: [8.0, 20.0],
         seed: 4,
@@ -114,8 +118,11 @@ fn frames_that_are_unknown_hide_what_moves_them() {
     let bench = Bench::new(&plan).unwrap();
     let mut dice = Dice::new(1, Stream::Truths);
     // The first joint's zero is a turn of the base, its ratio is not.
-    let first = bench.plant(Effect::JointRatio, 10.0, &mut dice).unwrap();
+    let first = bench.plant(&JointRatio, 10.0, &mut dice).unwrap();
     assert!((first.multiple - 10.0).abs() < 0.5);
     let (shows, _) = bench.shows();
-    assert!(!shows.contains(&Effect::BaseFrame) && shows.contains(&Effect::Backlash));
+    assert!(
+        !shows.contains(&(&BaseFrame as &dyn Effect))
+            && shows.contains(&(&Backlash as &dyn Effect))
+    );
 }

@@ -59,7 +59,7 @@ impl Arm {
         Ok(self.jacobian(q) * joints + self.links_deflection(q, w) + self.links_sag(q))
     }
 
-    /// `δθ` of all joints under `torque`: `(Kθ − K) δθ = τ` over the compliant joints, 0 for the
+    /// `δθ` of all joints under `torque` where the arm is stable (as in [`crate::solve`]): `(Kθ − K) δθ = τ` over the compliant joints, 0 for the
     /// rigid ones (Dumas et al., eqs. 4-8).
     fn joints_deflection(
         &self,

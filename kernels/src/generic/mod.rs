@@ -29,6 +29,9 @@
 //! * What loads a beam's tip is the tool's wrench and, where weights count, everything beyond the
 //!   tip: the masses of links i..=n and the beams of rows i+1..=n. Its own weight is spread along
 //!   it.
+//! * The loaded geometry belongs to the joints' springs: K_C and K_G enter the deflection of the joints and
+//!   nothing else. Links are of first order: they bend in the posture as it is, in proportion to the
+//!   load. The arm is stable where the joints' `Kθ − K_C` has a positive definite symmetric part.
 //!
 //! # Panics
 //!

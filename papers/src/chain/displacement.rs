@@ -83,8 +83,8 @@ mod tests {
             prop_assert!((twist[(2, 1)] - expected[3]).abs() < 1e-8);
             prop_assert!((twist[(0, 2)] - expected[4]).abs() < 1e-8);
             prop_assert!((twist[(1, 0)] - expected[5]).abs() < 1e-8);
-            let slide = twist.fixed_view::<3, 1>(0, 3);
-            prop_assert!((slide - expected.fixed_rows::<3>(0)).amax() < 1e-8);
+            let shift = twist.fixed_view::<3, 1>(0, 3);
+            prop_assert!((shift - expected.fixed_rows::<3>(0)).amax() < 1e-8);
         }
     }
 }

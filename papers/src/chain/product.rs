@@ -13,7 +13,7 @@ pub fn places(arm: &Arm) -> usize {
 }
 
 /// One row of an arm's table as an arm of one rigid, weightless joint, its link kept.
-pub(super) fn row_alone(arm: &Arm, index: usize) -> Arm {
+pub(super) fn single_row(arm: &Arm, index: usize) -> Arm {
     let mut joint = arm.joints[index].clone();
     (joint.compliance, joint.mass) = (0.0, 0.0);
     Arm {
@@ -40,7 +40,7 @@ pub fn steps(arm: &Arm, q: &[f64]) -> Result<Vec<Isometry3<f64>>, ChainError> {
     }
     let mut steps = vec![Isometry3::identity()];
     for (index, &value) in q.iter().enumerate() {
-        steps.push(row_alone(arm, index).pose(&[value]));
+        steps.push(single_row(arm, index).pose(&[value]));
     }
     steps.push(arm.tool);
     Ok(steps)

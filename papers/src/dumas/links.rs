@@ -19,7 +19,7 @@ use crate::chain::transport::upper;
 pub struct Share {
     /// Row of the table whose beam it is, from 1.
     pub row: usize,
-    /// Twist of the tool by this beam alone, m and rad.
+    /// Twist of the tool by this beam only, m and rad.
     pub twist: Vector6<f64>,
     /// Size of its translation over that of the whole arm's; 0 if nothing moves.
     pub part: f64,

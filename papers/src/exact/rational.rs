@@ -220,7 +220,7 @@ impl Reading {
             Symbol::Wrench(k) => {
                 Ok(self.wrench.get(*k).cloned().unwrap_or_else(|| Rational::number(Ratio::zero())))
             }
-            // A sliding joint's coordinate is a length of its own name.
+            // A prismatic joint's coordinate is a length of its own name.
             Symbol::Joint(joint) => {
                 let name = self.joints.get(*joint).map(ToString::to_string);
                 Ok(Polynomial::symbol(&name.unwrap_or_else(|| format!("q{}", joint + 1))).into())

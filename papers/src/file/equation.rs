@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
-use super::read::{definitions, exact, symbol, tree};
-use super::section::{Notes, Section, Written, string};
-use super::{About, Equation, Relation};
+use super::formulas::{definitions, exact, symbol, tree};
+use super::section::{Notes, Section, string};
+use super::{About, Equation};
 use crate::exact::rational::Rational;
 use crate::latex::formula::{Piece, formula};
 use crate::latex::lexer::lex;
 use crate::latex::notation::Notation;
 use crate::latex::parser::{collect, parse};
 use crate::latex::tree::Angle;
-use crate::matrix;
+use crate::matrix::{self, Relation};
 
 /// The keys of an equation.
 pub(super) const KEYS: &[&str] = &[
@@ -45,7 +45,7 @@ pub(super) fn read(
     let number = section.required("number", notes)?.text;
     let latex = match printed {
         true => section.required("latex", notes)?,
-        false => Written::default(),
+        false => Piece::default(),
     };
     let defined = definitions(section, shared, notation, notes);
     let path = section.string("of", notes).map(About::Path);
@@ -82,7 +82,7 @@ pub(super) fn read(
     let mut lets = Vec::new();
     if let Some(names) = section.section("let", &[], notes) {
         for (name, at, value) in names.entries() {
-            let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
+            let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
             if let (Some(name), Some(path)) = (name, string(value, notes)) {
                 lets.push((name, path));
             }
@@ -115,7 +115,7 @@ pub(super) fn read(
 
 /// What is printed must be made of tokens (whether they make a formula is for the judgement: a
 /// bracket may be missing on paper); a truth must be a formula.
-fn check(latex: &Written, about: Option<&About>, notation: &Notation, notes: &mut Notes<'_>) {
+fn check(latex: &Piece, about: Option<&About>, notation: &Notation, notes: &mut Notes<'_>) {
     let cells = |text: &str| {
         let sides = formula(text).sides.into_iter();
         sides.flat_map(|side| side.rows).flatten().collect::<Vec<Piece>>()
@@ -130,9 +130,9 @@ fn check(latex: &Written, about: Option<&About>, notation: &Notation, notes: &mu
     if let Some(About::Relation(relation)) = about {
         let given = relation.matrices.iter().filter_map(|(_, source)| {
             let text = source.text.strip_prefix('=')?;
-            Some(Written { text: text.to_owned(), at: source.at + 1 })
+            Some(Piece { text: text.to_owned(), at: source.at + 1 })
         });
-        let given: Vec<Written> = given.collect();
+        let given: Vec<Piece> = given.collect();
         for written in core::iter::once(latex).chain(&relation.truth).chain(&given) {
             if let Err((at, why)) = matrix::sides(&written.text) {
                 notes.wrong(written.at + at..written.at + at + 1, why);
@@ -148,7 +148,7 @@ fn check(latex: &Written, about: Option<&About>, notation: &Notation, notes: &mu
     }
 }
 
-fn angle(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<Angle> {
+fn angle(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> Option<Angle> {
     let tree = tree(w, notation, notes)?;
     let mut angle = Angle::default();
     if !collect(&tree, 1.into(), &mut angle) {

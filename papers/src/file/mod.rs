@@ -47,6 +47,7 @@
 //! do not follow. A cell such as `≤ 0.5` is a bound.
 
 mod equation;
+mod formulas;
 mod read;
 mod section;
 mod table;
@@ -54,12 +55,13 @@ mod table;
 use std::collections::{BTreeMap, HashMap};
 
 pub use read::read;
-pub use section::Written;
 pub use table::{Column, Table};
 
 use crate::exact::rational::Rational;
+use crate::latex::formula::Piece;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Angle;
+use crate::matrix::Relation;
 use stiffarm_codegen::robot::Robot;
 
 /// A paper's data file.
@@ -107,7 +109,7 @@ pub struct Equation {
     /// The paper's number, with a name where the number covers several.
     pub number: String,
     /// As printed.
-    pub latex: Written,
+    pub latex: Piece,
     /// What it is an equation of.
     pub about: About,
     /// The robot.
@@ -119,7 +121,7 @@ pub struct Equation {
     /// A product of transforms.
     pub product: Vec<String>,
     /// Derived values of names in `truth`.
-    pub lets: Vec<(String, Written)>,
+    pub lets: Vec<(String, Piece)>,
     /// What names stand for.
     pub defined: HashMap<String, Rational>,
     /// Symbols that grow without bounds.
@@ -131,7 +133,7 @@ pub struct Equation {
     /// What stands in the paper, where `latex` is only the part of it that is judged.
     pub printed: Option<String>,
     /// What should have been printed, where no small change of it does; checked like the equation.
-    pub correct: Option<Written>,
+    pub correct: Option<Piece>,
 }
 
 /// What an equation is an equation of.
@@ -143,31 +145,9 @@ pub enum About {
     /// The same with the reason.
     Definition(String),
     /// A derived quantity.
-    Path(Written),
+    Path(Piece),
     /// A formula.
-    Formula(Written),
+    Formula(Piece),
     /// A relation between matrices.
     Relation(Relation),
-}
-
-/// A relation between matrices: what its symbols stand for, and what it is compared with.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Relation {
-    /// Symbols as printed, and what they stand for.
-    pub matrices: Vec<(String, Written)>,
-    /// The value of the left side, or a condition on it; without one the printed left side itself.
-    pub truth: Option<Written>,
-}
-
-impl Relation {
-    /// What it is compared with, in words.
-    pub fn words(&self) -> String {
-        let truth = self.truth.iter().map(|truth| truth.text.clone());
-        let each =
-            self.matrices.iter().map(|(symbol, source)| match source.text.strip_prefix('=') {
-                Some(formula) => format!("{symbol} = {}", formula.trim()),
-                None => format!("{symbol} is {}", source.text),
-            });
-        truth.chain(each).collect::<Vec<_>>().join(", ")
-    }
 }

@@ -4,14 +4,13 @@ use std::collections::HashMap;
 
 use ::toml::de::DeTable;
 
-use super::section::{Notes, Section, Written, number, string};
+use super::formulas::{definitions, symbol};
+use super::section::{Notes, Section, number, string};
 use super::{Paper, equation, table};
-use crate::exact::rational::Rational;
-use crate::latex::lexer::{Lexeme, lex};
+use crate::latex::formula::Piece;
 use crate::latex::mistake::{Mistake, file_error};
-use crate::latex::notation::{Notation, Slash, key, squeezed};
-use crate::latex::parser::parse;
-use crate::latex::tree::{Function, Tree};
+use crate::latex::notation::{Notation, Slash, squeezed};
+use crate::latex::tree::Function;
 use stiffarm_codegen::robot::{FileError, Robot};
 
 const PAPER: &[&str] =
@@ -66,7 +65,7 @@ fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
     }
     if let Some(values) = root.section("values", &[], notes) {
         for (name, at, value) in values.entries() {
-            let name = symbol(&Written { text: name, at: at.start + 1 }, &out.notation, notes);
+            let name = symbol(&Piece { text: name, at: at.start + 1 }, &out.notation, notes);
             if let (Some(name), Some(value)) = (name, number(value, notes)) {
                 out.values.insert(name, value);
             }
@@ -107,80 +106,6 @@ fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
         _ => Slash::Factor,
     };
     Notation { functions, names: names.into_iter().map(|w| w.text).collect(), slash }
-}
-
-/// The name of a single printed symbol.
-pub(super) fn symbol(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<String> {
-    let at = w.at..w.at + w.text.len();
-    match lex(&w.text, notation).as_deref() {
-        Ok([token]) => {
-            if let Lexeme::Name { base, sub } = &token.is {
-                return Some(key(base, sub.as_deref()));
-            }
-            notes.wrong(at, format!("`{}` is no symbol", w.text));
-        }
-        Ok(_) => notes.wrong(at, format!("`{}` is not one symbol", w.text)),
-        Err(mistake) => notes.mistakes.push(mistake.clone().moved(w.at)),
-    }
-    None
-}
-
-/// A formula of the file.
-pub(super) fn tree(w: &Written, notation: &Notation, notes: &mut Notes<'_>) -> Option<Tree> {
-    parse(&w.text, notation).map_err(|mistake| notes.mistakes.push(mistake.moved(w.at))).ok()
-}
-
-pub(super) fn exact(
-    w: &Written,
-    notation: &Notation,
-    defined: &HashMap<String, Rational>,
-    notes: &mut Notes<'_>,
-) -> Option<Rational> {
-    let tree = tree(w, notation, notes)?;
-    let exact = Rational::of_tree(&tree, defined);
-    let at = w.at..w.at + w.text.len();
-    exact.map_err(|why| notes.wrong(at, format!("this has no exact form: {why:?}"))).ok()
-}
-
-/// The `where` of a table on top of what is defined already; a definition may use another.
-pub(super) fn definitions(
-    section: &Section<'_, '_>,
-    outer: &HashMap<String, Rational>,
-    notation: &Notation,
-    notes: &mut Notes<'_>,
-) -> HashMap<String, Rational> {
-    let mut defined = outer.clone();
-    let Some(section) = section.section("where", &[], notes) else { return defined };
-    let mut open = Vec::new();
-    for (name, at, value) in section.entries() {
-        let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
-        let (Some(name), Some(value)) = (name, string(value, notes)) else { continue };
-        let Some(tree) = tree(&value, notation, notes) else { continue };
-        open.push((name, value, tree));
-    }
-    while !open.is_empty() {
-        let names: Vec<String> = open.iter().map(|(name, ..)| name.clone()).collect();
-        let before = open.len();
-        let mut waiting = Vec::new();
-        for (name, value, tree) in open {
-            let mut waits = false;
-            tree.each_name(&mut |used| waits |= names.iter().any(|n| n == used));
-            if waits {
-                waiting.push((name, value, tree));
-            } else if let Some(exact) = exact(&value, notation, &defined, notes) {
-                defined.insert(name, exact);
-            }
-        }
-        if waiting.len() == before {
-            for (_, value, _) in &waiting {
-                let at = value.at..value.at + value.text.len();
-                notes.wrong(at, "this definition goes round in a circle");
-            }
-            break;
-        }
-        open = waiting;
-    }
-    defined
 }
 
 #[cfg(test)]

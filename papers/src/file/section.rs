@@ -6,16 +6,8 @@ use core::ops::Range;
 use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue};
 
+use crate::latex::formula::Piece;
 use crate::latex::mistake::Mistake;
-
-/// Text of a file and the byte at which it stands there.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Written {
-    /// The text.
-    pub text: String,
-    /// Its first byte in the file.
-    pub at: usize,
-}
 
 /// Mistakes found so far, and the file's text.
 pub struct Notes<'t> {
@@ -73,12 +65,12 @@ impl<'t, 'i> Section<'t, 'i> {
     }
 
     /// A string.
-    pub fn string(&self, key: &str, notes: &mut Notes<'_>) -> Option<Written> {
+    pub fn string(&self, key: &str, notes: &mut Notes<'_>) -> Option<Piece> {
         string(self.get(key)?, notes)
     }
 
     /// A string that must be there.
-    pub fn required(&self, key: &str, notes: &mut Notes<'_>) -> Option<Written> {
+    pub fn required(&self, key: &str, notes: &mut Notes<'_>) -> Option<Piece> {
         if self.get(key).is_none() {
             notes.wrong(self.at(), format!("`{key}` is missing here"));
         }
@@ -86,7 +78,7 @@ impl<'t, 'i> Section<'t, 'i> {
     }
 
     /// A list of strings.
-    pub fn strings(&self, key: &str, notes: &mut Notes<'_>) -> Option<Vec<Written>> {
+    pub fn strings(&self, key: &str, notes: &mut Notes<'_>) -> Option<Vec<Piece>> {
         let values = list(self.get(key)?, notes)?;
         Some(values.iter().filter_map(|v| string(v, notes)).collect())
     }
@@ -113,7 +105,7 @@ impl<'t, 'i> Section<'t, 'i> {
     }
 
     /// Rows of cells, each as it is written in the file.
-    pub fn rows(&self, key: &str, notes: &mut Notes<'_>) -> Vec<Vec<Written>> {
+    pub fn rows(&self, key: &str, notes: &mut Notes<'_>) -> Vec<Vec<Piece>> {
         let Some(rows) = self.get(key).and_then(|v| list(v, notes)) else { return Vec::new() };
         let mut out = Vec::new();
         for row in rows {
@@ -138,7 +130,7 @@ pub fn number(value: &Spanned<DeValue<'_>>, notes: &mut Notes<'_>) -> Option<f64
 }
 
 /// A string and where its text begins.
-pub fn string(value: &Spanned<DeValue<'_>>, notes: &mut Notes<'_>) -> Option<Written> {
+pub fn string(value: &Spanned<DeValue<'_>>, notes: &mut Notes<'_>) -> Option<Piece> {
     let span = value.span();
     let DeValue::String(text) = value.get_ref() else {
         notes.wrong(span, "a string is expected here");
@@ -147,7 +139,7 @@ pub fn string(value: &Spanned<DeValue<'_>>, notes: &mut Notes<'_>) -> Option<Wri
     let raw = notes.text.get(span.clone()).unwrap_or_default();
     // Literal strings stand in the file as they are; in others only the first escape moves places.
     let at = span.start + raw.find(text.as_ref()).unwrap_or(0);
-    Some(Written { text: text.to_string(), at })
+    Some(Piece { text: text.to_string(), at })
 }
 
 fn list<'t, 'i>(

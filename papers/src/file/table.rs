@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::read::{symbol, tree};
-use super::section::{Notes, Section, Written, number};
+use super::formulas::{symbol, tree};
+use super::section::{Notes, Section, number};
+use crate::latex::formula::Piece;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Tree;
 
@@ -15,7 +16,7 @@ pub struct Table {
     /// What the columns hold.
     pub columns: Vec<Column>,
     /// Cells as printed.
-    pub rows: Vec<Vec<Written>>,
+    pub rows: Vec<Vec<Piece>>,
     /// Values of symbols in this table.
     pub values: HashMap<String, f64>,
     /// A remark for the ledger.
@@ -72,7 +73,7 @@ pub(super) fn read(
         let mut equations = Vec::new();
         if let Some(names) = column.section("equations", &[], notes) {
             for (name, at, value) in names.entries() {
-                let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
+                let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
                 let number = super::section::string(value, notes);
                 equations.extend(name.zip(number.map(|w| w.text)));
             }
@@ -96,7 +97,7 @@ pub(super) fn read(
     }
     if let Some(values) = section.section("values", &[], notes) {
         for (name, at, value) in values.entries() {
-            let name = symbol(&Written { text: name, at: at.start + 1 }, notation, notes);
+            let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
             out.values.extend(name.zip(number(value, notes)));
         }
     }

@@ -1,9 +1,9 @@
 //! A printed equation: its left side, its right sides, and the cells of a matrix.
 
-/// A piece of LaTeX and where it begins in the equation.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A piece of text and where it begins in what it stands in: an equation, or a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Piece {
-    /// The text, trimmed.
+    /// The text; of an equation trimmed.
     pub text: String,
     /// Byte at which it begins.
     pub at: usize,

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 
 use super::judge::truth;
-use super::verdict::{Entry, Kind, Verdict};
 use crate::exact::evaluate::{Arithmetic, Real};
 use crate::exact::print::{decimal, short};
 use crate::exact::rational::Rational;
 use crate::file::{Column, Paper, Table};
+use crate::verdict::{Entry, Kind, Verdict};
 
 /// Methods that work out a column of cells, by their names: one value for each row, `None` for a
 /// cell that the method has nothing to say of. An unknown name has no column.

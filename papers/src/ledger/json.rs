@@ -1,76 +1,56 @@
 //! The ledger for machines.
 
-use std::fmt::Write as _;
+use std::io::{self, Write};
 
-use super::verdict::{Entry, Kind};
+use serde::Serialize;
+use serde_json::ser::Formatter;
+
 use crate::ledger::Ledger;
 
 impl Ledger {
-    /// A list of entries in JSON; what is not known is null.
+    /// A list of entries in JSON, one in a line; what is not known is null.
     pub fn to_json(&self) -> String {
-        let entries: Vec<String> = self.entries.iter().map(entry).collect();
-        format!("[\n{}\n]\n", entries.join(",\n"))
+        let mut out = Vec::new();
+        let mut writer = serde_json::Serializer::with_formatter(&mut out, Lines);
+        // Strings, numbers and maps by strings, written to memory: nothing of it can fail.
+        let written = self.entries.serialize(&mut writer);
+        debug_assert!(written.is_ok());
+        out.push(b'\n');
+        String::from_utf8_lossy(&out).into_owned()
     }
 }
 
-fn entry(e: &Entry) -> String {
-    let mut out = String::from("  {");
-    let kind = if e.kind == Kind::Equation { "equation" } else { "cell" };
-    let texts = [
-        ("paper", Some(e.paper.as_str())),
-        ("number", Some(&e.number)),
-        ("kind", Some(kind)),
-        ("printed", Some(&e.printed)),
-        ("verdict", Some(e.verdict.name())),
-        ("correction", e.correction.as_deref()),
-        ("change", e.change.as_deref()),
-        ("source", Some(e.source.as_str()).filter(|s| !s.is_empty())),
-        ("note", e.note.as_deref()),
-    ];
-    for (name, text) in texts {
-        let _ = write!(out, "\"{name}\": {}, ", text.map_or("null".into(), string));
-    }
-    match &e.witness {
-        None => out.push_str("\"witness\": null}"),
-        Some(w) => {
-            let list = |values: &[(String, f64)]| {
-                let each = values.iter().map(|(n, v)| format!("{}: {}", string(n), number(*v)));
-                each.collect::<Vec<_>>().join(", ")
-            };
-            let _ = write!(
-                out,
-                "\"witness\": {{\"degrees\": {{{}}}, \"symbols\": {{{}}}, \"printed\": {}, \
-                 \"derived\": {}}}}}",
-                list(&w.angles),
-                list(&w.symbols),
-                number(w.printed),
-                number(w.derived)
-            );
-        }
-    }
-    out
-}
+/// Entries line by line, spaces behind commas and colons.
+struct Lines;
 
-fn number(x: f64) -> String {
-    if x.is_finite() { format!("{x:?}") } else { "null".into() }
-}
-
-fn string(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            '\n' => out.push_str("\\n"),
-            '\t' => out.push_str("\\t"),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04x}", c as u32);
-            }
-            c => out.push(c),
-        }
+impl Formatter for Lines {
+    fn begin_array<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"[\n")
     }
-    out.push('"');
-    out
+
+    fn begin_array_value<W: Write + ?Sized>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        writer.write_all(if first { b"  " } else { b",\n  " })
+    }
+
+    fn end_array<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"\n]")
+    }
+
+    fn begin_object_key<W: Write + ?Sized>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        writer.write_all(if first { b"" } else { b", " })
+    }
+
+    fn begin_object_value<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
 }
 
 #[cfg(test)]
@@ -85,6 +65,5 @@ mod tests {
         let json = Ledger::of(&[read(text, "x").unwrap()]).to_json();
         assert!(json.contains("\"verdict\": \"misprint\""), "{json}");
         assert!(json.contains("\"degrees\": {\"theta1\": 20.0}"), "{json}");
-        assert_eq!(string("a\"\\\n\u{1}"), "\"a\\\"\\\\\\n\\u0001\"");
     }
 }

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use super::labels::{Member, shifted};
 use super::reader::Reader;
-use super::verdict::{Entry, Kind, Verdict};
 use super::witness::witness;
 use crate::exact::derived::{Setting, derived, limited};
 use crate::exact::product::Matrix;
@@ -14,6 +13,7 @@ use crate::latex::formula::{Formula, formula};
 use crate::latex::lexer::{Token, lex};
 use crate::latex::parser::parse_tokens;
 use crate::mend::{Inventory, Search, mend, written};
+use crate::verdict::{Entry, Kind, Verdict};
 
 fn setting(paper: &Paper, equation: &Equation) -> Setting {
     Setting {

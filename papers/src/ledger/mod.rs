@@ -2,7 +2,6 @@
 
 mod builtin;
 mod cells;
-mod escape;
 mod json;
 mod judge;
 mod labels;
@@ -10,15 +9,14 @@ mod mathml;
 mod page;
 mod reader;
 mod render;
-pub mod verdict;
 mod witness;
 
 pub use builtin::built_in;
 pub use cells::Methods;
 
+use crate::verdict::{Entry, Kind, Verdict};
 use cells::cells;
 use judge::equations;
-use verdict::{Entry, Kind, Verdict};
 
 use crate::exact::print::short;
 use crate::file::Paper;

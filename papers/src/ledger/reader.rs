@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::verdict::Verdict;
 use crate::exact::evaluate::Arithmetic;
 use crate::exact::field::Modular;
 use crate::exact::rational::Rational;
 use crate::latex::lexer::Token;
 use crate::latex::notation::Notation;
 use crate::latex::parser::parse_tokens;
+use crate::verdict::Verdict;
 
 /// Points at which formulas without an exact form are compared.
 const POINTS: u64 = 24;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::verdict::{Entry, Kind, Verdict};
 use crate::ledger::{Ledger, witness_line};
+use crate::verdict::{Entry, Kind, Verdict};
 
 impl Ledger {
     /// A line for each entry, with the correction, the change and the witness below it.

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::verdict::Witness;
 use crate::exact::evaluate::{Arithmetic, Real};
 use crate::exact::rational::Rational;
 use crate::latex::tree::Tree;
+use crate::verdict::Witness;
 
 /// Degrees for angles, in the order of their names.
 const DEGREES: [f64; 9] = [20.0, 35.0, -50.0, 65.0, 40.0, -25.0, 15.0, 70.0, -10.0];

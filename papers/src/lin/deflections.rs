@@ -124,7 +124,7 @@ fn link(arm: &Arm, row: usize, q: f64, pulls: &Pulls) -> Result<LinkDeflection, 
     let before = &pulls.frames[row - 1];
     let mut joint = arm.joints[row - 1].clone();
     (joint.compliance, joint.mass) = (0.0, 0.0);
-    let alone = Arm {
+    let single = Arm {
         name: String::new(),
         convention: arm.convention,
         joints: vec![joint],
@@ -132,7 +132,7 @@ fn link(arm: &Arm, row: usize, q: f64, pulls: &Pulls) -> Result<LinkDeflection, 
         tool_rotation_vector: Vector3::zeros(),
         gravity: before.rotation.inverse() * arm.gravity,
     };
-    let bent = alone.deflection_with_gravity(&[q], &pulls.at_tip(row));
+    let bent = single.deflection_with_gravity(&[q], &pulls.at_tip(row));
     let twist = orientation_jacobian(before) * bent.map_err(|_| CompensateError::Unstable)?;
     Ok(LinkDeflection { row, tip: pulls.frames[row].translation.vector, twist })
 }

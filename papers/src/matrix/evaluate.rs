@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::dense::Dense;
+use super::dense::{Dense, inverse, is_scalar, plus, scalar};
+use super::dense::{blocks, times as multiply};
 use super::tree::{Name, Tree, count};
 
 /// Step of the derivatives by joints, rad: the formula of fourth order errs by 1e-13, and rounding
@@ -58,15 +59,15 @@ impl Point<'_> {
                         "a derivative by all joints stands without what it multiplies".into()
                     );
                 }
-                Ok(Dense::from_fn(shape.0, each.len(), |r, c| each[c].at(r, 0)))
+                Ok(Dense::from_fn(shape.0, each.len(), |r, c| each[c][(r, 0)]))
             }
         }
     }
 
     fn scalar(&self, tree: &Tree) -> Found<f64> {
         let matrix = self.matrix(tree)?;
-        matrix.is_scalar().then(|| matrix.at(0, 0)).ok_or_else(|| {
-            format!("`{}` is {}×{}, not a number", tree.latex(), matrix.rows, matrix.columns)
+        is_scalar(&matrix).then(|| matrix[(0, 0)]).ok_or_else(|| {
+            format!("`{}` is {}×{}, not a number", tree.latex(), matrix.nrows(), matrix.ncols())
         })
     }
 
@@ -74,7 +75,7 @@ impl Point<'_> {
         let one = |matrix| Ok(Value::One(matrix));
         match tree {
             Tree::Number(text) => {
-                one(Dense::scalar(text.parse().map_err(|_| format!("`{text}` is no number"))?))
+                one(scalar(text.parse().map_err(|_| format!("`{text}` is no number"))?))
             }
             Tree::Name(name) => one(self.name(name)?),
             Tree::Sum(terms) => self.sum(terms),
@@ -88,36 +89,38 @@ impl Point<'_> {
             }
             Tree::Quotient(a, b) => {
                 let (a, b) = (self.matrix(a)?, self.scalar(b)?);
-                if b == 0.0 { Err("a division by zero".into()) } else { one(a.scaled(1.0 / b)) }
+                if b == 0.0 { Err("a division by zero".into()) } else { one(a * (1.0 / b)) }
             }
             Tree::Transpose(a) => match self.value(a)? {
-                Value::One(matrix) => one(matrix.transposed()),
-                Value::Stack(each) => {
-                    Ok(Value::Stack(each.iter().map(Dense::transposed).collect()))
-                }
+                Value::One(matrix) => one(matrix.transpose()),
+                Value::Stack(each) => Ok(Value::Stack(each.iter().map(Dense::transpose).collect())),
             },
             Tree::Inverse(a) => {
                 let singular = || format!("`{}` has no inverse", a.latex());
-                one(self.matrix(a)?.inverse().ok_or_else(singular)?)
+                one(inverse(&self.matrix(a)?).ok_or_else(singular)?)
             }
             Tree::Derivative(body, by) => self.derivative(body, by),
-            Tree::Sqrt(a) => one(Dense::scalar(self.scalar(a)?.sqrt())),
+            Tree::Sqrt(a) => one(scalar(self.scalar(a)?.sqrt())),
             Tree::Trace(a) => {
-                let trace = self.matrix(a)?.trace().ok_or("a trace of no square matrix")?;
-                one(Dense::scalar(trace))
+                let matrix = self.matrix(a)?;
+                if !matrix.is_square() {
+                    return Err("a trace of no square matrix".into());
+                }
+                one(scalar(matrix.trace()))
             }
-            Tree::Norm(a) => one(Dense::scalar(self.matrix(a)?.norm())),
+            Tree::Norm(a) => one(scalar(self.matrix(a)?.norm())),
             Tree::Blocks(rows) => one(self.blocks(rows)?),
             Tree::Over { index, from, to, body } => {
                 let bound = |text: &str| {
                     count(text, &self.counted).ok_or_else(|| format!("`{text}` does not count"))
                 };
-                let mut product = Dense::scalar(1.0);
+                let mut product = scalar(1.0);
                 for k in bound(from)?..=bound(to)? {
                     let mut inside = self.clone();
                     inside.counted.insert(index.clone(), k);
                     let factor = inside.matrix(body)?;
-                    product = product.times(&factor).ok_or("the factors' shapes do not fit")?;
+                    product =
+                        multiply(&product, &factor).ok_or("the factors' shapes do not fit")?;
                 }
                 one(product)
             }
@@ -140,11 +143,14 @@ impl Point<'_> {
         for (negative, term) in terms {
             let (value, sign) = (self.matrix(term)?, if *negative { -1.0 } else { 1.0 });
             total = Some(match total {
-                None => value.scaled(sign),
-                Some(sum) => sum.plus(&value, sign).ok_or_else(|| {
+                None => value * sign,
+                Some(sum) => plus(&sum, &value, sign).ok_or_else(|| {
                     format!(
                         "{}×{} and {}×{} are added",
-                        sum.rows, sum.columns, value.rows, value.columns
+                        sum.nrows(),
+                        sum.ncols(),
+                        value.nrows(),
+                        value.ncols()
                     )
                 })?,
             });
@@ -164,10 +170,10 @@ impl Point<'_> {
                 moved.q[joint] += steps * STEP;
                 moved.matrix(body)
             };
-            let near = at(1.0)?.plus(&at(-1.0)?, -1.0).ok_or("shapes that change")?;
-            let far = at(2.0)?.plus(&at(-2.0)?, -1.0).ok_or("shapes that change")?;
-            let sum = near.scaled(8.0).plus(&far, -1.0).ok_or("shapes that change")?;
-            Ok(sum.scaled(1.0 / (12.0 * STEP)))
+            let near = plus(&at(1.0)?, &at(-1.0)?, -1.0).ok_or("shapes that change")?;
+            let far = plus(&at(2.0)?, &at(-2.0)?, -1.0).ok_or("shapes that change")?;
+            let sum = plus(&(near * 8.0), &far, -1.0).ok_or("shapes that change")?;
+            Ok(sum * (1.0 / (12.0 * STEP)))
         };
         match joint {
             Some(joint) => {
@@ -188,44 +194,45 @@ impl Point<'_> {
         if values.iter().any(|row| row.len() != columns) {
             return Err("rows of different lengths".into());
         }
-        let height = |r: usize| values[r].iter().map(|b| b.rows).max().unwrap_or(1);
-        let width = |c: usize| values.iter().map(|row| row[c].columns).max().unwrap_or(1);
+        let height = |r: usize| values[r].iter().map(|b| b.nrows()).max().unwrap_or(1);
+        let width = |c: usize| values.iter().map(|row| row[c].ncols()).max().unwrap_or(1);
         let block = |r: usize, c: usize| {
             let (shape, value) = ((height(r), width(c)), &values[r][c]);
-            if !value.is_scalar() || shape == (1, 1) {
+            if !is_scalar(value) || shape == (1, 1) {
                 return Some(value.clone());
             }
-            let number = value.at(0, 0);
+            let number = value[(0, 0)];
             let fits = number == 0.0 || shape.0 == shape.1;
             let diagonal = |i: usize, j: usize| if i == j { number } else { 0.0 };
             fits.then(|| Dense::from_fn(shape.0, shape.1, diagonal))
         };
         let whole: Option<Vec<Vec<Dense>>> =
             (0..values.len()).map(|r| (0..columns).map(|c| block(r, c)).collect()).collect();
-        whole.and_then(|rows| Dense::blocks(&rows)).ok_or_else(|| "the blocks do not fit".into())
+        whole.and_then(|rows| blocks(&rows)).ok_or_else(|| "the blocks do not fit".into())
     }
 }
 
 /// Columns as a matrix; `None` if they are no columns.
 fn side_by_side(each: &[Dense]) -> Option<Dense> {
     let (rows, columns) = each.first()?.shape();
-    (columns == 1).then(|| Dense::from_fn(rows, each.len(), |r, c| each[c].at(r, 0)))
+    (columns == 1).then(|| Dense::from_fn(rows, each.len(), |r, c| each[c][(r, 0)]))
 }
 
 /// A product; derivatives by all joints times a vector are the columns of a matrix.
 fn times(a: Value, b: Value) -> Option<Value> {
     match (a, b) {
-        (Value::One(a), Value::One(b)) => a.times(&b).map(Value::One),
+        (Value::One(a), Value::One(b)) => multiply(&a, &b).map(Value::One),
         (Value::Stack(each), Value::One(b)) => {
             // The derivatives of a vector are the columns of a matrix.
             if let Some(matrix) = side_by_side(&each) {
-                return matrix.times(&b).map(Value::One);
+                return multiply(&matrix, &b).map(Value::One);
             }
-            let products: Vec<Dense> = each.iter().map(|a| a.times(&b)).collect::<Option<_>>()?;
+            let products: Vec<Dense> =
+                each.iter().map(|a| multiply(a, &b)).collect::<Option<_>>()?;
             Some(side_by_side(&products).map_or(Value::Stack(products), Value::One))
         }
         (Value::One(a), Value::Stack(each)) => {
-            each.iter().map(|b| a.times(b)).collect::<Option<_>>().map(Value::Stack)
+            each.iter().map(|b| multiply(&a, b)).collect::<Option<_>>().map(Value::Stack)
         }
         (Value::Stack(_), Value::Stack(_)) => None,
     }
@@ -246,7 +253,7 @@ mod tests {
             Ok(match key {
                 "A" => Some(Dense::from_fn(2, 2, |r, c| a[r][c])),
                 "v" => Some(Dense::from_fn(2, 1, |r, _| 2.0 - 3.0 * r as f64)),
-                "B_1" | "B_2" => Some(Dense::scalar(if key == "B_1" { 5.0 } else { 7.0 })),
+                "B_1" | "B_2" => Some(scalar(if key == "B_1" { 5.0 } else { 7.0 })),
                 _ => None,
             })
         }
@@ -268,21 +275,21 @@ mod tests {
         let expected = [[2.0 * 2.0 * 0.3 - 0.8, -0.3], [2.0 * 0.3f64.cos(), 0.0]];
         for (r, row) in expected.iter().enumerate() {
             for (c, want) in row.iter().enumerate() {
-                assert!((d.at(r, c) - want).abs() < 1e-11, "{d:?}");
+                assert!((d[(r, c)] - want).abs() < 1e-11, "{d:?}");
             }
         }
         let one = of("\\frac{\\partial A}{\\partial q_2} v").unwrap();
-        assert!((one.at(0, 0) - d.at(0, 1)).abs() < 1e-12);
+        assert!((one[(0, 0)] - d[(0, 1)]).abs() < 1e-12);
         let gradient = of("\\frac{\\partial (A v)}{\\partial q}").unwrap();
-        assert!(gradient.plus(&d, -1.0).unwrap().largest() < 1e-11);
+        assert!((gradient - &d).amax() < 1e-11);
     }
 
     #[test]
     fn products_over_an_index_and_blocks() {
-        assert_eq!(of("\\prod_{j=1}^{n} B_j").unwrap().at(0, 0), 35.0);
-        assert_eq!(of("\\prod_{j=1}^{n-1} B_{j+1}").unwrap().at(0, 0), 7.0);
+        assert_eq!(of("\\prod_{j=1}^{n} B_j").unwrap()[(0, 0)], 35.0);
+        assert_eq!(of("\\prod_{j=1}^{n-1} B_{j+1}").unwrap()[(0, 0)], 7.0);
         let blocks = of("\\begin{bmatrix} A & 0 \\\\ v^T & 1 \\end{bmatrix}").unwrap();
-        assert_eq!((blocks.shape(), blocks.at(0, 2), blocks.at(2, 2)), ((3, 3), 0.0, 1.0));
+        assert_eq!((blocks.shape(), blocks[(0, 2)], blocks[(2, 2)]), ((3, 3), 0.0, 1.0));
     }
 
     #[test]

@@ -5,22 +5,23 @@ mod dense;
 mod evaluate;
 mod mend;
 mod parse;
+mod relation;
 mod source;
 mod transform;
 mod tree;
 
 use std::collections::HashMap;
 
-use dense::Dense;
+use dense::{Dense, is_scalar, plus};
 use evaluate::Point;
 use source::Sources;
 use tree::Tree;
 
 pub(super) use parse::{is_symbol, sides};
+pub use relation::Relation;
 
 use crate::exact::derived::Setting;
-use crate::file::Relation;
-use crate::ledger::verdict::{Entry, Verdict};
+use crate::verdict::{Entry, Verdict};
 
 /// Points at which a relation is evaluated.
 const POINTS: u64 = 4;
@@ -190,12 +191,12 @@ fn of_an_index(what: &str) -> bool {
 
 fn same(a: &Dense, b: &Dense) -> bool {
     // A lone zero stands for zeros of any shape.
-    let zero = |m: &Dense| m.is_scalar() && m.at(0, 0) == 0.0;
-    let size = a.largest().max(b.largest()).max(1.0);
+    let zero = |m: &Dense| is_scalar(m) && m[(0, 0)] == 0.0;
+    let size = a.amax().max(b.amax()).max(1.0);
     if zero(a) || zero(b) {
-        return a.largest().max(b.largest()) <= TOLERANCE * size;
+        return a.amax().max(b.amax()) <= TOLERANCE * size;
     }
-    a.plus(b, -1.0).is_some_and(|difference| difference.largest() <= TOLERANCE * size)
+    plus(a, b, -1.0).is_some_and(|difference| difference.amax() <= TOLERANCE * size)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::dense::Dense;
+use super::dense::{self, Dense};
 use super::evaluate::Symbols;
 use super::parse;
 use super::transform::transform;
@@ -218,7 +218,7 @@ impl Sources {
                 self.random(key, r.min(c) * n + r.max(c)) + *n as f64 * unit(r, c)
             }),
             Source::Diagonal(n) => square(*n, &|r, c| (1.5 + self.random(key, r)) * unit(r, c)),
-            Source::Identity(n) => Dense::identity(*n),
+            Source::Identity(n) => Dense::identity(*n, *n),
             Source::Ones(n) => Dense::from_fn(*n, 1, |_, _| 1.0),
             Source::Output { program, shape: (rows, columns), entry } => {
                 let parameter = |name: &str| self.positive(name);
@@ -226,7 +226,7 @@ impl Sources {
                     .evaluate(q, &self.wrench(), parameter)
                     .map_err(|error| error.to_string())?;
                 let whole = Dense::from_fn(*rows, *columns, |r, c| found[0][c * rows + r]);
-                entry.map_or(whole.clone(), |(r, c)| Dense::scalar(whole.at(r, c)))
+                entry.map_or(whole.clone(), |(r, c)| dense::scalar(whole[(r, c)]))
             }
             Source::Stiffness => {
                 let joints = self.robot.as_ref().map_or(&[][..], |robot| &robot.joints);
@@ -245,7 +245,7 @@ impl Sources {
             Source::PseudoInverse(other) => {
                 let matrix =
                     self.value(other, q)?.ok_or_else(|| format!("`{other}` is unknown"))?;
-                matrix.pseudo_inverse().ok_or("no pseudo-inverse")?
+                dense::pseudo_inverse(&matrix).ok_or("no pseudo-inverse")?
             }
         })
     }
@@ -258,7 +258,7 @@ impl Sources {
 impl Symbols for Sources {
     fn value(&self, key: &str, q: &[f64]) -> Result<Option<Dense>, String> {
         if let Some(n) = self.counted.get(key) {
-            return Ok(Some(Dense::scalar(*n as f64)));
+            return Ok(Some(dense::scalar(*n as f64)));
         }
         // `K_2,kin` is of the family `K_#,kin`.
         let family: String = match key.split_once('_') {

@@ -1,6 +1,6 @@
 use crate::file::read;
 use crate::ledger::Ledger;
-use crate::ledger::verdict::{Entry, Verdict};
+use crate::verdict::{Entry, Verdict};
 
 const ROBOT: &str = r#"
 paper = "x"

@@ -31,10 +31,10 @@ pub(super) fn transform(
         return Ok(numbers(&transport)?);
     }
     let whole = numbers(&whole)?;
-    let p: [f64; 3] = core::array::from_fn(|k| whole.at(k, 3));
+    let p: [f64; 3] = core::array::from_fn(|k| whole[(k, 3)]);
     let cross = [[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]];
     Ok(match part {
-        "rotation" => Dense::from_fn(3, 3, |r, c| whole.at(r, c)),
+        "rotation" => Dense::from_fn(3, 3, |r, c| whole[(r, c)]),
         "position" => Dense::from_fn(3, 1, |r, _| p[r]),
         _ => Dense::from_fn(3, 3, |r, c| cross[r][c]),
     })

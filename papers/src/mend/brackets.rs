@@ -1,7 +1,6 @@
 //! Slips of brackets.
 
-use super::edit::{Edit, Slip};
-use super::slips::token;
+use super::edit::{Edit, Slip, token};
 use crate::latex::lexer::{Bracket, Lexeme, Token};
 
 /// Slips of brackets: one too many, one too few, one elsewhere; a power that belongs to the next

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::latex::lexer::Token;
+use crate::latex::lexer::{Lexeme, Token};
 
 /// Kinds of slips, the likeliest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,6 +65,11 @@ impl Edit {
         };
         self.parts.iter().any(|(a, _)| other.parts.iter().any(|(b, _)| touch(a, b)))
     }
+}
+
+/// A token that is not printed.
+pub(super) fn token(is: Lexeme, text: &str) -> Token {
+    Token { is, text: text.to_owned(), at: 0..0 }
 }
 
 /// The tokens with all edits made.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use num_rational::Ratio;
 
 use super::brackets::{begins, beside};
-use super::edit::{Edit, Slip};
+use super::edit::{Edit, Slip, token};
 use crate::latex::lexer::{Bracket, Lexeme, Token};
 use crate::latex::notation::Notation;
 use crate::latex::tree::Function;
@@ -29,10 +29,6 @@ impl Inventory {
     pub fn tokens(&self) -> impl Iterator<Item = &Token> {
         self.0.values()
     }
-}
-
-pub(super) fn token(is: Lexeme, text: &str) -> Token {
-    Token { is, text: text.to_owned(), at: 0..0 }
 }
 
 /// All slips of names, signs, powers and numbers; brackets apart. `inventory` are the paper's

@@ -156,7 +156,9 @@ fn other_arms_are_refused() {
     );
     assert!(change(&|arm| arm.convention = Convention::Modified).contains("modified"));
     assert!(change(&|arm| arm.joints.truncate(5)).contains("5 joints, expected 6"));
-    assert!(change(&|arm| arm.joints[1].motion = Motion::Prismatic).contains("joint 2 slides"));
+    assert!(
+        change(&|arm| arm.joints[1].motion = Motion::Prismatic).contains("joint 2 is prismatic")
+    );
     assert!(change(&|arm| arm.joints[4].a = 0.1).contains("axes 5 and 6 do not meet"));
     assert!(change(&|arm| arm.joints[0].alpha = 0.0).contains("row 1 is not a right angle"));
     assert!(change(&|arm| arm.joints[1].a = 0.0).contains("a of row 2 is 0"));

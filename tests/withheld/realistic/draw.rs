@@ -2,13 +2,14 @@
 //! the diagnosis.
 
 use nalgebra::{DVector, Vector6};
+use stiffarm_gap::dice::{Dice, Stream};
+use stiffarm_gap::effects::{Draw, Effect, Place, Quantity};
 use stiffarm_gap::measurement::{Layout, Measurements};
-use stiffarm_gap::plant::{
-    Dice, Effect, Frames, Instrument, Noise, Place, Plant, Quantity, Scatter, Stream, Truth, csv,
-};
-use stiffarm_gap::withhold::{resized, typical};
+use stiffarm_gap::plant::{Frames, Instrument, Noise, Plant, Scatter, Truth, csv, effects};
+use stiffarm_gap::withhold::resized;
 use stiffarm_kernels::generic::Arm;
 
+use super::case::GEOMETRY;
 use super::models::MODELS;
 use super::session;
 use super::size::{Bench, ordinary};
@@ -33,29 +34,6 @@ pub const RATIO: [f64; 2] = [3.0, 8.0];
 /// What an effect leaves beside frames, offsets, rows and the other effects, in units of the noise
 /// and over all numbers together: ten is what nobody who looks for it overlooks.
 pub const EVIDENCE: f64 = 10.0;
-
-/// What diagnoses may name but for geometry, and the plant can have in a session without a sim of
-/// one's own.
-pub const PHYSICAL: [Effect; 18] = [
-    Effect::JointCompliance,
-    Effect::JointHardening,
-    Effect::BearingCompliance,
-    Effect::LinkCompliance,
-    Effect::LinkWeight,
-    Effect::BaseCompliance,
-    Effect::WrenchScale,
-    Effect::PayloadCom,
-    Effect::Backlash,
-    Effect::FrictionHysteresis,
-    Effect::TransmissionError,
-    Effect::JointCoupling,
-    Effect::ThermalGrowth,
-    Effect::InstrumentScale,
-    Effect::JointRatio,
-    Effect::SettlingLag,
-    Effect::Drift,
-    Effect::Slip,
-];
 
 /// Sessions at other poses.
 pub const FRESH: usize = 4;
@@ -141,18 +119,19 @@ pub fn draw(seed: u64) -> Drawn {
 }
 
 /// Whether the arm still has it in another session.
-pub fn lasts(effect: Effect) -> bool {
-    !matches!(effect, Effect::Slip | Effect::Drift)
+pub fn lasts(effect: &dyn Effect) -> bool {
+    !matches!(effect.identifier(), "slip" | "drift")
 }
 
 /// Every offset and every number of every row a little wrong.
 fn off_design(arm: &Arm, dice: &mut Dice) -> Vec<Truth> {
     let mut truths: Vec<Truth> = Vec::new();
     for (effect, place, name) in ordinary(arm) {
-        if matches!(effect, Effect::BaseFrame | Effect::ToolFrame) {
+        if matches!(place, Place::Base | Place::Tool) {
             continue;
         }
-        let length = effect.quantity(arm, place, &name) == Some(Quantity::Length);
+        let number = effect.number(arm, place, &name);
+        let length = number.is_some_and(|(_, n)| n.quantity == Quantity::Length);
         let value = (name, OFF[usize::from(!length)] * dice.normal());
         match truths.last_mut().filter(|t| t.effect == effect && t.place == place) {
             Some(truth) => truth.values.push(value),
@@ -171,7 +150,8 @@ fn plant(
     dice: &mut Dice,
 ) -> Vec<Planted> {
     let mut found: Vec<(Truth, DVector<f64>)> = Vec::new();
-    let mut effects = PHYSICAL;
+    let can = |e: &&'static dyn Effect| !GEOMETRY.contains(&e.identifier()) && !e.has_one_size();
+    let mut effects: Vec<&'static dyn Effect> = effects().into_iter().filter(can).collect();
     dice.shuffle(&mut effects);
     for effect in effects {
         if found.len() == count {
@@ -207,11 +187,12 @@ fn of_size(
     bench: &Bench<'_>,
     arm: &Arm,
     design: &Measurements,
-    (effect, place): (Effect, Place),
+    (effect, place): (&'static dyn Effect, Place),
     wanted: f64,
     dice: &mut Dice,
 ) -> Option<(Truth, DVector<f64>)> {
-    let mut truth = typical(effect, place, arm, design, dice);
+    let values = effect.draw(&mut Draw::new(arm, place, design, dice));
+    let mut truth = Truth { effect, place, values };
     // Most gaps are proportional to the size, that of a cubic law and its torque nearly so.
     for _ in 0..5 {
         let signal = bench.signal(&truth)?;
@@ -228,8 +209,9 @@ fn of_size(
 fn is_plausible(truth: &Truth, arm: &Arm) -> bool {
     let mass: f64 = arm.joints.iter().map(|joint| joint.mass).sum();
     truth.values.iter().all(|(name, value)| {
-        let most = match truth.effect.quantity(arm, truth.place, name) {
-            Some(Quantity::Length) if truth.effect == Effect::PayloadCom => 0.1,
+        let number = truth.effect.number(arm, truth.place, name);
+        let most = match number.map(|(_, number)| number.quantity) {
+            Some(Quantity::Length) if truth.effect.identifier() == "payload_com" => 0.1,
             Some(Quantity::Length | Quantity::Angle) => 5e-3,
             Some(Quantity::Mass) => 0.3 * mass,
             Some(Quantity::PerKelvin) => 5e-5,

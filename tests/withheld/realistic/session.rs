@@ -1,7 +1,7 @@
 //! What is measured: poses under loads, some of them again, each visited when its turn comes.
 
+use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
-use stiffarm_gap::plant::{Dice, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use super::models::Model;

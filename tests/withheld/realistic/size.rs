@@ -2,9 +2,10 @@
 //! calibration.
 
 use nalgebra::{DMatrix, DVector};
+use stiffarm_gap::effects::{BaseFrame, Effect, JointOffset, LinkGeometry, Place, ToolFrame};
 use stiffarm_gap::gap::row_gap;
 use stiffarm_gap::measurement::Measurements;
-use stiffarm_gap::plant::{Effect, Frames, Noise, Place, Plant, Truth};
+use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::simulate::Reading;
 use stiffarm_kernels::generic::Arm;
 
@@ -27,13 +28,13 @@ pub struct Bench<'a> {
 }
 
 /// The truth of every frame, offset and row of the table, each by itself.
-pub fn ordinary(arm: &Arm) -> Vec<(Effect, Place, String)> {
-    use Effect::{BaseFrame, JointOffset, LinkGeometry, ToolFrame};
+pub fn ordinary(arm: &Arm) -> Vec<(&'static dyn Effect, Place, String)> {
+    const ALL: [&dyn Effect; 4] = [&BaseFrame, &ToolFrame, &JointOffset, &LinkGeometry];
     let mut all = Vec::new();
-    for effect in [BaseFrame, ToolFrame, JointOffset, LinkGeometry] {
+    for effect in ALL {
         for place in effect.places(arm) {
-            let names = effect.parameters(arm, place);
-            all.extend(names.into_iter().map(|(name, _)| (effect, place, name)));
+            let numbers = effect.numbers(arm, place).into_iter();
+            all.extend(numbers.map(|number| (effect, place, number.name.into_owned())));
         }
     }
     all

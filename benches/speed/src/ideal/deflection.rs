@@ -52,7 +52,7 @@ pub(super) fn displacement_of<S: Scalar>(a: &Arm<S>, [t1, t2, t3, t4, t5, t6]: [
 /// The deflection with the loaded geometry.
 ///
 /// # Errors
-/// `Unstable` where a pivot is not positive.
+/// `Unstable` where the symmetric part of `Kθ − K_C` is not positive definite.
 #[inline(always)]
 pub fn deflection<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<[S; 6], Unstable> {
     let a = &Arm::at(q);
@@ -104,8 +104,7 @@ pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<
     let i4 = a44.recip();
     a54 = a54 * i4;
     (a55, t5) = (less(a55, a54, a45), less(t5, a54, t4));
-    let pivots = [a11, a22, a33, a44, a55].map(S::is_positive);
-    if pivots.contains(&false) {
+    if !definite(at) {
         return Err(Unstable);
     }
     t5 = t5 * a55.recip();
@@ -117,4 +116,24 @@ pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<
     let own =
         fma(row[0], t1, fma(row[1], t2, fma(row[2], t3, fma(row[3], t4, fma(row[4], t5, t6)))));
     Ok([t1, t2, t3, t4, t5, S::lit(1.0 / 4.7e5) * own])
+}
+
+/// Whether the pivots of `L D Lᵀ` of a matrix and its transpose together are positive.
+#[inline(always)]
+fn definite<S: Scalar>(at: impl Fn(usize, usize) -> S) -> bool {
+    let mut twice: [[S; 6]; 6] = core::array::from_fn(|column| {
+        core::array::from_fn(|row| at(row, column) + at(column, row))
+    });
+    let mut positive = true;
+    for k in 0..6 {
+        positive &= twice[k][k].is_positive();
+        let inverse = twice[k][k].recip();
+        for column in k + 1..6 {
+            let factor = -(twice[k][column] * inverse);
+            for row in column..6 {
+                twice[column][row] = fma(factor, twice[k][row], twice[column][row]);
+            }
+        }
+    }
+    positive
 }

@@ -8,6 +8,54 @@ pub(super) fn solve_name(n: usize, together: usize) -> String {
     if together < n { format!("solve_{n}_{together}") } else { format!("solve_{n}") }
 }
 
+/// `static … definite_6(…)`: whether the arm bears the load.
+pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
+    let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
+    let size = n * n;
+    out.verbatim(&format!(
+        "
+/* Whether the symmetric part of a is positive definite, so that every small displacement takes work:
+ * the pivots of L*D*L^T of a + a^T are positive. a is column-major. */
+static {name}_status_t definite_{n}(const {real} a[{size}])
+{{
+    {name}_status_t status = {upper}_OK;
+    {real} twice[{size}];
+    unsigned int k;
+    unsigned int row;
+    unsigned int column;
+
+    for (column = 0U; column < {n}U; column++)
+    {{
+        for (row = column; row < {n}U; row++)
+        {{
+            twice[(column * {n}U) + row] = a[(column * {n}U) + row] + a[(row * {n}U) + column];
+        }}
+    }}
+    for (k = 0U; k < {n}U; k++)
+    {{
+        const {real} inverse = 1.0{suffix} / twice[(k * {n}U) + k];
+
+        if (!(twice[(k * {n}U) + k] > 0.0{suffix}))
+        {{
+            status = {upper}_UNSTABLE;
+        }}
+        for (column = k + 1U; column < {n}U; column++)
+        {{
+            const {real} factor = twice[(k * {n}U) + column] * inverse;
+
+            for (row = column; row < {n}U; row++)
+            {{
+                twice[(column * {n}U) + row] =
+                    twice[(column * {n}U) + row] - factor * twice[(k * {n}U) + row];
+            }}
+        }}
+    }}
+    return status;
+}}
+"
+    ));
+}
+
 /// `static … solve_6(…)`: bounds are constants, one exit.
 pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, language: &C) {
     let function = solve_name(n, m);
@@ -16,12 +64,11 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
     let size = n * n;
     out.verbatim(&format!(
         "
-/* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. In
- * a stable equilibrium the symmetric part of a is positive definite, and then every pivot is
- * positive.{more} */
+/* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. Where
+ * the symmetric part of a is positive definite, every pivot is positive.{more} */
 static {name}_status_t {function}({real} a[{size}], {real} b[{n}])
 {{
-    {name}_status_t status = {upper}_OK;
+    {name}_status_t status = definite_{n}(a);
     unsigned int k;
     unsigned int i;
     unsigned int column;

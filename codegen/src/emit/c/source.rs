@@ -1,7 +1,7 @@
 //! The source file.
 
 use super::hash::Table;
-use super::solve::solve;
+use super::solve::{definite, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
 use crate::emit::lines::Lines;
@@ -35,11 +35,19 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     out.code("#pragma STDC FP_CONTRACT OFF");
     out.code("#endif");
     sparsity(module, &mut out);
-    out.verbatim(sin_cos(module.options.sines, module.options.precision));
+    if body.contains("sin_cos(") {
+        out.verbatim(sin_cos(module.options.sines, module.options.precision));
+    }
     let mut sizes: Vec<(usize, usize)> =
         module.functions.iter().flat_map(|f| f.systems()).collect();
     sizes.sort_unstable();
     sizes.dedup();
+    for at in 0..sizes.len() {
+        let n = sizes[at].0;
+        if at == 0 || sizes[at - 1].0 != n {
+            definite(&mut out, n, name, module.language);
+        }
+    }
     sizes.into_iter().for_each(|size| solve(&mut out, size, name, module.language));
     out.verbatim(&body);
     out.finish()

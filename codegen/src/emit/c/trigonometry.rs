@@ -3,7 +3,7 @@
 
 use super::{Precision, Sines};
 
-/// The static function `sin_cos`, if the text needs one.
+/// The static function `sin_cos`.
 pub(super) fn sin_cos(sines: Sines, precision: Precision) -> &'static str {
     match (sines, precision) {
         (Sines::Given, _) => "",

@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{CATALOGUE, Effect, Parameter, Place, Spot};
+use crate::effects::{Catalogue, Effect, Parameter, Place, Spot};
 use crate::measurement::{Measurements, nearest};
 
 /// An effect of the catalogue at a place of an arm.
@@ -51,7 +51,7 @@ impl Suspect {
     ///
     /// # Errors
     /// [`SuspectError`]: an unknown effect, or a place where it cannot act.
-    pub fn parse(text: &str, arm: &Arm) -> Result<Suspect, SuspectError> {
+    pub fn parse(text: &str, arm: &Arm, catalogue: &Catalogue) -> Result<Suspect, SuspectError> {
         let wrong = |fault: String| SuspectError { text: text.trim().to_owned(), fault };
         let (head, form) = match text.split_once(':') {
             Some((head, form)) => (head, Some(words(form))),
@@ -64,9 +64,8 @@ impl Suspect {
         let near = |near: Option<&str>| {
             near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
         };
-        let effect = CATALOGUE.into_iter().find(|effect| effect.identifier() == name);
-        let effect = effect.ok_or_else(|| {
-            let all: Vec<&'static str> = CATALOGUE.iter().map(|e| e.identifier()).collect();
+        let effect = catalogue.named(name).ok_or_else(|| {
+            let all = catalogue.identifiers();
             let near = near(nearest(name, all.iter().copied()));
             wrong(format!("found `{name}`, expected one of {}{near}", all.join(", ")))
         })?;
@@ -99,8 +98,9 @@ impl Suspect {
     pub(super) fn spotted(&self, arm: &Arm, data: &Measurements) -> Option<(Spot, Vec<Number>)> {
         let forms = self.effect.forms(arm, self.place, data).into_iter();
         let mut spots = forms.map(|form| Spot { place: self.place, form }).map(|spot| {
-            let numbers = self.effect.parameters(arm, spot, data).into_iter();
-            let named = |p: Parameter| Number { name: p.name.into(), unit: p.unit };
+            let numbers = self.effect.parameters(arm, spot).into_iter();
+            let unit = |p: &Parameter| p.quantity.unit_by(data.is_timed());
+            let named = |p: Parameter| Number { unit: unit(&p), name: p.name.into() };
             (spot, numbers.map(named).collect::<Vec<_>>())
         });
         match &self.form {

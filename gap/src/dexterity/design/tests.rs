@@ -6,6 +6,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::{Design, Plan, Purpose, Suspect};
 use crate::dexterity::{DexterityError, inverse_condition};
+use crate::effects::Catalogue;
 
 fn kr240() -> Arm {
     let text = include_str!("../../../../robots/arms/kuka_kr240.toml");
@@ -103,7 +104,7 @@ fn what_no_test_shows_is_said() {
 }
 
 fn separate(arm: &Arm, texts: [&str; 2]) -> Plan {
-    let pair = texts.map(|text| Suspect::parse(text, arm).unwrap());
+    let pair = texts.map(|text| Suspect::parse(text, arm, &Catalogue::default()).unwrap());
     plan(Purpose::Separate(pair))
 }
 
@@ -192,7 +193,7 @@ fn poses_and_sides_are_planned_where_they_are_needed() {
     assert!(!found.displacements);
     assert!(found.tests.iter().all(|t| t.direction.as_ref().unwrap().iter().all(|s| s.abs() == 1)));
     let plain = found.told[1].smallest.unwrap();
-    let base = Suspect::parse("base_frame", &arm).unwrap();
+    let base = Suspect::parse("base_frame", &arm, &Catalogue::default()).unwrap();
     let found = design(&arm, &Plan { along: vec![base], ..plan }).unwrap();
     assert!(found.told[1].smallest.unwrap() > plain);
     let plan = separate(&arm, ["joint_offset@joint 1", "joint_ratio@joint 2"]);
@@ -214,7 +215,8 @@ fn what_cannot_be_told_apart_is_said() {
     let idle = separate(&arm, ["joint_compliance@joint 2", "drift"]);
     let error = design(&arm, &idle).unwrap_err().to_string();
     assert_eq!(error, "no test of this plan shows drift at base: no time passes");
-    let wrong = |text: &str| Suspect::parse(text, &arm).unwrap_err().to_string();
+    let wrong =
+        |text: &str| Suspect::parse(text, &arm, &Catalogue::default()).unwrap_err().to_string();
     assert!(wrong("backlas@joint 2").contains("did you mean `backlash`?"));
     assert!(wrong("backlash").contains("found no place, expected backlash@ with one of joint 1,"));
     assert!(wrong("backlash@tool").contains("found the place `tool`"));

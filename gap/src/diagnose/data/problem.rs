@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
+use crate::diagnose::progress::Stop;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Moment, Reading, moments, simulate};
 
@@ -32,6 +33,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) nominal: Option<Vec<Reading>>,
     /// Largest distance of the tool from the base, m.
     pub(crate) reach: f64,
+    /// Whether an end is asked for.
+    pub(crate) stop: Stop,
 }
 
 impl<'a> Problem<'a> {
@@ -89,6 +92,7 @@ impl<'a> Problem<'a> {
             marker_of,
             nominal: own.then_some(readings),
             reach,
+            stop: options.stop.clone(),
         })
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
-const RANK: f64 = 1e-11;
+pub(super) const RANK: f64 = 1e-11;
 
 /// Coordinates in which a normal matrix is the identity: `tᵀ A t = 1`, undecided directions left
 /// out.
@@ -17,17 +17,23 @@ pub(crate) struct Basis {
 
 impl Basis {
     pub(crate) fn new(normal: &DMatrix<f64>) -> Self {
+        Self::decided(normal, &normal.diagonal(), RANK)
+    }
+
+    /// With the squared size of each unknown's column, if others were projected out of the matrix,
+    /// and the part of it below which a direction is not decided.
+    pub(crate) fn decided(normal: &DMatrix<f64>, sizes: &DVector<f64>, least: f64) -> Self {
         let k = normal.nrows();
         if k == 0 {
             return Self { t: DMatrix::zeros(0, 0) };
         }
         let scale = DVector::from_fn(k, |i, _| {
-            let size = normal[(i, i)].max(0.0).sqrt();
+            let size = sizes[i].max(0.0).sqrt();
             if size > 0.0 { 1.0 / size } else { 0.0 }
         });
         let scaled = DMatrix::from_fn(k, k, |r, c| normal[(r, c)] * scale[r] * scale[c]);
         let eigen = eigen(scaled);
-        let kept: Vec<usize> = (0..k).filter(|&i| eigen.eigenvalues[i] > RANK).collect();
+        let kept: Vec<usize> = (0..k).filter(|&i| eigen.eigenvalues[i] > least).collect();
         let t = DMatrix::from_fn(k, kept.len(), |r, c| {
             let i = kept[c];
             scale[r] * eigen.eigenvectors[(r, i)] / eigen.eigenvalues[i].sqrt()
@@ -54,7 +60,7 @@ impl Basis {
 const MOST_SWEEPS: usize = 10_000;
 
 /// Eigenvalues and vectors of a symmetric matrix; of one that resists, no direction is decided.
-pub(crate) fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
+fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     let n = matrix.nrows();
     SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS).unwrap_or_else(|| SymmetricEigen {
         eigenvectors: DMatrix::identity(n, n),

@@ -6,14 +6,17 @@
 //! every row, so the residual.
 //!
 //! [`aligned`] is where it begins when frames are unknown. A [`Basis`] tells which directions of the
-//! parameters the data decide; every other room solves its least squares with it.
+//! parameters the data decide; [`Squares`] are least over the values that are physical. Every other
+//! room solves its least squares with these two.
 
 mod align;
 mod basis;
+mod bounded;
 mod model;
 mod refit;
 
 pub(crate) use align::aligned;
-pub(crate) use basis::{Basis, eigen};
+pub(crate) use basis::Basis;
+pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, squares};

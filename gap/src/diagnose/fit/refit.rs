@@ -8,7 +8,8 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 
-use super::basis::Basis;
+use super::basis::RANK;
+use super::bounded::Squares;
 use super::model::{Model, Predicted};
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::DiagnoseError;
@@ -20,6 +21,10 @@ const MOST_STEPS: usize = 40;
 
 /// Halvings of a step that does not help.
 const MOST_HALVINGS: usize = 8;
+
+/// Models that are predicted on the way: what needs more is hopeless, or has arrived but for what
+/// nobody sees. Data as they are take some ten.
+const MOST_PREDICTED: usize = 60;
 
 /// A step that promises less than this part of the squares, and less than this number of units of
 /// noise, is the last.
@@ -56,7 +61,12 @@ pub(crate) fn refit(
         squares(&predicted.gaps, weights) + strain(problem, model)
     };
     let mut now = cost(&fit.model, &fit.predicted);
+    let mut predicted = 0;
     for _ in 0..MOST_STEPS {
+        // Frames are fitted to the end; effects are not told before.
+        if predicted >= MOST_PREDICTED || (problem.stop.is_asked() && !fit.model.found.is_empty()) {
+            break;
+        }
         let (normal, right) = normal_equations(problem, &fit, weights);
         let (step, promised) = bounded(problem, &fit.model, normal, right);
         if promised <= LAST * (1.0 + now) {
@@ -65,6 +75,7 @@ pub(crate) fn refit(
         let mut part = 1.0;
         let mut better = None;
         for _ in 0..MOST_HALVINGS {
+            predicted += 1;
             let step: Vec<f64> = step.iter().map(|s| s * part).collect();
             let model = fit.model.moved(problem, &step);
             // An arm that finds no rest is no better.
@@ -154,27 +165,13 @@ fn bounded(
     right: DVector<f64>,
 ) -> (DVector<f64>, f64) {
     let nuisances = Model::nuisances(problem);
-    let room: Vec<f64> = model
-        .found
-        .iter()
-        .flat_map(|f| f.least.iter().zip(&f.values).map(|(least, value)| least - value))
-        .collect();
-    let mut held = DVector::<f64>::zeros(right.len());
-    let mut free: Vec<usize> = (0..right.len()).collect();
-    loop {
-        let part = normal.select_rows(&free).select_columns(&free);
-        let target = (&right - &normal * &held).select_rows(&free);
-        let found = Basis::new(&part).solve(&target);
-        let mut step = held.clone();
-        for (at, value) in free.iter().zip(found.iter()) {
-            step[*at] = *value;
-        }
-        let leaves = |at: &usize| *at >= nuisances && step[*at] < room[at - nuisances];
-        let Some(position) = free.iter().position(leaves) else {
-            let promised = 2.0 * step.dot(&right) - step.dot(&(&normal * &step));
-            return (step, promised);
-        };
-        let at = free.remove(position);
-        held[at] = room[at - nuisances];
-    }
+    let each = model.found.iter().flat_map(|f| f.least.iter().zip(&f.values));
+    let room = each.map(|(least, value)| least - value);
+    let mut least = vec![f64::NEG_INFINITY; nuisances];
+    least.extend(room);
+    let sizes = normal.diagonal();
+    let squares = Squares { matrix: &normal, right: &right, sizes, decided: RANK };
+    let (step, _) = squares.solve(&least);
+    let promised = squares.fall(&step);
+    (step, promised)
 }

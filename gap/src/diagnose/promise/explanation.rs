@@ -9,7 +9,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
-use crate::effects::Place;
+use crate::effects::{Catalogue, Depends, Place};
 use crate::measurement::{Kind, Measurements};
 
 /// A part of the range within which a value beyond it still counts as inside.
@@ -25,6 +25,7 @@ pub struct Explanation {
     pub(super) after: Model,
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
+    catalogue: Catalogue,
     covers: Cover,
     pub(super) spread: Spread,
 }
@@ -60,6 +61,7 @@ impl Explanation {
         [before, after]: [Model; 2],
         spread: Spread,
         covers: &Cover,
+        catalogue: &Catalogue,
     ) -> Self {
         let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
@@ -72,6 +74,7 @@ impl Explanation {
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
             covers: covers.clone(),
+            catalogue: catalogue.clone(),
             kind: problem.data.kind,
             spread,
         }
@@ -88,13 +91,18 @@ impl Explanation {
         each.collect()
     }
 
+    /// The effects that were known.
+    pub fn catalogue(&self) -> &Catalogue {
+        &self.catalogue
+    }
+
     /// The arm with its tool where the measured frame was fitted, or as the robot file has it.
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
 
     /// What the models make of measurements of the arm. Frames and markers stay where they were
-    /// fitted. What happened at a time (`slip`, `drift`) is carried to no other file.
+    /// fitted. What happened at a time is carried to no other file.
     ///
     /// # Errors
     /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
@@ -114,7 +122,7 @@ impl Explanation {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
             if data.file != self.file {
-                model.found.retain(|f| !matches!(f.effect.identifier(), "slip" | "drift"));
+                model.found.retain(|f| f.effect.depends() != Depends::Session);
             }
             model.predict(&problem, None).map(|p| p.gaps)
         };

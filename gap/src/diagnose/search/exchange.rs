@@ -17,14 +17,11 @@ const EXCHANGE: f64 = 3.0;
 /// An effect that leads all others by this much evidence is not compared with them again.
 const SURE: f64 = 60.0;
 
-/// An order of a periodic error that nothing else in the catalogue comes near to.
-const FINE: usize = 3;
-
 impl Search<'_, '_> {
     /// Takes back what is superfluous and exchanges what another explains better.
     pub(super) fn pruned(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
         for _ in 0..MOST_ROUNDS {
-            if now.fit.model.found.len() < 2 {
+            if now.fit.model.found.len() < 2 || self.stopped() {
                 break;
             }
             let Some(next) = self.changed(&mut now)? else { break };
@@ -44,8 +41,11 @@ impl Search<'_, '_> {
             return Ok(Some(fit));
         }
         for index in 0..now.fit.model.found.len() {
+            if self.stopped() {
+                break;
+            }
             let found = &now.fit.model.found[index];
-            let fine = found.effect.identifier() == "transmission_error" && found.spot.form >= FINE;
+            let fine = found.effect.forms_are().is_fine(found.spot.form);
             if fine || found.lead > SURE {
                 continue;
             }

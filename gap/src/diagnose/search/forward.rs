@@ -5,6 +5,7 @@ use super::evidence::{Flips, Scale};
 use crate::diagnose::data::{Folds, Noise, Problem};
 use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares};
 use crate::diagnose::options::{DiagnoseError, Options};
+use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
@@ -35,11 +36,14 @@ const IMPOSSIBLE: f64 = 100.0;
 const NUMBERS_EACH: usize = 3;
 
 /// Everything that a search works with.
+#[derive(Clone, Copy)]
 pub(crate) struct Search<'s, 'p> {
     pub(crate) problem: &'s Problem<'p>,
     pub(crate) folds: &'s Folds,
     pub(crate) candidates: &'s [Candidate],
     pub(crate) options: &'s Options,
+    /// Is told what is being done.
+    pub(crate) progress: &'s (dyn Fn(Stage) + Sync),
 }
 
 /// A fit and the noise by which it was weighted.
@@ -104,14 +108,13 @@ impl Search<'_, '_> {
     }
 
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
-    /// seen. `progress` gets the number of effects found.
-    pub(crate) fn explain(
-        &self,
-        mut now: Explained,
-        progress: &dyn Fn(usize),
-    ) -> Result<Explained, DiagnoseError> {
+    /// seen, and nobody asks for an end.
+    pub(crate) fn explain(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
         for _ in 0..MOST_FOUND {
-            progress(now.fit.model.found.len());
+            if self.stopped() {
+                return Ok(now);
+            }
+            (self.progress)(Stage::Search(now.fit.model.found.len()));
             let Some(next) = self.added(&now)? else { break };
             now = self.weigh(next);
             // Few effects are compared with all others after each addition, many now and then.
@@ -121,6 +124,11 @@ impl Search<'_, '_> {
             }
         }
         self.pruned(now)
+    }
+
+    /// Whether an end is asked for: nothing is fitted any more then.
+    pub(crate) fn stopped(&self) -> bool {
+        self.problem.stop.is_asked()
     }
 
     pub(crate) fn scale(&self, now: &Explained) -> Scale {
@@ -220,7 +228,7 @@ impl Search<'_, '_> {
     }
 
     /// The model without the effects `out` and with another; `None` if the exact fit does not
-    /// follow what the linear one promised.
+    /// follow what the linear one promised, or an end was asked for before it was done.
     pub(super) fn with(
         &self,
         now: &Explained,
@@ -233,6 +241,9 @@ impl Search<'_, '_> {
             model.found.remove(index);
         }
         let kept = model.found.len();
+        if let Some(one) = added.first() {
+            (self.progress)(Stage::Try(kept, one.effect.identifier(), one.spot.place));
+        }
         model.found.extend(added);
         let before = squares(&now.fit.predicted.gaps, &now.weights);
         let near = &now.fit.predicted.sims;
@@ -241,7 +252,7 @@ impl Search<'_, '_> {
             model.found[kept..].iter_mut().for_each(|added| added.values.fill(0.0));
             refit(self.problem, model, Some(near), &now.weights)
         });
-        let Ok(fit) = fit else { return Ok(None) };
+        let Some(fit) = fit.ok().filter(|_| !self.stopped()) else { return Ok(None) };
         let after = squares(&fit.predicted.gaps, &now.weights);
         Ok((before - after >= 0.5 * expected).then_some(fit))
     }

@@ -3,7 +3,7 @@
 use super::forward::{Explained, Ranked, Search};
 use crate::diagnose::fit::Fitted;
 use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
-use crate::effects::Spot;
+use crate::effects::{Forms, Spot};
 
 /// Moments of a jump that are tried at once; of more, an even choice, and then those about the best.
 const MOST_NEAR: usize = 256;
@@ -28,7 +28,7 @@ impl Search<'_, '_> {
             lead: 0.0,
             forms: candidate.forms,
         };
-        if effect.form_is().is_none() {
+        if effect.forms_are() != Forms::Rows {
             return Some(fitted(spot, &one.score));
         }
         let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);

@@ -40,7 +40,7 @@ impl Search<'_, '_> {
         let marker = |m: &String| ["x", "y", "z"].map(|k| format!("{k} of marker {m}"));
         let markers = self.problem.markers.iter().flat_map(marker);
         let each = geometry.iter().filter_map(Candidate::effect).flat_map(|(effect, spot)| {
-            let all = effect.parameters(self.problem.arm, spot, self.problem.data);
+            let all = effect.parameters(self.problem.arm, spot);
             let named = move |name: &str| format!("{name} of {}", spot.place);
             all.into_iter().map(move |p| named(&p.name)).collect::<Vec<_>>()
         });

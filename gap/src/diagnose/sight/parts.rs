@@ -3,23 +3,9 @@
 use crate::diagnose::report::{Part, Slice};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::{Candidate, Kept};
+use crate::effects::Group;
 use crate::gap::rms;
 use nalgebra::Vector6;
-
-/// The parts in which the gap is taken apart: what explains each, beside the parts before it.
-const PARTS: [(&str, &[&str]); 5] = [
-    (
-        "constant with load",
-        &["joint_offset", "joint_ratio", "link_geometry", "base_frame", "tool_frame"],
-    ),
-    (
-        "linear in load",
-        &["joint_compliance", "bearing_compliance", "link_compliance", "base_compliance"],
-    ),
-    ("nonlinear in load", &["joint_hardening"]),
-    ("direction-dependent", &["backlash", "friction_hysteresis", "settling_lag"]),
-    ("with time or temperature", &["drift", "thermal_growth"]),
-];
 
 /// At least this many measured numbers for each column.
 const NUMBERS_EACH: usize = 3;
@@ -31,13 +17,13 @@ impl Search<'_, '_> {
     /// Shares of the gap's mean square, held out, each beside those before it. Empty where the
     /// data are too few for all their columns.
     pub(crate) fn parts(&self, now: &Explained) -> Vec<Part> {
-        let of_part = |effects: &[&str]| -> Vec<Candidate> {
+        let of_part = |group: Group| -> Vec<Candidate> {
             let is_it = |c: &&Candidate| {
-                c.effect().is_some_and(|(effect, _)| effects.contains(&effect.identifier()))
+                c.effect().is_some_and(|(effect, _)| effect.group() == Some(group))
             };
             self.candidates.iter().filter(is_it).cloned().collect()
         };
-        let each = PARTS.map(|(_, effects)| of_part(effects));
+        let each = Group::ALL.map(of_part);
         let sizes = each.each_ref().map(|part| part.iter().map(|c| c.size).sum::<usize>());
         if self.problem.numbers() < NUMBERS_EACH * sizes.iter().sum::<usize>() {
             return Vec::new();
@@ -53,10 +39,10 @@ impl Search<'_, '_> {
             return Vec::new();
         }
         let (mut parts, mut last, mut along) = (Vec::new(), whole, 0);
-        for ((name, _), columns) in PARTS.iter().zip(sizes) {
+        for (group, columns) in Group::ALL.into_iter().zip(sizes) {
             along += columns;
             let left = left(along).min(last);
-            parts.push(Part { part: name, share: (last - left) / whole });
+            parts.push(Part { part: group.name(), share: (last - left) / whole });
             last = left;
         }
         parts.push(Part { part: "none of these", share: last / whole.max(f64::MIN_POSITIVE) });

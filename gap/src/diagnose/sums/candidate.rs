@@ -4,7 +4,7 @@ use nalgebra::Matrix6xX;
 
 use super::probe::{About, Probe};
 use crate::diagnose::data::Problem;
-use crate::effects::{Carrier, Effect, Place, Scene, Spot};
+use crate::effects::{Carrier, Effect, Forms, Place, Scene, Spot};
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]
@@ -85,7 +85,7 @@ impl Candidate {
         spot: Spot,
         forms: usize,
     ) -> Candidate {
-        let parameters = effect.parameters(problem.arm, spot, problem.data);
+        let parameters = effect.parameters(problem.arm, spot);
         Candidate {
             size: parameters.len(),
             least: parameters.iter().map(|p| p.least).collect(),
@@ -133,7 +133,7 @@ impl Candidate {
 
     /// Whether its forms are the orders of a periodic error.
     pub(crate) fn forms_are_orders(&self) -> bool {
-        self.effect().is_some_and(|(effect, _)| effect.identifier() == "transmission_error")
+        self.effect().is_some_and(|(e, _)| matches!(e.forms_are(), Forms::Orders { .. }))
     }
 
     /// Whether both are the same effect at the same place, in whatever form.

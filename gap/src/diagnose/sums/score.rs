@@ -4,7 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::products::Products;
 use super::screen::Screen;
-use crate::diagnose::fit::eigen;
+use crate::diagnose::fit::{Basis, Squares};
 
 /// A direction of a candidate whose part left beside the model is smaller than this is not its own:
 /// the square of a ratio of sizes of 1e-4.
@@ -55,51 +55,14 @@ impl Own {
     }
 }
 
-/// Minimum of `v xᵀx − 2 uᵀx` over the values that are physical; the directions that are `own`.
+/// Minimum of `xᵀ v x − 2 uᵀ x` over the values that are physical; the directions that are `own`.
 fn solve(
     v: &DMatrix<f64>,
     sizes: &DMatrix<f64>,
     u: &DVector<f64>,
     least: &[f64],
 ) -> (DVector<f64>, usize) {
-    let p = u.len();
-    let mut held = DVector::<f64>::zeros(p);
-    let mut free: Vec<usize> = (0..p).collect();
-    let mut rank = None;
-    loop {
-        if free.is_empty() {
-            return (held, rank.unwrap_or(0));
-        }
-        let part = v.select_rows(&free).select_columns(&free);
-        let target = (u - v * &held).select_rows(&free);
-        let scale = DVector::from_fn(free.len(), |i, _| {
-            let size = sizes[(free[i], free[i])].sqrt();
-            if size > 0.0 { 1.0 / size } else { 0.0 }
-        });
-        let scaled =
-            DMatrix::from_fn(free.len(), free.len(), |r, c| part[(r, c)] * scale[r] * scale[c]);
-        let target = target.component_mul(&scale);
-        let eigen = eigen(scaled);
-        let mut found = DVector::zeros(free.len());
-        let mut own = 0;
-        for (i, value) in eigen.eigenvalues.iter().enumerate() {
-            if *value > OWN {
-                own += 1;
-                let axis = eigen.eigenvectors.column(i);
-                found += axis * (axis.dot(&target) / value);
-            }
-        }
-        rank.get_or_insert(own);
-        let mut values = held.clone();
-        for (position, at) in free.iter().enumerate() {
-            values[*at] = found[position] * scale[position];
-        }
-        let Some(position) = free.iter().position(|at| values[*at] < least[*at]) else {
-            return (values, rank.unwrap_or(0));
-        };
-        let at = free.remove(position);
-        held[at] = least[at];
-    }
+    Squares { matrix: v, right: u, sizes: sizes.diagonal(), decided: OWN }.solve(least)
 }
 
 impl Screen<'_> {
@@ -123,19 +86,8 @@ impl Screen<'_> {
         let t = &self.total;
         let zx = t.zx.columns_range(range.clone());
         let v = &t.xx[candidate] - zx.tr_mul(&zx);
-        let sizes = &t.xx[candidate];
-        let p = v.nrows();
-        let scale = DVector::from_fn(p, |i, _| {
-            let size = sizes[(i, i)].sqrt();
-            if size > 0.0 { 1.0 / size } else { 0.0 }
-        });
-        let scaled = DMatrix::from_fn(p, p, |r, c| v[(r, c)] * scale[r] * scale[c]);
-        let eigen = eigen(scaled);
-        let kept: Vec<usize> = (0..p).filter(|&i| eigen.eigenvalues[i] > OWN).collect();
-        let whiten = DMatrix::from_fn(p, kept.len(), |r, c| {
-            scale[r] * eigen.eigenvectors[(r, kept[c])] / eigen.eigenvalues[kept[c]].sqrt()
-        });
-        let mut shares = DMatrix::zeros(kept.len(), self.blocks.len());
+        let whiten = Basis::decided(&v, &t.xx[candidate].diagonal(), OWN).t;
+        let mut shares = DMatrix::zeros(whiten.ncols(), self.blocks.len());
         for (b, block) in self.blocks.iter().enumerate() {
             let cross = block.zx.columns_range(range.clone());
             let mine = block.xr.rows_range(range.clone()) - cross.tr_mul(&t.zr);

@@ -29,13 +29,12 @@ impl Search<'_, '_> {
         mut now: Explained,
         before: &[Vector6<f64>],
         is_there: bool,
-        progress: &(dyn Fn(Stage) + Sync),
     ) -> Result<(Explained, Judged), DiagnoseError> {
         let mut out = 0;
         loop {
             let (fitted, groups, held_out) = self.shrinking(now)?;
             now = fitted;
-            progress(Stage::Judge(groups.len()));
+            (self.progress)(Stage::Judge(groups.len()));
             let after = match held_out.last().filter(|_| !groups.is_empty()) {
                 Some(last) => last.clone(),
                 None => before.to_vec(),
@@ -48,7 +47,9 @@ impl Search<'_, '_> {
             let findings = self.findings(&now, &groups, before, &held_out, !unexplained.present)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
-                .filter(|k| findings[*k].p_value > SIGNIFICANT && out < MOST_OUT);
+                .filter(|k| {
+                    findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
+                });
             let Some(worst) = worst else {
                 return Ok((now, Judged { findings, after, unexplained }));
             };

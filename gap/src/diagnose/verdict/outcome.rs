@@ -139,7 +139,7 @@ impl Search<'_, '_> {
             let (done, gaps) = Held::new(self, &now).ordered(groups(&now.fit.model));
             let size = |k: usize| squares(&gaps[k], &now.weights);
             let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
-            let Some(idle) = idle else { return Ok((now, done, gaps)) };
+            let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, done, gaps)) };
             let mut out = done[idle].clone();
             out.sort_unstable();
             now = self.fitted_without(now, &out)?;

@@ -8,8 +8,9 @@ use super::outcome::Group;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Basis, Model, squares};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
-use crate::diagnose::report::{Cover, Finding, NuisanceReport, ParameterReport, Shrink};
+use crate::diagnose::report::{Cover, Finding, NuisanceReport, Shrink};
 use crate::diagnose::search::{Explained, Search};
+use crate::effects::ParameterReport;
 use crate::gap::rms;
 
 impl Search<'_, '_> {
@@ -75,20 +76,19 @@ impl Search<'_, '_> {
         let mut all = Vec::new();
         for found in &now.fit.model.found {
             let mut reports = Vec::new();
-            if let Some((name, unit)) = found.effect.form_is() {
+            if let Some(form) = found.effect.form_number() {
+                let (name, unit) = (form.name.into_owned(), form.quantity.unit());
                 let value = found.spot.form as f64;
-                let name = name.to_owned();
                 reports.push(ParameterReport { name, value, unit, ci95: [value, value] });
             }
-            let parameters =
-                found.effect.parameters(self.problem.arm, found.spot, self.problem.data);
+            let parameters = found.effect.parameters(self.problem.arm, found.spot);
             for (parameter, &value) in parameters.iter().zip(&found.values) {
                 let half = t * variances[at].max(0.0).sqrt();
                 at += 1;
                 reports.push(ParameterReport {
                     name: parameter.name.to_string(),
                     value,
-                    unit: parameter.unit,
+                    unit: parameter.quantity.unit_by(self.problem.data.is_timed()),
                     ci95: [value - half, value + half],
                 });
             }

@@ -4,12 +4,14 @@
 //! one side, and with friction if the joint's torque hardly changes: approach each pose from both
 //! sides, under more than one load.
 
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::scene::direction;
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Curve, Depends, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity,
+    Scene, Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// The whole width of the dead band; the joint rests half of it behind the direction of approach.
@@ -25,12 +27,10 @@ impl Effect for Backlash {
         joints(arm)
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
-        let unit = match arm.joints[spot.row()].motion {
-            Motion::Revolute => "rad",
-            Motion::Prismatic => "m",
-        };
-        vec![Parameter::at_least("width", unit, 0.0).usually(5e-3)]
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
+        let quantity =
+            Quantity::of(arm.joints[spot.row()].motion, [Quantity::Angle, Quantity::Length]);
+        vec![Parameter::at_least("width", quantity, 0.0).usually(5e-3)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -51,5 +51,24 @@ impl Effect for Backlash {
 
     fn hidden(&self) -> &'static str {
         "always approached from one side, or so unevenly that the zero of the joint does the same"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Direction)
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::Direction
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("{} has {} of backlash", told.place, told.size())
+    }
+
+    /// Half the dead band to either side, against the approach.
+    fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        let width = numbers.first()?.value;
+        let value = Box::new(move |direction| -0.5 * width * direction);
+        Some(Curve { over: Over::Direction, proportional: false, value })
     }
 }

@@ -7,8 +7,8 @@
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// Rocking about the base's x and y per moment, and shift per force.
@@ -24,11 +24,11 @@ impl Effect for BaseCompliance {
         vec![Place::Base]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
         vec![
-            Parameter::at_least("rock_x", "rad/(N·m)", 0.0),
-            Parameter::at_least("rock_y", "rad/(N·m)", 0.0),
-            Parameter::at_least("give", "m/N", 0.0),
+            Parameter::at_least("rock_x", Quantity::AnglePerMoment, 0.0),
+            Parameter::at_least("rock_y", Quantity::AnglePerMoment, 0.0),
+            Parameter::at_least("give", Quantity::LengthPerForce, 0.0),
         ]
     }
 
@@ -48,5 +48,13 @@ impl Effect for BaseCompliance {
 
     fn idle(&self) -> &'static str {
         "no load of this data reaches the base"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Elastic)
+    }
+
+    fn sentence(&self, _: &Told<'_>) -> String {
+        "the foundation gives under load".to_owned()
     }
 }

@@ -7,8 +7,10 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, displacement,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// Displacement of the base in the measuring frame, base axes.
@@ -24,8 +26,8 @@ impl Effect for BaseFrame {
         vec![Place::Base]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        displacement(["m", "rad"])
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        displacement([Quantity::Length, Quantity::Angle])
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -46,5 +48,13 @@ impl Effect for BaseFrame {
 
     fn is_geometry(&self) -> bool {
         true
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Geometry)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("the base stands {} off", told.moved())
     }
 }

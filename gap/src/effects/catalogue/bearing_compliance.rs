@@ -6,8 +6,8 @@
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// Tilt about the housing's x and y per moment about them.
@@ -23,8 +23,10 @@ impl Effect for BearingCompliance {
         joints(arm)
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        ["tilt_x", "tilt_y"].map(|name| Parameter::at_least(name, "rad/(N·m)", 0.0)).to_vec()
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        ["tilt_x", "tilt_y"]
+            .map(|name| Parameter::at_least(name, Quantity::AnglePerMoment, 0.0))
+            .to_vec()
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -42,5 +44,14 @@ impl Effect for BearingCompliance {
 
     fn idle(&self) -> &'static str {
         "no load of this data tilts the joint"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Elastic)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let most = told.numbers.iter().map(|p| p.value).fold(0.0, f64::max);
+        format!("the bearing of {} tilts {}", told.place, told.sized(most))
     }
 }

@@ -8,8 +8,11 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Depends, Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told,
+    displacement,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// Rates of the measuring frame's displacement, base axes.
@@ -25,9 +28,8 @@ impl Effect for Drift {
         vec![Place::Base]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, data: &Measurements) -> Vec<Parameter> {
-        let timed = data.rows.iter().all(|row| row.time.is_some());
-        displacement(if timed { ["m/s", "rad/s"] } else { ["m/row", "rad/row"] })
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        displacement([Quantity::LengthRate, Quantity::AngleRate])
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, _: Spot, v: &[f64]) {
@@ -45,5 +47,24 @@ impl Effect for Drift {
 
     fn idle(&self) -> &'static str {
         "no time passes"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Time)
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::Session
+    }
+
+    fn sentence(&self, _: &Told<'_>) -> String {
+        "the measuring frame drifts with time".to_owned()
+    }
+
+    /// The usual sizes by the end of the session.
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let parameters = self.parameters(from.arm, Spot::at(from.place));
+        let elapsed = from.elapsed().max(1.0);
+        from.sizes(&parameters, elapsed)
     }
 }

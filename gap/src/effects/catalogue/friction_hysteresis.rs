@@ -5,12 +5,13 @@
 //! pose is approached from one side: approach from both sides under small and large loads.
 
 use nalgebra::Vector6;
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::scene::direction;
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, axis};
 
 /// Wind-up per torque, against the direction of approach.
@@ -26,12 +27,12 @@ impl Effect for FrictionHysteresis {
         joints(arm)
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
-        let unit = match arm.joints[spot.row()].motion {
-            Motion::Revolute => "rad/(N·m)",
-            Motion::Prismatic => "m/N",
-        };
-        vec![Parameter::at_least("windup", unit, 0.0)]
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
+        let quantity = Quantity::of(
+            arm.joints[spot.row()].motion,
+            [Quantity::AnglePerMoment, Quantity::LengthPerForce],
+        );
+        vec![Parameter::at_least("windup", quantity, 0.0)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -56,5 +57,17 @@ impl Effect for FrictionHysteresis {
 
     fn hidden(&self) -> &'static str {
         "always approached from one side, or so unevenly that the zero of the joint does the same"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Direction)
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::Direction
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("friction winds {} up by {}", told.place, told.size())
     }
 }

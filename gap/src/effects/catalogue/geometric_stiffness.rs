@@ -8,7 +8,7 @@
 use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
+use crate::effects::{Draw, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, beyond_first_order};
 
@@ -32,8 +32,8 @@ impl Effect for GeometricStiffness {
         )
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("fraction", "1")]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("fraction", Quantity::Ratio)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -47,5 +47,18 @@ impl Effect for GeometricStiffness {
 
     fn idle(&self) -> &'static str {
         "nothing that the model has gives under load"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("the simulator leaves out {} of what the loaded geometry does", told.size())
+    }
+
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let all = self.parameters(from.arm, Spot::at(from.place));
+        all.into_iter().map(|p| (p.name.into_owned(), 1.0)).collect()
+    }
+
+    fn has_one_size(&self) -> bool {
+        true
     }
 }

@@ -6,8 +6,8 @@
 use nalgebra::{Matrix6xX, Point3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// The instrument reads `1 + scale` metres for one.
@@ -23,8 +23,8 @@ impl Effect for InstrumentScale {
         vec![Place::Instrument]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("scale", "1").usually(1e-3)]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("scale", Quantity::Ratio).usually(1e-3)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -43,5 +43,10 @@ impl Effect for InstrumentScale {
 
     fn is_geometry(&self) -> bool {
         true
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let compared = told.by_sign("short", "long");
+        format!("the instrument reads {} too {compared}", told.size())
     }
 }

@@ -4,11 +4,14 @@
 //! comes from beyond the link's end, with the foundation (joint 1), and with a wrong weight: loads
 //! in several directions at folded and at stretched poses tell them apart.
 
-use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::generic::{Arm, Joint};
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::robot_file::{RIGID, significant};
+use crate::effects::{
+    Carrier, Curve, Effect, Fate, Group, Over, Parameter, ParameterReport, Place, Quantity,
+    RobotFile, Scene, Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// Compliance of a joint, added to what the arm's model has there.
@@ -26,14 +29,12 @@ impl Effect for JointCompliance {
 
     /// One: the added compliance. The joint as a whole cannot be less than rigid, so the least is
     /// minus what the model has.
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
         let joint = &arm.joints[spot.row()];
-        let unit = match joint.motion {
-            Motion::Revolute => "rad/(N·m)",
-            Motion::Prismatic => "m/N",
-        };
+        let quantity =
+            Quantity::of(joint.motion, [Quantity::AnglePerMoment, Quantity::LengthPerForce]);
         // 0.0 − c, and not −c, for a rigid joint's 0 to be positive.
-        vec![Parameter::at_least("compliance", unit, 0.0 - joint.compliance)]
+        vec![Parameter::at_least("compliance", quantity, 0.0 - joint.compliance)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -51,5 +52,39 @@ impl Effect for JointCompliance {
 
     fn idle(&self) -> &'static str {
         "no load of this data reaches the joint"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Elastic)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let yields = if told.numbers.iter().any(|p| p.unit == "m/N") { "yields" } else { "twists" };
+        let compared = told.by_sign("less", "more");
+        format!("{} {yields} {} {compared} than modelled", told.place, told.size())
+    }
+
+    fn spring<'a>(&self, arm: &'a Arm, place: Place) -> Option<&'a Joint> {
+        arm.joints.get(place.row())
+    }
+
+    fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        let compliance = numbers.first()?.value;
+        let value = Box::new(move |torque| compliance * torque);
+        Some(Curve { over: Over::Torque, proportional: true, value })
+    }
+
+    fn write(
+        &self,
+        file: &mut RobotFile<'_>,
+        place: Place,
+        numbers: &[ParameterReport],
+    ) -> Vec<Fate> {
+        file.at_row(place, numbers, |row, number| {
+            let whole = row.nominal.compliance + number.value;
+            let gives = whole > RIGID * row.nominal.compliance;
+            row.joint.stiffness = gives.then(|| significant(1.0 / whole));
+            Ok("stiffness")
+        })
     }
 }

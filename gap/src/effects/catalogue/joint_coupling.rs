@@ -7,8 +7,10 @@
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// Motion of this joint per motion of another.
@@ -21,22 +23,26 @@ impl Effect for JointCoupling {
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {
-        joints(arm)
+        if arm.dof() < 2 { Vec::new() } else { joints(arm) }
     }
 
-    /// The other joints, from 0.
-    fn forms(&self, arm: &Arm, place: Place, _: &Measurements) -> Vec<usize> {
+    fn forms_are(&self) -> Forms {
+        Forms::Joints
+    }
+
+    fn named_forms(&self, arm: &Arm, place: Place) -> Vec<usize> {
         (0..arm.dof()).filter(|other| *other != place.row()).collect()
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
         let (this, other) = (arm.joints[spot.row()].motion, arm.joints[spot.form].motion);
-        let unit = match (this, other) {
-            (Motion::Revolute, Motion::Prismatic) => "rad/m",
-            (Motion::Prismatic, Motion::Revolute) => "m/rad",
-            _ => "1",
+        let quantity = match (this, other) {
+            (Motion::Revolute, Motion::Prismatic) => Quantity::AnglePerLength,
+            (Motion::Prismatic, Motion::Revolute) => Quantity::LengthPerAngle,
+            _ => Quantity::Ratio,
         };
-        vec![Parameter::free(format!("joint {}", spot.form + 1), unit).usually(0.01)]
+        let name = format!("joint {}", spot.form + 1);
+        vec![Parameter::free("ratio", quantity).usually(0.01).named(name)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -53,5 +59,22 @@ impl Effect for JointCoupling {
 
     fn idle(&self) -> &'static str {
         "the other joint stands at zero throughout"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let other = told.numbers.first().map_or("another joint", |p| &p.name);
+        format!("{} turns with {other}, by {}", told.place, told.sized(told.first()))
+    }
+
+    fn shown_in(&self, unit: &'static str) -> &'static str {
+        if unit == "1" { "rad/rad" } else { unit }
+    }
+
+    /// A tenth of what other ratios are.
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let all = <dyn Effect>::numbers(self, from.arm, from.place);
+        let one = from.below(all.len());
+        let Some(parameter) = all.get(one) else { return Vec::new() };
+        vec![(parameter.name.to_string(), 1e-3 * from.sign())]
     }
 }

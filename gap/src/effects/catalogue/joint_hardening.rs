@@ -4,11 +4,13 @@
 //! takes several sizes: at least three levels of load at one pose, both signs if it can be.
 
 use nalgebra::Vector6;
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene, Spot,
+    Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, axis};
 
 /// Twist per cube of the torque; negative if the joint hardens.
@@ -24,12 +26,12 @@ impl Effect for JointHardening {
         joints(arm)
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
-        let unit = match arm.joints[spot.row()].motion {
-            Motion::Revolute => "rad/(N·m)³",
-            Motion::Prismatic => "m/N³",
-        };
-        vec![Parameter::free("cubic", unit)]
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
+        let quantity = Quantity::of(
+            arm.joints[spot.row()].motion,
+            [Quantity::AnglePerMomentCubed, Quantity::LengthPerForceCubed],
+        );
+        vec![Parameter::free("cubic", quantity).one_sided()]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -49,5 +51,19 @@ impl Effect for JointHardening {
 
     fn idle(&self) -> &'static str {
         "no load of this data reaches the joint"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Nonlinear)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("{} does not give in proportion to its torque", told.place)
+    }
+
+    fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        let cubic = numbers.first()?.value;
+        let value = Box::new(move |torque: f64| cubic * torque.powi(3));
+        Some(Curve { over: Over::Torque, proportional: false, value })
     }
 }

@@ -4,11 +4,15 @@
 //! frame (the last joint), and with neighbours whose axes are parallel as long as these move
 //! little: poses in which the joint itself and the next one cover their ranges tell them apart.
 
-use stiffarm_kernels::Motion;
+use stiffarm_codegen::robot;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::robot_file::{shift, turn};
+use crate::effects::{
+    Carrier, Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene,
+    Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// A constant error of a joint's reading: `q + offset` is true.
@@ -24,12 +28,10 @@ impl Effect for JointOffset {
         joints(arm)
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
-        let unit = match arm.joints[spot.row()].motion {
-            Motion::Revolute => "rad",
-            Motion::Prismatic => "m",
-        };
-        vec![Parameter::free("offset", unit).usually(0.02)]
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
+        let quantity =
+            Quantity::of(arm.joints[spot.row()].motion, [Quantity::Angle, Quantity::Length]);
+        vec![Parameter::free("offset", quantity).usually(0.02)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -50,5 +52,28 @@ impl Effect for JointOffset {
 
     fn is_geometry(&self) -> bool {
         true
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Geometry)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("the zero of {} is off by {}", told.place, told.sized(told.first()))
+    }
+
+    fn write(
+        &self,
+        file: &mut RobotFile<'_>,
+        place: Place,
+        numbers: &[ParameterReport],
+    ) -> Vec<Fate> {
+        file.at_row(place, numbers, |row, number| {
+            match row.joint.motion {
+                robot::Motion::Revolute => turn(&mut row.joint.theta, number.value),
+                robot::Motion::Prismatic => shift(&mut row.joint.d, number.value),
+            }
+            Ok(if row.joint.motion == robot::Motion::Revolute { "theta" } else { "d" })
+        })
     }
 }

@@ -6,8 +6,11 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene, Spot,
+    Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// `(1 + ratio) · q` is true.
@@ -23,8 +26,8 @@ impl Effect for JointRatio {
         joints(arm)
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("ratio", "1").usually(0.01)]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("ratio", Quantity::Ratio).usually(0.01)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -41,5 +44,23 @@ impl Effect for JointRatio {
 
     fn idle(&self) -> &'static str {
         "the joint stands at zero throughout"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Geometry)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let compared = told.by_sign("less", "more");
+        format!("{} turns {} {compared} than its reading", told.place, told.size())
+    }
+
+    fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        let ratio = numbers.first()?.value;
+        Some(Curve {
+            over: Over::Reading,
+            proportional: false,
+            value: Box::new(move |q| ratio * q),
+        })
     }
 }

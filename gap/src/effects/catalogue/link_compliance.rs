@@ -9,8 +9,12 @@ use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::robot_file::{RIGID, significant};
+use crate::effects::{
+    Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene,
+    Spot, Told,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
 /// `1/EI` and `1/GJ` of a beam along the link, added to what the model has.
@@ -38,6 +42,28 @@ fn gives(chord: &Vector3<f64>, load: &Vector6<f64>) -> [Vector6<f64>; 2] {
     ]
 }
 
+/// Adds 1/EI in both planes, or 1/GJ, to the row's beam; its area, weight and moduli stay.
+fn soften(row: &mut RobotRow<'_>, number: &ParameterReport) -> Result<&'static str, &'static str> {
+    let (Some(beam), Some(nominal)) = (&mut row.joint.beam, &row.nominal.beam) else {
+        return Err("the file has no beam there");
+    };
+    // The second moment m' with 1/(modulus m') = 1/(modulus m) + value.
+    let softened = |modulus: f64, moment: f64| {
+        let softer = 1.0 / (modulus * moment) + number.value;
+        let bends = softer > RIGID / (modulus * moment);
+        bends.then(|| significant(1.0 / (modulus * softer))).ok_or("no beam is rigid")
+    };
+    let section = &mut beam.section;
+    if number.name == "torsion" {
+        section.j = softened(nominal.shear_modulus, nominal.j)?;
+        return Ok("the beam's j");
+    }
+    let iy = softened(nominal.youngs_modulus, nominal.iy)?;
+    let iz = softened(nominal.youngs_modulus, nominal.iz)?;
+    (section.iy, section.iz) = (iy, iz);
+    Ok("the beam's iy and iz")
+}
+
 impl Effect for LinkCompliance {
     fn identifier(&self) -> &'static str {
         "link_compliance"
@@ -51,14 +77,14 @@ impl Effect for LinkCompliance {
         (1..=arm.dof()).filter(bends).map(Place::Link).collect()
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
         let beam = arm.joints[spot.row()].beam.as_ref();
         let of = |stiffness: Option<f64>| 0.0 - stiffness.map_or(0.0, |s| 1.0 / s);
         let bending = of(beam.map(|b| b.youngs_modulus * b.iy.max(b.iz)));
         let torsion = of(beam.map(|b| b.shear_modulus * b.j));
         vec![
-            Parameter::at_least("bending", "1/(N·m²)", bending),
-            Parameter::at_least("torsion", "1/(N·m²)", torsion),
+            Parameter::at_least("bending", Quantity::Flexibility, bending),
+            Parameter::at_least("torsion", Quantity::Flexibility, torsion),
         ]
     }
 
@@ -80,5 +106,22 @@ impl Effect for LinkCompliance {
 
     fn idle(&self) -> &'static str {
         "no load of this data reaches the link"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Elastic)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("{} bends and twists {} than modelled", told.place, told.by_sign("less", "more"))
+    }
+
+    fn write(
+        &self,
+        file: &mut RobotFile<'_>,
+        place: Place,
+        numbers: &[ParameterReport],
+    ) -> Vec<Fate> {
+        file.at_row(place, numbers, soften)
     }
 }

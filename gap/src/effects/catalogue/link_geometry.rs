@@ -9,8 +9,12 @@ use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot, links};
-use crate::measurement::{Measurements, Row};
+use crate::effects::robot_file::{shift, turn};
+use crate::effects::{
+    Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told,
+    links,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// Lengths and twists of one row, added to the table's.
@@ -42,14 +46,18 @@ impl Effect for LinkGeometry {
     }
 
     /// `d` (`theta` of a prismatic joint), `a`, `alpha`, and `beta` between parallel axes.
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
         let first = match arm.joints[spot.row()].motion {
-            Motion::Revolute => Parameter::free("d", "m"),
-            Motion::Prismatic => Parameter::free("theta", "rad"),
+            Motion::Revolute => Parameter::free("d", Quantity::Length),
+            Motion::Prismatic => Parameter::free("theta", Quantity::Angle),
         };
-        let mut all = vec![first, Parameter::free("a", "m"), Parameter::free("alpha", "rad")];
+        let mut all = vec![
+            first,
+            Parameter::free("a", Quantity::Length),
+            Parameter::free("alpha", Quantity::Angle),
+        ];
         if is_parallel(arm, spot.row()) {
-            all.push(Parameter::free("beta", "rad"));
+            all.push(Parameter::free("beta", Quantity::Angle));
         }
         all.into_iter().map(|p| p.usually(USUAL)).collect()
     }
@@ -103,5 +111,40 @@ impl Effect for LinkGeometry {
 
     fn is_geometry(&self) -> bool {
         true
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Geometry)
+    }
+
+    /// Lengths and angles that are told from zero; all of them if none is.
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let is_told = |ci: [f64; 2]| ci[0] > 0.0 || ci[1] < 0.0;
+        let any = told.numbers.iter().any(|p| is_told(p.ci95));
+        let shown = told.numbers.iter().filter(|p| !any || is_told(p.ci95));
+        let size = |value: f64, unit| (told.write)(unit, value.abs(), value);
+        let each = shown.map(|p| format!("{} in {}", size(p.value, p.unit), p.name));
+        let each = each.collect::<Vec<_>>().join(", ");
+        format!("the table's row of {} is off by {each}", told.place)
+    }
+
+    fn write(
+        &self,
+        file: &mut RobotFile<'_>,
+        place: Place,
+        numbers: &[ParameterReport],
+    ) -> Vec<Fate> {
+        file.at_row(place, numbers, |row, number| {
+            let joint = &mut *row.joint;
+            match number.name.as_str() {
+                "theta" => turn(&mut joint.theta, number.value),
+                "d" => shift(&mut joint.d, number.value),
+                "a" => shift(&mut joint.a, number.value),
+                "alpha" => turn(&mut joint.alpha, number.value),
+                _ => return Err("a row of the table has no such angle"),
+            }
+            let entries = ["theta", "d", "a", "alpha"];
+            Ok(entries.into_iter().find(|entry| number.name == *entry).unwrap_or_default())
+        })
     }
 }

@@ -5,10 +5,15 @@
 //! neighbours: loads of known size tell compliance from weight.
 
 use nalgebra::{Matrix6xX, Point3, Vector3};
+use stiffarm_codegen::robot::{Convention, Motion, Value};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot, links};
-use crate::measurement::{Measurements, Row};
+use crate::effects::robot_file::{decimals, significant};
+use crate::effects::{
+    Effect, Fate, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene, Spot,
+    Told, links,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
 /// Mass added at the link's centre of mass.
@@ -28,6 +33,25 @@ fn centre(actual: &Actual<'_>, row: usize) -> Vector3<f64> {
     chord(&(before * behind)) * -0.5
 }
 
+/// Adds mass at the link's centre of mass; at the middle of the chord where the file has none.
+fn weigh(row: &mut RobotRow<'_>, number: &ParameterReport) -> Result<&'static str, &'static str> {
+    let (nominal, joint) = (row.nominal, &mut *row.joint);
+    let whole = nominal.mass + number.value;
+    if nominal.mass == 0.0 && joint.com.iter().all(Value::is_zero) {
+        let (sine, cosine) = nominal.alpha.sin_cos();
+        let chord = match (row.convention, joint.motion) {
+            (Convention::Standard, Motion::Revolute) => {
+                [nominal.a, nominal.d * sine, nominal.d * cosine]
+            }
+            (Convention::Modified, Motion::Revolute) if nominal.a == 0.0 => [0.0, 0.0, nominal.d],
+            _ => return Err("the middle of this link moves in its own frame: give it a com"),
+        };
+        joint.com = chord.map(|x| decimals(-0.5 * x));
+    }
+    joint.mass = (whole > 0.0).then(|| significant(whole));
+    Ok("mass")
+}
+
 impl Effect for LinkWeight {
     fn identifier(&self) -> &'static str {
         "link_weight"
@@ -37,11 +61,11 @@ impl Effect for LinkWeight {
         links(arm)
     }
 
-    fn parameters(&self, arm: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
         let joint = &arm.joints[spot.row()];
         let whole: f64 = arm.joints.iter().map(|j| j.mass).sum();
         let usual = (joint.mass / 2.0).max(whole / 10.0).max(LIGHT);
-        vec![Parameter::at_least("mass", "kg", 0.0 - joint.mass).usually(usual)]
+        vec![Parameter::at_least("mass", Quantity::Mass, 0.0 - joint.mass).usually(usual)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
@@ -62,5 +86,23 @@ impl Effect for LinkWeight {
 
     fn idle(&self) -> &'static str {
         "nothing that the model has gives under the weight of the link"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!(
+            "{} is {} {} than modelled",
+            told.place,
+            told.size(),
+            told.by_sign("lighter", "heavier")
+        )
+    }
+
+    fn write(
+        &self,
+        file: &mut RobotFile<'_>,
+        place: Place,
+        numbers: &[ParameterReport],
+    ) -> Vec<Fate> {
+        file.at_row(place, numbers, weigh)
     }
 }

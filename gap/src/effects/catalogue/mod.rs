@@ -76,3 +76,44 @@ pub const CATALOGUE: [&dyn Effect; 23] = [
     &Drift,
     &GeometricStiffness,
 ];
+
+/// The effects that a diagnosis tries: those that stiffarm knows, and one's own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Catalogue(Vec<&'static dyn Effect>);
+
+impl Default for Catalogue {
+    /// [`CATALOGUE`].
+    fn default() -> Self {
+        Catalogue(CATALOGUE.to_vec())
+    }
+}
+
+impl Catalogue {
+    /// With one more, which of equally good explanations is preferred last. One that is made at run
+    /// time lives as long as the program: [`Box::leak`].
+    ///
+    /// # Panics
+    /// If there is one with its identifier: findings could not be told apart.
+    #[must_use]
+    pub fn with(mut self, effect: &'static dyn Effect) -> Self {
+        let name = effect.identifier();
+        assert!(self.named(name).is_none(), "found two effects called `{name}`, expected one");
+        self.0.push(effect);
+        self
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &'static dyn Effect> {
+        self.0.iter().copied()
+    }
+
+    /// By its identifier.
+    pub fn named(&self, identifier: &str) -> Option<&'static dyn Effect> {
+        self.iter().find(|effect| effect.identifier() == identifier)
+    }
+
+    /// All identifiers.
+    pub fn identifiers(&self) -> Vec<&'static str> {
+        self.iter().map(|effect| effect.identifier()).collect()
+    }
+}

@@ -6,8 +6,8 @@
 use nalgebra::{Matrix6xX, Vector3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// The point of the tool frame at which the force acts, m.
@@ -23,8 +23,8 @@ impl Effect for PayloadCom {
         vec![Place::Tool]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        ["x", "y", "z"].map(|name| Parameter::free(name, "m").usually(0.3)).to_vec()
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        ["x", "y", "z"].map(|name| Parameter::free(name, Quantity::Length).usually(0.3)).to_vec()
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -43,5 +43,10 @@ impl Effect for PayloadCom {
 
     fn idle(&self) -> &'static str {
         "there is no force on the tool, or nothing that the model has gives under it"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let beside = (told.write)("m", 1e-3, told.norm(&["x", "y", "z"]));
+        format!("the load acts {beside} beside the tool origin")
     }
 }

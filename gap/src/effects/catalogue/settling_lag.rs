@@ -6,8 +6,10 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, joints};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{
+    Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
 /// The joint is still this part of its last move behind its reading.
@@ -23,8 +25,8 @@ impl Effect for SettlingLag {
         joints(arm)
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("fraction", "1").usually(0.02)]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("fraction", Quantity::Ratio).usually(0.02).one_sided()]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, spot: Spot, v: &[f64]) {
@@ -41,5 +43,18 @@ impl Effect for SettlingLag {
 
     fn idle(&self) -> &'static str {
         "the joint never moves between rows"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Direction)
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::LastMove
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let part = told.sized(told.first());
+        format!("{} is read {part} of its last move before it rests", told.place)
     }
 }

@@ -8,7 +8,10 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
+use crate::effects::{
+    Carrier, Depends, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told,
+    displacement,
+};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 
@@ -42,12 +45,12 @@ impl Effect for Slip {
         inner.into_iter().skip(every / 2).step_by(every).collect()
     }
 
-    fn form_is(&self) -> Option<(&'static str, &'static str)> {
-        Some(("after", "rows"))
+    fn forms_are(&self) -> Forms {
+        Forms::Rows
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        displacement(["m", "rad"])
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        displacement([Quantity::Length, Quantity::Angle])
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, spot: Spot, v: &[f64]) {
@@ -72,5 +75,24 @@ impl Effect for Slip {
 
     fn idle(&self) -> &'static str {
         "displacements do not show where a frame stands"
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::Session
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let of = if told.place == "tool" { "the reflector" } else { "the base" };
+        format!("{of} jumps by {} after row {}", told.moved(), told.sized(told.first()))
+    }
+
+    /// After a quarter of the rows, and before the last one.
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let rows = from.session.rows.len() as f64;
+        let after = (rows * from.between(0.25, 0.75)).round().max(1.0);
+        let all = <dyn Effect>::numbers(self, from.arm, from.place);
+        let mut values = from.sizes(&all, 1.0);
+        values[0].1 = after;
+        values
     }
 }

@@ -8,8 +8,8 @@ use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
 /// Growth of every length per kelvin.
@@ -25,8 +25,8 @@ impl Effect for ThermalGrowth {
         vec![Place::Arm]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("expansion", "1/K").usually(5e-5)]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("expansion", Quantity::PerKelvin).usually(5e-5).one_sided()]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, _: Spot, v: &[f64]) {
@@ -58,5 +58,17 @@ impl Effect for ThermalGrowth {
 
     fn idle(&self) -> &'static str {
         "the temperature does not change, or is not given"
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Time)
+    }
+
+    fn depends(&self) -> Depends {
+        Depends::Temperature
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("the arm grows by {}", told.sized(told.first()))
     }
 }

@@ -7,8 +7,12 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot, displacement};
-use crate::measurement::{Measurements, Row};
+use crate::displacement::Displacement;
+use crate::effects::{
+    Carrier, Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, SIX,
+    Scene, Spot, Told, displacement,
+};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// Displacement of the tool frame, tool axes.
@@ -24,8 +28,8 @@ impl Effect for ToolFrame {
         vec![Place::Tool]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        displacement(["m", "rad"])
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        displacement([Quantity::Length, Quantity::Angle])
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -46,5 +50,19 @@ impl Effect for ToolFrame {
 
     fn is_geometry(&self) -> bool {
         true
+    }
+
+    fn group(&self) -> Option<Group> {
+        Some(Group::Geometry)
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("the tool is {} off", told.moved())
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
+        let value = |name| numbers.iter().filter(|p| p.name == name).map(|p| p.value).sum();
+        let moved = Displacement::new(&Vector6::from(SIX.map(value))).transform();
+        file.move_tool(&moved, numbers)
     }
 }

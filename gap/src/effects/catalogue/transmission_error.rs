@@ -8,7 +8,10 @@
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Carrier, Effect, Parameter, Place, Scene, Spot};
+use crate::effects::{
+    Carrier, Curve, Draw, Effect, Forms, Over, Parameter, ParameterReport, Place, Quantity, Scene,
+    Spot, Told,
+};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -19,8 +22,21 @@ pub struct TransmissionError;
 /// Highest order that is tried.
 const HIGHEST: usize = 40;
 
+/// From this order on nothing else in the catalogue comes near.
+const FINE: usize = 3;
+
+/// Highest order that is drawn for a case.
+const DRAWN: usize = 4;
+
 /// Angles closer than this are one, rad.
 const SAME: f64 = 1e-3;
+
+/// Orders with the numbers of their cosine and sine.
+fn waves(numbers: &[ParameterReport]) -> Vec<(usize, [f64; 2])> {
+    let value = |name: String| numbers.iter().find(|p| p.name == name).map_or(0.0, |p| p.value);
+    let orders = numbers.iter().filter_map(|p| p.name.strip_prefix("cos ")?.parse().ok());
+    orders.map(|k| (k, ["cos", "sin"].map(|wave| value(format!("{wave} {k}"))))).collect()
+}
 
 impl Effect for TransmissionError {
     fn identifier(&self) -> &'static str {
@@ -32,6 +48,14 @@ impl Effect for TransmissionError {
         (1..=arm.dof()).filter(turns).map(Place::Joint).collect()
     }
 
+    fn forms_are(&self) -> Forms {
+        Forms::Orders { fine: FINE }
+    }
+
+    fn named_forms(&self, _: &Arm, _: Place) -> Vec<usize> {
+        vec![1, 2, 3]
+    }
+
     /// The orders that as many different angles can carry, two numbers each.
     fn forms(&self, _: &Arm, place: Place, data: &Measurements) -> Vec<usize> {
         let mut angles: Vec<i64> =
@@ -41,9 +65,11 @@ impl Effect for TransmissionError {
         (1..=HIGHEST.min(angles.len() / 3)).collect()
     }
 
-    fn parameters(&self, _: &Arm, spot: Spot, _: &Measurements) -> Vec<Parameter> {
-        let named =
-            |name: &str| Parameter::free(format!("{name} {}", spot.form), "rad").usually(5e-3);
+    fn parameters(&self, _: &Arm, spot: Spot) -> Vec<Parameter> {
+        let named = |key: &'static str| {
+            let name = format!("{key} {}", spot.form);
+            Parameter::free(key, Quantity::Angle).usually(5e-3).named(name)
+        };
         vec![named("cos"), named("sin")]
     }
 
@@ -82,5 +108,29 @@ impl Effect for TransmissionError {
 
     fn idle(&self) -> &'static str {
         "the joint does not turn"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let each = waves(told.numbers).into_iter().map(|(order, [c, s])| (order, c.hypot(s)));
+        let (order, amplitude) = each.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        let size = told.sized(amplitude);
+        format!("the gear of {} errs by {size} with {order} periods per turn", told.place)
+    }
+
+    fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        let waves = waves(numbers);
+        let value = move |q: f64| {
+            let each = waves.iter().map(|(order, [c, s])| {
+                let (sine, cosine) = (*order as f64 * q).sin_cos();
+                c * cosine + s * sine
+            });
+            each.sum()
+        };
+        Some(Curve { over: Over::Reading, proportional: false, value: Box::new(value) })
+    }
+
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let order = 1 + from.below(DRAWN);
+        from.sizes(&self.parameters(from.arm, Spot { place: from.place, form: order }), 1.0)
     }
 }

@@ -7,8 +7,8 @@
 use nalgebra::{Matrix6xX, Point3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Scene, Spot};
-use crate::measurement::{Measurements, Row};
+use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
 /// The load is `1 + scale` times its columns.
@@ -24,8 +24,8 @@ impl Effect for WrenchScale {
         vec![Place::Tool]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot, _: &Measurements) -> Vec<Parameter> {
-        vec![Parameter::free("scale", "1").usually(0.3)]
+    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
+        vec![Parameter::free("scale", Quantity::Ratio).usually(0.3)]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
@@ -41,5 +41,10 @@ impl Effect for WrenchScale {
 
     fn idle(&self) -> &'static str {
         "there is no load, or nothing that the model has gives under it"
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let compared = told.by_sign("smaller", "larger");
+        format!("the load is {} {compared} than its columns say", told.size())
     }
 }

@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use super::choose::{Choice, choose};
 use super::hold_out::Gap;
 use super::regress::{Line, STIFFEST, Sheet};
-use super::{Answer, MeasuredError, Parameter, Question, Status, Unknown};
+use super::{Answer, MeasuredError, Parameter, Question, Status, Uncertainty, Unknown};
 use crate::identify::pull::{Pull, pull};
 
 /// Most steps; the gap is nearly linear in the compliances, so that a handful is enough.
@@ -240,8 +240,7 @@ impl Fitted {
                 pull: advice(sheet, unknown),
             };
             if let Some((_, with)) = self.choice.held.iter().find(|(held, _)| *held == k) {
-                let (deviation, interval) = (0.0, [file, file]);
-                return Parameter { unknown, status: held(with), value, file, deviation, interval };
+                return Parameter { unknown, status: held(with), value, file, spread: None };
             }
             let at = self.choice.found.iter().position(|found| *found == k).unwrap_or(0);
             let deviation = (variance * self.covariance[(at, at)].max(0.0)).sqrt();
@@ -249,7 +248,8 @@ impl Fitted {
             let status =
                 if weak { Status::Weak(advice(sheet, unknown)) } else { Status::Determined };
             let interval = [value - factor * deviation, value + factor * deviation];
-            Parameter { unknown, status, value, file, deviation, interval }
+            let spread = Some(Uncertainty { deviation, interval });
+            Parameter { unknown, status, value, file, spread }
         });
         Answer {
             parameters: parameters.collect(),

@@ -116,7 +116,14 @@ pub struct Parameter {
     pub value: f64,
     /// What the robot file has: 0 of a rigid joint and of the base, 1 of a link.
     pub file: f64,
-    /// Standard deviation; 0 of one that is held.
+    /// Standard deviation, and interval of the question's confidence; none of one that is held.
+    pub spread: Option<Uncertainty>,
+}
+
+/// How sure a number is that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Standard deviation.
     pub deviation: f64,
     /// Interval of the question's confidence.
     pub interval: [f64; 2],
@@ -166,6 +173,16 @@ impl Answer {
 }
 
 impl Parameter {
+    /// The interval of one that was found.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        self.spread.map(|s| s.interval)
+    }
+
+    /// Whether it was found, and the file's value is outside its interval.
+    pub fn differs(&self) -> bool {
+        self.interval().is_some_and(|[low, high]| !(low..=high).contains(&self.file))
+    }
+
     /// Whether it was found and is positive, as a spring's must be.
     pub fn usable(&self) -> bool {
         !matches!(self.status, Status::Held { .. }) && self.value > 0.0

@@ -144,6 +144,7 @@ fn what_does_not_show_is_held_and_said() {
     for (k, parameter) in found.parameters.iter().enumerate() {
         let held = matches!(&parameter.status, Status::Held { with, .. } if with.is_empty());
         assert_eq!(held, [0, 5].contains(&k), "{parameter:?}");
+        assert_eq!(held, parameter.spread.is_none(), "{parameter:?}");
         let pull = match &parameter.status {
             Status::Held { pull, .. } => pull.clone(),
             _ => continue,
@@ -168,7 +169,7 @@ fn a_base_is_found_but_for_what_joint_1_does() {
     for k in 0..5 {
         let base = &found.parameters[6 + k];
         // Nothing gives way there: about zero, in units of its own uncertainty.
-        assert!(base.value.abs() < 4.0 * base.deviation, "{base:?}");
+        assert!(base.value.abs() < 4.0 * base.spread.unwrap().deviation, "{base:?}");
     }
 }
 
@@ -213,7 +214,7 @@ fn the_intervals_hold() {
             let found = answer(&robot, &rigid(&arm), &text, &question).unwrap();
             noise += found.noise.position.unwrap() / draws as f64;
             for (parameter, joint) in found.parameters.iter().zip(&arm.joints) {
-                let [low, high] = parameter.interval;
+                let [low, high] = parameter.interval().unwrap();
                 inside += u32::from((low..=high).contains(&joint.compliance));
                 all += 1;
             }

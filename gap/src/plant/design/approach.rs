@@ -1,7 +1,7 @@
 //! From which side each joint came to rest.
 
-use super::super::noise::{Dice, Stream};
 use super::{Design, Shape};
+use crate::dice::{Dice, Stream};
 use crate::measurement::Row;
 
 /// Fills in the directions. A joint that does not move keeps its side; before the first row, chance

@@ -1,7 +1,7 @@
 //! Time and temperature of a session.
 
-use super::super::noise::{Dice, Stream};
 use super::rounded;
+use crate::dice::{Dice, Stream};
 use crate::measurement::Row;
 
 /// Seconds from one row to the next, give or take a third.

@@ -3,10 +3,10 @@
 use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::super::noise::{Dice, Stream};
 use super::super::reality::Reality;
 use super::super::transform::{rotation, slide};
 use super::{Design, Shape, rounded};
+use crate::dice::{Dice, Stream};
 use crate::measurement::Kind;
 
 /// Gravity where the robot file has none, m/s².

@@ -3,8 +3,8 @@
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
-use super::super::noise::{Dice, Stream};
 use super::{Design, Shape, rounded};
+use crate::dice::{Dice, Stream};
 
 /// Where a joint that has no limits may go: 150° to either side, or half a metre out.
 fn range(joint: &Joint) -> [f64; 2] {

@@ -5,7 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::{Axes, Elasticity};
 use crate::chain::displacement::left_jacobian;
-use crate::chain::product::row_alone;
+use crate::chain::product::single_row;
 use crate::chain::transport::{lower, stack, twist_matrix, upper};
 use crate::chain::{ChainError, Displacement};
 
@@ -33,8 +33,8 @@ impl Link {
     /// `None` where the row has no beam or no length. `index` counts from 0.
     pub(super) fn new(arm: &Arm, index: usize, q: f64) -> Option<Self> {
         arm.joints[index].beam.as_ref()?;
-        let alone = row_alone(arm, index);
-        let frame = alone.pose(&[q]);
+        let single = single_row(arm, index);
+        let frame = single.pose(&[q]);
         let chord = frame.rotation.inverse() * frame.translation.vector;
         let length = chord.norm();
         if length == 0.0 {
@@ -43,7 +43,7 @@ impl Link {
         let mut turned = frame.inverse();
         turned.translation.vector = Vector3::zeros();
         let turn = twist_matrix(&turned);
-        let flexibility = turn * alone.compliance(&[q]) * turn.transpose();
+        let flexibility = turn * single.compliance(&[q]) * turn.transpose();
         Some(Link { row: index + 1, flexibility, chord: chord / length, length })
     }
 

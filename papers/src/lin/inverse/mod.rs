@@ -53,7 +53,7 @@ impl<'a> ParallelElbow<'a> {
             return refuse(format!("it has {} joints, expected 6", rows.len()));
         }
         if let Some(k) = rows.iter().position(|row| row.motion != Motion::Revolute) {
-            return refuse(format!("joint {} slides, expected revolute joints", k + 1));
+            return refuse(format!("joint {} is prismatic, expected revolute joints", k + 1));
         }
         let finite =
             |row: &Joint| [row.theta, row.d, row.a, row.alpha].iter().all(|v| v.is_finite());

@@ -1,5 +1,7 @@
 //! What the numbers of an effect are, and the units in which they may be written.
 
+use stiffarm_kernels::Motion;
+
 /// The kind of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -21,6 +23,10 @@ pub enum Quantity {
     Mass,
     /// A plain number.
     Ratio,
+    /// rad/m.
+    AnglePerLength,
+    /// m/rad.
+    LengthPerAngle,
     /// 1/K.
     PerKelvin,
     /// m/s; metres per row where the rows have no time.
@@ -55,15 +61,35 @@ impl Quantity {
             Quantity::Angle => "rad",
             Quantity::AnglePerMoment => "rad/(N·m)",
             Quantity::LengthPerForce => "m/N",
-            Quantity::AnglePerMomentCubed => "rad/(N·m)^3",
-            Quantity::LengthPerForceCubed => "m/N^3",
+            Quantity::AnglePerMomentCubed => "rad/(N·m)³",
+            Quantity::LengthPerForceCubed => "m/N³",
             Quantity::Flexibility => "1/(N·m²)",
             Quantity::Mass => "kg",
             Quantity::Ratio => "1",
+            Quantity::AnglePerLength => "rad/m",
+            Quantity::LengthPerAngle => "m/rad",
             Quantity::PerKelvin => "1/K",
             Quantity::LengthRate => "m/s",
             Quantity::AngleRate => "rad/s",
-            Quantity::Row => "",
+            Quantity::Row => "rows",
+        }
+    }
+
+    /// The SI unit with rows that have a time, or that have none: what happens by the second happens
+    /// by the row then.
+    pub fn unit_by(self, timed: bool) -> &'static str {
+        match self {
+            Quantity::LengthRate if !timed => "m/row",
+            Quantity::AngleRate if !timed => "rad/row",
+            _ => self.unit(),
+        }
+    }
+
+    /// The same of a turn where the joint is revolute, of a shift where it is prismatic.
+    pub fn of(motion: Motion, [revolute, prismatic]: [Quantity; 2]) -> Quantity {
+        match motion {
+            Motion::Revolute => revolute,
+            Motion::Prismatic => prismatic,
         }
     }
 
@@ -79,10 +105,12 @@ impl Quantity {
             Quantity::Flexibility => (&NUMBER, &AREAS, 1),
             Quantity::Mass => (&MASSES, &[], 0),
             Quantity::Ratio => (&PARTS, &[], 0),
+            Quantity::AnglePerLength => (&ANGLES, &LENGTHS, 1),
+            Quantity::LengthPerAngle => (&LENGTHS, &ANGLES, 1),
             Quantity::PerKelvin => (&PARTS, &KELVINS, 1),
             Quantity::LengthRate => (&LENGTHS, &TIMES, 1),
             Quantity::AngleRate => (&ANGLES, &TIMES, 1),
-            Quantity::Row => (&[("", 1.0)], &[], 0),
+            Quantity::Row => (&[("", 1.0), ("rows", 1.0)], &[], 0),
         }
     }
 
@@ -217,6 +245,8 @@ mod tests {
             Flexibility,
             Mass,
             Ratio,
+            AnglePerLength,
+            LengthPerAngle,
             PerKelvin,
             LengthRate,
             AngleRate,

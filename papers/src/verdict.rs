@@ -1,7 +1,10 @@
 //! What was found about a printed equation or a cell of a printed table.
 
+use serde::{Serialize, Serializer};
+
 /// The finding.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Printed and derived are the same, exactly.
     Agrees,
@@ -20,6 +23,7 @@ pub enum Verdict {
     /// A cell: within one unit of the last printed digit.
     Close,
     /// A cell: not met.
+    #[serde(rename = "not_reproducible")]
     NotReproduced,
     /// A cell: given, not computed.
     Given,
@@ -55,30 +59,16 @@ impl Verdict {
             Verdict::Given => "given",
         }
     }
-
-    /// A short name for machines.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Verdict::Agrees => "agrees",
-            Verdict::AgreesAtPoints => "agrees_at_points",
-            Verdict::Misprint => "misprint",
-            Verdict::Definition => "definition",
-            Verdict::Unreadable => "unreadable",
-            Verdict::NotJudged => "not_judged",
-            Verdict::Reproduced => "reproduced",
-            Verdict::Close => "close",
-            Verdict::NotReproduced => "not_reproducible",
-            Verdict::Given => "given",
-        }
-    }
 }
 
 /// A joint vector at which printed and derived differ, and both values there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Witness {
     /// Angles in degrees, by their names.
+    #[serde(rename = "degrees", serialize_with = "map")]
     pub angles: Vec<(String, f64)>,
     /// Values of the other symbols.
+    #[serde(serialize_with = "map")]
     pub symbols: Vec<(String, f64)>,
     /// What is printed gives this.
     pub printed: f64,
@@ -87,7 +77,8 @@ pub struct Witness {
 }
 
 /// Equation or cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// A printed equation.
     Equation,
@@ -96,7 +87,7 @@ pub enum Kind {
 }
 
 /// A line of the ledger.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Entry {
     /// Short name of the paper.
     pub paper: String,
@@ -112,12 +103,13 @@ pub struct Entry {
     pub correction: Option<String>,
     /// The smallest change that was found to mend it.
     pub change: Option<String>,
-    /// A joint vector that tells the two apart.
-    pub witness: Option<Witness>,
     /// What it was compared with.
+    #[serde(serialize_with = "text")]
     pub source: String,
     /// A remark, or why a cell cannot be reproduced.
     pub note: Option<String>,
+    /// A joint vector that tells the two apart.
+    pub witness: Option<Witness>,
 }
 
 impl Entry {
@@ -136,4 +128,14 @@ impl Entry {
             note: None,
         }
     }
+}
+
+/// Names and values as an object.
+fn map<S: Serializer>(values: &[(String, f64)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(values.iter().map(|(name, value)| (name, value)))
+}
+
+/// Text, or null where there is none.
+fn text<S: Serializer>(text: &str, to: S) -> Result<S::Ok, S::Error> {
+    Some(text).filter(|text| !text.is_empty()).serialize(to)
 }

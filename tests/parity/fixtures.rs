@@ -1,4 +1,4 @@
-//! Odd tables: everything a row may hold, in combinations that no catalogue arm has.
+//! Fixtures: everything a row may hold, in combinations that no catalogue arm has.
 
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm::robot;
@@ -48,6 +48,15 @@ robot! {
     j7    | q        | 0      | 0.2   | 0     | 2e5       | 2    | [-0.1, 0, 0.02]
     j8    | q        | 0      | 0.1   | pi/2  | 2e5       | 1    | [0, 0, 0.02]
     j9    | q        | 0.1    | 0     | 0     | 2e5       | 1    | [0, 0, 0.02]
+}
+
+robot! {
+    /// Two joints about z and, at rest, about y, with springs.
+    pub mod perpendicular;
+    convention: standard_dh;
+    joint | theta | d | a   | alpha | stiffness
+    j1    | q     | 0 | 0   | -pi/2 | 1.5e5
+    j2    | q     | 0 | 0.3 | 0     | 6e4
 }
 
 robot! {
@@ -103,8 +112,8 @@ parameters! {
 }
 
 /// The table of a module of this file, read through the macro's own reader.
-fn table(module: &str) -> Robot {
-    let source = include_str!("zoo.rs");
+pub fn table(module: &str) -> Robot {
+    let source = include_str!("fixtures.rs");
     let start = source.find(&format!("pub mod {module};")).expect("the module is above");
     let end = start + source[start..].find("\n}").expect("the invocation ends");
     let tokens = source[start..end].parse().expect("tokens");
@@ -130,7 +139,7 @@ fn check(module: &str, robot: &Robot, kernels: &dyn Kernels<f64>) {
 }
 
 #[test]
-fn odd_tables_agree_with_the_textbook() {
+fn fixtures_agree_with_the_textbook() {
     check("oblique", &table("oblique"), &oblique::Robot);
     check("sliding", &table("sliding"), &sliding::Robot);
     check("parallel", &table("parallel"), &parallel::Robot);

@@ -1,0 +1,150 @@
+//! What an effect tells of itself.
+
+use nalgebra::Matrix6xX;
+use stiffarm_kernels::generic::{Arm, Joint};
+
+use super::{
+    Carrier, Curve, Depends, Draw, Fate, Forms, Group, Parameter, ParameterReport, Place,
+    RobotFile, Scene, Spot, Told,
+};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// An effect of reality at places of the arm: all that is known of it.
+///
+/// [`Effect::alter`] is the exact model: the arm of a row as it is *with* the effect, to be brought
+/// to rest like any other. [`Effect::block`] is its linearisation; the fit iterates between the
+/// two. A model of one's own needs these, its identifier, places and parameters, and
+/// [`Effect::idle`]; what else there is has a default.
+pub trait Effect: Sync {
+    /// The identifier that files and options use.
+    fn identifier(&self) -> &'static str;
+
+    /// Where on this arm it may act.
+    fn places(&self, arm: &Arm) -> Vec<Place>;
+
+    /// Its parameters; all zero is no effect.
+    fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter>;
+
+    /// Puts the effect with these values into the arm of a row.
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment, spot: Spot, values: &[f64]);
+
+    /// Why data shows nothing of it where its block is zero everywhere.
+    fn idle(&self) -> &'static str;
+
+    // Its linearisation.
+
+    /// What the effect moves, if that is one thing and all that it does is to move it: most effects
+    /// move a joint or shift a frame, each by another law. Such an effect tells its
+    /// [`Effect::motions`], any other its [`Effect::block`].
+    fn carrier(&self, _: Spot) -> Option<Carrier> {
+        None
+    }
+
+    /// Adds how far the carrier moves per unit of each parameter; of a frame, of each six.
+    fn motions(&self, _: &Scene<'_>, _: Spot, _: &mut Vec<f64>) {}
+
+    /// Adds the motions of several spots of one place.
+    fn motions_of(&self, scene: &Scene<'_>, spots: &[Spot], motions: &mut Vec<f64>) {
+        spots.iter().for_each(|spot| self.motions(scene, *spot, motions));
+    }
+
+    /// Twist of the tool, base axes, at the tool origin, per unit of each parameter, 6×p, to first
+    /// order at a state of the arm.
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
+        let mut motions = Vec::new();
+        self.motions(scene, spot, &mut motions);
+        scene.moved(self.carrier(spot), &motions)
+    }
+
+    // Its forms.
+
+    /// What its forms at one place are.
+    fn forms_are(&self) -> Forms {
+        Forms::One
+    }
+
+    /// Those that may be named where there is no data.
+    fn named_forms(&self, _: &Arm, _: Place) -> Vec<usize> {
+        vec![0]
+    }
+
+    /// Those that this data may show. Each is tried by itself.
+    fn forms(&self, arm: &Arm, place: Place, _: &Measurements) -> Vec<usize> {
+        self.named_forms(arm, place)
+    }
+
+    // Its verdict.
+
+    /// With what it goes, for the parts of a gap; `None` if with none of them alone.
+    fn group(&self) -> Option<Group> {
+        None
+    }
+
+    /// Whether it is a matter of lengths and angles alone, the same at every load, moment and
+    /// direction: what calibration would take up.
+    fn is_geometry(&self) -> bool {
+        false
+    }
+
+    /// Why it cannot be there at all with this data; `None` if it can.
+    fn excluded(&self, _: &Measurements) -> Option<&'static str> {
+        None
+    }
+
+    /// Why data that excites it may still not show it beside all of the arm's geometry.
+    fn hidden(&self) -> &'static str {
+        "lengths, twists, zeros and frames of the arm do the same on this data"
+    }
+
+    /// What must be known of a row, beyond readings and load, to predict and to compensate it.
+    fn depends(&self) -> Depends {
+        Depends::Posture
+    }
+
+    // Its words.
+
+    /// What reality does, in half a sentence with its size: `joint 2 has 0.3 mrad of backlash`.
+    fn sentence(&self, told: &Told<'_>) -> String {
+        format!("{} at {}", self.identifier().replace('_', " "), told.place)
+    }
+
+    /// The unit in which its numbers of this SI unit are shown: of a plain number, of what to what
+    /// it is.
+    fn shown_in(&self, unit: &'static str) -> &'static str {
+        unit
+    }
+
+    /// The joint whose spring its number adds to; the spring as a whole is then told too.
+    fn spring<'a>(&self, _: &'a Arm, _: Place) -> Option<&'a Joint> {
+        None
+    }
+
+    /// The joint's motion as a function of one thing, if it is one.
+    fn curve<'a>(&self, _: &'a [ParameterReport]) -> Option<Curve<'a>> {
+        None
+    }
+
+    // Its place in a robot file.
+
+    /// Puts its numbers at a place into the file's own entries, as far as these hold them; what
+    /// became of each. What no entry holds stands in an `[[effect]]` table.
+    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
+        file.no_entry(numbers)
+    }
+
+    // Its cases when it is withheld.
+
+    /// Numbers of about the size that arms have, of one of its forms.
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let forms = self.forms(from.arm, from.place, from.session);
+        let form = if forms.len() > 1 { forms[from.below(forms.len())] } else { 0 };
+        let parameters = self.parameters(from.arm, Spot { place: from.place, form });
+        from.sizes(&parameters, 1.0)
+    }
+
+    /// Whether it has the size that it has, and is not made larger for a case.
+    fn has_one_size(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,101 @@
+//! A finding, as its effect puts it into words.
+
+use serde::Serialize;
+
+/// One fitted number.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterReport {
+    /// What it is.
+    pub name: String,
+    /// Its value, added to what the robot file has.
+    pub value: f64,
+    /// Of the value.
+    pub unit: &'static str,
+    /// 95 % interval: least squares, the residual's variance, Student's t.
+    pub ci95: [f64; 2],
+}
+
+/// What was found, for a sentence.
+#[derive(Clone, Copy)]
+pub struct Told<'a> {
+    /// Where.
+    pub place: &'a str,
+    /// Its numbers; of several forms those of all.
+    pub numbers: &'a [ParameterReport],
+    /// Writes a value with its unit: the SI unit, the largest value that is to be shown in the same
+    /// unit, the value.
+    pub write: &'a dyn Fn(&'static str, f64, f64) -> String,
+}
+
+impl<'a> Told<'a> {
+    /// In plain SI, three digits.
+    pub fn plain(place: &'a str, numbers: &'a [ParameterReport]) -> Self {
+        let write: &dyn Fn(&'static str, f64, f64) -> String = &|unit, _, value| match unit {
+            "1" => format!("{value:.2e}"),
+            "rows" => value.to_string(),
+            _ => format!("{value:.2e} {unit}"),
+        };
+        Told { place, numbers, write }
+    }
+
+    /// The first number; 0 without one.
+    pub fn first(&self) -> f64 {
+        self.numbers.first().map_or(0.0, |p| p.value)
+    }
+
+    /// A number by its name; 0 if there is none.
+    pub fn value(&self, name: &str) -> f64 {
+        self.numbers.iter().find(|p| p.name == name).map_or(0.0, |p| p.value)
+    }
+
+    /// A value in the unit of the first number.
+    pub fn sized(&self, value: f64) -> String {
+        let unit = self.numbers.first().map_or("", |p| p.unit);
+        (self.write)(unit, value.abs(), value)
+    }
+
+    /// The first number without its sign.
+    pub fn size(&self) -> String {
+        self.sized(self.first().abs())
+    }
+
+    /// `if_negative` or `else_`, by the sign of the first number.
+    pub fn by_sign(&self, if_negative: &'static str, else_: &'static str) -> &'static str {
+        if self.first() < 0.0 { if_negative } else { else_ }
+    }
+
+    /// Length of the vector of some numbers.
+    pub fn norm(&self, names: &[&str]) -> f64 {
+        names.iter().map(|name| self.value(name).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// How far a frame is moved and turned.
+    pub fn moved(&self) -> String {
+        let parts = [("m", ["x", "y", "z"]), ("rad", ["rx", "ry", "rz"])].map(|(unit, names)| {
+            let size = self.norm(&names);
+            (size, (self.write)(unit, size, size))
+        });
+        let there = parts.into_iter().filter(|(size, _)| *size > 0.0);
+        there.map(|(_, text)| text).collect::<Vec<_>>().join(" and ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_found_by_name() {
+        let number = |name: &str, value| ParameterReport {
+            name: name.to_owned(),
+            value,
+            unit: "m",
+            ci95: [value; 2],
+        };
+        let numbers = [number("x", -3e-3), number("y", 4e-3)];
+        let told = Told::plain("base", &numbers);
+        assert_eq!((told.first(), told.value("y"), told.value("z")), (-3e-3, 4e-3, 0.0));
+        assert_eq!((told.norm(&["x", "y"]), told.by_sign("less", "more")), (5e-3, "less"));
+        assert_eq!((told.moved(), told.size()), ("5.00e-3 m".to_owned(), "3.00e-3 m".to_owned()));
+    }
+}

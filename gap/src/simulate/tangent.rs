@@ -1,0 +1,276 @@
+//! How an arm answers small displacements of its sites: the loads follow the geometry, and every
+//! site gives by the slope of its law.
+//!
+//! At rest every displacement is what its site gives under its load, `u = c(l(u))`. The derivative
+//! of the difference is `1 − C K`: `C = ∂c/∂l` are the compliances of the sites, `K = ∂l/∂u` is how
+//! the loads, constant in base axes, change at each site when another one moves. It is the loaded
+//! stiffness `Kθ − K_C` of the deformed geometry, multiplied by the compliances, so that rigid
+//! sites need no stiffness.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Schur, Vector3, Vector6};
+
+use super::walk::{Frames, Walk};
+use super::{rotation, translation};
+
+/// Part of a load, and N or N·m on top of it, by which a law is differentiated.
+const STEP: f64 = 1e-4;
+
+/// Squarings of `C K` after which its eigenvalues are asked for.
+const MOST_SQUARINGS: usize = 5;
+
+/// Sweeps after which a decomposition is given up.
+const MOST_SWEEPS: usize = 10_000;
+
+/// What acts beyond a site, base axes.
+struct Acting {
+    force: Vector3<f64>,
+    /// About the site's displaced origin.
+    moment: Vector3<f64>,
+    /// `A − tr(A)` with `A = Σ a fᵀ` over the forces `f` at `a` from there: times a rotation, how
+    /// the moment changes when all that is beyond turns.
+    turning: Matrix3<f64>,
+}
+
+/// A site that gives.
+struct Giving {
+    site: usize,
+    /// `∂c/∂l`, 6×6, its axes.
+    slope: Matrix6<f64>,
+}
+
+/// The arm's answers about one posture.
+pub(super) struct Tangent<'w, 'a> {
+    walk: &'w Walk<'a>,
+    at: &'w [Vector6<f64>],
+    frames: &'w [Frames],
+    acting: Vec<Acting>,
+    giving: Vec<Giving>,
+}
+
+impl<'w, 'a> Tangent<'w, 'a> {
+    /// About the displacements `at`, with the frames and loads that belong to them.
+    pub(super) fn new(
+        walk: &'w Walk<'a>,
+        at: &'w [Vector6<f64>],
+        frames: &'w [Frames],
+        loads: &[Vector6<f64>],
+    ) -> Self {
+        let tool = &frames[walk.sites - 1].behind;
+        let (force, point) = walk.tip(tool);
+        let mut sum = point * force.transpose();
+        let mut acting: Vec<Acting> = Vec::with_capacity(walk.sites);
+        for index in (0..walk.sites).rev() {
+            let Frames { before, behind } = &frames[index];
+            if let Some((weight, point)) = walk.mass(index, behind) {
+                sum += point * weight.transpose();
+            }
+            let (force, moment) = (translation(&loads[index]), rotation(&loads[index]));
+            let (force, moment) = (before.rotation * force, before.rotation * moment);
+            let about = sum - behind.translation.vector * force.transpose();
+            let turning = about - Matrix3::identity() * about.trace();
+            acting.push(Acting { force, moment, turning });
+            if let Some((weight, point)) = walk.beam(index, before) {
+                sum += point * weight.transpose();
+            }
+        }
+        acting.reverse();
+        let giving = (0..walk.sites).filter_map(|site| {
+            let slope = slope(walk, site, &loads[site]);
+            (slope != Matrix6::zeros()).then_some(Giving { site, slope })
+        });
+        let giving = giving.collect();
+        Self { walk, at, frames, acting, giving }
+    }
+
+    /// What each site gives in answer to a small change `by` of the displacement of `moved`, as
+    /// pairs of a site and its displacement, each in its own axes.
+    pub(super) fn answers(
+        &self,
+        moved: usize,
+        by: &Vector6<f64>,
+    ) -> impl Iterator<Item = (usize, Vector6<f64>)> {
+        let turn = self.frames[moved].before.rotation;
+        let shift = turn * translation(by);
+        let turn = turn * (left(&rotation(&self.at[moved])) * rotation(by));
+        self.giving.iter().map(move |one| (one.site, self.answer(one, moved, &shift, &turn)))
+    }
+
+    fn answer(
+        &self,
+        giving: &Giving,
+        moved: usize,
+        shift: &Vector3<f64>,
+        turn: &Vector3<f64>,
+    ) -> Vector6<f64> {
+        let site = giving.site;
+        let (here, there) = (&self.acting[site], &self.acting[moved]);
+        // What moves is all that is beyond: with the site itself, if it is one of these.
+        let (force, moment) = match site.cmp(&moved) {
+            std::cmp::Ordering::Less => {
+                (Vector3::zeros(), shift.cross(&there.force) + there.turning * turn)
+            }
+            std::cmp::Ordering::Equal => (Vector3::zeros(), there.turning * turn),
+            std::cmp::Ordering::Greater => {
+                (-turn.cross(&here.force), here.turning * turn - turn.cross(&here.moment))
+            }
+        };
+        let back = self.frames[site].before.rotation.inverse();
+        let (f, m) = (back * force, back * moment);
+        let mut given = giving.slope * Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
+        if site > moved
+            && let Some(link) = self.walk.link(site)
+        {
+            let gravity = back * -turn.cross(&self.walk.actual.arm.gravity);
+            given += link.give(&Vector6::zeros(), &link.weight(&gravity));
+        }
+        given
+    }
+
+    /// `1 − C K` over the components that give.
+    pub(super) fn matrix(&self) -> Stiffness {
+        let unknowns: Vec<(usize, usize)> = (self.giving.iter())
+            .flat_map(|one| {
+                let gives = |k: &usize| one.slope.row(*k).iter().any(|s| *s != 0.0);
+                (0..6).filter(gives).map(|k| (one.site, k))
+            })
+            .collect();
+        let mut matrix = DMatrix::identity(unknowns.len(), unknowns.len());
+        for (column, &(moved, component)) in unknowns.iter().enumerate() {
+            let mut row = 0;
+            for (site, given) in self.answers(moved, &Vector6::ith(component, 1.0)) {
+                while let Some((_, k)) = unknowns.get(row).filter(|(of, _)| *of == site) {
+                    matrix[(row, column)] -= given[*k];
+                    row += 1;
+                }
+            }
+        }
+        Stiffness { unknowns, matrix }
+    }
+}
+
+/// `1 − C K` over the components of the sites that give.
+pub(super) struct Stiffness {
+    /// Site and component.
+    unknowns: Vec<(usize, usize)>,
+    matrix: DMatrix<f64>,
+}
+
+impl Stiffness {
+    /// Newton's step where every site gives `misses` more than it is displaced; none where the
+    /// matrix is singular.
+    pub(super) fn solve(&self, misses: &[Vector6<f64>]) -> Option<Vec<Vector6<f64>>> {
+        let right =
+            self.unknowns.iter().map(|(site, k)| misses[*site][*k]).collect::<Vec<_>>().into();
+        let step: DVector<f64> = self.matrix.clone().lu().solve(&right)?;
+        let mut all = misses.to_vec();
+        for ((site, k), step) in self.unknowns.iter().zip(step.iter()) {
+            all[*site][*k] = *step;
+        }
+        step.iter().all(|s| s.is_finite()).then_some(all)
+    }
+
+    /// Whether an arm that rests here comes back when it is pushed a little: every eigenvalue of
+    /// `1 − C K` has a positive real part. Without a moment that follows no potential it is the
+    /// same as `Kθ − K_C` being positive definite.
+    pub(super) fn is_stable(&self) -> bool {
+        let size = self.matrix.nrows();
+        let mut follows = DMatrix::identity(size, size) - &self.matrix;
+        // No eigenvalue of C K is beyond 1 where a power of it is below 1 in any norm.
+        for _ in 0..MOST_SQUARINGS {
+            if follows.norm() < 1.0 {
+                return true;
+            }
+            follows = &follows * &follows;
+        }
+        Schur::try_new(self.matrix.clone(), f64::EPSILON, MOST_SWEEPS)
+            .is_some_and(|schur| schur.complex_eigenvalues().iter().all(|e| e.re > 0.0))
+    }
+}
+
+/// The compliance of a site about its load, 6×6.
+fn slope(walk: &Walk<'_>, site: usize, load: &Vector6<f64>) -> Matrix6<f64> {
+    let mut slope = Matrix6::zeros();
+    if let Some(row) = walk.spring(site) {
+        slope += Matrix6::from_diagonal(&walk.actual.spring(row, &Vector6::repeat(1.0)));
+    } else if let Some(link) = walk.link(site) {
+        let weightless = Vector3::zeros();
+        let column = |k| link.give(&Vector6::ith(k, 1.0), &weightless);
+        slope += Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(column));
+    }
+    for law in walk.laws(site) {
+        slope += Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(|k| {
+            let step = Vector6::ith(k, STEP * (1.0 + load[k].abs()));
+            (law(&(load + step)) - law(&(load - step))) / (2.0 * step[k])
+        }));
+    }
+    slope
+}
+
+/// The rotation rate, in the axes before a rotation, per rate of its rotation vector: the left
+/// Jacobian of SO(3), `1 + (1 − cos θ)/θ² [θ] + (θ − sin θ)/θ³ [θ]²`.
+fn left(vector: &Vector3<f64>) -> Matrix3<f64> {
+    let cross = vector.cross_matrix();
+    let square = vector.norm_squared();
+    let angle = square.sqrt();
+    let half = 0.5 * angle;
+    let sinc = if half > 0.0 { half.sin() / half } else { 1.0 };
+    // Below, what the series leaves out is less than the rounding of its first term.
+    let third = if square < 1e-5 {
+        1.0 / 6.0 - square / 120.0 + square * square / 5040.0
+    } else {
+        (1.0 - angle.sin() / angle) / square
+    };
+    Matrix3::identity() + cross * (0.5 * sinc * sinc) + cross * cross * third
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Actual, Site};
+    use super::*;
+    use crate::fixture::bent;
+
+    /// Against differences of what the sites give, in a posture with every site displaced.
+    #[test]
+    fn answers_are_the_differences_of_what_is_given() {
+        let arm = bent();
+        let (q, w) = ([0.3, -0.7, 0.4], Vector6::new(300.0, -200.0, -800.0, 20.0, -30.0, 10.0));
+        let mut actual = Actual::new(&arm, &q, &w);
+        actual.load_point = Vector3::new(0.02, 0.03, -0.05);
+        actual.laws.push((Site::Joint(1), Box::new(|l| Vector6::ith(5, 1e-12 * l[5].powi(3)))));
+        actual.laws.push((Site::Base, Box::new(|l| l * 1e-6)));
+        let walk = Walk::new(&actual);
+        let at: Vec<Vector6<f64>> = (0..walk.sites)
+            .map(|s| Vector6::from_fn(|k, _| 0.2 * (1.3 * s as f64 + 2.7 * k as f64).sin()))
+            .collect();
+        let gives = |at: &[Vector6<f64>]| -> Vec<Vector6<f64>> {
+            let frames = walk.frames(at);
+            let loads = walk.loads(&frames);
+            (0..walk.sites).map(|k| walk.give(k, &frames[k], &loads[k])).collect()
+        };
+        let frames = walk.frames(&at);
+        let loads = walk.loads(&frames);
+        let tangent = Tangent::new(&walk, &at, &frames, &loads);
+        let step = 1e-5;
+        for moved in 0..walk.sites {
+            for k in 0..6 {
+                let shifted = |by: f64| {
+                    let mut at = at.clone();
+                    at[moved][k] += by;
+                    gives(&at)
+                };
+                let mut want: Vec<Vector6<f64>> = shifted(step)
+                    .iter()
+                    .zip(shifted(-step))
+                    .map(|(more, less)| (more - less) / (2.0 * step))
+                    .collect();
+                let size = want.iter().map(|w| w.amax()).fold(0.0, f64::max);
+                for (site, given) in tangent.answers(moved, &Vector6::ith(k, 1.0)) {
+                    want[site] -= given;
+                }
+                let left = want.iter().map(|w| w.amax()).fold(0.0, f64::max);
+                // The square of the step, and gives of 1e-2, rounded some hundred times, over it.
+                assert!(left <= 1e-8 * size + 1e-11, "{moved} {k}: {left:e} of {size:e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! An effect is one file: its identifier stands there and nowhere else, and nothing asks which effect
+//! it has before it.
+
+use std::path::{Path, PathBuf};
+
+use stiffarm_gap::effects::Catalogue;
+
+/// Every Rust file of a folder, with its text up to its own tests.
+fn sources(folder: &Path, all: &mut Vec<(PathBuf, String)>) {
+    let entries = std::fs::read_dir(folder).expect("a folder of sources");
+    for entry in entries {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        if path.is_dir() {
+            let is_test = ["tests", "target", "fuzz"].contains(&name.as_str());
+            if !is_test && !name.starts_with('.') {
+                sources(&path, all);
+            }
+        } else if name.ends_with(".rs") && name != "tests.rs" {
+            let text = std::fs::read_to_string(&path).expect("text");
+            let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+            all.push((path, code.to_owned()));
+        }
+    }
+}
+
+/// `joint_offset` as a type.
+fn camel(identifier: &str) -> String {
+    let capital = |part: &str| part[..1].to_uppercase() + &part[1..];
+    identifier.split('_').map(capital).collect()
+}
+
+/// Whether a word stands in a text as a word.
+fn has_word(text: &str, word: &str) -> bool {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    text.match_indices(word).any(|(at, _)| {
+        let (before, behind) = (&text[..at], &text[at + word.len()..]);
+        !before.ends_with(is_name) && !behind.starts_with(is_name)
+    })
+}
+
+#[test]
+fn an_identifier_stands_in_its_own_file_alone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let mut all = Vec::new();
+    for package in ["gap", "codegen", "kernels", "robots", "cli", "papers"] {
+        if root.join(package).is_dir() {
+            sources(&root.join(package), &mut all);
+        }
+    }
+    let room = root.join("gap/src/effects/catalogue");
+    for identifier in Catalogue::default().identifiers() {
+        let own = room.join(format!("{identifier}.rs"));
+        let holding = |what: &dyn Fn(&str) -> bool| -> Vec<&PathBuf> {
+            all.iter().filter(|(_, text)| what(text)).map(|(path, _)| path).collect()
+        };
+        let quoted = format!("\"{identifier}\"");
+        assert_eq!(holding(&|text| text.contains(&quoted)), [&own], "{identifier}");
+        let times: usize = all.iter().map(|(_, text)| text.matches(&quoted).count()).sum();
+        assert_eq!(times, 1, "{identifier}");
+        // As a type it stands in the catalogue and in the table of the plant's own laws; the frames
+        // that may be unknown are effects too.
+        let name = camel(identifier);
+        let allowed = [
+            own.clone(),
+            room.join("mod.rs"),
+            root.join("gap/src/plant/laws.rs"),
+            root.join("gap/src/diagnose/options.rs"),
+        ];
+        let is_frame = ["BaseFrame", "ToolFrame"].contains(&name.as_str());
+        let allowed = if is_frame { &allowed[..] } else { &allowed[..3] };
+        // Nuisances are called after the frames.
+        let bare = |text: &str| text.replace(&format!("Nuisance::{name}"), "");
+        for path in holding(&|text| has_word(&code_of(&bare(text)), &name)) {
+            if ![root.join("gap"), root.join("cli")].iter().any(|here| path.starts_with(here)) {
+                continue;
+            }
+            assert!(allowed.contains(path), "{name} in {}", path.display());
+        }
+    }
+}
+
+/// The text without its comments.
+fn code_of(text: &str) -> String {
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
+}
