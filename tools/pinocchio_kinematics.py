@@ -62,7 +62,7 @@ def sample(model, data, base, tip, joints, values):
         "position": pose.translation.tolist(),
         "rotation": pose.rotation.tolist(),
         "jacobian": turned[:, columns].tolist(),
-        "gravity_torque": weights[columns].tolist(),
+        "weight_torque": weights[columns].tolist(),
     }
 
 

@@ -7,11 +7,11 @@ use super::{Verdict, robots};
 use crate::input::model::Model;
 use crate::input::source;
 use crate::input::source::{RobotArgs, Source};
-use crate::parity::{Agreement, Comparison, Line, Subject, agreement};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::print;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
+use stiffarm_kernels::parity::{Agreement, Comparison, Line, Subject, agreement};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -19,9 +19,10 @@ Examples:
   stiffarm check arm.toml --count 1000
   stiffarm check --all
 
-Of a built-in robot the compiled kernels are checked, of a file the derived graph. They are compared
-with the textbook (the same quantity by matrices at run time), in single precision too; with central
-differences of the textbook; and with the derivatives of the forward kinematics by dual numbers.
+What is checked is the graph that is derived from the table, of which every kernel is a print. It is
+compared with the textbook (the same quantity by matrices at run time), in single precision too; with
+central differences of the textbook; and with the derivatives of the forward kinematics by dual
+numbers.
 Deviations are the largest over all postures, relative to the output's scale. Exit status 1 if one
 is larger than its arithmetic accounts for.";
 
@@ -65,24 +66,19 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 /// A robot and how well its implementations agree.
 struct Checked {
     source: Source,
-    implementation: &'static str,
     agreement: Agreement,
 }
 
 fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let arm = source.arm()?;
-    let model = Model::new(&source, &Output::EACH);
+    let model = Model::new(&source.robot, &Output::EACH);
     let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);
-    let subject = Subject {
-        arm: &arm,
-        generated: &generated,
-        single: source.compiled.map(|arm| arm.kernels_f32),
-    };
+    let single = |output, q: &[f64], w: &[f64; 6]| model.single(output, q, w);
+    let subject = Subject { arm: &arm, generated: &generated, single: Some(&single) };
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
-    let implementation = model.name();
-    Ok(Checked { source, implementation, agreement })
+    Ok(Checked { source, agreement })
 }
 
 const HEADS: [&str; 4] = ["textbook", "f32", "differences", "dual numbers"];
@@ -99,10 +95,9 @@ impl Checked {
             "{}  {}\n\n",
             bold(&robot.name),
             dim(format!(
-                "{}, {}, {}: {} postures and wrenches, seed {}",
+                "{}, {}, derived graph: {} postures and wrenches, seed {}",
                 robots::motions(robot),
                 robots::convention(robot.convention),
-                self.implementation,
                 thousands(args.count as usize),
                 args.seed
             ))

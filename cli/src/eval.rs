@@ -57,8 +57,8 @@ const OUTPUTS: [Output; 8] = [
     Output::Jacobian,
     Output::ComplementaryStiffness,
     Output::JointTorque,
-    Output::GravityTorque,
-    Output::GravityStiffness,
+    Output::WeightTorque,
+    Output::WeightStiffness,
     Output::Compliance,
     Output::Deflection,
 ];
@@ -75,11 +75,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         Some(text) => wrench("--wrench", text)?.into(),
     };
     let deflection = if args.gravity { Output::DeflectionWithGravity } else { Output::Deflection };
-    let model = Model::new(&source, &[&OUTPUTS[..7], &[deflection]].concat());
+    let model = Model::new(&source.robot, &[&OUTPUTS[..7], &[deflection]].concat());
     let result = evaluate(&model, &q, &wrench, args.gravity, deflection)?;
     match &args.json {
         Some(target) => target.write(&json::text(&result)?)?,
-        None => print(&screen(&source, &model, &q, &wrench, args.gravity, &result))?,
+        None => print(&screen(&source, &q, &wrench, args.gravity, &result))?,
     }
     Ok(Verdict::Good)
 }
@@ -117,7 +117,7 @@ fn evaluate(
         Ok(sum)
     };
     let pose = block(Output::Pose)?;
-    let k_c = loaded(Output::ComplementaryStiffness, Output::GravityStiffness)?;
+    let k_c = loaded(Output::ComplementaryStiffness, Output::WeightStiffness)?;
     Ok(Evaluation {
         position: rows(&pose[9..], 3).into_iter().flatten().collect(),
         rotation: rows(&pose[..9], 3),
@@ -125,7 +125,7 @@ fn evaluate(
         k_c: rows(&k_c, n),
         compliance: rows(&block(Output::Compliance)?, 6),
         deflection: rows(&block(deflection)?, 6).concat(),
-        joint_torque: rows(&loaded(Output::JointTorque, Output::GravityTorque)?, n).concat(),
+        joint_torque: rows(&loaded(Output::JointTorque, Output::WeightTorque)?, n).concat(),
     })
 }
 
@@ -136,7 +136,6 @@ fn rows(block: &[f64], rows: usize) -> Vec<Vec<f64>> {
 
 fn screen(
     source: &Source,
-    model: &Model,
     q: &[f64],
     wrench: &[f64; 6],
     gravity: bool,
@@ -148,7 +147,7 @@ fn screen(
     let mut text = format!(
         "{}  {}\n\n",
         bold(&source.robot.name),
-        dim(format!("{} by the {}{weights}", source.given, model.name()))
+        dim(format!("{} by the derived graph{weights}", source.given))
     );
     let mut part = |name: &str, unit: &str, rows: &[&[f64]]| {
         let (power, matrix) = matrix(rows);

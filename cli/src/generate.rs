@@ -142,19 +142,19 @@ impl Args {
     fn go_together(&self) -> Result<(), Failure> {
         let of_c = self.precision.is_some() || self.sines.is_some() || self.name.is_some();
         match self.emit {
-            Emit::Rust | Emit::Latex | Emit::Dot if of_c => {
+            other if other != Emit::C && of_c => {
                 Err(Failure::new("--precision, --sines and --name are for c"))
             }
             Emit::Rust | Emit::C if !self.outputs.is_empty() => Err(Failure::new(
                 "--output is for latex and dot: the Rust module and the C files have every output",
             )),
-            Emit::C | Emit::Dot if self.flexible.is_some() => {
+            other if !matches!(other, Emit::Rust | Emit::Latex) && self.flexible.is_some() => {
                 Err(Failure::new("--flexible is for rust and latex"))
             }
-            Emit::C | Emit::Latex | Emit::Dot if self.kernels.is_some() => {
+            other if other != Emit::Rust && self.kernels.is_some() => {
                 Err(Failure::new("--kernels is for rust: c, latex and dot use no crate"))
             }
-            Emit::C | Emit::Latex | Emit::Dot if self.fused => {
+            other if other != Emit::Rust && self.fused => {
                 Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
             }
             Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
@@ -235,7 +235,7 @@ impl Args {
         };
         Ok(match self.emit {
             Emit::Rust => flexible_rust(robot, &displacements, &self.options()),
-            Emit::C | Emit::Latex | Emit::Dot => flexible_latex(robot, &displacements),
+            _ => flexible_latex(robot, &displacements),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
+use stiffarm_codegen::robot::urdf::{self, Chain, Frame, Refusal, Table, Urdf, robot_file};
 use stiffarm_codegen::robot::{Motion, Robot};
 
 use super::Verdict;
@@ -10,7 +10,6 @@ use crate::input::source::text;
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::note::note;
 use crate::terminal::output::Target;
-use crate::urdf::{self, Chain, Refusal, Table, Urdf, robot_file};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -161,10 +160,7 @@ fn deviation(chain: &Chain, table: &Table, written: &str) -> Result<f64, Failure
         .map_err(|error| unsound(error.to_string()))?;
     let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| unsound(error.to_string()))?;
     let [turn, height] = table.lead;
-    let lead = IsometryMatrix3::from_parts(
-        Translation3::new(0.0, 0.0, height),
-        Rotation3::from_axis_angle(&Vector3::z_axis(), turn),
-    );
+    let lead = Frame { origin: [0.0, 0.0, height], ..Frame::turned([0.0, 0.0, 1.0], turn) };
     let mut worst = 0.0_f64;
     for posture in 0..POSTURES {
         // Fractions of the golden ratio and its like: spread evenly, the same for every run.
@@ -179,12 +175,16 @@ fn deviation(chain: &Chain, table: &Table, written: &str) -> Result<f64, Failure
         };
         let q: Vec<f64> = chain.steps.iter().enumerate().map(value).collect();
         let (ours, theirs) = (arm.pose(&q), chain.pose(&q));
-        let rotation = lead.rotation * ours.rotation.to_rotation_matrix();
-        let tip = lead * nalgebra::Point3::from(ours.translation.vector);
-        let off = tip.coords - theirs.translation.vector;
-        worst = worst.max(off.amax()).max((rotation.matrix() - theirs.rotation.matrix()).amax());
-        if worst.is_nan() {
-            return Ok(f64::INFINITY);
+        let axes = ours.rotation.to_rotation_matrix();
+        let axes = core::array::from_fn(|c| axes.matrix().column(c).into_owned().into());
+        let ours = lead.then(&Frame { axes, origin: ours.translation.vector.into() });
+        let numbers = |frame: &Frame| frame.axes.concat().into_iter().chain(frame.origin);
+        for (a, b) in numbers(&ours).zip(numbers(&theirs)) {
+            let off = (a - b).abs();
+            if off.is_nan() {
+                return Ok(f64::INFINITY);
+            }
+            worst = worst.max(off);
         }
     }
     Ok(worst)

@@ -15,7 +15,6 @@ mod input;
 mod man;
 mod map;
 mod papers;
-mod parity;
 mod plot;
 mod poses;
 mod report;
@@ -23,7 +22,6 @@ mod robots;
 mod screen;
 mod simulate;
 mod terminal;
-mod urdf;
 mod withhold;
 
 use std::process::ExitCode;

@@ -2,17 +2,19 @@
 //!
 //! Data flows one way: [`robot`] (the table, read and validated) → [`mod@derive`] (the kinematic
 //! recursion, written into the graph of [`expr`]) → [`emit`] (one graph, many printers). The macro
-//! ([`expand`]), the command `stiffarm generate` and build scripts ([`generate_to_out_dir`]) all write
+//! (`expand`, feature `macro`), the command `stiffarm generate` and build scripts ([`generate_to_out_dir`]) all write
 //! what [`emit::rust`] returns.
 #![forbid(unsafe_code)]
 
 pub mod derive;
 pub mod emit;
+#[cfg(feature = "macro")]
 mod expand;
 pub mod expr;
 pub mod number;
 mod out_dir;
 pub mod robot;
 
+#[cfg(feature = "macro")]
 pub use expand::expand;
 pub use out_dir::{BuildError, generate_to_out_dir};

@@ -2,7 +2,6 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Angle, Robot, Value};
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::measurement::{Layout, Marker};
@@ -130,7 +129,7 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
         })
         .collect();
     refuse_symbols(robot, read)?;
-    Ok(Layout { motions: robot.joints.iter().map(|j| motion(j.motion)).collect(), markers })
+    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), markers })
 }
 
 fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
@@ -140,17 +139,10 @@ fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
     Err(RobotError::Symbolic { robot: robot.name.clone(), symbols: read.symbols })
 }
 
-fn motion(motion: robot::Motion) -> Motion {
-    match motion {
-        robot::Motion::Revolute => Motion::Revolute,
-        robot::Motion::Prismatic => Motion::Prismatic,
-    }
-}
-
 fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
     let at = |what: &'static str| move || format!("{what} of {}", joint.name);
     Joint {
-        motion: motion(joint.motion),
+        motion: joint.motion,
         theta: read.angle(at("theta"), &joint.theta),
         d: read.value(at("d"), &joint.d),
         a: read.value(at("a"), &joint.a),
@@ -186,6 +178,8 @@ fn beam(read: &mut Reader, beam: &robot::Beam, joint: &str) -> Beam {
 
 #[cfg(test)]
 mod tests {
+    use stiffarm_kernels::Motion;
+
     use super::*;
     use stiffarm_codegen::number::Number;
 
@@ -196,7 +190,7 @@ mod tests {
     fn robot() -> Robot {
         let joint = robot::Joint {
             name: "a1".to_owned(),
-            motion: robot::Motion::Revolute,
+            motion: Motion::Revolute,
             theta: Angle::ZERO,
             d: Value::ZERO,
             a: number("0.5"),

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::{Scalar, Unstable};
+use crate::{Output, Scalar, Unstable};
 
 /// A pose: the axes of a frame as columns, and its origin, m; both in base axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,7 @@ impl Ops {
     }
 }
 
-/// Whether a joint turns or slides.
+/// The kind of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// `q` adds to theta.
@@ -83,104 +83,16 @@ pub struct DhRow {
     pub stiffness: &'static str,
 }
 
-/// The quantities that a robot module computes; [`Kernels::evaluate`] writes each as one
-/// column-major block of [`Output::shape`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Output {
-    /// Tool pose: columns x, y, z, origin (3×4).
-    Pose,
-    /// Poses of frames 1 to n, side by side (3×4n).
-    Frames,
-    /// Geometric Jacobian, base axes, at the tool origin, translation rows first (6×n).
-    Jacobian,
-    /// The same in tool axes: Paul's differential Jacobian (6×n).
-    JacobianTool,
-    /// K_C for a wrench constant in base axes: row j, column i is ∂(column j of J)ᵀ/∂q_i · w (n×n).
-    ComplementaryStiffness,
-    /// Jᵀw (n).
-    JointTorque,
-    /// The torque of the links' weights, positive like Jᵀw: what the weights do to the joint (n).
-    GravityTorque,
-    /// ∂(gravity torque)/∂q, the weights' part of K_C (n×n).
-    GravityStiffness,
-    /// Σ J_j J_jᵀ/k_j plus the links as beams, base axes, at the tool origin (6×6).
-    Compliance,
-    /// J Kθ⁻¹ Jᵀ w plus the links: to first order in the load (6).
-    DeflectionFirstOrder,
-    /// J (Kθ − K_C)⁻¹ Jᵀ w plus the links (6).
-    Deflection,
-    /// The same under the wrench and the links' weights together (6).
-    DeflectionWithGravity,
-    /// Twist of the tool per unit of each entry of the table: theta, d, a, alpha of each row, then
-    /// the tool's translation and rotation vector (6×(4n+6)).
-    ParameterJacobian,
-    /// ∂(first-order deflection)/∂(compliance of joint j): J_j J_jᵀ w (6×n); Dumas et al. 2011, eq. 21.
-    StiffnessRegressor,
-}
-
-impl Output {
-    /// Every output, in the order in which documentation and checks list them.
-    pub const EACH: [Output; 14] = [
-        Output::Pose,
-        Output::Frames,
-        Output::Jacobian,
-        Output::JacobianTool,
-        Output::ComplementaryStiffness,
-        Output::JointTorque,
-        Output::GravityTorque,
-        Output::GravityStiffness,
-        Output::Compliance,
-        Output::DeflectionFirstOrder,
-        Output::Deflection,
-        Output::DeflectionWithGravity,
-        Output::ParameterJacobian,
-        Output::StiffnessRegressor,
-    ];
-
-    /// The function's name in a generated module.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Output::Pose => "pose",
-            Output::Frames => "frames",
-            Output::Jacobian => "jacobian",
-            Output::JacobianTool => "jacobian_tool",
-            Output::ComplementaryStiffness => "complementary_stiffness",
-            Output::JointTorque => "joint_torque",
-            Output::GravityTorque => "gravity_torque",
-            Output::GravityStiffness => "gravity_stiffness",
-            Output::Compliance => "compliance",
-            Output::DeflectionFirstOrder => "deflection_first_order",
-            Output::Deflection => "deflection",
-            Output::DeflectionWithGravity => "deflection_with_gravity",
-            Output::ParameterJacobian => "parameter_jacobian",
-            Output::StiffnessRegressor => "stiffness_regressor",
-        }
-    }
-
-    /// Rows and columns for an arm of `n` joints.
-    pub const fn shape(self, n: usize) -> (usize, usize) {
-        match self {
-            Output::Pose => (3, 4),
-            Output::Frames => (3, 4 * n),
-            Output::Jacobian | Output::JacobianTool | Output::StiffnessRegressor => (6, n),
-            Output::ComplementaryStiffness | Output::GravityStiffness => (n, n),
-            Output::JointTorque | Output::GravityTorque => (n, 1),
-            Output::Compliance => (6, 6),
-            Output::DeflectionFirstOrder | Output::Deflection | Output::DeflectionWithGravity => {
-                (6, 1)
-            }
-            Output::ParameterJacobian => (6, 4 * n + 6),
-        }
-    }
-}
-
 /// Why an evaluation by slices did not take place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// `q` or `out` is not of the robot's and output's length.
     Length,
     /// The arm is not stable under the load.
     Unstable,
+    /// The arm's module was generated without this output.
+    Absent,
 }
 
 impl fmt::Display for Error {
@@ -190,6 +102,7 @@ impl fmt::Display for Error {
                 f.write_str("a slice is not of the length that the robot's output has")
             }
             Error::Unstable => Unstable.fmt(f),
+            Error::Absent => f.write_str("the robot's module was generated without this output"),
         }
     }
 }
@@ -212,11 +125,12 @@ pub trait Kernels<S: Scalar> {
     fn dof(&self) -> usize;
 
     /// Writes `output` at the joint values `q` (rad, m) under `wrench` (N, N·m; base axes, at the
-    /// tool origin) into `out`, column by column. Outputs that need no wrench ignore it.
+    /// tool origin) into `out`, column by column. Outputs that take no wrench ignore it.
     ///
     /// # Errors
     /// [`Error::Length`] where a slice has the wrong length, [`Error::Unstable`] where the deflection
-    /// has no stable equilibrium; `out` is then as it was.
+    /// has no stable equilibrium, [`Error::Absent`] where the module does not have the output; `out` is
+    /// then as it was.
     fn evaluate(
         &self,
         output: Output,

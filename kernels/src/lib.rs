@@ -6,6 +6,7 @@
 #[cfg(feature = "batch")]
 extern crate alloc;
 #[cfg(any(feature = "fma", feature = "generic"))]
+#[cfg_attr(feature = "parity", macro_use)]
 extern crate std;
 
 #[cfg(feature = "batch")]
@@ -15,11 +16,19 @@ pub mod generic;
 mod kernel;
 #[cfg(feature = "lanes")]
 pub mod lanes;
+mod output;
+#[cfg(feature = "parity")]
+pub mod parity;
 mod scalar;
 #[cfg(any(feature = "lanes", not(feature = "libm")))]
 mod sin_cos;
 mod solve;
 
-pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, fill};
+#[doc(hidden)]
+pub use kernel::fill;
+pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Pose};
+pub use output::{Form, Input, Output, Part, Side};
 pub use scalar::Scalar;
-pub use solve::{Unstable, solve, solve_fused, solve_leading, solve_leading_fused};
+pub use solve::Unstable;
+#[doc(hidden)]
+pub use solve::{solve, solve_fused, solve_leading, solve_leading_fused};

@@ -1,11 +1,14 @@
 //! Robot arms, each one file with the source of every number, and one line here.
 //!
 //! The papers' own robots come first, then common industrial arms. [`ARMS`] lists all that have
-//! numbers for every parameter; the symbolic ones take theirs through `Robot::new`.
+//! numbers for every parameter; the symbolic ones take theirs through `Robot::new`. With the feature
+//! `kernels` each is a module of compiled kernels too.
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "kernels")]
 use stiffarm_kernels::Kernels;
+#[cfg(feature = "kernels")]
 use stiffarm_macros::robot;
 
 /// A robot of this crate that has numbers for every parameter.
@@ -16,8 +19,10 @@ pub struct Arm {
     /// Its robot file.
     pub toml: &'static str,
     /// Its generated kernels.
+    #[cfg(feature = "kernels")]
     pub kernels: &'static (dyn Kernels<f64> + Sync),
     /// The same in single precision.
+    #[cfg(feature = "kernels")]
     pub kernels_f32: &'static (dyn Kernels<f32> + Sync),
 }
 
@@ -36,12 +41,14 @@ macro_rules! arms {
         numeric { $($(#[$doc:meta])* $id:ident = $file:literal,)* }
         symbolic { $($(#[$symbolic_doc:meta])* $symbolic:ident = $symbolic_file:literal,)* }
     ) => {
-        $(robot! {
+        $(#[cfg(feature = "kernels")]
+        robot! {
             $(#[$doc])*
             pub mod $id from $file;
             crate: ::stiffarm_kernels;
         })*
-        $(robot! {
+        $(#[cfg(feature = "kernels")]
+        robot! {
             $(#[$symbolic_doc])*
             pub mod $symbolic from $symbolic_file;
             crate: ::stiffarm_kernels;
@@ -51,7 +58,9 @@ macro_rules! arms {
         pub const ARMS: &[Arm] = &[$(Arm {
             id: stringify!($id),
             toml: include_str!(concat!("../", $file)),
+            #[cfg(feature = "kernels")]
             kernels: &$id::Robot,
+            #[cfg(feature = "kernels")]
             kernels_f32: &$id::Robot,
         }),*];
 
@@ -91,7 +100,7 @@ numeric {
     tx2_90l = "arms/tx2_90l.toml",
     /// ABB IRB 120.
     irb120 = "arms/irb120.toml",
-    /// The Stanford arm: its third joint slides.
+    /// The Stanford arm: its third joint is prismatic.
     stanford = "arms/stanford.toml",
 }
 symbolic {
@@ -102,6 +111,12 @@ symbolic {
     /// Jweeg & Al-Khafaji (2012): the two-link arm with symbolic lengths.
     jweeg_two_link = "arms/jweeg_two_link.toml",
 }
+}
+
+/// The robot file of an arm, symbolic or not.
+pub fn toml(id: &str) -> Option<&'static str> {
+    let symbolic = || SYMBOLIC.iter().find(|arm| arm.id == id).map(|arm| arm.toml);
+    arm(id).map(|arm| arm.toml).or_else(symbolic)
 }
 
 /// The arm with a given id.

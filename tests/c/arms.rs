@@ -1,7 +1,6 @@
 //! The arms whose bits are compared, with the kernels that the macro made of them.
 
 use stiffarm::kernels::{DhRow, Error, Kernels, Output, Pose, Scalar};
-use stiffarm_codegen::derive::Output as Derived;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
@@ -87,7 +86,7 @@ impl<S: Scalar> Arm<S> {
         let mut outputs: Vec<Option<Vec<S>>> = Output::EACH.into_iter().map(single).collect();
         match (self.all)(q, wrench) {
             Ok(all) => outputs.extend(all.into_iter().map(Some)),
-            Err(_) => outputs.extend(Derived::ALL.map(|_| None)),
+            Err(_) => outputs.extend(Output::ALL.map(|_| None)),
         }
         outputs
     }

@@ -4,6 +4,7 @@ use core::fmt::{Debug, LowerHex};
 
 use stiffarm::kernels::{Motion, Scalar};
 use stiffarm_codegen::emit::Precision;
+use stiffarm_draws::Draws;
 
 use crate::arms::{Arm, build, doubles, singles};
 use crate::compiler::{Folder, run, with_each_compiler};
@@ -54,12 +55,8 @@ type Draw<S> = (Vec<S>, [S; 6]);
 /// Postures within ±3 rad, a few up to ±100 rad; loads up to 100 N, a few that no arm bears; an angle
 /// beyond all reason, and one that is none.
 fn draws<S: Scalar>(n: usize) -> Vec<Draw<S>> {
-    let mut state = 0x9e37_79b9_7f4a_7c15u64;
-    let mut unit = move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut draws = Draws::new(1);
+    let mut unit = move || draws.unit();
     let mut each = |k: usize| {
         let turn = if k % 10 == 7 { 100.0 } else { 3.0 };
         let load = if k % 25 == 3 { 1e9 } else { 100.0 };

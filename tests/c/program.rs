@@ -1,8 +1,7 @@
 //! A C program around generated kernels: joint values and a wrench as the bits of numbers from standard
 //! input, every output as bits to standard output.
 
-use stiffarm::kernels::Output;
-use stiffarm_codegen::derive::Output as Derived;
+use stiffarm::kernels::{Input, Output};
 use stiffarm_codegen::emit::Precision;
 
 /// The program for the kernels called `name` with `n` joints.
@@ -15,11 +14,11 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
     };
     let mut calls = String::new();
-    for (output, derived) in Output::EACH.into_iter().zip(Derived::EACH) {
+    for output in Output::EACH {
         let (rows, columns) = output.shape(n);
         let (function, size) = (output.name(), rows * columns);
-        let wrench = if derived.needs_wrench() { "wrench, " } else { "" };
-        let assigned = |to: &str| if derived.is_fallible() { to.to_owned() } else { String::new() };
+        let wrench = if output.takes(Input::Wrench) { "wrench, " } else { "" };
+        let assigned = |to: &str| if output.is_fallible() { to.to_owned() } else { String::new() };
         calls.push_str(&format!(
             "
         {{
@@ -40,7 +39,7 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             repeat = assigned("second = (int)"),
         ));
     }
-    let all: String = Derived::ALL
+    let all: String = Output::ALL
         .iter()
         .map(|o| {
             let size = o.shape(n).0 * o.shape(n).1;

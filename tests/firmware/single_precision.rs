@@ -4,6 +4,7 @@
 use core::f64::consts::PI;
 
 use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm_draws::Draws;
 use stiffarm_robots::{ARMS, SYMBOLIC, jweeg_two_link, lin_elbow_symbolic, lin_planar_symbolic};
 
 /// Postures of each arm, within ±π (m for joints that slide).
@@ -29,17 +30,12 @@ fn pose<S: Scalar>(arm: &dyn Kernels<S>, q: &[S]) -> [S; 12] {
 
 /// The position to 5e-7 of the arm's reach; the axes to that and what the sums of angles round.
 fn check(id: &str, double: &dyn Kernels<f64>, single: &dyn Kernels<f32>) {
-    let mut state = 0x9e37_79b9_7f4a_7c15u64;
-    let mut unit = move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut draws = Draws::new(1);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (mut reach, mut off, mut turned) = (0.0f64, 0.0f64, 0.0f64);
     for _ in 0..POSTURES {
         // Angles that both precisions have: what is compared is the arithmetic.
-        let q: Vec<f32> = (0..double.dof()).map(|_| (PI * unit()) as f32).collect();
+        let q: Vec<f32> = (0..double.dof()).map(|_| (PI * draws.unit()) as f32).collect();
         let exact = pose(double, &q.iter().map(|x| f64::from(*x)).collect::<Vec<_>>());
         let found = pose(single, &q);
         let error: Vec<f64> = exact.iter().zip(found).map(|(a, b)| f64::from(b) - a).collect();

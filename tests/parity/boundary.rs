@@ -61,7 +61,7 @@ pub fn around(
     }
     let softest = springs(arm).fold(f64::INFINITY, f64::min);
     let stiffness = match output {
-        Output::DeflectionWithGravity => terms(arm, Output::GravityStiffness, q, direction),
+        Output::DeflectionWithGravity => terms(arm, Output::WeightStiffness, q, direction),
         _ => 0.0,
     } + terms(arm, Output::ComplementaryStiffness, q, &load(high));
     let band = ROUNDINGS * q.len() as f64 * epsilon * (1.0 + stiffness / softest) / margin;
@@ -80,6 +80,6 @@ fn margin(arm: &Arm, output: Output, q: &[f64]) -> Option<f64> {
     }
     let roots = DVector::from_iterator(q.len(), arm.joints.iter().map(|j| j.compliance.sqrt()));
     let scale = DMatrix::from_diagonal(&roots);
-    let scaled = DMatrix::identity(q.len(), q.len()) - &scale * arm.gravity_stiffness(q) * &scale;
+    let scaled = DMatrix::identity(q.len(), q.len()) - &scale * arm.weight_stiffness(q) * &scale;
     Some(scaled.symmetric_eigenvalues().min())
 }

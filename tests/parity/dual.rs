@@ -65,11 +65,6 @@ fn evaluate<S: Scalar>(robot: &dyn Kernels<S>, output: Output, q: &[S], wrench: 
     out
 }
 
-/// Up to 100 N and 30 N·m.
-fn wrench(draws: &mut Draws) -> [f64; 6] {
-    core::array::from_fn(|k| draws.unit() * if k < 3 { 100.0 } else { 30.0 })
-}
-
 /// ∂output/∂q_i as (dual numbers, central differences).
 fn slopes<R: Kernels<Dual> + Kernels<f64>>(
     robot: &R,
@@ -102,12 +97,12 @@ fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
     let mut draws = Draws::new(4);
     for _ in 0..200 {
         let q: Vec<f64> = (0..n).map(|_| range * draws.unit() + 0.6).collect();
-        let wrench = wrench(&mut draws);
+        let wrench = draws.load();
         let pose = evaluate::<f64>(robot, Output::Pose, &q, &wrench);
         let jacobian = evaluate::<f64>(robot, Output::Jacobian, &q, &wrench);
         let pairs = [
             (Output::JointTorque, Output::ComplementaryStiffness),
-            (Output::GravityTorque, Output::GravityStiffness),
+            (Output::WeightTorque, Output::WeightStiffness),
         ];
         for joint in 0..n {
             let (dual, difference) = slopes(robot, Output::Pose, (&q, &wrench), joint);
@@ -144,13 +139,13 @@ fn jacobian_and_stiffness_are_derivatives() {
 #[test]
 fn the_regressor_is_the_derivative_by_joint_compliance() {
     // Of a robot whose stiffnesses are symbolic, by duals in the stiffness: dδ/dk = -B/k².
-    use fixtures::symbolic::{Constants, deflection_first_order, stiffness_regressor};
+    use fixtures::symbolic::{Constants, compliance_regressor, deflection_first_order};
     let mut draws = Draws::new(5);
     let p = fixtures::PARAMETERS;
     for _ in 0..200 {
         let q: [f64; 4] = core::array::from_fn(|_| 0.6 + 0.4 * draws.unit());
-        let wrench = wrench(&mut draws);
-        let regressor = stiffness_regressor(&Constants::new(&p), &q, &wrench);
+        let wrench = draws.load();
+        let regressor = compliance_regressor(&Constants::new(&p), &q, &wrench);
         let mut dual = fixtures::parameters_as(Dual::lit);
         dual.k2.0.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);

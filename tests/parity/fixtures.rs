@@ -4,7 +4,7 @@ use stiffarm::kernels::{Kernels, Output};
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{CANCELLED, Draws, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
 robot! {
     /// Standard rows with oblique twists, masses, beams and a turned tool.

@@ -1,10 +1,11 @@
 //! Every arm of the collection.
 
 use stiffarm::kernels::Output;
+use stiffarm::kernels::parity::{self, Subject};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
-use crate::compare::{CANCELLED, CANCELLED_F32, Draws, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
 /// Draws per robot, as the claim "10,000 random joint vectors and wrenches per robot" has it.
 const COUNT: usize = 10_000;
@@ -38,22 +39,19 @@ fn check(entry: &stiffarm_robots::Arm) {
     }
 }
 
+/// In both precisions, by the textbook, its differences and dual numbers: what `stiffarm check` does
+/// with a derived graph, with the compiled kernels.
 #[test]
-fn single_precision_agrees_to_2e_6() {
+fn compiled_kernels_agree_in_every_way() {
     for entry in ARMS {
         let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
         let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
-        let mut draws = Draws::new(2);
-        for _ in 0..COUNT / 20 {
-            // The inputs themselves are rounded first: what is tested is the kernel.
-            let q: Vec<f64> = draws.posture(&arm).iter().map(|x| f64::from(*x as f32)).collect();
-            let wrench = draws.wrench(&arm).map(|x| f64::from(x as f32));
-            for output in Output::EACH {
-                let load = (&q[..], &wrench);
-                let worst =
-                    deviation(entry.kernels_f32, &arm, output, load, (CANCELLED_F32, f64::from));
-                assert!(worst <= 2e-6, "{} {}: {worst:e} at {q:?}", entry.id, output.name());
-            }
+        let double = parity::compiled(entry.kernels, |x: f64| x);
+        let single = parity::compiled(entry.kernels_f32, |x: f32| f64::from(x));
+        let subject = Subject { arm: &arm, generated: &double, single: Some(&single) };
+        for line in parity::agreement(&subject, COUNT / 20, 2, &|_| {}).lines {
+            assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
+            assert!(line.worst[0].is_some() && line.worst[1].is_some(), "{} {line:?}", entry.id);
         }
     }
 }
@@ -68,13 +66,4 @@ fn slices_of_the_wrong_length_are_refused() {
     let small = arm.kernels.evaluate(Output::Jacobian, &[0.0; 6], &[0.0; 6], &mut out);
     assert_eq!(small, Err(Error::Length));
     assert_eq!(out, [0.0; 12], "nothing is written on an error");
-}
-
-#[test]
-fn both_sides_name_the_same_outputs() {
-    use stiffarm_codegen::derive::Output as Derived;
-    for (kernel, derived) in Output::EACH.into_iter().zip(Derived::EACH) {
-        assert_eq!(kernel.name(), derived.name());
-        assert_eq!(kernel.shape(7), derived.shape(7));
-    }
 }

@@ -11,6 +11,7 @@ mod boundary;
 mod compare;
 mod dual;
 mod fixtures;
+mod found;
 mod known;
 mod lanes;
 mod random;

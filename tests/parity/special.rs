@@ -8,7 +8,7 @@ use stiffarm::kernels::{Motion, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
-use crate::compare::{CANCELLED, CANCELLED_F32, Draws, deviation};
+use crate::compare::{CANCELLED, CANCELLED_F32, Draws, ForArm, deviation};
 
 /// Straight, right and opposite angles of every joint by itself, the others drawn: the elbow stretched or
 /// folded, the wrist aligned, whichever joints they are and wherever the table has its zero.

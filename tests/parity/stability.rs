@@ -6,7 +6,7 @@ use stiffarm::kernels::{Error, Kernels, Output, Scalar};
 use stiffarm_codegen::robot::Robot;
 
 use crate::boundary::{KINDS, around};
-use crate::compare::Draws;
+use crate::compare::{Draws, ForArm};
 use crate::fixtures;
 
 fn refuses<S: Scalar>(

@@ -5,7 +5,7 @@ use stiffarm::kernels::{Kernels, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{SYMBOLIC, lin_planar_symbolic};
 
-use crate::compare::{CANCELLED, Draws, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
 /// Compares an arm whose parameters have got numbers with the textbook of the same.
 fn check(id: &str, value: impl Fn(&str) -> Option<f64>, kernels: &dyn Kernels<f64>) {

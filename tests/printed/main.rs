@@ -15,7 +15,7 @@ mod batch;
 mod boundary;
 mod c;
 #[macro_use]
-#[allow(dead_code, unused_macros)]
+#[allow(dead_code, unused_imports, unused_macros)]
 #[path = "../parity/compare.rs"]
 mod compare;
 #[allow(dead_code, unused_imports, unused_macros)]

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
-use stiffarm_codegen::derive::Output as Derived;
+use stiffarm::kernels::{Form, Output};
 use stiffarm_codegen::emit::{RustOptions, rust};
 
 use crate::batch::{Batch, Case};
@@ -141,12 +141,14 @@ fn glue(case: &Case, module: &str) -> String {
             (setting, format!("{module}::Robot::new(&parameters)"), "constants, ")
         }
     };
-    let field = |output: &Derived| match (output, output.is_vector()) {
-        (Derived::Pose, _) => "flat(all.pose)".to_owned(),
-        (_, true) => format!("all.{}.to_vec()", output.name()),
-        (_, false) => format!("all.{}.as_flattened().to_vec()", output.name()),
+    let field = |output: &Output| match output.form() {
+        Form::Pose => "flat(all.pose)".to_owned(),
+        Form::Vector => format!("all.{}.to_vec()", output.name()),
+        Form::Poses | Form::Matrix => {
+            format!("all.{}.as_flattened().to_vec()", output.name())
+        }
     };
-    let fields: Vec<String> = Derived::ALL.iter().map(field).collect();
+    let fields: Vec<String> = Output::ALL.iter().map(field).collect();
     format!(
         "
 mod {module};
@@ -162,7 +164,7 @@ fn of_{module}(q: &[f64], wrench: &[f64; 6]) -> Answers {{
 }}
 ",
         fields.join(", "),
-        Derived::ALL.len()
+        Output::ALL.len()
     )
 }
 

@@ -45,7 +45,7 @@ fn the_jacobian_reads_like_a_textbook() {
 fn the_deflection_reads_like_a_textbook() {
     insta::assert_snapshot!(part(
         &text(),
-        "/// Displacement of the tool under the wrench, base axes, m and rad, with the loaded",
+        "/// Displacement of the tool under the wrench, base axes, at the tool origin, with the",
         "/// Displacement of the tool under the wrench and the links' weights"
     ));
 }

@@ -15,8 +15,8 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 
 use stiffarm_bench::arms;
-use stiffarm_bench::draws::Draws;
 use stiffarm_bench::lanes::by_four;
+use stiffarm_draws::Draws;
 
 const SNAPSHOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.txt");
 /// Calls that are counted, and four poses in each call of lanes.
@@ -28,7 +28,7 @@ macro_rules! work {
     ($works:ident $arm:ident $($function:ident |$q:ident, $w:ident| $args:tt),+) => {$(
         $works.push((concat!(stringify!($arm), " ", stringify!($function)), Box::new(|calls| {
             let mut draws = Draws::new(1);
-            let (wrenches, poses) = (draws.wrenches(CALLS), draws.random(CALLS));
+            let (wrenches, poses) = (draws.loads(CALLS), draws.postures(CALLS));
             for ($q, $w) in poses.iter().zip(&wrenches).take(calls) {
                 black_box($w);
                 let _ = black_box(arms::$arm::plain::$function $args);
@@ -36,7 +36,7 @@ macro_rules! work {
         })));
         $works.push((concat!(stringify!($arm), " ", stringify!($function), " x4"), Box::new(|calls| {
             let mut draws = Draws::new(1);
-            let (wrenches, poses) = (draws.wrenches(4 * CALLS), draws.random(4 * CALLS));
+            let (wrenches, poses) = (draws.loads(4 * CALLS), draws.postures(4 * CALLS));
             let (poses, wrenches) = (by_four(&poses), by_four(&wrenches));
             for ($q, $w) in poses.iter().zip(&wrenches).take(calls) {
                 black_box($w);

@@ -14,10 +14,10 @@
 use std::hint::black_box;
 
 use stiffarm_bench::arms::{self, textbook};
-use stiffarm_bench::draws::Draws;
 use stiffarm_bench::ideal;
 use stiffarm_bench::lanes::{by_eight, by_four};
 use stiffarm_bench::timing::{Candidate, print};
+use stiffarm_draws::Draws;
 use stiffarm_kernels::batch::{Layout, Wrenches, evaluate, evaluate_parallel};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Kernels, Output};
@@ -41,8 +41,8 @@ macro_rules! output {
     ($arm:ident $function:ident $kind:ident |$q:ident, $w:ident| $args:tt $($ideal:ident)?) => {{
         let arm = textbook(stringify!($arm));
         let mut draws = Draws::new(1);
-        let wrenches = draws.wrenches(POSES);
-        let (random, smooth) = (draws.random(POSES), draws.smooth(POSES));
+        let wrenches = draws.loads(POSES);
+        let (random, smooth) = (draws.postures(POSES), draws.path(POSES));
         let (rows, columns) = Output::$kind.shape(arm.dof());
         for (q, w) in random.iter().zip(&wrenches).take(64) {
             compare(&arms::$arm::plain::Robot, &arm, Output::$kind, q, w);
@@ -147,8 +147,8 @@ fn together() {
     use arms::kuka_kr240::{fused, plain};
     let arm = textbook("kuka_kr240");
     let mut draws = Draws::new(1);
-    let wrenches = draws.wrenches(POSES);
-    let poses = draws.random(POSES);
+    let wrenches = draws.loads(POSES);
+    let poses = draws.postures(POSES);
     let input = (&poses[..], &wrenches[..]);
     let (q8, w8) = (by_eight(&poses), by_eight(&wrenches));
     let x8 = (&q8[..], &w8[..]);
@@ -192,8 +192,8 @@ fn cores() {
     const MANY: usize = 50 * POSES;
     const IN_A_ROW: usize = 20;
     let mut draws = Draws::new(1);
-    let wrenches = draws.wrenches(MANY);
-    let poses = draws.random::<6>(MANY);
+    let wrenches = draws.loads(MANY);
+    let poses = draws.postures::<6>(MANY);
     let (q, w) = (poses.as_flattened(), wrenches.as_flattened());
     println!("kuka_kr240, {MANY} poses in one batch");
     for (row, output) in [
@@ -246,8 +246,8 @@ fn latency() {
         ideal::complementary_stiffness(q, w)
     }
     let mut draws = Draws::new(1);
-    let wrenches = draws.wrenches(POSES);
-    let poses = draws.random(POSES);
+    let wrenches = draws.loads(POSES);
+    let poses = draws.postures(POSES);
     let input = (&poses[..], &wrenches[..]);
     let entry = |matrix: &[[f64; 6]; 6]| matrix[4][3];
     println!("kuka_kr240, each call waiting for the last");

@@ -78,13 +78,13 @@ pub fn textbook(id: &str) -> Arm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draws::Draws;
+    use stiffarm_draws::Draws;
     use stiffarm_kernels::{Kernels, Output};
 
     fn check(id: &str, kernels: [&dyn Kernels<f64>; 2]) {
         let arm = textbook(id);
         let mut draws = Draws::new(2);
-        for (q, w) in draws.random::<7>(100).iter().zip(draws.wrenches(100)) {
+        for (q, w) in draws.postures::<7>(100).iter().zip(draws.loads(100)) {
             let q = &q[..arm.dof()];
             for output in Output::EACH {
                 let expected = arm.evaluate(output, q, &w).expect("the arm is stable");

@@ -256,14 +256,14 @@ pub fn all<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<All<S>, Unstable> {
 mod tests {
     use super::*;
     use crate::arms::textbook;
-    use crate::draws::Draws;
+    use stiffarm_draws::Draws;
     use stiffarm_kernels::Output;
 
     #[test]
     fn the_ideal_is_right() {
         let arm = textbook("kuka_kr240");
         let mut draws = Draws::new(1);
-        for (q, w) in draws.random::<6>(500).iter().zip(draws.wrenches(500)) {
+        for (q, w) in draws.postures::<6>(500).iter().zip(draws.loads(500)) {
             let all = all(q, &w).expect("stable");
             let outputs: [(Output, Vec<f64>); 12] = [
                 (Output::Pose, pose(q).columns().as_flattened().to_vec()),

@@ -2,7 +2,6 @@
 //! into them.
 
 pub mod arms;
-pub mod draws;
 pub mod ideal;
 pub mod lanes;
 pub mod timing;

@@ -26,8 +26,6 @@ pub struct Source {
     pub given: String,
     /// The model, parameters replaced by their numbers.
     pub robot: Robot,
-    /// Its compiled kernels, if it is built in and has numbers for everything.
-    pub compiled: Option<&'static stiffarm_robots::Arm>,
 }
 
 impl RobotArgs {
@@ -94,13 +92,8 @@ impl Source {
 pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
     let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
     if !looks_like_a_path {
-        if let Some(arm) = stiffarm_robots::arm(given) {
-            let robot = parse(arm.toml, arm.id, true)?;
-            return Ok(Source { given: given.to_owned(), robot, compiled: Some(arm) });
-        }
-        if let Some(arm) = SYMBOLIC.iter().find(|arm| arm.id == given) {
-            let robot = parse(arm.toml, arm.id, true)?;
-            return Ok(Source { given: given.to_owned(), robot, compiled: None });
+        if let Some(toml) = stiffarm_robots::toml(given) {
+            return Ok(Source { given: given.to_owned(), robot: parse(toml, given, true)? });
         }
         if !Path::new(given).exists() {
             return Err(no_such_robot(given));
@@ -108,7 +101,7 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
     }
     let text = text(Path::new(given))?;
     let robot = parse(&text, given, quiet)?;
-    Ok(Source { given: given.to_owned(), robot, compiled: None })
+    Ok(Source { given: given.to_owned(), robot })
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {

@@ -3,9 +3,9 @@
 use crate::support::{Folder, stiffarm};
 
 #[test]
-fn a_built_in_robot_agrees_in_both_precisions() {
+fn a_robot_agrees_in_both_precisions() {
     let out = stiffarm(&["check", "kuka_kr240", "--count", "50"]).good();
-    assert!(out.starts_with("KUKA KR 240-2  6R, modified, compiled kernels: 50 postures"), "{out}");
+    assert!(out.starts_with("KUKA KR 240-2  6R, modified, derived graph: 50 postures"), "{out}");
     assert!(out.ends_with("✓ all agree\n"), "{out}");
     let jacobian = out.lines().find(|l| l.trim_start().starts_with("jacobian ")).expect("a line");
     let cells: Vec<&str> = jacobian.split_whitespace().collect();

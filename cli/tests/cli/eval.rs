@@ -56,11 +56,11 @@ fn agrees(robot: &str, id: &str, q: &[f64], w: &[f64; 6], gravity: bool) {
     near(&block(&found["position"]), &pose[9..], "position");
     near(&block(&found["rotation"]), &pose[..9], "rotation");
     near(&block(&found["jacobian"]), &textbook(Output::Jacobian), "jacobian");
-    let k_c = sum(Output::ComplementaryStiffness, Output::GravityStiffness);
+    let k_c = sum(Output::ComplementaryStiffness, Output::WeightStiffness);
     near(&block(&found["k_c"]), &k_c, "k_c");
     near(&block(&found["compliance"]), &textbook(Output::Compliance), "compliance");
     near(&block(&found["deflection"]), &textbook(deflection), "deflection");
-    let torque = sum(Output::JointTorque, Output::GravityTorque);
+    let torque = sum(Output::JointTorque, Output::WeightTorque);
     near(&block(&found["joint_torque"]), &torque, "joint_torque");
 }
 
@@ -155,6 +155,6 @@ fn the_screen_shows_everything() {
     for key in KEYS {
         assert!(out.lines().any(|line| line.starts_with(key)), "{key}: {out}");
     }
-    assert!(out.starts_with("UR5  ur5 by the compiled kernels\n"), "{out}");
+    assert!(out.starts_with("UR5  ur5 by the derived graph\n"), "{out}");
     assert!(!out.contains('\u{1b}') && !out.contains("  \n"), "{out}");
 }

@@ -14,7 +14,7 @@ struct Sample {
     pose: Vec<f64>,
     /// By columns.
     jacobian: Vec<f64>,
-    gravity_torque: Vec<f64>,
+    weight_torque: Vec<f64>,
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -34,7 +34,7 @@ fn data(robot: &str) -> (Value, Vec<Sample>) {
         q: numbers(&s["q"]),
         pose: [columns(&s["rotation"]), numbers(&s["position"])].concat(),
         jacobian: columns(&s["jacobian"]),
-        gravity_torque: numbers(&s["gravity_torque"]),
+        weight_torque: numbers(&s["weight_torque"]),
     });
     let samples: Vec<Sample> = samples.collect();
     assert_eq!(samples.len(), 50);
@@ -65,8 +65,8 @@ fn the_kernels_of_ur5_and_panda_agree() {
             near(&kernel(id, Output::Pose, &sample.q), &sample.pose, 1e-12, id);
             near(&kernel(id, Output::Jacobian, &sample.q), &sample.jacobian, 1e-12, id);
             if id == "panda" {
-                let torque = kernel(id, Output::GravityTorque, &sample.q);
-                near(&torque, &sample.gravity_torque, 1e-11, "gravity");
+                let torque = kernel(id, Output::WeightTorque, &sample.q);
+                near(&torque, &sample.weight_torque, 1e-11, "gravity");
             }
         }
     }
@@ -141,8 +141,8 @@ fn imported_robots_agree() {
                 [part(0), part(3)].concat()
             });
             near(&turned.collect::<Vec<f64>>(), &sample.jacobian, 1e-12, robot);
-            let torque = arm.gravity_torque(&sample.q);
-            near(torque.as_slice(), &sample.gravity_torque, 1e-11, robot);
+            let torque = arm.weight_torque(&sample.q);
+            near(torque.as_slice(), &sample.weight_torque, 1e-11, robot);
         }
     }
 }
@@ -153,7 +153,7 @@ fn the_textbook_agrees() {
     let panda = arm("panda");
     for sample in data("panda").1 {
         near(panda.jacobian(&sample.q).as_slice(), &sample.jacobian, 1e-12, "jacobian");
-        let torque = panda.gravity_torque(&sample.q);
-        near(torque.as_slice(), &sample.gravity_torque, 1e-11, "gravity");
+        let torque = panda.weight_torque(&sample.q);
+        near(torque.as_slice(), &sample.weight_torque, 1e-11, "gravity");
     }
 }

@@ -8,7 +8,7 @@ use proc_macro::TokenStream;
 /// Turns a Denavit-Hartenberg table into a module of closed-form kernels.
 ///
 /// ```ignore
-/// robot! {
+/// stiffarm::robot! {
 ///     /// KUKA KR 240-2 (Dumas et al. 2011, Table 3).
 ///     pub mod kr240;
 ///     convention: modified_dh;
@@ -16,15 +16,76 @@ use proc_macro::TokenStream;
 ///     a1    | q     | 0       | 0       | 0      | 3.8e6 N*m/rad
 ///     a2    | q     | 0       | 350 mm  | 90 deg | 6.6e6 N*m/rad
 /// }
-/// robot! { pub mod elbow from "elbow.toml"; }
+/// stiffarm::robot! { pub mod elbow from "elbow.toml"; }
 /// ```
 ///
-/// `products: fused;` beside the other settings (or beside a file) writes products fused into sums: faster
-/// where the target has the instruction and the kernels' feature `fma` asks for it, and not the same
-/// bits everywhere.
+/// Attributes (documentation among them) and the visibility of the module are kept. A file's name is
+/// relative to the folder of the invoking crate's Cargo.toml; the compiler watches the file. Every
+/// mistake is an error at its cell, all of them at once, and a module of the same names stands in for the
+/// refused one.
 ///
-/// A file's name is relative to the folder of the invoking crate's Cargo.toml. `q` in `theta` is a
-/// revolute joint, in `d` a prismatic one; a bare identifier in a cell stays symbolic.
+/// # Settings
+///
+/// Each ends with `;` and stands once, `marker` as often as there are markers. Beside a file only
+/// `products` and `crate` can be set.
+///
+/// | setting | values | without it |
+/// |---|---|---|
+/// | `name` | `"text"` | the module's name |
+/// | `convention` | `standard_dh`: a row is Rz(theta) Tz(d) Tx(a) Rx(alpha); `modified_dh`: Rx(alpha) Tx(a) Rz(theta) Tz(d) | an error |
+/// | `gravity` | `[x, y, z]`, an acceleration in base axes | `[0, 0, -9.80665 m/s^2]` |
+/// | `tool` | `translation [x, y, z] rotation [rx, ry, rz]`, either or both: the tool in the last frame, rotation as a rotation vector (axis × angle) | the last frame |
+/// | `marker` | `name` or `name [x, y, z]`: a measured point in the tool frame | none |
+/// | `products` | `separate`, or `fused`: products fused into sums, faster where the target has the instruction and the kernels' feature `fma` asks for it, and not the same bits everywhere | `separate` |
+/// | `crate` | the path of the kernels' crate | `::stiffarm::kernels` |
+///
+/// # The table
+///
+/// A header of column names, then a row for each joint, base to tip. Cells are separated by `|`; a row may
+/// be continued on further lines. Columns stand in any order, and those that are not needed are left out.
+///
+/// | column | cell | left out, or `-` |
+/// |---|---|---|
+/// | `joint` | a label: a word or a number | `joint 1`, … |
+/// | `theta` | an angle; with `q` the joint is revolute | 0 |
+/// | `d` | a length; with `q` the joint is prismatic | 0 |
+/// | `a` | a length | 0 |
+/// | `alpha` | an angle | 0 |
+/// | `stiffness` | N·m/rad, N/m of a prismatic joint; or `rigid` | rigid |
+/// | `mass` | of the link that the joint moves | weightless |
+/// | `com` | `[x, y, z]`, its centre of mass in the row's own frame | the frame's origin |
+/// | `limits` | `[low, high]` of the joint | none |
+/// | `beam` | `{ youngs_modulus: …, shear_modulus: …, section: …, density: …, shear_coefficient: … }`: the link as a beam between the origins of the previous frame and this one's; `section` is `tube(outer, inner)`, `box([y, z], [y, z])` (outer, inner) or `{ area: …, iy: …, iz: …, j: … }`; without `density` weightless, without `shear_coefficient` an Euler-Bernoulli beam | a rigid link |
+/// | `source` | `"text"` | none |
+///
+/// # The grammar of a cell
+///
+/// | cell | meaning |
+/// |---|---|
+/// | `0.35`, `-1e-3` | a number in SI units |
+/// | `350 mm`, `24 in`, `3.8e6 N*m/rad`, `0.1 lb/in^3` | a number with a unit, converted exactly: products, quotients and powers of `m cm mm um in ft`, `kg g lb`, `s ms`, `rad mrad urad deg arcmin arcsec`, `N kN lbf kip kgf`, `Nm kNm Nmm`, `Pa kPa MPa GPa psi ksi Mpsi` |
+/// | `pi/2`, `3*pi/4`, `-90 deg` | an angle, an exact multiple of π; a rounded `1.5708` is refused |
+/// | `q`, `q + 90 deg`, `0.2 + q`, `q - pi/2` | where the joint moves: in `theta` or in `d` of a row, once |
+/// | `a2`, `k3` | a bare identifier: a link parameter that stays symbolic, one name for one quantity |
+///
+/// # What is generated
+///
+/// | item of the module | what it is |
+/// |---|---|
+/// | `NAME`, `N`, `DH` | the arm's name, its number of joints, its table as written |
+/// | `pose`, `jacobian`, … | a function for each output, of `q` (`&[S; N]`, rad, m of a prismatic joint) and where it takes one of the wrench (`&[S; 6]`, N and N·m, base axes, at the tool origin), for any `S: Scalar`; its documentation says shape, units, axes and source |
+/// | `all` | several of them in one function, which shares what they have in common |
+/// | `pose::given`, … | the kernel: the same of sines and cosines, for those who have them |
+/// | `pose::Posture`, `Posture::new(q)` | the sines, cosines and displacements that it takes |
+/// | `pose::OPS`, … | its additions, multiplications, sign changes, divisions, sine-cosine pairs |
+/// | `pose::SPARSITY`, … | which of its entries are not structurally zero, `[column][row]` |
+/// | `all::All` | what `all` returns |
+/// | `Parameters` | a field for each symbolic parameter; only where the table has some |
+/// | `Constants`, `Constants::new(&parameters)` | what is worked out of the parameters once; every function takes them first |
+/// | `Robot` | the arm as `Kernels`, every output by its name from slices; with symbolic parameters it holds `Constants` |
+///
+/// A function that solves for a loaded equilibrium returns `Result<_, Unstable>`. Everything is `no_std`
+/// and allocates nothing.
 #[proc_macro]
 pub fn robot(input: TokenStream) -> TokenStream {
     let root = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();

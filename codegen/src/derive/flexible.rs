@@ -7,11 +7,10 @@
 //! ```
 
 use num_rational::Ratio;
+use stiffarm_kernels::Output;
 
-use super::chain::{Place, Step, expression, row_steps};
+use super::chain::{Place, Step, expression, row_steps, tool_rotation};
 use super::displacements::Displacements;
-use super::output::Output;
-use super::parameters::tool_rotation;
 use super::program::{Block, Program};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::robot::{Angle, Robot};
@@ -62,7 +61,7 @@ pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Pro
 
 /// A displacement of the strict first order: where the chain stood, and by how much it turned.
 struct Turned {
-    /// Slides made before it.
+    /// Translations made before it.
     before: usize,
     shift: Vec3,
     turn: Vec3,
@@ -74,9 +73,9 @@ struct Walk<'d> {
     displacements: &'d Displacements,
     form: Form,
     place: Place,
-    /// Slides since the last turn, along the present axes.
+    /// Translations since the last turn, along the present axes.
     local: Vec3,
-    /// Slides made so far, base axes.
+    /// Translations made so far, base axes.
     path: Vec<Vec3>,
     /// Displacements of the strict first order.
     turned: Vec<Turned>,
@@ -94,22 +93,22 @@ impl<'d> Walk<'d> {
 
     fn step(&mut self, step: &Step) {
         match step {
-            Step::SlideX(length) => self.local[0] = self.g.add(self.local[0], *length),
-            Step::SlideZ(length) => self.local[2] = self.g.add(self.local[2], *length),
-            Step::TurnZ(turn) | Step::TurnX(turn) if turn.is_zero() => {}
+            Step::TranslateX(length) => self.local[0] = self.g.add(self.local[0], *length),
+            Step::TranslateZ(length) => self.local[2] = self.g.add(self.local[2], *length),
+            Step::RotateZ(turn) | Step::RotateX(turn) if turn.is_zero() => {}
             turn => {
-                self.slide();
+                self.translate();
                 self.place = self.place.after(&mut self.g, turn);
             }
         }
     }
 
-    /// Makes the slides that are pending.
-    fn slide(&mut self) {
+    /// Makes the translations that are pending.
+    fn translate(&mut self) {
         if self.local.iter().any(|length| !length.is_zero()) {
             let local = core::mem::replace(&mut self.local, [Expr::ZERO; 3]);
-            let slide = self.in_base(local);
-            self.path.push(slide);
+            let translation = self.in_base(local);
+            self.path.push(translation);
         }
     }
 
@@ -134,7 +133,7 @@ impl<'d> Walk<'d> {
         let shift: Vec3 = core::array::from_fn(|k| component(self, k));
         let turn: Vec3 = core::array::from_fn(|k| component(self, 3 + k));
         if self.form == Form::FirstOrder {
-            self.slide();
+            self.translate();
             let (shift, turn) = (self.in_base(shift), self.in_base(turn));
             return self.turned.push(Turned { before: self.path.len(), shift, turn });
         }
@@ -157,18 +156,18 @@ impl<'d> Walk<'d> {
     /// `Rz(φ) Ry(β) Rx(ψ)`; a turn about y is one about x, seen from a frame a quarter turn on.
     fn roll_pitch_yaw(&mut self, [psi, beta, phi]: Vec3) {
         let quarter = Turn::constant(&mut self.g, &Angle::Pi(Ratio::new(1, 2)));
-        self.step(&Step::TurnZ(Turn::variable(phi)));
+        self.step(&Step::RotateZ(Turn::variable(phi)));
         if !beta.is_zero() {
-            self.step(&Step::TurnZ(quarter.clone()));
-            self.step(&Step::TurnX(Turn::variable(beta)));
-            self.step(&Step::TurnZ(quarter.negated()));
+            self.step(&Step::RotateZ(quarter.clone()));
+            self.step(&Step::RotateX(Turn::variable(beta)));
+            self.step(&Step::RotateZ(quarter.negated()));
         }
-        self.step(&Step::TurnX(Turn::variable(psi)));
+        self.step(&Step::RotateX(Turn::variable(psi)));
     }
 
     /// Goes on with the axes times a matrix given by columns.
     fn multiply(&mut self, columns: [Vec3; 3]) {
-        self.slide();
+        self.translate();
         let axes = columns.map(|column| self.in_base(column));
         self.place = Place { axes, turn: Turn::ZERO };
     }
@@ -179,7 +178,7 @@ impl<'d> Walk<'d> {
         let [x, y, z] = &robot.tool.rotation;
         if x.is_zero() && y.is_zero() {
             let turn = Turn::constant(&mut self.g, z);
-            return self.step(&Step::TurnZ(turn));
+            return self.step(&Step::RotateZ(turn));
         }
         let columns = tool_rotation(&robot.tool).map(|column| column.map(|n| self.g.number(n)));
         self.multiply(columns);
@@ -187,7 +186,7 @@ impl<'d> Walk<'d> {
 
     /// Columns x, y, z and origin of the tool.
     fn pose(&mut self) -> Vec<Expr> {
-        self.slide();
+        self.translate();
         let mut axes = self.axes();
         // The way from each point of the path to the tool, summed from the tool.
         let mut ahead = vec![[Expr::ZERO; 3]; self.path.len() + 1];

@@ -4,26 +4,17 @@
 //! which the requested outputs take the fewest operations), into which the wrench is turned once and
 //! out of which the results are turned at the end. One file per quantity.
 
-mod beam;
 mod chain;
-mod compliance;
-mod deflection;
 mod displacements;
 mod flexible;
-mod frames;
-mod gravity;
-mod jacobian;
-mod lever;
-mod output;
-mod parameters;
+mod outputs;
 mod passes;
 mod program;
-mod runs;
-mod stiffness;
-mod torque;
+mod ways;
 
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
-pub use output::Output;
 pub use passes::Passes;
-pub use program::{Block, Program, Solve, Unstable, derive, derive_each, derive_in, derive_with};
+pub use program::{Block, Program, Solve};
+pub use stiffarm_kernels::{Output, Unstable};
+pub use ways::{derive, derive_each, derive_in, derive_with};

@@ -17,7 +17,7 @@ pub struct Passes {
 impl Passes {
     /// Everything.
     pub const ALL: Passes = Passes { frame: true, sums: true, runs: true, parallel: true };
-    /// Nothing: base axes, one angle per joint, every slide turned by itself.
+    /// Nothing: base axes, one angle per joint, every translation turned by itself.
     pub const NONE: Passes = Passes { frame: false, sums: false, runs: false, parallel: false };
 }
 

@@ -1,7 +1,7 @@
 //! Constants of a table with symbolic parameters: everything that depends on parameters alone is
 //! worked out once, when the constants are made, so that kernels stay free of divisions.
 
-use super::expression::constant;
+use super::literal::constant;
 use crate::expr::{Expr, Graph, Node, Symbol};
 
 /// The fields of the generated `Constants`, shared by all functions of a module.

@@ -1,11 +1,13 @@
 //! The LaTeX printer: a document to lay beside a paper's appendix.
 
 use std::fmt::Write as _;
+use stiffarm_kernels::{Form, Output};
 
+use super::angles::angle_terms;
 use super::constants::Constants;
 use super::expression::{Printer, Style};
-use super::plan::{Plan, Target, angle_terms};
-use crate::derive::{COMPONENTS, Displacements, Form, Output, Program, derive, flexible};
+use super::plan::{Plan, Target};
+use crate::derive::{COMPONENTS, Displacements, Form as Flexible, Program, derive, flexible};
 use crate::expr::{Binding, Expr, Node, Symbol};
 use crate::number::Number;
 use crate::robot::Robot;
@@ -22,7 +24,7 @@ pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
 /// A document with the flexible kinematics of a table (Jweeg & Al-Khafaji 2012, eq. 20) in each of
 /// its forms: exact, as published, and to the strict first order.
 pub fn flexible_latex(robot: &Robot, displacements: &Displacements) -> String {
-    let sections = Form::EACH.into_iter().map(|form| {
+    let sections = Flexible::EACH.into_iter().map(|form| {
         let title = format!("flexible pose, {}", form.name().replace('_', " "));
         section(&flexible(robot, displacements, form), &title)
     });
@@ -129,26 +131,13 @@ fn place(output: Output, n: usize, entry: usize) -> String {
     let pose = |column: usize, frame: &str| {
         format!("{}^{{{frame}}}_{{{}}}", ["x", "y", "z", "p"][column], axis[row.min(2)])
     };
-    let symbol = match output {
-        Output::Pose => return format!("{}_{{{}}}", ["n", "o", "a", "p"][column], axis[row]),
-        Output::Frames => return pose(column % 4, &(column / 4 + 1).to_string()),
-        Output::Jacobian => "J",
-        Output::JacobianTool => "{}^{T}\\!J",
-        Output::ComplementaryStiffness => "K_{C}",
-        Output::JointTorque => "\\tau",
-        Output::GravityTorque => "\\tau_{g}",
-        Output::GravityStiffness => "K_{G}",
-        Output::Compliance => "C",
-        Output::DeflectionFirstOrder | Output::Deflection | Output::DeflectionWithGravity => {
-            "\\delta d"
-        }
-        Output::ParameterJacobian => "J_{p}",
-        Output::StiffnessRegressor => "B",
-    };
     let comma = if n > 9 || columns > 9 { "," } else { "" };
-    match output.is_vector() {
-        true => format!("[{symbol}]_{{{}}}", row + 1),
-        false => format!("[{symbol}]_{{{}{comma}{}}}", row + 1, column + 1),
+    let (i, j, symbol) = (row + 1, column + 1, output.symbol());
+    match output.form() {
+        Form::Pose => format!("{}_{{{}}}", ["n", "o", "a", "p"][column], axis[row]),
+        Form::Poses => pose(column % 4, &(column / 4 + 1).to_string()),
+        Form::Vector => format!("[{symbol}]_{{{i}}}"),
+        Form::Matrix => format!("[{symbol}]_{{{i}{comma}{j}}}"),
     }
 }
 

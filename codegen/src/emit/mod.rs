@@ -1,11 +1,14 @@
 //! Printers of the derived graph: Rust, C, LaTeX, dot. Each is one file or folder.
 
+mod angles;
 mod c;
 mod constants;
+mod docs;
 mod dot;
 mod expression;
 mod latex;
 mod lines;
+mod literal;
 mod plan;
 mod rust;
 

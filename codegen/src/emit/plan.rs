@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
 use crate::derive::{COMPONENTS, Program};
 use crate::expr::{Binding, Expr, Graph, Item, Node, Schedule, Symbol};
@@ -16,7 +17,7 @@ pub(super) struct Plan<'p> {
     /// Angles whose sine or cosine enters, in the order of the joints.
     pub angles: Vec<Angle>,
     /// Prismatic joints whose displacement enters.
-    pub slides: Vec<usize>,
+    pub prismatic: Vec<usize>,
     /// Fields of the constants that enter.
     pub constants: Vec<String>,
     /// Names of nodes: inputs, and what the schedule binds.
@@ -30,17 +31,6 @@ pub(super) enum Target {
     Entry { block: usize, entry: usize },
     /// Linear system number `0`.
     Solve(usize),
-}
-
-/// An angle whose sine and cosine are inputs.
-#[derive(Clone, Debug)]
-pub(super) struct Angle {
-    /// The sum of joint angles (and offsets) itself.
-    pub sum: Expr,
-    /// What stands behind `s` and `c` in the names: `23` for θ2 + θ3.
-    pub suffix: String,
-    pub sine: bool,
-    pub cosine: bool,
 }
 
 /// Names of the wrench's components.
@@ -62,7 +52,7 @@ impl<'p> Plan<'p> {
             schedule: g.schedule(&items, |node| is_input(g, &only, node)),
             targets,
             angles: Vec::new(),
-            slides: Vec::new(),
+            prismatic: Vec::new(),
             constants: Vec::new(),
             names: HashMap::new(),
         };
@@ -113,7 +103,7 @@ impl<'p> Plan<'p> {
                 Node::Cos(angle) => angles.entry(angle).or_default().1 = true,
                 Node::Symbol(s) => match g.symbol_of(s) {
                     Symbol::Joint(joint) => {
-                        self.slides.push(*joint);
+                        self.prismatic.push(*joint);
                         self.names.insert(node, format!("q{}", joint + 1));
                     }
                     Symbol::Displacement { place, component } => {
@@ -129,19 +119,15 @@ impl<'p> Plan<'p> {
                 _ => {}
             }
         }
-        self.slides.sort_unstable();
+        self.prismatic.sort_unstable();
         for sum in angles.keys().copied() {
             self.name_offsets(g, sum, only, constants);
         }
         let mut sums: Vec<(Expr, (bool, bool))> = angles.into_iter().collect();
-        sums.sort_by_key(|(sum, _)| (joints_of(g, *sum).iter().map(|j| j.0).max(), *sum));
+        sums.sort_by_key(|(sum, _)| (last_joint(g, *sum), *sum));
         let mut taken = HashSet::new();
         for (sum, (sine, cosine)) in sums {
-            let mut suffix = suffix(&joints_of(g, sum));
-            suffix.push_str(&displaced(g, sum, suffix.is_empty()));
-            if suffix.is_empty() {
-                suffix = parameters_of(g, sum).join("_");
-            }
+            let mut suffix = name(g, sum);
             while !taken.insert(suffix.clone()) {
                 suffix.push('o');
             }
@@ -232,80 +218,4 @@ fn reachable_outside(g: &Graph, roots: &[Expr], only: &[bool]) -> Vec<bool> {
         }
     }
     reached
-}
-
-/// The terms of an angle: joints in order, then symbolic offsets, then the constant.
-pub(super) fn angle_terms(g: &Graph, sum: Expr) -> Vec<Expr> {
-    let mut terms = Vec::new();
-    let mut stack = vec![sum];
-    while let Some(e) = stack.pop() {
-        match g.node(e) {
-            Node::Add(a, b) => stack.extend([a, b].map(|o| o.signed(e.is_negative()))),
-            _ => terms.push(e),
-        }
-    }
-    terms.sort_by_key(|e| match g.node(*e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Joint(joint) => (0, *joint),
-            _ => (1, e.node()),
-        },
-        _ => (2, e.node()),
-    });
-    terms
-}
-
-/// The joints in a sum of angles, each with whether it is subtracted.
-fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
-    let joint = |e: Expr| match g.node(e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Joint(joint) => Some((*joint, e.is_negative())),
-            _ => None,
-        },
-        _ => None,
-    };
-    angle_terms(g, sum).into_iter().filter_map(joint).collect()
-}
-
-/// The parameters in an angle without joints.
-fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
-    let parameter = |e: Expr| match g.node(e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Parameter(name) => Some(name.clone()),
-            _ => None,
-        },
-        _ => None,
-    };
-    angle_terms(g, sum).into_iter().filter_map(parameter).collect()
-}
-
-/// What displacements add to an angle's name: `d1` behind joints for dφ1, alone `phi1`.
-fn displaced(g: &Graph, sum: Expr, alone: bool) -> String {
-    let mut places = Vec::new();
-    for e in angle_terms(g, sum) {
-        if let Node::Symbol(s) = g.node(e)
-            && let Symbol::Displacement { place, component } = g.symbol_of(s)
-        {
-            places.push((*place, COMPONENTS[*component].trim_start_matches('d')));
-        }
-    }
-    let each = places.iter().map(|(place, letter)| match alone {
-        true => format!("{letter}{place}"),
-        false => format!("d{place}"),
-    });
-    each.collect()
-}
-
-/// `23` for θ2 + θ3, `2m3` for θ2 − θ3, `9_10` where a joint's number has two digits.
-fn suffix(joints: &[(usize, bool)]) -> String {
-    let long = joints.iter().any(|(joint, _)| *joint >= 9) && joints.len() > 1;
-    let mut out = String::new();
-    for (at, (joint, negative)) in joints.iter().enumerate() {
-        match (negative, at) {
-            (true, _) => out.push('m'),
-            (false, at) if long && at > 0 => out.push('_'),
-            _ => {}
-        }
-        out.push_str(&(joint + 1).to_string());
-    }
-    out
 }

@@ -2,9 +2,9 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use stiffarm_kernels::{Form, Input, Output, Side};
 use syn::{Attribute, Ident, Visibility};
 
-use crate::derive::Output;
 use crate::robot::Outline;
 
 /// Joints of a stub whose table shows none.
@@ -53,37 +53,40 @@ pub(super) fn stub(
 
 /// The type of an output for `M` joints.
 fn ty(output: Output) -> TokenStream {
-    match output {
-        Output::Pose => quote!(Pose<S>),
-        Output::Frames => quote!([Pose<S>; M]),
-        Output::Jacobian | Output::JacobianTool | Output::StiffnessRegressor => quote!([[S; 6]; M]),
-        Output::ComplementaryStiffness | Output::GravityStiffness => quote!([[S; M]; M]),
-        Output::JointTorque | Output::GravityTorque => quote!([S; M]),
-        Output::Compliance => quote!([[S; 6]; 6]),
-        Output::DeflectionFirstOrder | Output::Deflection | Output::DeflectionWithGravity => {
-            quote!([S; 6])
+    let (rows, columns) = (
+        size(output.rows(), &quote!(M), &quote!(N)),
+        size(output.columns(), &quote!(M), &quote!(N)),
+    );
+    match output.form() {
+        Form::Pose => quote!(Pose<S>),
+        Form::Poses => quote!([Pose<S>; M]),
+        Form::Vector => quote!([S; #rows]),
+        Form::Matrix => quote!([[S; #rows]; #columns]),
+    }
+}
+
+/// How many rows or columns there are: `joints` where that is what they are, else in terms of `n`.
+fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
+    match (side, side.count(0), side.count(1)) {
+        (Side::Joints, ..) => joints.clone(),
+        (_, none, one) if none == one => quote!(#one),
+        (_, none, one) => {
+            let slope = one - none;
+            quote!(#slope * #n + #none)
         }
-        Output::ParameterJacobian => quote!([[S; 6]; 4 * N + 6]),
     }
 }
 
 /// The function of an output, and the figures in its module.
 fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
     let name = format_ident!("{}", output.name());
-    let wrench = output.needs_wrench().then(|| quote!(, _: &[S; 6]));
-    let ty = match (ty(output), output) {
-        (ty, Output::Deflection | Output::DeflectionWithGravity) => quote!(Result<#ty, Unstable>),
-        (ty, _) => ty,
+    let wrench = output.takes(Input::Wrench).then(|| quote!(, _: &[S; 6]));
+    let ty = match (ty(output), output.is_fallible()) {
+        (ty, true) => quote!(Result<#ty, Unstable>),
+        (ty, false) => ty,
     };
-    // The shape is linear in the number of joints, or square in it.
-    let size = |at: fn((usize, usize)) -> usize| match (at(output.shape(1)), at(output.shape(2))) {
-        (one, two) if one == two => quote!(#one),
-        (one, two) => {
-            let (slope, start) = (two - one, 2 * one - two);
-            quote!(#slope * super::N + #start)
-        }
-    };
-    let (rows, columns) = (size(|s| s.0), size(|s| s.1));
+    let n = quote!(super::N);
+    let (rows, columns) = (size(output.rows(), &n, &n), size(output.columns(), &n, &n));
     quote! {
         pub fn #name<S: Scalar, const M: usize>(#constants _: &[S; M] #wrench) -> #ty {
             ::core::unreachable!()

@@ -1,25 +1,27 @@
-//! Numeric evaluation: the graph read as a program for doubles.
+//! Numeric evaluation: the graph read as a program for doubles or singles.
+
+use num_traits::Float;
 
 use super::graph::{Expr, Graph, Node, Symbol};
 
 impl Graph {
     /// The values of `outputs` with each symbol replaced by what `value` says. The trigonometry is the
     /// standard library's, so that an evaluation shares nothing with the kernels that it checks.
-    pub fn evaluate(&self, outputs: &[Expr], value: impl Fn(&Symbol) -> f64) -> Vec<f64> {
+    pub fn evaluate<T: Float>(&self, outputs: &[Expr], value: impl Fn(&Symbol) -> T) -> Vec<T> {
         let last = outputs.iter().map(|e| e.node()).max().unwrap_or(0);
-        let mut values: Vec<f64> = Vec::with_capacity(last + 1);
-        let signed = |values: &[f64], e: Expr| {
+        let mut values: Vec<T> = Vec::with_capacity(last + 1);
+        let signed = |values: &[T], e: Expr| {
             let x = values[e.node()];
             if e.is_negative() { -x } else { x }
         };
         for node in &self.nodes()[..=last] {
             let of = |e| signed(&values, e);
             let x = match *node {
-                Node::Number(n) => n.to_f64(),
+                Node::Number(n) => from(n.to_f64()),
                 Node::Symbol(s) => value(self.symbol_of(s)),
                 Node::Add(a, b) => of(a) + of(b),
                 Node::Mul(a, b) => of(a) * of(b),
-                Node::Recip(a) => 1.0 / of(a),
+                Node::Recip(a) => of(a).recip(),
                 Node::Sqrt(a) => of(a).sqrt(),
                 Node::Sin(a) => of(a).sin(),
                 Node::Cos(a) => of(a).cos(),
@@ -28,6 +30,11 @@ impl Graph {
         }
         outputs.iter().map(|e| signed(&values, *e)).collect()
     }
+}
+
+/// The nearest number of the type.
+pub(crate) fn from<T: Float>(x: f64) -> T {
+    T::from(x).unwrap_or_else(T::nan)
 }
 
 #[cfg(test)]

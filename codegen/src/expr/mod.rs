@@ -4,6 +4,7 @@
 //! schedule. Nothing is expanded or simplified afterwards: what is shared is shared because the same
 //! expression was written twice, and a structural zero is the handle [`Expr::ZERO`].
 
+mod blocks;
 mod count;
 mod derivative;
 mod evaluate;
@@ -13,9 +14,10 @@ mod schedule;
 mod trig;
 mod vector;
 
+pub use blocks::Block;
 pub use count::OpCount;
 pub use graph::{Expr, Graph, Node, Symbol};
-pub use schedule::{Binding, Block, Item, Schedule};
+pub use schedule::{Binding, Item, Schedule};
 pub use trig::Turn;
-pub use vector::Vec3;
+pub use vector::{Twist, Vec3};
 pub(crate) use vector::{negate3, parallel3};

@@ -5,6 +5,9 @@ use super::graph::{Expr, Graph};
 /// Components along the axes of one frame.
 pub type Vec3 = [Expr; 3];
 
+/// A twist per unit of something: translation, rotation.
+pub type Twist = (Vec3, Vec3);
+
 impl Graph {
     /// `a + b`.
     pub fn add3(&mut self, a: Vec3, b: Vec3) -> Vec3 {
@@ -37,6 +40,13 @@ impl Graph {
             let (first, second) = (self.mul(a[i], b[j]), self.mul(a[j], b[i]));
             self.sub(first, second)
         })
+    }
+
+    /// Names the three components of a vector `prefix` + x, y, z.
+    pub fn name3(&mut self, v: Vec3, prefix: &str) {
+        for (component, axis) in v.into_iter().zip(["x", "y", "z"]) {
+            self.name(component, || format!("{prefix}{axis}"));
+        }
     }
 }
 

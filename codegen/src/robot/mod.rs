@@ -1,15 +1,16 @@
 //! The table: units, exact angles, TOML and token parsing, validation, into one [`Robot`].
 //!
-//! A robot file ([`Robot::from_toml`]) and the macro's inline table ([`parse_tokens`]) are read
+//! A robot file ([`Robot::from_toml`]) and the macro's inline table (`parse_tokens`, feature `macro`) are read
 //! into one draft whose cells know their places, cell by cell with the same words and the same
 //! grammar, and one validator makes the [`Robot`]: the same mistake has the same message in both.
+//! With the feature `urdf` a [`Robot`] can be made of a URDF.
 
 mod angle;
 mod decimal;
 mod diagnostic;
 mod dimension;
 mod draft;
-#[cfg(test)]
+#[cfg(all(test, feature = "macro"))]
 mod fuzz;
 mod lexeme;
 mod model;
@@ -20,14 +21,19 @@ mod quantity;
 mod section;
 mod suggest;
 mod symbols;
+#[cfg(feature = "macro")]
 mod tokens;
 mod toml;
 mod units;
+#[cfg(feature = "urdf")]
+pub mod urdf;
 mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+#[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;
+#[cfg(feature = "macro")]
 pub use tokens::{Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};

@@ -1,6 +1,7 @@
 //! What a robot file or an inline table says: one model for both, in SI units.
 
 use num_rational::Ratio;
+pub use stiffarm_kernels::Motion;
 
 use crate::number::Number;
 
@@ -28,15 +29,6 @@ pub enum Convention {
     Standard,
     /// Khalil and Craig: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
     Modified,
-}
-
-/// Whether a joint turns or slides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// `q` adds to `theta`.
-    Revolute,
-    /// `q` adds to `d`.
-    Prismatic,
 }
 
 /// One row of the table, with what hangs on it.

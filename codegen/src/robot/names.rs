@@ -66,10 +66,19 @@ fn refused(name: &str) -> Option<(String, &'static str)> {
         let help = "a name is a letter, then letters, digits and `_`, without accents";
         return Some((format!("`{name}` cannot be a parameter's name"), help));
     }
-    // Rust itself decides what its keywords are.
-    let keyword = syn::parse_str::<syn::Ident>(name).is_err();
+    let keyword = KEYWORDS.contains(&name);
     keyword.then(|| (format!("`{name}` is a keyword of Rust"), help))
 }
+
+/// The keywords of every edition of Rust, reserved ones included (The Rust Reference, 2.3).
+#[rustfmt::skip]
+const KEYWORDS: [&str; 52] = [
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
+    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
+    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
+    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
 
 #[cfg(test)]
 mod tests {
@@ -95,6 +104,15 @@ mod tests {
             ]
         );
         assert!(messages("d = \"x\"\na = \"x\"\nmass = 1\ncom = [\"x\", 0, 0]").is_empty());
+    }
+
+    /// What syn reads as a name is one, but for `gen`, which it does not know as a keyword.
+    #[cfg(feature = "macro")]
+    #[test]
+    fn keywords_are_those_of_rust() {
+        for name in super::KEYWORDS.into_iter().filter(|name| *name != "gen") {
+            assert!(syn::parse_str::<syn::Ident>(name).is_err(), "{name}");
+        }
     }
 
     #[test]

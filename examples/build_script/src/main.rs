@@ -15,7 +15,7 @@ fn main() {
     let [x, y, _] = elbow::pose(&q).position;
     println!("{}: tool at {x:.4}, {y:.4} m", elbow::NAME);
 
-    let [shoulder, elbow] = elbow::gravity_torque(&q);
+    let [shoulder, elbow] = elbow::weight_torque(&q);
     println!("torques of its weight: {shoulder:.2} N*m and {elbow:.2} N*m");
 
     let compliance = elbow::compliance(&q);

@@ -4,8 +4,8 @@
 //! under its load: repeated until nothing moves any more. Each round shrinks the change by the
 //! load's geometric stiffness over the springs'. Of a stiff arm that is a hundredth or less, and a
 //! few rounds are the rest; of a soft one the steps are Newton's, with the [`Tangent`] at hand.
-//! Where these do not settle, parts of the plain steps do, as long as they contract: exactly where
-//! the equilibrium is stable. The work is bounded, whatever the load: one that buckles the arm finds
+//! Where these do not settle, parts of the plain steps do, as long as they contract. A rest counts where
+//! it is stable: [`Tangent::is_stable`], which steps that contract show under any load but a moment. The work is bounded, whatever the load: one that buckles the arm finds
 //! no rest.
 
 use nalgebra::{DVector, Matrix6, UnitQuaternion, Vector6};
@@ -14,7 +14,7 @@ use stiffarm_kernels::Unstable;
 use super::actual::{Actual, axis};
 use super::site::Site;
 use super::state::State;
-use super::tangent::{Stiffness, Tangent};
+use super::tangent::Tangent;
 use super::walk::{Frames, Walk};
 
 /// Rounds with Newton's steps.
@@ -131,8 +131,8 @@ impl Posture {
         !(self.change.is_finite() && self.largest() < LARGEST)
     }
 
-    fn stiffness(&self, walk: &Walk<'_>) -> Stiffness {
-        Tangent::new(walk, &self.at, &self.frames, &self.loads).matrix()
+    fn tangent<'w, 'a>(&'w self, walk: &'w Walk<'a>) -> Tangent<'w, 'a> {
+        Tangent::new(walk, &self.at, &self.frames, &self.loads)
     }
 
     /// To a stable rest: by plain steps as long as they are quick, else by Newton's, shortened
@@ -166,23 +166,27 @@ impl Posture {
                 self.go(&from, &step, 1.0);
                 if self.is_settled(last) {
                     // Steps that shrank have shown that it is stable; where there was none to be
-                    // made, nothing has.
-                    let shown = self.rounds > 1;
-                    return (shown || self.stiffness(walk).is_stable()).then_some(self);
+                    // made, or a moment follows no potential, nothing has.
+                    let shown = self.rounds > 1 && !walk.has_moment();
+                    return (shown || self.tangent(walk).is_stable()).then_some(self);
                 }
                 last = self.change;
                 continue;
             }
-            let stiffness = self.stiffness(walk);
+            let tangent = self.tangent(walk);
+            let settled = self.is_settled(last);
+            if settled && !tangent.is_stable() {
+                return None;
+            }
+            step = tangent.matrix().solve(&self.misses)?;
             from.clone_from(&self.at);
-            step = stiffness.solve(&self.misses)?;
             let longest = step.iter().map(|s| s.amax()).fold(0.0, f64::max);
             if longest > FURTHEST {
                 step.iter_mut().for_each(|s| *s *= FURTHEST / longest);
             }
             self.go(&from, &step, 1.0);
-            if self.is_settled(last) {
-                return stiffness.is_stable().then_some(self);
+            if settled {
+                return Some(self);
             }
             (last, by_newton, halvings) = (self.change, true, 0);
         }
@@ -204,7 +208,9 @@ impl Posture {
             }
             if self.is_settled(last) {
                 // A start that is a rest, but for rounding, has been judged.
-                return (self.rounds > 1).then_some(self);
+                let stable =
+                    self.rounds > 1 && (!walk.has_moment() || self.tangent(walk).is_stable());
+                return stable.then_some(self);
             }
             last = self.change;
             if self.rounds.is_multiple_of(SPAN) {

@@ -7,19 +7,13 @@
 //! stiffness `Kθ − K_C` of the deformed geometry, multiplied by the compliances, so that rigid
 //! sites need no stiffness.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Schur, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 
 use super::walk::{Frames, Walk};
 use super::{rotation, translation};
 
 /// Part of a load, and N or N·m on top of it, by which a law is differentiated.
 const STEP: f64 = 1e-4;
-
-/// Squarings of `C K` after which its eigenvalues are asked for.
-const MOST_SQUARINGS: usize = 5;
-
-/// Sweeps after which a decomposition is given up.
-const MOST_SWEEPS: usize = 10_000;
 
 /// What acts beyond a site, base axes.
 struct Acting {
@@ -103,6 +97,25 @@ impl<'w, 'a> Tangent<'w, 'a> {
         turn: &Vector3<f64>,
     ) -> Vector6<f64> {
         let site = giving.site;
+        let mut given = giving.slope * self.load_change(site, moved, shift, turn);
+        if site > moved
+            && let Some(link) = self.walk.link(site)
+        {
+            let back = self.frames[site].before.rotation.inverse();
+            let gravity = back * -turn.cross(&self.walk.actual.arm.gravity);
+            given += link.give(&Vector6::zeros(), &link.weight(&gravity));
+        }
+        given
+    }
+
+    /// How the load of a site changes, its axes, as `moved` is displaced.
+    fn load_change(
+        &self,
+        site: usize,
+        moved: usize,
+        shift: &Vector3<f64>,
+        turn: &Vector3<f64>,
+    ) -> Vector6<f64> {
         let (here, there) = (&self.acting[site], &self.acting[moved]);
         // What moves is all that is beyond: with the site itself, if it is one of these.
         let (force, moment) = match site.cmp(&moved) {
@@ -116,14 +129,50 @@ impl<'w, 'a> Tangent<'w, 'a> {
         };
         let back = self.frames[site].before.rotation.inverse();
         let (f, m) = (back * force, back * moment);
-        let mut given = giving.slope * Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
-        if site > moved
-            && let Some(link) = self.walk.link(site)
-        {
-            let gravity = back * -turn.cross(&self.walk.actual.arm.gravity);
-            given += link.give(&Vector6::zeros(), &link.weight(&gravity));
+        Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+    }
+
+    /// Whether an arm that rests here takes work in every small displacement, the kernels' criterion
+    /// (`stiffarm_kernels::solve`): with `C = L Lᵀ`, `1 − Lᵀ (K + Kᵀ)/2 L` is positive definite. It is the
+    /// loaded stiffness in coordinates in which rigid sites do no harm.
+    pub(super) fn is_stable(&self) -> bool {
+        if self.bound() < 1.0 {
+            return true;
         }
-        given
+        let roots: Vec<(usize, Vector6<f64>)> =
+            self.giving.iter().flat_map(|one| roots(one).into_iter()).collect();
+        let n = roots.len();
+        let mut loaded = DMatrix::zeros(n, n);
+        for (column, (moved, root)) in roots.iter().enumerate() {
+            let turn = self.frames[*moved].before.rotation;
+            let shift = turn * translation(root);
+            let turn = turn * (left(&rotation(&self.at[*moved])) * rotation(root));
+            for (row, (site, other)) in roots.iter().enumerate() {
+                let load = self.load_change(*site, *moved, &shift, &turn);
+                // A moment does the work of the turn, in the axes before it.
+                let by = left(&rotation(&self.at[*site])) * rotation(other);
+                loaded[(row, column)] =
+                    translation(other).dot(&translation(&load)) + by.dot(&rotation(&load));
+            }
+        }
+        let stiffness = DMatrix::identity(n, n) - (&loaded + loaded.transpose()) / 2.0;
+        stiffness.iter().all(|x| x.is_finite()) && stiffness.cholesky().is_some()
+    }
+
+    /// No eigenvalue of `Lᵀ (K + Kᵀ)/2 L` is larger. A unit rotation changes a moment by at most `t` and a force
+    /// by at most `f`, a unit shift a moment by `f`; over all columns of `L`, whose rotations have the square
+    /// sum `A` and whose shifts have `B`, Cauchy and Schwarz give `t A + 2 f √(A B)`.
+    fn bound(&self) -> f64 {
+        let trace = |first: usize| -> f64 {
+            let of =
+                |one: &Giving| (first..first + 3).map(|k| one.slope[(k, k)].abs()).sum::<f64>();
+            self.giving.iter().map(of).sum()
+        };
+        let (sliding, turning) = (trace(0), trace(3));
+        let most = |of: fn(&Acting) -> f64| self.acting.iter().map(of).fold(0.0, f64::max);
+        let moment = most(|acting| acting.turning.norm() + acting.moment.norm());
+        let force = most(|acting| acting.force.norm());
+        moment * turning + 2.0 * force * (turning * sliding).sqrt()
     }
 
     /// `1 − C K` over the components that give.
@@ -168,23 +217,16 @@ impl Stiffness {
         }
         step.iter().all(|s| s.is_finite()).then_some(all)
     }
+}
 
-    /// Whether an arm that rests here comes back when it is pushed a little: every eigenvalue of
-    /// `1 − C K` has a positive real part. Without a moment that follows no potential it is the
-    /// same as `Kθ − K_C` being positive definite.
-    pub(super) fn is_stable(&self) -> bool {
-        let size = self.matrix.nrows();
-        let mut follows = DMatrix::identity(size, size) - &self.matrix;
-        // No eigenvalue of C K is beyond 1 where a power of it is below 1 in any norm.
-        for _ in 0..MOST_SQUARINGS {
-            if follows.norm() < 1.0 {
-                return true;
-            }
-            follows = &follows * &follows;
-        }
-        Schur::try_new(self.matrix.clone(), f64::EPSILON, MOST_SWEEPS)
-            .is_some_and(|schur| schur.complex_eigenvalues().iter().all(|e| e.re > 0.0))
-    }
+/// Columns of `L`, `L Lᵀ` the symmetric part of a site's compliance.
+fn roots(giving: &Giving) -> Vec<(usize, Vector6<f64>)> {
+    let symmetric = (giving.slope + giving.slope.transpose()) / 2.0;
+    let SymmetricEigen { eigenvectors, eigenvalues } = symmetric.symmetric_eigen();
+    let least = f64::EPSILON * eigenvalues.amax();
+    let pairs = eigenvalues.iter().zip(eigenvectors.column_iter());
+    let pairs = pairs.filter(|(value, _)| **value > least);
+    pairs.map(|(value, vector)| (giving.site, vector * value.sqrt())).collect()
 }
 
 /// The compliance of a site about its load, 6×6.

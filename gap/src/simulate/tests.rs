@@ -8,7 +8,7 @@ fn the_springs_balance_the_loads_in_the_loaded_geometry() {
     let arm = springy();
     let (q, w) = ([0.3, -0.7, 0.4], Vector6::new(300.0, -200.0, -800.0, 20.0, -30.0, 10.0));
     let state = equilibrium(&arm, &q, &w).unwrap();
-    let torque = arm.joint_torque(&state.joints, &w) + arm.gravity_torque(&state.joints);
+    let torque = arm.joint_torque(&state.joints, &w) + arm.weight_torque(&state.joints);
     for j in 0..3 {
         let twist = state.joints[j] - q[j];
         assert!(twist.abs() > 1e-4);
@@ -35,6 +35,56 @@ fn a_buckling_load_is_refused() {
     assert_eq!(equilibrium(&arm, &[0.0; 3], &push).unwrap_err(), Unstable);
     let nan = Vector6::repeat(f64::MAX);
     assert_eq!(equilibrium(&arm, &[0.0; 3], &nan).unwrap_err(), Unstable);
+}
+
+/// Perpendicular axes under a moment about the third direction, which no joint feels: the arm rests where
+/// it is, whatever the moment, and is stable up to twice the root of the springs' product.
+#[test]
+fn a_moment_is_borne_up_to_the_springs() {
+    let mut arm = springy();
+    arm.gravity = Vector3::zeros();
+    arm.joints.truncate(2);
+    let limit = 2.0 / (arm.joints[0].compliance * arm.joints[1].compliance).sqrt();
+    for (share, borne) in [(0.5, true), (0.999_999, true), (1.000_001, false), (3.0, false)] {
+        for sign in [-1.0, 1.0] {
+            let w = Vector6::new(0.0, 0.0, 0.0, sign * share * limit, 0.0, 0.0);
+            assert_eq!(equilibrium(&arm, &[0.0; 2], &w).is_ok(), borne, "{share}");
+            assert_eq!(arm.deflection(&[0.0; 2], &w).is_ok(), borne, "{share}");
+        }
+    }
+}
+
+/// Where the arm comes to rest under a load of any size, the textbook finds it stable.
+#[test]
+fn what_is_at_rest_is_stable() {
+    let arm = springy();
+    let (mut borne, mut refused) = (0, 0);
+    for k in 0..200 {
+        let angle = |factor: f64| (f64::from(k) * factor).sin();
+        let q = [3.0 * angle(1.1), 3.0 * angle(2.3), 3.0 * angle(3.7)];
+        let size = 1e4 * 1.06_f64.powi(k % 100);
+        let w = Vector6::from_fn(|i, _| size * (f64::from(k) * 1.7 + 2.0 * i as f64).sin());
+        match equilibrium(&arm, &q, &w) {
+            Ok(state) => {
+                borne += 1;
+                let there = arm.deflection_with_gravity(&state.joints, &w);
+                assert!(there.is_ok(), "{k}: at rest at {:?}", state.joints);
+            }
+            Err(Unstable) => refused += 1,
+        }
+    }
+    assert!(borne > 50 && refused > 20, "{borne} {refused}");
+}
+
+/// Beams alone, pushed along: a cantilever tilts by what its tip turns.
+#[test]
+fn a_beam_that_buckles_is_refused() {
+    let mut arm = bent();
+    arm.gravity = Vector3::zeros();
+    arm.joints.iter_mut().for_each(|joint| joint.compliance = 0.0);
+    let push =
+        |force: f64| equilibrium(&arm, &[0.0; 3], &Vector6::new(-force, 0.0, 0.0, 0.0, 0.0, 0.0));
+    assert!(push(1e4).is_ok() && push(1e9).is_err());
 }
 
 #[test]

@@ -105,6 +105,11 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Whether a moment acts, which stays constant in base axes and follows no potential.
+    pub(super) fn has_moment(&self) -> bool {
+        self.actual.wrench.fixed_rows::<3>(3) != Vector3::zeros()
+    }
+
     /// The link of a site behind a row. Sites alternate: the link's stands behind row
     /// (index − 2) / 2.
     fn row(&self, index: usize) -> Option<usize> {

@@ -45,6 +45,7 @@ pub enum Wrenches<'a, T> {
 
 /// Why a batch is not what was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// A slice is not of the length that the number of poses asks for; nothing was written.
     Length {

@@ -39,13 +39,13 @@ pub struct Arm {
 pub struct Joint {
     /// Revolute or prismatic.
     pub motion: Motion,
-    /// Turn about z, rad; the offset added to `q` if the joint is revolute.
+    /// Rotation about z, rad; the offset added to `q` if the joint is revolute.
     pub theta: f64,
-    /// Displacement along z, m; the offset added to `q` if the joint is prismatic.
+    /// Translation along z, m; the offset added to `q` if the joint is prismatic.
     pub d: f64,
-    /// Displacement along x, m.
+    /// Translation along x, m.
     pub a: f64,
-    /// Turn about x, rad.
+    /// Rotation about x, rad.
     pub alpha: f64,
     /// 1/k of the joint's spring, rad/(N·m), or m/N if it is prismatic; 0 is rigid.
     pub compliance: f64,

@@ -5,7 +5,16 @@ use std::vec::Vec;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use super::arm::Arm;
-use crate::Unstable;
+use super::textbook::{Textbook, block};
+use crate::{Output, Unstable};
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
+    (Output::Compliance, |arm, q, _| Ok(block(arm.compliance(q)))),
+    (Output::DeflectionFirstOrder, |arm, q, w| Ok(block(arm.deflection_first_order(q, w)))),
+    (Output::Deflection, |arm, q, w| arm.deflection(q, w).map(block)),
+    (Output::DeflectionWithGravity, |arm, q, w| arm.deflection_with_gravity(q, w).map(block)),
+];
 
 impl Arm {
     /// Compliance of the tool, 6×6, base axes, at the tool origin: `Σ J_j J_jᵀ/k_j` (Dumas et al.,
@@ -44,7 +53,7 @@ impl Arm {
 
     /// Deflection of the tool, m and rad, under the wrench and all weights: `J (Kθ − K_C − K_G)⁻¹
     /// (Jᵀ w + τ_g)` plus the links under the wrench, under their own weights and under what hangs
-    /// beyond them. `τ_g` is [`Arm::gravity_torque`], `K_G` [`Arm::gravity_stiffness`].
+    /// beyond them. `τ_g` is [`Arm::weight_torque`], `K_G` [`Arm::weight_stiffness`].
     ///
     /// # Errors
     /// [`Unstable`] if the symmetric part of `Kθ − K_C − K_G` is not positive definite.
@@ -53,8 +62,8 @@ impl Arm {
         q: &[f64],
         w: &Vector6<f64>,
     ) -> Result<Vector6<f64>, Unstable> {
-        let torque = self.joint_torque(q, w) + self.gravity_torque(q);
-        let load_stiffness = self.complementary_stiffness(q, w) + self.gravity_stiffness(q);
+        let torque = self.joint_torque(q, w) + self.weight_torque(q);
+        let load_stiffness = self.complementary_stiffness(q, w) + self.weight_stiffness(q);
         let joints = self.joints_deflection(&torque, &load_stiffness)?;
         Ok(self.jacobian(q) * joints + self.links_deflection(q, w) + self.links_sag(q))
     }

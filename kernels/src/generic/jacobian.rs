@@ -4,6 +4,16 @@ use nalgebra::{DVector, Matrix6xX, Vector6};
 
 use super::arm::Arm;
 use super::spatial::{lower, stack, upper};
+use super::textbook::{Textbook, block};
+use crate::Output;
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
+    (Output::Jacobian, |arm, q, _| Ok(block(arm.jacobian(q)))),
+    (Output::JacobianTool, |arm, q, _| Ok(block(arm.jacobian_tool(q)))),
+    (Output::JointTorque, |arm, q, w| Ok(block(arm.joint_torque(q, w)))),
+    (Output::ComplianceRegressor, |arm, q, w| Ok(block(arm.compliance_regressor(q, w)))),
+];
 
 impl Arm {
     /// Geometric Jacobian, 6×n: the twist of the tool at the tool origin in base axes per unit of
@@ -39,8 +49,8 @@ impl Arm {
     }
 
     /// Column j is `J_j (J_jᵀ w)`, 6×n: the deflection per unit of the compliance of joint j (Dumas
-    /// et al., eqs. 20-21, the regressor of their identification).
-    pub fn stiffness_regressor(&self, q: &[f64], w: &Vector6<f64>) -> Matrix6xX<f64> {
+    /// et al., eqs. 20-21, the regressor of their identification): m, rad per rad/(N·m), or per m/N of a prismatic joint.
+    pub fn compliance_regressor(&self, q: &[f64], w: &Vector6<f64>) -> Matrix6xX<f64> {
         let mut regressor = self.jacobian(q);
         for mut column in regressor.column_iter_mut() {
             let torque = column.dot(w);

@@ -5,7 +5,8 @@ use std::vec::Vec;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::arm::{Arm, Convention, Joint};
-use crate::Motion;
+use super::textbook::Textbook;
+use crate::{Motion, Output};
 
 /// The axis of one joint at one posture, in base axes.
 pub(super) struct Axis {
@@ -49,6 +50,12 @@ fn row_transform(convention: Convention, joint: &Joint, q: f64) -> Isometry3<f64
         Convention::Modified => rx * tx * rz * tz,
     }
 }
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
+    (Output::Pose, |arm, q, _| Ok(columns(&arm.pose(q)))),
+    (Output::Frames, |arm, q, _| Ok(arm.frames(q)[1..].iter().flat_map(columns).collect())),
+];
 
 impl Arm {
     /// Frames 0 to n in the base frame (n + 1 of them; frame 0 is the base itself), m.
@@ -96,4 +103,10 @@ impl Arm {
 /// Where a frame stands.
 pub(super) fn origin(frame: &Isometry3<f64>) -> Vector3<f64> {
     frame.translation.vector
+}
+
+/// The columns x, y, z and origin of a frame, one after the other.
+fn columns(frame: &Isometry3<f64>) -> Vec<f64> {
+    let rotation = frame.rotation.to_rotation_matrix();
+    rotation.matrix().iter().chain(frame.translation.vector.iter()).copied().collect()
 }

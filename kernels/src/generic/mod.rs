@@ -21,7 +21,7 @@
 //!   `Rz(theta) Tz(d) Tx(a) Rx(alpha)` in the [standard](Convention::Standard) convention and by
 //!   `Rx(alpha) Tx(a) Rz(theta) Tz(d)` in the [modified](Convention::Modified) one. A revolute
 //!   joint's value is added to theta, a prismatic one's to d.
-//! * Joint i turns about, or slides along, z of frame i−1 (standard) or of frame i (modified). Both
+//! * Joint i rotates about, or translates along, z of frame i−1 (standard) or of frame i (modified). Both
 //!   conventions fix link i's mass in frame i, and joints 1..=i move it.
 //! * The beam of row i runs straight from the origin of frame i−1 to the origin of frame i. In the
 //!   standard convention joints 1..=i move it, in the modified one joints 1..=i−1. Its axes and its
@@ -41,7 +41,6 @@ mod arm;
 mod beam;
 mod deflection;
 mod evaluate;
-mod gravity;
 mod jacobian;
 mod kinematics;
 mod links;
@@ -50,5 +49,7 @@ mod spatial;
 mod stiffness;
 #[cfg(test)]
 mod tests;
+mod textbook;
+mod weight;
 
 pub use arm::{Arm, Beam, Convention, Joint};

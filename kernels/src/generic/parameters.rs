@@ -5,6 +5,8 @@ use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 use super::arm::{Arm, Convention};
 use super::kinematics::origin;
 use super::spatial::stack;
+use super::textbook::{Textbook, block};
+use crate::Output;
 
 /// Left Jacobian of SO(3): a change `dr` of the rotation vector `r` turns the rotated body by
 /// `J_l(r) dr` in the fixed axes. `J_l = 1 + (1 − cos φ)/φ² [r]× + (φ − sin φ)/φ³ [r]×²`, φ = |r|.
@@ -22,6 +24,10 @@ fn left_jacobian(r: &Vector3<f64>) -> Matrix3<f64> {
     let cross = r.cross_matrix();
     Matrix3::identity() + cross * first + cross * cross * second
 }
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] =
+    &[(Output::ParameterJacobian, |arm, q, _| Ok(block(arm.parameter_jacobian(q))))];
 
 impl Arm {
     /// Twist of the tool per unit of each entry of the table, 6×(4n+6), base axes, at the tool

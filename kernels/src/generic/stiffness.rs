@@ -6,14 +6,14 @@ use nalgebra::{DMatrix, Vector3, Vector6};
 use super::arm::Arm;
 use super::kinematics::Axis;
 use super::spatial::{lower, upper};
-use crate::Motion;
+use super::textbook::{Textbook, block};
+use crate::{Motion, Output};
 
 /// `∂(v_j · f)/∂q_i` at row j, column i, for a constant force `f` on a point that all of `axes`
 /// move with velocities `v_j`. Symmetric, since it holds the second derivatives of `f · p`.
 ///
-/// Of two joints, the one nearer the base carries the other's velocity vector along: `v_b` turns
-/// with a revolute joint a ≤ b at the rate `z_a × v_b`, and does not change as a prismatic one
-/// slides.
+/// Of two joints, the one nearer the base carries the other's velocity vector along: `v_b` rotates
+/// with a revolute joint a ≤ b at the rate `z_a × v_b`, and does not change with a prismatic one.
 pub(super) fn force_stiffness(
     axes: &[Axis],
     point: &Vector3<f64>,
@@ -33,6 +33,10 @@ fn moment_stiffness(axes: &[Axis], m: &Vector3<f64>) -> DMatrix<f64> {
         if i < j && both_turn { m.dot(&axes[i].direction.cross(&axes[j].direction)) } else { 0.0 }
     })
 }
+
+/// The outputs of this file.
+pub(super) const TEXTBOOK: &[(Output, Textbook)] =
+    &[(Output::ComplementaryStiffness, |arm, q, w| Ok(block(arm.complementary_stiffness(q, w))))];
 
 impl Arm {
     /// K_C, n×n, N·m/rad (N, N/m in the rows and columns of prismatic joints): row j, column i is

@@ -32,7 +32,7 @@ macro_rules! masked_lanes {
                 <$lanes>::splat(x as $float)
             }
             #[inline(always)]
-            fn plus(self, a: Self, b: Self) -> Self {
+            fn mul_add(self, a: Self, b: Self) -> Self {
                 if cfg!(feature = "fma") { <$lanes>::mul_add(self, a, b) } else { self * a + b }
             }
             #[inline(always)]

@@ -37,28 +37,28 @@ const COSINE: [f64; 6] = [
 #[inline(always)]
 pub(crate) fn sin_cos<F: Masked>(angle: F) -> (F, F) {
     let of = F::of;
-    let shifted = angle.plus(of(core::f64::consts::FRAC_2_PI), of(SHIFT));
+    let shifted = angle.mul_add(of(core::f64::consts::FRAC_2_PI), of(SHIFT));
     let multiple = shifted - of(SHIFT);
     // The first difference is exact. The second rounds; what it loses is `lost`, exactly.
-    let first = multiple.plus(of(-HALF_PI[0]), angle);
-    let head = multiple.plus(of(-HALF_PI[1]), first);
-    let lost = multiple.plus(of(-HALF_PI[1]), first - head);
-    let rest = multiple.plus(of(-HALF_PI[2]), lost);
+    let first = multiple.mul_add(of(-HALF_PI[0]), angle);
+    let head = multiple.mul_add(of(-HALF_PI[1]), first);
+    let lost = multiple.mul_add(of(-HALF_PI[1]), first - head);
+    let rest = multiple.mul_add(of(-HALF_PI[2]), lost);
     let r = nan_beyond(head, angle, LARGEST);
 
     // The reduced angle is `r + rest`; `1 - (r + rest)²/2` without the square of the rest is
     // `1 + r·(-r/2 - rest)`.
     let z = r * r;
     let powers = [z, z * z];
-    let sine = r + (r * z).plus(polynomial(SINE, powers), rest);
-    let falls = z.plus(polynomial(COSINE, powers), of(-0.5));
-    let cosine = r.plus(r.plus(falls, -rest), of(1.0));
+    let sine = r + (r * z).mul_add(polynomial(SINE, powers), rest);
+    let falls = z.mul_add(polynomial(COSINE, powers), of(-0.5));
+    let cosine = r.mul_add(r.mul_add(falls, -rest), of(1.0));
     turn(shifted, sine, cosine)
 }
 
 /// `Σ c_k z^k`, in pairs, so that the chain of operations is short.
 #[inline(always)]
 fn polynomial<F: Masked>(c: [f64; 6], [z, z2]: [F; 2]) -> F {
-    let pair = |k: usize| z.plus(F::of(c[k + 1]), F::of(c[k]));
-    z2.plus(z2.plus(pair(4), pair(2)), pair(0))
+    let pair = |k: usize| z.mul_add(F::of(c[k + 1]), F::of(c[k]));
+    z2.mul_add(z2.mul_add(pair(4), pair(2)), pair(0))
 }

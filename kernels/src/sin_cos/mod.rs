@@ -36,7 +36,7 @@ pub(crate) trait Masked:
     fn of(x: f64) -> Self;
 
     /// `self·a + b`: rounded once under the feature `fma` where the target can.
-    fn plus(self, a: Self, b: Self) -> Self;
+    fn mul_add(self, a: Self, b: Self) -> Self;
 
     /// The bits.
     fn bits(self) -> Self::Word;
@@ -88,7 +88,7 @@ macro_rules! masked_number {
                 x as $float
             }
             #[inline(always)]
-            fn plus(self, a: Self, b: Self) -> Self {
+            fn mul_add(self, a: Self, b: Self) -> Self {
                 crate::Scalar::mul_add(self, a, b)
             }
             #[inline(always)]

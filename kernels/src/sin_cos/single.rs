@@ -23,20 +23,20 @@ const COSINE: [f64; 3] = [0.04166664555668831, -0.00138873013202101, 2.443067023
 #[inline(always)]
 pub(crate) fn sin_cos<F: Masked>(angle: F) -> (F, F) {
     let of = F::of;
-    let shifted = angle.plus(of(core::f64::consts::FRAC_2_PI), of(SHIFT));
+    let shifted = angle.mul_add(of(core::f64::consts::FRAC_2_PI), of(SHIFT));
     let multiple = shifted - of(SHIFT);
-    let first = multiple.plus(of(-HALF_PI[0]), angle);
-    let second = multiple.plus(of(-HALF_PI[1]), first);
-    let reduced = multiple.plus(of(-HALF_PI[2]), second);
+    let first = multiple.mul_add(of(-HALF_PI[0]), angle);
+    let second = multiple.mul_add(of(-HALF_PI[1]), first);
+    let reduced = multiple.mul_add(of(-HALF_PI[2]), second);
     let r = nan_beyond(reduced, angle, LARGEST);
 
     let z = r * r;
-    let sine = (r * z).plus(polynomial(SINE, z), r);
-    let cosine = (z * z).plus(polynomial(COSINE, z), of(1.0) - of(0.5) * z);
+    let sine = (r * z).mul_add(polynomial(SINE, z), r);
+    let cosine = (z * z).mul_add(polynomial(COSINE, z), of(1.0) - of(0.5) * z);
     turn(shifted, sine, cosine)
 }
 
 #[inline(always)]
 fn polynomial<F: Masked>(c: [f64; 3], z: F) -> F {
-    z.plus(z.plus(F::of(c[2]), F::of(c[1])), F::of(c[0]))
+    z.mul_add(z.mul_add(F::of(c[2]), F::of(c[1])), F::of(c[0]))
 }

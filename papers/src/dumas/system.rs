@@ -38,7 +38,7 @@ impl System {
         let mut possible: f64 = 0.0;
         for (k, test) in tests.iter().enumerate() {
             let weights = by.matrix(arm, &test.q)?;
-            let block = weights * arm.stiffness_regressor(&test.q, &test.wrench);
+            let block = weights * arm.compliance_regressor(&test.q, &test.wrench);
             b.rows_mut(6 * k, 6).copy_from(&block);
             let bend = links.deflection_first_order(&test.q, &test.wrench);
             let moved = weights * (test.displacement - bend);

@@ -117,7 +117,7 @@ mod tests {
         let arm = bent();
         let q = [0.4, -0.9, 1.3];
         let load = Vector6::new(30.0, -50.0, -80.0, 4.0, 7.0, -2.0);
-        let torque = arm.joint_torque(&q, &load) + arm.gravity_torque(&q);
+        let torque = arm.joint_torque(&q, &load) + arm.weight_torque(&q);
         for (force, torque) in generalized_forces(&arm, &q, &load).unwrap().iter().zip(&torque) {
             assert!((force[5] - torque).abs() < 1e-12 * (1.0 + torque.abs()));
         }

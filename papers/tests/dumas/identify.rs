@@ -192,7 +192,7 @@ fn weights_by_points_are_the_points_themselves() {
     let mut b = DMatrix::zeros(9 * tests.len(), 6);
     let mut c = DVector::zeros(9 * tests.len());
     for (k, test) in tests.iter().enumerate() {
-        let regressor = arm.stiffness_regressor(&test.q, &test.wrench);
+        let regressor = arm.compliance_regressor(&test.q, &test.wrench);
         for (i, point) in points.iter().enumerate() {
             let lever = arm.pose(&test.q).rotation * point;
             let motion = |twist: &[f64]| {

@@ -1,14 +1,15 @@
 //! The elbow manipulator's appendix, term by term, against the general functions.
 
+use stiffarm_draws::Draws;
 use stiffarm_papers::lin::{ElbowLinks, deflections};
 
-use crate::arms::{Random, elbow, near, weight};
+use crate::arms::{Links, elbow, near, weight};
 
 /// Rows of the table that the four terms belong to.
 const ROWS: [usize; 4] = [2, 3, 4, 6];
 
 fn cases() -> impl Iterator<Item = (ElbowLinks, [f64; 6])> {
-    let mut random = Random::new(2);
+    let mut random = Draws::new(2);
     (0..300).map(move |_| (random.elbow(), random.array(-3.1, 3.1)))
 }
 

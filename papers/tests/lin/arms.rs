@@ -1,6 +1,7 @@
 //! The paper's arms, and random numbers.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_draws::Draws;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 use stiffarm_papers::lin::{ElbowLinks, TwoLink};
@@ -99,26 +100,14 @@ pub fn weight(axis: usize, p: f64) -> Vector6<f64> {
     load
 }
 
-/// Knuth's 64-bit linear congruential generator: the same numbers in every run.
-pub struct Random(u64);
+/// Random links.
+pub trait Links {
+    fn elbow(&mut self) -> ElbowLinks;
+    fn two_link(&mut self) -> TwoLink;
+}
 
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        let mut random = Random(seed);
-        random.between(0.0, 1.0);
-        random
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    pub fn array<const N: usize>(&mut self, low: f64, high: f64) -> [f64; N] {
-        std::array::from_fn(|_| self.between(low, high))
-    }
-
-    pub fn elbow(&mut self) -> ElbowLinks {
+impl Links for Draws {
+    fn elbow(&mut self) -> ElbowLinks {
         ElbowLinks {
             lengths: self.array(2.0, 30.0),
             rigidity: self.array(1e5, 5e7),
@@ -127,7 +116,7 @@ impl Random {
         }
     }
 
-    pub fn two_link(&mut self) -> TwoLink {
+    fn two_link(&mut self) -> TwoLink {
         TwoLink {
             lengths: self.array(2.0, 30.0),
             rigidity: self.array(1e5, 5e7),

@@ -1,12 +1,13 @@
 //! After compensation the loaded arm stands where it should.
 
 use nalgebra::{Isometry3, Vector6};
+use stiffarm_draws::Draws;
 use stiffarm_papers::chain::elastic::Elasticity;
 use stiffarm_papers::lin::{
     CompensateError, Damping, Ended, Forward, Options, PlanOptions, compensate, loaded_pose, plan,
 };
 
-use crate::arms::{Random, elbow, near, planar, printed_elbow, two_link, weight};
+use crate::arms::{elbow, near, planar, printed_elbow, two_link, weight};
 
 /// Distance and angle between two poses.
 fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> (f64, f64) {
@@ -14,11 +15,11 @@ fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> (f64, f64) {
     (distance, one.rotation.angle_to(&other.rotation))
 }
 
-/// Random reachable targets and loads, with links, springs and weights; by the linear model and by
+/// Draws reachable targets and loads, with links, springs and weights; by the linear model and by
 /// the chain at rest.
 #[test]
 fn there_and_back() {
-    let mut random = Random::new(5);
+    let mut random = Draws::new(5);
     let mut away: f64 = 0.0;
     for round in 0..40 {
         let mut arm = elbow(&printed_elbow(0.0597));

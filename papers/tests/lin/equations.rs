@@ -1,6 +1,7 @@
 //! The two-link arm's printed equations against the general functions.
 
 use nalgebra::{Isometry3, Vector6};
+use stiffarm_draws::Draws;
 use stiffarm_papers::chain::Load;
 use stiffarm_papers::chain::elastic::{ElasticArm, Elasticity};
 use stiffarm_papers::lin::{
@@ -8,10 +9,10 @@ use stiffarm_papers::lin::{
     pose_jacobian,
 };
 
-use crate::arms::{Random, elbow, near, planar, weight};
+use crate::arms::{Links, elbow, near, planar, weight};
 
 fn cases() -> impl Iterator<Item = (TwoLink, [f64; 2])> {
-    let mut random = Random::new(1);
+    let mut random = Draws::new(1);
     (0..200).map(move |_| (random.two_link(), random.array(-3.1, 3.1)))
 }
 
@@ -122,7 +123,7 @@ fn what_is_counted_again() {
 /// load: errors from the links' wrenches, carried to the tool.
 #[test]
 fn yc_is_the_chain_under_a_small_load() {
-    let mut random = Random::new(6);
+    let mut random = Draws::new(6);
     for _ in 0..50 {
         let mut links = random.elbow();
         links.weights = [0.0; 4];

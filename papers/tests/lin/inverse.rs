@@ -1,11 +1,12 @@
 //! All inverse solutions of elbow manipulators.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use stiffarm_draws::Draws;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 use stiffarm_papers::lin::{InverseError, Missing, ParallelElbow};
 
-use crate::arms::{Random, elbow, printed_elbow};
+use crate::arms::{elbow, printed_elbow};
 
 /// The larger of the position's and the rotation's miss.
 fn miss(arm: &Arm, q: &[f64], target: &Isometry3<f64>) -> f64 {
@@ -14,7 +15,7 @@ fn miss(arm: &Arm, q: &[f64], target: &Isometry3<f64>) -> f64 {
 
 /// Any arm of the kind: offsets everywhere, right angles of either sense, offsets of the zero, a
 /// turned tool, lengths of either sign.
-fn any(random: &mut Random) -> Arm {
+fn any(random: &mut Draws) -> Arm {
     let mut arm = elbow(&printed_elbow(0.0));
     let quarter = std::f64::consts::FRAC_PI_2;
     let mut right = || if random.between(0.0, 1.0) < 0.5 { quarter } else { -quarter };
@@ -42,7 +43,7 @@ fn any(random: &mut Random) -> Arm {
 /// solution has that pose to 1e-12.
 #[test]
 fn all_solutions_of_random_arms() {
-    let mut random = Random::new(3);
+    let mut random = Draws::new(3);
     let mut eight = 0;
     for _ in 0..500 {
         let arm = any(&mut random);

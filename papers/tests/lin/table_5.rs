@@ -1,11 +1,12 @@
 //! Tables V and VI, and step 9: the elbow manipulator's configurations and the correction.
 
 use nalgebra::{Isometry3, Vector6};
+use stiffarm_draws::Draws;
 use stiffarm_papers::lin::{
     Damping, Measure, Model, ParallelElbow, PlanOptions, Solution, correction, plan,
 };
 
-use crate::arms::{Random, elbow, near, printed_elbow, weight};
+use crate::arms::{Links, elbow, near, printed_elbow, weight};
 
 /// theta1 to theta6 in degrees, deflection in inches.
 const TABLE_5: [([f64; 6], f64); 8] = [
@@ -127,7 +128,7 @@ fn the_deflections_cannot_be_those_of_any_parameters() {
         near((q[1] + q[2] + q[3]).cos(), 0.0, 1e-14);
         near(q[4].cos(), 0.0, 1e-15);
     }
-    let mut random = Random::new(4);
+    let mut random = Draws::new(4);
     for _ in 0..500 {
         let links = random.elbow();
         // By the corrected appendix, and its two parts.

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use stiffarm_bench::arms::kuka_kr240::{fused, plain};
 use stiffarm_bench::arms::textbook;
-use stiffarm_bench::draws::Draws;
 use stiffarm_bench::lanes::by_eight;
 use stiffarm_bench::timing::{Candidate, medians};
+use stiffarm_draws::Draws;
 use stiffarm_kernels::{Output, Pose};
 
 const POSES: usize = 2048;
@@ -27,14 +27,14 @@ const OUTPUTS: [Output; 7] = [
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let directory = std::env::args().nth(1).ok_or("usage: peers DIRECTORY")?;
     let mut draws = Draws::new(1);
-    let wrenches = draws.wrenches(POSES);
+    let wrenches = draws.loads(POSES);
     let arm = textbook("kuka_kr240");
     let write = |name: &str, numbers: &[f64]| -> std::io::Result<()> {
         let mut file = std::fs::File::create(Path::new(&directory).join(name))?;
         let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
         file.write_all(&bytes)
     };
-    for (path, poses) in [("random", draws.random::<6>(POSES)), ("smooth", draws.smooth(POSES))] {
+    for (path, poses) in [("random", draws.postures::<6>(POSES)), ("smooth", draws.path(POSES))] {
         write(&format!("{path}.q"), poses.as_flattened())?;
         write(&format!("{path}.w"), wrenches.as_flattened())?;
         let mut all = vec![Vec::new(); POSES];

@@ -51,9 +51,38 @@ pub(super) fn harmless(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "/")
 }
 
+/// Formulas in plain characters.
+pub(super) fn plain(text: &str) -> String {
+    let spelled = [
+        ("⁻¹", "^-1"),
+        ("²", "^2"),
+        ("ᵀ", "'"),
+        ("×", "x"),
+        ("·", "*"),
+        ("−", "-"),
+        ("…", "..."),
+        ("∂", "d"),
+        ("Σ", "sum"),
+        ("τ", "tau"),
+        ("θ", "theta"),
+        ("δ", "delta "),
+    ];
+    let all = spelled.into_iter();
+    all.fold(text.to_string(), |text, (sign, letters)| text.replace(sign, letters))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn formulas_of_all_outputs_are_plain() {
+        for output in stiffarm_kernels::Output::EACH {
+            for text in crate::emit::docs::docs(output, 6, "") {
+                assert!(plain(&text).is_ascii(), "{}", plain(&text));
+            }
+        }
+    }
 
     #[test]
     fn a_comment_cannot_be_left() {

@@ -1,11 +1,12 @@
 //! One function in C: from the joint values, and from the posture.
 
+use stiffarm_kernels::{Input, Output};
+
 use super::super::expression::Printer;
 use super::super::plan::{Plan, Target, WRENCH};
 use super::posture::Use;
 use super::solve::solve_name;
 use super::style::C;
-use crate::derive::Output;
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Node, Symbol};
 
@@ -30,9 +31,9 @@ impl Function<'_> {
         self.outputs.iter().any(|o| o.is_fallible())
     }
 
-    /// Sizes of the linear systems, and how many of their unknowns are solved for together.
+    /// Sizes of the linear systems, and of their leading blocks.
     pub fn systems(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.plan.program.solves.iter().map(|solve| (solve.right.len(), solve.together()))
+        self.plan.program.solves.iter().map(|solve| (solve.right.len(), solve.leading()))
     }
 
     /// Sign changes that cost an operation of their own.
@@ -75,7 +76,7 @@ impl Function<'_> {
     }
 
     fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.needs_wrench())
+        self.outputs.iter().any(|o| o.takes(Input::Wrench))
     }
 
     /// The function of the joint values.
@@ -211,7 +212,7 @@ impl Function<'_> {
         array(out, &format!("stiffness_{k}"), &solve.matrix);
         array(out, &format!("load_{k}"), &solve.right);
         out.blank();
-        let function = solve_name(n, solve.together());
+        let function = solve_name(n, solve.leading());
         out.code(&format!("status = {function}(stiffness_{k}, load_{k});"));
         out.code(&format!("if (status == {}_OK)", module.to_uppercase()));
         out.code("{");

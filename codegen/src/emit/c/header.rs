@@ -1,11 +1,11 @@
 //! The header file: what was generated from what, constants, declarations.
 
-use super::comment::harmless;
-use super::docs::docs;
+use super::comment::{harmless, plain};
 use super::function::Function;
 use super::hash::{Table, fnv1a};
 use super::source::posture_head;
 use super::{Module, Precision, Sines};
+use crate::emit::docs::docs;
 use crate::emit::lines::Lines;
 
 /// The header that belongs to `source`.
@@ -155,7 +155,7 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
     let name = module.name();
     out.blank();
     let mut text: Vec<String> = match function.outputs {
-        [output] => docs(*output).map(str::to_string).to_vec(),
+        [output] => docs(*output, module.robot.dof(), "").map(|text| plain(&text)).to_vec(),
         outputs => {
             let names: Vec<&str> = outputs.iter().map(|o| o.name()).collect();
             vec![format!("Worked out together: {}.", names.join(", "))]

@@ -5,7 +5,6 @@
 //! same bits.
 
 mod comment;
-mod docs;
 mod function;
 mod hash;
 mod header;

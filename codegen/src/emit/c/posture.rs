@@ -1,8 +1,9 @@
 //! The posture: sines and cosines of all angles that any function needs, and the displacements of
 //! prismatic joints. One struct for all functions, so that a control loop makes it once.
 
+use super::super::angles::angle_terms;
 use super::super::expression::Style as _;
-use super::super::plan::{Plan, angle_terms};
+use super::super::plan::Plan;
 use super::style::C;
 use crate::emit::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
@@ -11,7 +12,7 @@ use crate::expr::{Expr, Node, Symbol};
 #[derive(Default)]
 pub(super) struct Posture {
     angles: Vec<Field>,
-    slides: Vec<usize>,
+    prismatic: Vec<usize>,
 }
 
 /// The pair of fields of one angle.
@@ -42,13 +43,13 @@ impl Posture {
                 |(_, l): (bool, &str)| (format!("{l}{}", angle.suffix), format!("{l}{suffix}"));
             uses.push(Use { reads: used.map(pair).collect(), made: of_angle(&sum, &suffix) });
         }
-        for &joint in &plan.slides {
-            if !self.slides.contains(&joint) {
-                self.slides.push(joint);
-                self.slides.sort_unstable();
+        for &joint in &plan.prismatic {
+            if !self.prismatic.contains(&joint) {
+                self.prismatic.push(joint);
+                self.prismatic.sort_unstable();
             }
             let name = format!("q{}", joint + 1);
-            uses.push(Use { reads: vec![(name.clone(), name)], made: of_slide(joint) });
+            uses.push(Use { reads: vec![(name.clone(), name)], made: of_prismatic(joint) });
         }
         uses
     }
@@ -77,7 +78,7 @@ impl Posture {
             out.code(&format!("{real} s{suffix}; /* sine of {sum} */"));
             out.code(&format!("{real} c{suffix}; /* cosine of {sum} */"));
         }
-        for joint in &self.slides {
+        for joint in &self.prismatic {
             out.code(&format!("{real} q{}; /* q[{joint}], m */", joint + 1));
         }
         out.dedent();
@@ -87,7 +88,7 @@ impl Posture {
     /// Statements that make every field.
     pub fn statements(&self) -> Vec<String> {
         let angles = self.angles.iter().map(|a| of_angle(&a.sum, &a.suffix));
-        angles.chain(self.slides.iter().map(|joint| of_slide(*joint))).collect()
+        angles.chain(self.prismatic.iter().map(|joint| of_prismatic(*joint))).collect()
     }
 }
 
@@ -95,7 +96,7 @@ fn of_angle(sum: &str, suffix: &str) -> String {
     format!("sin_cos({sum}, &posture->s{suffix}, &posture->c{suffix});")
 }
 
-fn of_slide(joint: usize) -> String {
+fn of_prismatic(joint: usize) -> String {
     format!("posture->q{} = q[{joint}];", joint + 1)
 }
 

@@ -3,9 +3,9 @@
 use super::style::C;
 use crate::emit::lines::Lines;
 
-/// `solve_6`, or `solve_6_5` where only the first five are solved for together.
-pub(super) fn solve_name(n: usize, together: usize) -> String {
-    if together < n { format!("solve_{n}_{together}") } else { format!("solve_{n}") }
+/// `solve_6`, or `solve_6_5` where the leading block is of five.
+pub(super) fn solve_name(n: usize, leading: usize) -> String {
+    if leading < n { format!("solve_{n}_{leading}") } else { format!("solve_{n}") }
 }
 
 /// `static … definite_6(…)`: whether the arm bears the load.

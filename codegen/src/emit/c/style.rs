@@ -1,6 +1,7 @@
 //! How C spells numbers and operations.
 
-use super::super::expression::{Style, constant};
+use super::super::expression::Style;
+use super::super::literal::constant;
 use super::Precision;
 use crate::number::Number;
 

@@ -1,14 +1,12 @@
 //! The kernel itself, cut into scopes and functions that the compiler can digest.
 
-use std::collections::HashSet;
-
-use super::super::expression::{Printer, Style, constant};
-use super::super::plan::{Plan, Target, WRENCH};
+use super::super::expression::Printer;
+use super::super::plan::{Plan, Target};
 use super::function::Function;
-use super::posture::{INLINE, field_names, has_posture, uses_wrench};
+use super::inputs::{open_inputs, open_solve_inputs};
+use super::posture::{INLINE, has_posture, uses_wrench};
 use crate::emit::lines::Lines;
-use crate::expr::{Binding, Block, Expr, Node, Symbol};
-use crate::number::Number;
+use crate::expr::{Binding, Block, Expr};
 
 /// Names in one scope; rustc's recursion over a scope's statements overflows at a few thousand.
 pub(super) const BLOCK: usize = 256;
@@ -24,9 +22,8 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    pub fn new(function: &Function, plan: &'a Plan<'a>) -> Self {
-        let style: &dyn Style = if function.fused_products { &FusedRust } else { &Rust };
-        let printer = Printer { plan, style };
+    pub fn new(function: &'a Function, plan: &'a Plan<'a>) -> Self {
+        let printer = Printer { plan, style: function.style() };
         let negations = function.program.roots().iter().map(|e| printer.negations(*e)).sum();
         Body { plan, printer, negations }
     }
@@ -39,14 +36,7 @@ impl<'a> Body<'a> {
         let small = schedule.lets() <= BLOCK;
         let parts = if small { Vec::new() } else { self.parts(&blocks) };
 
-        out.doc(
-            "The kernel: additions and multiplications only, where no load is to be solved for.",
-        );
-        if function.fallible() {
-            out.doc("");
-            out.doc("# Errors");
-            out.doc("`Unstable` where the loaded arm has no stable equilibrium.");
-        }
+        function.kernel_docs(out, self.plan);
         if function.fallible() && function.program.solves.is_empty() {
             out.code("#[allow(clippy::unnecessary_wraps)]");
         }
@@ -60,10 +50,9 @@ impl<'a> Body<'a> {
         ));
         out.indent();
         if small || parts.len() <= 1 {
-            self.open_inputs(out, everything.clone());
+            open_inputs(out, self.plan, everything.clone());
         } else {
-            let read: Vec<usize> = self.solve_inputs();
-            self.destructure(out, &self.plan.inputs_of(read));
+            open_solve_inputs(out, self.plan);
         }
         out.code("let zero = S::lit(0.0);");
         let mutable =
@@ -125,79 +114,6 @@ impl<'a> Body<'a> {
             parameters.push("wrench: &[S; 6]".to_string());
         }
         parameters
-    }
-
-    /// Nodes that a range of steps reads without their being named in the schedule.
-    fn reads(&self, steps: core::ops::Range<usize>) -> Vec<usize> {
-        let mut nodes = Vec::new();
-        for step in &self.plan.schedule.steps[steps] {
-            match step {
-                Binding::Let(node) => {
-                    let operands = self.plan.program.graph.nodes()[*node].operands();
-                    nodes.extend(operands.map(Expr::node));
-                }
-                Binding::Item(item) => nodes.extend(self.item_inputs(*item)),
-            }
-        }
-        let bound = &self.plan.schedule.bound;
-        nodes.retain(|node| !bound[*node]);
-        nodes
-    }
-
-    fn item_inputs(&self, item: usize) -> Vec<usize> {
-        match self.plan.targets[item] {
-            Target::Solve(k) => {
-                let solve = &self.plan.program.solves[k];
-                solve.matrix.iter().chain(&solve.right).map(|e| e.node()).collect()
-            }
-            Target::Entry { block, entry } => {
-                vec![self.plan.program.blocks[block].entries[entry].node()]
-            }
-        }
-    }
-
-    fn solve_inputs(&self) -> Vec<usize> {
-        let items = 0..self.plan.targets.len();
-        let solves = items.filter(|i| matches!(self.plan.targets[*i], Target::Solve(_)));
-        let bound = &self.plan.schedule.bound;
-        solves.flat_map(|i| self.item_inputs(i)).filter(|node| !bound[*node]).collect()
-    }
-
-    fn open_inputs(&self, out: &mut Lines, steps: core::ops::Range<usize>) {
-        let inputs = self.plan.inputs_of(self.reads(steps));
-        self.destructure(out, &inputs);
-    }
-
-    /// `let Posture { s1, c1, .. } = *posture;` and the wrench, whatever of them is read.
-    fn destructure(&self, out: &mut Lines, inputs: &HashSet<usize>) {
-        let g = &self.plan.program.graph;
-        let mut fields: Vec<(usize, String)> = Vec::new();
-        let mut wrench = [false; 6];
-        for node in inputs {
-            let name = self.plan.name(*node).unwrap_or_default().to_string();
-            match g.nodes()[*node] {
-                _ if name.starts_with("constants.") => {}
-                Node::Sin(_) | Node::Cos(_) => fields.push((*node, name)),
-                Node::Symbol(s) => match g.symbol_of(s) {
-                    Symbol::Joint(_) => fields.push((*node, name)),
-                    Symbol::Wrench(k) => wrench[*k] = true,
-                    _ => {}
-                },
-                _ => {}
-            }
-        }
-        let order = field_names(self.plan);
-        fields.sort_by_key(|(_, name)| order.iter().position(|f| f == name));
-        if !fields.is_empty() {
-            let names: Vec<String> = fields.iter().map(|(_, name)| name.clone()).collect();
-            let rest = if names.len() < order.len() { ", .." } else { "" };
-            out.code(&format!("let Posture {{ {}{rest} }} = *posture;", names.join(", ")));
-        }
-        if wrench.contains(&true) {
-            let names: Vec<&str> =
-                WRENCH.iter().zip(wrench).map(|(n, used)| if used { *n } else { "_" }).collect();
-            out.code(&format!("let [{}] = *wrench;", names.join(", ")));
-        }
     }
 
     fn steps(&self, out: &mut Lines, function: &Function, steps: core::ops::Range<usize>) {
@@ -294,7 +210,7 @@ impl<'a> Body<'a> {
         let head = format!("fn part_{}<S: Scalar>({}){returned} {{", k + 1, parameters.join(", "));
         out.code(&head);
         out.indent();
-        self.open_inputs(out, part.whole.steps.clone());
+        open_inputs(out, self.plan, part.whole.steps.clone());
         out.code(&format!("let [{}] = live;", self.names(&part.whole.live_in)));
         part.blocks.iter().for_each(|block| self.block(out, function, block));
         if outs > 0 {
@@ -309,55 +225,4 @@ impl<'a> Body<'a> {
 struct Part {
     blocks: Vec<Block>,
     whole: Block,
-}
-
-/// Rust over the scalar trait.
-pub(super) struct Rust;
-
-impl Style for Rust {
-    fn number(&self, n: Number) -> String {
-        format!("S::lit({})", constant(n))
-    }
-    fn name(&self, name: &str) -> String {
-        name.to_string()
-    }
-    fn product(&self, a: &str, b: &str) -> String {
-        format!("{a} * {b}")
-    }
-    fn bracket(&self, inner: &str) -> String {
-        format!("({inner})")
-    }
-    fn recip(&self, a: &str) -> String {
-        format!("({a}).recip()")
-    }
-    fn sqrt(&self, a: &str) -> String {
-        format!("({a}).sqrt()")
-    }
-}
-
-/// The same with products fused into sums.
-struct FusedRust;
-
-impl Style for FusedRust {
-    fn number(&self, n: Number) -> String {
-        Rust.number(n)
-    }
-    fn name(&self, name: &str) -> String {
-        Rust.name(name)
-    }
-    fn product(&self, a: &str, b: &str) -> String {
-        Rust.product(a, b)
-    }
-    fn bracket(&self, inner: &str) -> String {
-        Rust.bracket(inner)
-    }
-    fn recip(&self, a: &str) -> String {
-        Rust.recip(a)
-    }
-    fn sqrt(&self, a: &str) -> String {
-        Rust.sqrt(a)
-    }
-    fn fused(&self, a: &str, b: &str, c: &str) -> Option<String> {
-        Some(format!("S::mul_add({a}, {b}, {c})"))
-    }
 }

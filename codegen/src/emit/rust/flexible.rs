@@ -2,16 +2,18 @@
 
 use std::collections::BTreeSet;
 
+use super::super::angles::angle_terms;
 use super::super::constants::Constants;
-use super::super::expression::{Printer, Style, constant};
-use super::super::plan::{Plan, Target, angle_terms};
+use super::super::expression::Printer;
+use super::super::literal::constant;
+use super::super::plan::{Plan, Target};
 use super::RustOptions;
-use super::body::{BLOCK, Rust};
+use super::body::BLOCK;
 use super::shapes;
-use crate::derive::{COMPONENTS, Displacements, Form, Output, flexible};
+use super::style::Rust;
+use crate::derive::{COMPONENTS, Displacements, Form, flexible};
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Block, Expr, Node, Symbol};
-use crate::number::Number;
 use crate::robot::Robot;
 
 /// A module with `exact`, `published` and `first_order`: the tool's pose with a displacement at
@@ -65,7 +67,8 @@ pub fn flexible_rust(
 fn function(out: &mut Lines, robot: &Robot, displacements: &Displacements, form: Form) {
     let program = flexible(robot, displacements, form);
     let plan = Plan::new(&program, &mut Constants::written_in_place());
-    let printer = Printer { plan: &plan, style: &Parameters };
+    let style = Rust { fused: false, constants: "parameters" };
+    let printer = Printer { plan: &plan, style: &style };
     let writer = Writer { plan: &plan, printer };
     out.blank();
     let (first, second) = match form {
@@ -137,7 +140,10 @@ impl Writer<'_> {
         }
         inputs.iter().for_each(|line| out.code(line));
         out.code("let zero = S::lit(0.0);");
-        out.code(&format!("let mut out = {};", shapes::zero(Output::Pose, n)));
+        out.code(&format!(
+            "let mut out = {};",
+            shapes::zero(self.plan.program.blocks[0].output, n)
+        ));
         let schedule = &self.plan.schedule;
         let all = 0..schedule.steps.len();
         match schedule.blocks(all.clone(), BLOCK, |_| false).as_slice() {
@@ -149,7 +155,7 @@ impl Writer<'_> {
         out.code("}");
     }
 
-    /// Displacements and sliding joints that are read outside of sines and cosines.
+    /// Displacements and prismatic joints that are read outside of sines and cosines.
     fn inputs(&self) -> BTreeSet<String> {
         let g = &self.plan.program.graph;
         let named = (0..g.nodes().len()).filter_map(|node| {
@@ -190,7 +196,7 @@ impl Writer<'_> {
                 Binding::Item(item) => {
                     let Target::Entry { block, entry } = self.plan.targets[*item] else { continue };
                     let program = self.plan.program;
-                    let place = shapes::place(Output::Pose, program.dof, entry);
+                    let place = shapes::place(program.blocks[block].output, program.dof, entry);
                     let e = program.blocks[block].entries[entry];
                     out.code(&format!("out{place} = {};", self.printer.print(e)));
                 }
@@ -221,32 +227,5 @@ fn symbol(symbol: &Symbol) -> Option<String> {
         Symbol::Parameter(name) => Some(format!("parameters.{name}")),
         Symbol::Displacement { place, component } => Some(format!("e[{place}][{component}]")),
         Symbol::Wrench(_) | Symbol::Deflection { .. } => None,
-    }
-}
-
-/// Rust whose constants are the parameters themselves.
-struct Parameters;
-
-impl Style for Parameters {
-    fn number(&self, n: Number) -> String {
-        Rust.number(n)
-    }
-    fn name(&self, name: &str) -> String {
-        match name.strip_prefix("constants.") {
-            Some(parameter) => format!("parameters.{parameter}"),
-            None => Rust.name(name),
-        }
-    }
-    fn product(&self, a: &str, b: &str) -> String {
-        Rust.product(a, b)
-    }
-    fn bracket(&self, inner: &str) -> String {
-        Rust.bracket(inner)
-    }
-    fn recip(&self, a: &str) -> String {
-        Rust.recip(a)
-    }
-    fn sqrt(&self, a: &str) -> String {
-        Rust.sqrt(a)
     }
 }

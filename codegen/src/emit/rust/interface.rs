@@ -1,6 +1,8 @@
 //! The implementation of `Kernels`: a generated robot behind a pointer.
 
-use crate::derive::Output;
+use stiffarm_kernels::{Input, Output};
+
+use super::shapes::flat;
 use crate::emit::lines::Lines;
 
 /// The struct `Robot` and its `Kernels`.
@@ -54,17 +56,13 @@ pub(super) fn interface(symbolic: bool) -> String {
     out.indent();
     for output in Output::EACH {
         let first = if symbolic { "constants, q" } else { "q" };
-        let last = if output.needs_wrench() { ", wrench" } else { "" };
+        let last = if output.takes(Input::Wrench) { ", wrench" } else { "" };
         let question = if output.is_fallible() { "?" } else { "" };
         let call = format!("{}({first}{last}){question}", output.name());
-        let flat = match output {
-            Output::Pose => format!("{call}.columns().as_flattened()"),
-            Output::Frames => format!("{call}.map(Pose::columns).as_flattened().as_flattened()"),
-            _ if output.is_vector() => format!("&{call}"),
-            _ => format!("{call}.as_flattened()"),
-        };
+        let flat = flat(output, &call);
         out.code(&format!("Output::{output:?} => fill(out, {flat}),"));
     }
+    out.code("_ => Err(Error::Absent),");
     for _ in 0..3 {
         out.dedent();
         out.code("}");

@@ -7,9 +7,12 @@ mod body;
 mod doc;
 mod flexible;
 mod function;
+mod inputs;
 mod interface;
+mod module;
 mod posture;
 mod shapes;
+mod style;
 mod table;
 
 pub use flexible::flexible_rust;
@@ -53,11 +56,7 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
     let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
     for (outputs, program) in sets.iter().zip(derive_each(robot, &sets)) {
-        let mut function = match outputs {
-            [output] => function::Function::single(&program, *output, symbolic),
-            _ => function::Function::all(&program, symbolic),
-        };
-        function.fused_products = options.fused;
+        let function = function::Function::new(&program, outputs, symbolic, options.fused);
         functions.push_str(&function.text(robot, options, &mut constants));
     }
 

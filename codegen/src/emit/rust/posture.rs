@@ -1,7 +1,8 @@
 //! What enters a kernel: the posture as sines, cosines and displacements, and the wrench.
 
-use super::super::expression::constant;
-use super::super::plan::{Angle, Plan, angle_terms};
+use super::super::angles::{Angle, angle_terms};
+use super::super::literal::constant;
+use super::super::plan::Plan;
 use crate::emit::lines::Lines;
 use crate::expr::{Expr, Node, Symbol};
 
@@ -11,7 +12,7 @@ pub(super) const INLINE: &str = "#[inline(always)]";
 
 /// Whether the kernel depends on the joint values at all.
 pub(super) fn has_posture(plan: &Plan) -> bool {
-    !plan.angles.is_empty() || !plan.slides.is_empty()
+    !plan.angles.is_empty() || !plan.prismatic.is_empty()
 }
 
 /// Whether the kernel reads the wrench.
@@ -35,7 +36,7 @@ pub(super) fn field_names(plan: &Plan) -> Vec<String> {
         let pair = [(a.sine, "s"), (a.cosine, "c")];
         pair.into_iter().filter(|(used, _)| *used).map(|(_, l)| format!("{l}{}", a.suffix))
     });
-    trigonometric.chain(plan.slides.iter().map(|j| format!("q{}", j + 1))).collect()
+    trigonometric.chain(plan.prismatic.iter().map(|j| format!("q{}", j + 1))).collect()
 }
 
 /// The struct `Posture`: what of the joint values a kernel needs.
@@ -54,7 +55,7 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
             }
         }
     }
-    for joint in &plan.slides {
+    for joint in &plan.prismatic {
         out.doc(&format!("`q[{joint}]`, m"));
         out.code(&format!("pub q{}: S,", joint + 1));
     }
@@ -88,7 +89,7 @@ pub(super) fn posture(out: &mut Lines, plan: &Plan, n: usize) {
         out.code(&format!("let ([{}], [{}]) =", sines.join(", "), cosines.join(", ")));
         out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
     }
-    for joint in &plan.slides {
+    for joint in &plan.prismatic {
         out.code(&format!("let q{} = q[{joint}];", joint + 1));
     }
     out.code(&format!("Posture {{ {} }}", field_names(plan).join(", ")));

@@ -139,7 +139,7 @@ fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan, zeros: bool) -> 
     let n = arm.dof();
     let noise = plan.noises();
     let measured = noise.len();
-    let springs = arm.stiffness_regressor(q, load);
+    let springs = arm.compliance_regressor(q, load);
     // A displacement is the difference of two readings, each with its noise.
     if !zeros {
         return DMatrix::from_fn(measured, n, |r, c| {

@@ -57,7 +57,7 @@ fn no_single_exchange_is_better() {
     let determinant = |tests: &[(&[f64], Vector6<f64>)]| {
         let mut sum = DMatrix::<f64>::zeros(6, 6);
         for (q, wrench) in tests {
-            let b = arm.stiffness_regressor(q, wrench).fixed_rows::<3>(0).into_owned();
+            let b = arm.compliance_regressor(q, wrench).fixed_rows::<3>(0).into_owned();
             sum += b.transpose() * &b * 1e12;
         }
         sum.determinant()

@@ -152,7 +152,7 @@ impl<'a> Sheet<'a> {
         let mut columns = Matrix6xX::zeros(self.unknowns.len());
         let arm = self.arm;
         let jacobian = arm.jacobian(&state.joints);
-        let torque = arm.joint_torque(&state.joints, wrench) + arm.gravity_torque(&state.joints);
+        let torque = arm.joint_torque(&state.joints, wrench) + arm.weight_torque(&state.joints);
         let origin = state.tool.translation.vector;
         for (mut column, unknown) in columns.column_iter_mut().zip(&self.unknowns) {
             let twist = match unknown {

@@ -98,9 +98,9 @@ fn weight_scale(arm: &Arm, q: &[f64]) -> f64 {
 }
 
 #[test]
-fn gravity_torque_is_the_slope_of_the_potential_energy() {
+fn weight_torque_is_the_slope_of_the_potential_energy() {
     for (arm, q, _) in cases() {
-        let torque = arm.gravity_torque(&q);
+        let torque = arm.weight_torque(&q);
         for i in 0..arm.dof() {
             let slope = central(&q, i, |q| potential_energy(&arm, q));
             assert!((torque[i] + slope).abs() <= difference_tolerance(weight_scale(&arm, &q)));
@@ -109,12 +109,12 @@ fn gravity_torque_is_the_slope_of_the_potential_energy() {
 }
 
 #[test]
-fn gravity_stiffness_is_the_derivative_of_the_gravity_torque() {
+fn weight_stiffness_is_the_derivative_of_the_weight_torque() {
     for (arm, q, _) in cases() {
-        let stiffness = arm.gravity_stiffness(&q);
+        let stiffness = arm.weight_stiffness(&q);
         assert_eq!(stiffness, stiffness.transpose());
         for i in 0..arm.dof() {
-            let column = central(&q, i, |q| arm.gravity_torque(q));
+            let column = central(&q, i, |q| arm.weight_torque(q));
             let tolerance = difference_tolerance(weight_scale(&arm, &q));
             assert!((stiffness.column(i) - column).amax() <= tolerance);
         }

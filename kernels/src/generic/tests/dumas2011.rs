@@ -118,7 +118,7 @@ fn regressor_times_compliances_is_the_deflection() {
     let arm = kr240();
     let w = Vector6::new(500.0, -800.0, -2000.0, 300.0, -100.0, 400.0);
     let compliances = DVector::from_iterator(6, arm.joints.iter().map(|joint| joint.compliance));
-    let fitted = arm.stiffness_regressor(&POSTURE, &w) * compliances;
+    let fitted = arm.compliance_regressor(&POSTURE, &w) * compliances;
     let deflection = arm.deflection_first_order(&POSTURE, &w);
     assert!((fitted - deflection).norm() < 1e-14 * deflection.norm());
 }

@@ -17,7 +17,7 @@ fn equilibrium(arm: &Arm, q: &[f64], w: &Vector6<f64>, weights: bool) -> DVector
         let moved = &start + &displacement;
         let mut torque = arm.joint_torque(moved.as_slice(), w);
         if weights {
-            torque += arm.gravity_torque(moved.as_slice());
+            torque += arm.weight_torque(moved.as_slice());
         }
         displacement = compliance.component_mul(&torque);
     }

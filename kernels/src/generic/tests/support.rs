@@ -4,43 +4,35 @@ use std::string::ToString;
 use std::vec::Vec;
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_draws::Draws;
 
 use crate::Motion;
 use crate::generic::{Arm, Beam, Convention, Joint};
 
-/// Knuth's 64-bit linear congruential generator: the same arms in every run.
-pub struct Random(u64);
+/// Random arms, and what they are asked.
+pub struct Random(Draws);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
-        let mut random = Random(seed);
-        random.unit();
-        random
-    }
-
-    /// Evenly between 0 and 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+        Random(Draws::new(seed))
     }
 
     /// Evenly between `low` and `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
+        self.0.between(low, high)
     }
 
     pub fn chance(&mut self, probability: f64) -> bool {
-        self.unit() < probability
+        self.0.chance(probability)
     }
 
     pub fn vector(&mut self, size: f64) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| self.between(-size, size))
+        self.0.array(-size, size).into()
     }
 
     /// 100 N and 30 N·m or less along each axis.
     pub fn wrench(&mut self) -> Vector6<f64> {
-        let (f, m) = (self.vector(100.0), self.vector(30.0));
-        Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+        self.0.load().into()
     }
 
     pub fn posture(&mut self, arm: &Arm) -> Vec<f64> {

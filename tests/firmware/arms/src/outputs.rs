@@ -41,8 +41,8 @@ macro_rules! arm {
             see(Ok($arm::jacobian_tool(&q).as_flattened()));
             see(Ok($arm::complementary_stiffness(&q, &w).as_flattened()));
             see(Ok(&$arm::joint_torque(&q, &w)));
-            see(Ok(&$arm::gravity_torque(&q)));
-            see(Ok($arm::gravity_stiffness(&q).as_flattened()));
+            see(Ok(&$arm::weight_torque(&q)));
+            see(Ok($arm::weight_stiffness(&q).as_flattened()));
             see(Ok($arm::compliance(&q).as_flattened()));
             see(Ok(&$arm::deflection_first_order(&q, &w)));
             see($arm::deflection(&q, &w).as_ref().map(<[S; 6]>::as_slice).map_err(|e| *e));
@@ -51,7 +51,7 @@ macro_rules! arm {
                 .map(<[S; 6]>::as_slice)
                 .map_err(|e| *e));
             see(Ok($arm::parameter_jacobian(&q).as_flattened()));
-            see(Ok($arm::stiffness_regressor(&q, &w).as_flattened()));
+            see(Ok($arm::compliance_regressor(&q, &w).as_flattened()));
             let all = $arm::all(&q, &w);
             let all = all.as_ref().map_err(|e| *e);
             see(all.map(|a| a.pose.columns()).as_ref().map(|p| p.as_flattened()).map_err(|e| *e));

@@ -1,0 +1,65 @@
+//! The joints' twists at the tool origin, and the wrench that does work along them.
+
+use super::layout::Chain;
+use super::lever::{Levers, Point};
+use crate::expr::{Expr, Symbol, Twist, Vec3};
+
+/// The joints' twists in the working frame: `(z × (p − p_j), z)` of a revolute joint, `(z, 0)`
+/// of a prismatic one.
+pub fn twists(chain: &mut Chain) -> Vec<Twist> {
+    if let Some(known) = &chain.twists {
+        return known.clone();
+    }
+    if let Some(known) = chain.by_run() {
+        let twists = known.twists.clone();
+        for (j, (v, _)) in twists.iter().enumerate() {
+            chain.g.name3(*v, &format!("v{}", j + 1));
+        }
+        chain.twists = Some(twists.clone());
+        return twists;
+    }
+    let levers = Levers::to_tool(chain);
+    let twists: Vec<Twist> = (0..chain.dof())
+        .map(|j| {
+            let z = chain.joint_axis(j);
+            if !chain.revolute(j) {
+                return (z, [Expr::ZERO; 3]);
+            }
+            let from = Point::Step(chain.joint_step(j));
+            let lever = levers.lever(&mut chain.g, from, Some(z));
+            chain.g.name3(lever, &format!("r{}", j + 1));
+            let v = chain.g.cross3(z, lever);
+            chain.g.name3(v, &format!("v{}", j + 1));
+            (v, z)
+        })
+        .collect();
+    chain.twists = Some(twists.clone());
+    twists
+}
+
+/// The joints' twists in base axes.
+pub fn base_twists(chain: &mut Chain) -> Vec<Twist> {
+    let twists = twists(chain);
+    twists.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect()
+}
+
+/// Twists as columns of six.
+pub fn flatten(twists: impl IntoIterator<Item = Twist>) -> Vec<Expr> {
+    twists.into_iter().flat_map(|(v, w)| v.into_iter().chain(w)).collect()
+}
+
+/// The wrench on the tool in the working frame: force, moment.
+pub fn wrench(chain: &mut Chain) -> (Vec3, Vec3) {
+    let component: [Expr; 6] = core::array::from_fn(|k| chain.g.symbol(Symbol::Wrench(k)));
+    let [fx, fy, fz, mx, my, mz] = component;
+    let (f, m) = (chain.in_frame([fx, fy, fz]), chain.in_frame([mx, my, mz]));
+    chain.g.name3(f, "fw");
+    chain.g.name3(m, "mw");
+    (f, m)
+}
+
+/// `v·f + ω·m`: the generalised force of a wrench along a twist.
+pub fn power(chain: &mut Chain, (v, w): Twist, (f, m): (Vec3, Vec3)) -> Expr {
+    let (linear, angular) = (chain.g.dot3(v, f), chain.g.dot3(w, m));
+    chain.g.add(linear, angular)
+}

@@ -1,0 +1,51 @@
+//! The outputs' derivations: one file for each family, with a row for each of its outputs.
+
+mod beam;
+mod compliance;
+mod deflection;
+mod frames;
+mod jacobian;
+mod parameters;
+mod stiffness;
+mod torque;
+mod weight;
+
+use stiffarm_kernels::Output;
+
+use super::chain::Chain;
+use super::program::Solve;
+use crate::expr::Expr;
+
+/// An output of one arm as expressions.
+pub struct Derived {
+    /// Its entries, column-major in [`Output::shape`].
+    pub entries: Vec<Expr>,
+    /// The linear system whose unknowns they use.
+    pub solve: Option<Solve>,
+}
+
+impl From<Vec<Expr>> for Derived {
+    fn from(entries: Vec<Expr>) -> Self {
+        Derived { entries, solve: None }
+    }
+}
+
+/// How an output is derived.
+pub type Derivation = fn(&mut Chain) -> Derived;
+
+/// By output, from the tables of this folder's files; an output without a derivation does not compile.
+const DERIVATIONS: [Derivation; Output::EACH.len()] = Output::one_each(&[
+    compliance::DERIVED,
+    deflection::DERIVED,
+    frames::DERIVED,
+    jacobian::DERIVED,
+    parameters::DERIVED,
+    stiffness::DERIVED,
+    torque::DERIVED,
+    weight::DERIVED,
+]);
+
+/// Derives an output.
+pub fn derived(chain: &mut Chain, output: Output) -> Derived {
+    DERIVATIONS[output as usize](chain)
+}

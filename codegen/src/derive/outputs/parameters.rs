@@ -1,0 +1,58 @@
+//! Sensitivity of the tool's pose to every entry of the table.
+
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, Levers, Point, ROW, Step, flatten, left_jacobian};
+use crate::expr::{Expr, Twist, Vec3};
+
+/// The outputs of this file.
+pub(super) const DERIVED: &[(Output, Derivation)] =
+    &[(Output::ParameterJacobian, parameter_jacobian)];
+
+/// Twist of the tool per unit of theta, d, a, alpha of each row, then of the tool's translation and
+/// rotation vector; 6×(4n+6), base axes, at the tool origin.
+///
+/// A rotation's column is that of a revolute joint at its place, a translation's that of a prismatic one.
+fn parameter_jacobian(chain: &mut Chain) -> Derived {
+    let levers = Levers::to_tool(chain);
+    let mut columns = Vec::new();
+    for row in 0..chain.dof() {
+        let mut entries: [Twist; 4] = [([Expr::ZERO; 3], [Expr::ZERO; 3]); 4];
+        for s in ROW * row..ROW * (row + 1) {
+            // Rotations about an axis may be taken before or after themselves: the axis is the same.
+            let (entry, axis, revolute) = match chain.steps()[s] {
+                Step::RotateZ(_) => (0, chain.z(s), true),
+                Step::TranslateZ(_) => (1, chain.z(s), false),
+                Step::TranslateX(_) => (2, chain.axes(s)[0], false),
+                Step::RotateX(_) => (3, chain.axes(s)[0], true),
+            };
+            entries[entry] = column(chain, &levers, Point::Step(s), axis, revolute);
+        }
+        columns.extend(entries);
+    }
+    let last = chain.axes(chain.steps().len());
+    columns.extend(last.map(|axis| (axis, [Expr::ZERO; 3])));
+    columns.extend(rotation_columns(chain, last).map(|axis| ([Expr::ZERO; 3], axis)));
+    let turned: Vec<Twist> =
+        columns.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect();
+    flatten(turned).into()
+}
+
+fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, revolute: bool) -> Twist {
+    if !revolute {
+        return (axis, [Expr::ZERO; 3]);
+    }
+    let lever = levers.lever(&mut chain.g, from, Some(axis));
+    (chain.g.cross3(axis, lever), axis)
+}
+
+/// Rotation of the tool per unit of each entry of its rotation vector: the left Jacobian of SO(3) at
+/// the nominal vector, a constant matrix in the last frame.
+fn rotation_columns(chain: &mut Chain, last: [Vec3; 3]) -> [Vec3; 3] {
+    let tool = &chain.robot.tool;
+    if tool.rotation.iter().all(|angle| angle.is_zero()) {
+        return last;
+    }
+    chain.turned(left_jacobian(tool), chain.steps().len())
+}

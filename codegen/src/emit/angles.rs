@@ -1,0 +1,103 @@
+//! Angles whose sines and cosines enter a function: what they are sums of, and what they are called.
+
+use crate::derive::COMPONENTS;
+use crate::expr::{Expr, Graph, Node, Symbol};
+
+/// An angle whose sine and cosine are inputs.
+#[derive(Clone, Debug)]
+pub(super) struct Angle {
+    /// The sum of joint angles (and offsets) itself.
+    pub sum: Expr,
+    /// What stands behind `s` and `c` in the names: `23` for θ2 + θ3.
+    pub suffix: String,
+    pub sine: bool,
+    pub cosine: bool,
+}
+
+/// What stands behind `s` and `c`: the joints and displacements of the sum, or its parameters.
+pub(super) fn name(g: &Graph, sum: Expr) -> String {
+    let mut name = suffix(&joints_of(g, sum));
+    name.push_str(&displaced(g, sum, name.is_empty()));
+    if name.is_empty() { parameters_of(g, sum).join("_") } else { name }
+}
+
+/// The outermost joint of the sum.
+pub(super) fn last_joint(g: &Graph, sum: Expr) -> Option<usize> {
+    joints_of(g, sum).iter().map(|(joint, _)| *joint).max()
+}
+
+/// The terms of an angle: joints in order, then symbolic offsets, then the constant.
+pub(super) fn angle_terms(g: &Graph, sum: Expr) -> Vec<Expr> {
+    let mut terms = Vec::new();
+    let mut stack = vec![sum];
+    while let Some(e) = stack.pop() {
+        match g.node(e) {
+            Node::Add(a, b) => stack.extend([a, b].map(|o| o.signed(e.is_negative()))),
+            _ => terms.push(e),
+        }
+    }
+    terms.sort_by_key(|e| match g.node(*e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => (0, *joint),
+            _ => (1, e.node()),
+        },
+        _ => (2, e.node()),
+    });
+    terms
+}
+
+/// The joints in a sum of angles, each with whether it is subtracted.
+fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
+    let joint = |e: Expr| match g.node(e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Joint(joint) => Some((*joint, e.is_negative())),
+            _ => None,
+        },
+        _ => None,
+    };
+    angle_terms(g, sum).into_iter().filter_map(joint).collect()
+}
+
+/// The parameters in an angle without joints.
+fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
+    let parameter = |e: Expr| match g.node(e) {
+        Node::Symbol(s) => match g.symbol_of(s) {
+            Symbol::Parameter(name) => Some(name.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    angle_terms(g, sum).into_iter().filter_map(parameter).collect()
+}
+
+/// What displacements add to an angle's name: `d1` behind joints for dφ1, alone `phi1`.
+fn displaced(g: &Graph, sum: Expr, alone: bool) -> String {
+    let mut places = Vec::new();
+    for e in angle_terms(g, sum) {
+        if let Node::Symbol(s) = g.node(e)
+            && let Symbol::Displacement { place, component } = g.symbol_of(s)
+        {
+            places.push((*place, COMPONENTS[*component].trim_start_matches('d')));
+        }
+    }
+    let each = places.iter().map(|(place, letter)| match alone {
+        true => format!("{letter}{place}"),
+        false => format!("d{place}"),
+    });
+    each.collect()
+}
+
+/// `23` for θ2 + θ3, `2m3` for θ2 − θ3, `9_10` where a joint's number has two digits.
+fn suffix(joints: &[(usize, bool)]) -> String {
+    let long = joints.iter().any(|(joint, _)| *joint >= 9) && joints.len() > 1;
+    let mut out = String::new();
+    for (at, (joint, negative)) in joints.iter().enumerate() {
+        match (negative, at) {
+            (true, _) => out.push('m'),
+            (false, at) if long && at > 0 => out.push('_'),
+            _ => {}
+        }
+        out.push_str(&(joint + 1).to_string());
+    }
+    out
+}

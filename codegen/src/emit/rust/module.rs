@@ -1,0 +1,206 @@
+//! The text of one function, and of the module of the same name that holds its parts.
+
+use stiffarm_kernels::{Form, Input, Output};
+
+use super::super::constants::Constants;
+use super::super::plan::Plan;
+use super::RustOptions;
+use super::body::Body;
+use super::function::Function;
+use super::posture::{has_posture, needs_constants, posture, uses_wrench};
+use super::shapes;
+use crate::emit::docs::{docs, inputs};
+use crate::emit::lines::Lines;
+use crate::robot::Robot;
+
+impl Function<'_> {
+    /// The function and its module.
+    pub fn text(&self, robot: &Robot, options: &RustOptions, constants: &mut Constants) -> String {
+        let plan = Plan::new(self.program, constants);
+        let body = Body::new(self, &plan);
+        let mut out = Lines::at(0);
+        out.blank();
+        self.entry(&mut out, &plan, robot);
+        out.blank();
+        self.module(&mut out, &plan, &body, options);
+        out.finish()
+    }
+
+    /// The public function: posture from `q`, then the kernel.
+    fn entry(&self, out: &mut Lines, plan: &Plan, robot: &Robot) {
+        self.docs(out, plan, robot);
+        let n = self.program.dof;
+        let mut parameters = Vec::new();
+        if self.symbolic {
+            let used = !plan.constants.is_empty() || needs_constants(plan);
+            parameters.push(format!("{}constants: &Constants<S>", if used { "" } else { "_" }));
+        }
+        let by_posture = has_posture(plan);
+        parameters.push(format!("{}q: &[S; {n}]", if by_posture { "" } else { "_" }));
+        if self.wrench() {
+            let used = uses_wrench(plan);
+            parameters.push(format!("{}wrench: &[S; 6]", if used { "" } else { "_" }));
+        }
+        let (name, returned) = (self.name, self.returned(false));
+        out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
+        let mut arguments = Vec::new();
+        if self.symbolic && !plan.constants.is_empty() {
+            arguments.push("constants".to_string());
+        }
+        if by_posture {
+            let offset = if needs_constants(plan) { "constants, " } else { "" };
+            arguments.push(format!("&{name}::Posture::new({offset}q)"));
+        }
+        if self.wrench() && uses_wrench(plan) {
+            arguments.push("wrench".to_string());
+        }
+        out.indent();
+        out.code(&format!("{name}::given({})", arguments.join(", ")));
+        out.dedent();
+        out.code("}");
+    }
+
+    /// What the function returns: of an output its sentence, its shape with units, its formula.
+    fn output(&self, out: &mut Lines) {
+        let [sentence, rest @ ..] = docs(self.outputs[0], self.program.dof, shapes::ORDER);
+        out.doc(&sentence);
+        for paragraph in rest {
+            out.doc("");
+            out.doc(&paragraph);
+        }
+    }
+
+    /// What goes into the function.
+    fn inputs(&self) -> Vec<Input> {
+        let taken = |input: &Input| self.outputs.iter().any(|output| output.takes(*input));
+        Input::EACH.into_iter().filter(taken).collect()
+    }
+
+    /// The documentation of the kernel itself.
+    pub fn kernel_docs(&self, out: &mut Lines, plan: &Plan) {
+        if self.fused() {
+            out.doc("The kernel: everything that [`All`] holds.");
+        } else {
+            self.output(out);
+        }
+        let mut read = self.inputs();
+        read.retain(|input| match input {
+            Input::Joints => has_posture(plan),
+            _ => uses_wrench(plan),
+        });
+        if !read.is_empty() {
+            out.doc("");
+            out.doc(&inputs(&read, true));
+        }
+        out.doc("");
+        out.doc("Additions and multiplications only, where no load is to be solved for.");
+        self.errors(out);
+    }
+
+    fn errors(&self, out: &mut Lines) {
+        if self.fallible() {
+            out.doc("");
+            out.doc("# Errors");
+            out.doc("`Unstable` where the loaded arm has no stable equilibrium.");
+        }
+    }
+
+    fn docs(&self, out: &mut Lines, plan: &Plan, robot: &Robot) {
+        let ops = self.program.ops();
+        if self.fused() {
+            let names: Vec<&str> = self.outputs.iter().map(|o| o.name()).collect();
+            out.doc(&format!("{} of {}, worked out together.", names.join(", "), robot.name));
+        } else {
+            self.output(out);
+        }
+        out.doc("");
+        out.doc(&inputs(&self.inputs(), false));
+        out.doc("");
+        let angles: Vec<String> = plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
+        let division = if ops.div > 0 { format!(", {} divisions", ops.div) } else { String::new() };
+        let trigonometry = match angles.is_empty() {
+            true => "no sines or cosines".to_string(),
+            false => format!("sines and cosines of {}", angles.join(", ")),
+        };
+        out.doc(&format!(
+            "{} additions, {} multiplications{division}, {trigonometry}; worked out in {}.",
+            ops.add,
+            ops.mul,
+            self.program.frame()
+        ));
+        self.errors(out);
+    }
+
+    fn module(&self, out: &mut Lines, plan: &Plan, body: &Body, options: &RustOptions) {
+        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.name));
+        out.code(&format!("pub mod {} {{", self.name));
+        out.indent();
+        let mut imports = vec!["Ops"];
+        let pose = |o: &Output| matches!(o.form(), Form::Pose | Form::Poses);
+        if self.outputs.iter().any(pose) {
+            imports.push("Pose");
+        }
+        imports.push("Scalar");
+        if self.fallible() {
+            imports.push("Unstable");
+        }
+        let mut solves: Vec<&str> =
+            (0..self.program.solves.len()).map(|k| self.solve(k).0).collect();
+        solves.sort_unstable();
+        solves.dedup();
+        imports.extend(solves);
+        out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
+        self.figures(out, body);
+        if self.fused() {
+            self.all_struct(out);
+        }
+        if has_posture(plan) {
+            posture(out, plan, self.program.dof);
+        }
+        out.blank();
+        body.text(out, self);
+        out.dedent();
+        out.code("}");
+    }
+
+    fn figures(&self, out: &mut Lines, body: &Body) {
+        let ops = self.program.ops();
+        out.blank();
+        out.doc("Operations beyond the sines and cosines.");
+        out.code(&format!(
+            "pub const OPS: Ops = Ops {{ add: {}, mul: {}, neg: {}, div: {}, sin_cos: {} }};",
+            ops.add, ops.mul, body.negations, ops.div, ops.sin_cos
+        ));
+        if self.fused() {
+            return;
+        }
+        let (rows, columns) = self.outputs[0].shape(self.program.dof);
+        out.blank();
+        out.doc("Entries that are not structurally zero; `[column][row]`.");
+        out.code(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["));
+        out.indent();
+        for column in self.program.blocks[0].entries.chunks(rows) {
+            let flags: Vec<String> = column.iter().map(|e| (!e.is_zero()).to_string()).collect();
+            out.code(&format!("[{}],", flags.join(", ")));
+        }
+        out.dedent();
+        out.code("];");
+    }
+
+    fn all_struct(&self, out: &mut Lines) {
+        out.blank();
+        out.doc("Everything that [`all`](fn@super::all) computes.");
+        out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
+        out.code("pub struct All<S> {");
+        out.indent();
+        for output in &self.outputs {
+            let [sentence, shape, _] = docs(*output, self.program.dof, shapes::ORDER);
+            out.doc(&sentence);
+            out.doc("");
+            out.doc(&shape);
+            out.code(&format!("pub {}: {},", output.name(), shapes::ty(*output, self.program.dof)));
+        }
+        out.dedent();
+        out.code("}");
+    }
+}

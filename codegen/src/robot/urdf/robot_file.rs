@@ -1,0 +1,57 @@
+//! The table as a robot file.
+
+use super::angle::{angle, value};
+use super::chain::{Chain, Step};
+use super::geometry::Frame;
+use super::table::Table;
+use crate::robot::{Convention, Joint, Robot, Tool, Value};
+
+/// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
+pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
+    let [theta, _] = table.lead;
+    let turn = Frame::turned([0.0, 0.0, 1.0], -theta);
+    let gravity = turn.direction(chain.gravity);
+    let rotation = table.tool.rotation_vector();
+    let joints = (0..chain.steps.len()).map(|k| joint(chain, table, k)).collect();
+    Robot {
+        name: chain.name.clone(),
+        convention: Convention::Modified,
+        gravity: gravity.map(value),
+        joints,
+        tool: Tool { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        markers: Vec::new(),
+    }
+}
+
+fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
+    let (step, row): (&Step, _) = (&chain.steps[k], table.rows[k]);
+    let centre = step.lump.centre().map(|centre| {
+        let rest = rest(chain, k).point(centre);
+        table.frames[k].inverse().point(rest)
+    });
+    let com = centre.unwrap_or([0.0; 3]);
+    Joint {
+        name: step.name.clone(),
+        motion: step.motion,
+        theta: angle(row.theta),
+        d: length(row.d),
+        a: length(row.a),
+        alpha: angle(row.alpha),
+        stiffness: None,
+        mass: centre.map(|_| value(step.lump.mass)),
+        com: com.map(length),
+        limits: step.limits,
+        source: None,
+        beam: None,
+    }
+}
+
+/// A length, none below a picometre.
+fn length(x: f64) -> Value {
+    if x.abs() < 1e-12 { Value::ZERO } else { value(x) }
+}
+
+/// The frame of joint k in the base frame, all joints at 0.
+fn rest(chain: &Chain, k: usize) -> Frame {
+    chain.steps[..=k].iter().fold(Frame::IDENTITY, |whole, step| whole.then(&step.before))
+}

@@ -1,0 +1,75 @@
+//! Deviations relative to an output's scale.
+
+use crate::generic::{Arm, Joint};
+use crate::{Input, Output, Part, Side};
+
+/// Terms may cancel to this part of themselves before an output's largest entry is its scale no
+/// more: a level arm's weights turn no upright joint, and the textbook says so to rounding.
+pub const CANCELLED: f64 = 1e-3;
+
+/// The same in single precision, whose rounding is a thirtieth of its limit.
+pub const CANCELLED_SINGLE: f64 = 0.1;
+
+/// The largest difference, relative to the largest expected entry or `floor`; infinite where the
+/// two cannot be compared.
+pub fn deviation(got: &[f64], expected: &[f64], floor: f64) -> f64 {
+    if got.len() != expected.len() || !got.iter().all(|x| x.is_finite()) {
+        return f64::INFINITY;
+    }
+    let largest = expected.iter().fold(floor, |m, x| m.max(x.abs()));
+    let worst = got.iter().zip(expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    if worst == 0.0 { 0.0 } else { worst / largest }
+}
+
+/// The most that the tool can be away from the base, m.
+pub fn reach(arm: &Arm, q: &[f64]) -> f64 {
+    let rows = arm.joints.iter().zip(q).map(|(j, q)| {
+        let slid = if j.motion == crate::Motion::Prismatic { q.abs() } else { 0.0 };
+        j.a.abs() + j.d.abs() + slid
+    });
+    rows.sum::<f64>() + arm.tool.translation.vector.norm()
+}
+
+/// The size of the terms that an output is summed of.
+pub fn terms(arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) -> f64 {
+    let reach = reach(arm, q);
+    let lever = reach.max(1.0);
+    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let wrench = norm(&w[..3]) * reach + norm(&w[3..]);
+    // The moment on a joint, where a load enters; else a unit of whatever loads it.
+    let moment = |joint: usize| {
+        let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
+        let load = if loaded { wrench } else { 0.0 };
+        let weight = if heavy { weight(arm, joint, reach) } else { 0.0 };
+        if loaded || heavy { load + weight } else { 1.0 }
+    };
+    let loaded = match output.depends_on(Part::Stiffness) {
+        true => gives(arm, reach, moment),
+        false => moment(0),
+    };
+    let at_tool = |side: Side| match side {
+        Side::Axes | Side::Twist | Side::Wrench => lever,
+        _ => 1.0,
+    };
+    at_tool(output.rows()) * at_tool(output.columns()) * loaded
+}
+
+/// The moment that the weights of links `from` to the last may have, N·m.
+fn weight(arm: &Arm, from: usize, reach: f64) -> f64 {
+    let moment = |j: &Joint| {
+        let beam = j.beam.as_ref().map_or(0.0, |b| b.density * b.area * reach);
+        j.mass * (reach + j.com.norm()) + beam * reach
+    };
+    arm.gravity.norm() * arm.joints[from..].iter().map(moment).sum::<f64>()
+}
+
+/// What the joints and links give under the moment on each, rad.
+fn gives(arm: &Arm, reach: f64, moment: impl Fn(usize) -> f64) -> f64 {
+    let soft = |j: &Joint| {
+        let bends = j.beam.as_ref().map_or(0.0, |b| {
+            reach / (b.youngs_modulus * b.iy.min(b.iz)).min(b.shear_modulus * b.j)
+        });
+        j.compliance + bends
+    };
+    arm.joints.iter().enumerate().map(|(k, j)| soft(j) * moment(k)).sum()
+}
