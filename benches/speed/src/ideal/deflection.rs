@@ -120,6 +120,7 @@ pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<
 
 /// Whether the pivots of `L D Lᵀ` of a matrix and its transpose together are positive.
 #[inline(always)]
+#[allow(clippy::needless_range_loop, reason = "rows and columns of a matrix")]
 fn definite<S: Scalar>(at: impl Fn(usize, usize) -> S) -> bool {
     let mut twice: [[S; 6]; 6] = core::array::from_fn(|column| {
         core::array::from_fn(|row| at(row, column) + at(column, row))

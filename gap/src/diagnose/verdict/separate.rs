@@ -22,7 +22,7 @@ const MORE: f64 = 1.5;
 
 impl Search<'_, '_> {
     /// What to measure, in words.
-    pub(crate) fn to_separate(
+    pub(crate) fn separating(
         &self,
         now: &Explained,
         group: &Group,

@@ -31,7 +31,7 @@ impl Search<'_, '_> {
             let last = if number == 0 { before } else { &held_out[number] };
             let rivals = self.rivals(now, group, at_noise)?;
             let to_separate =
-                rivals.nearest.as_ref().map(|rival| self.to_separate(now, group, rival));
+                rivals.nearest.as_ref().map(|rival| self.separating(now, group, rival));
             findings.push(Finding {
                 effect: first.effect.identifier(),
                 place: first.spot.place.to_string(),
