@@ -43,6 +43,8 @@ pub struct Found {
     pub what: Named,
     pub physical: bool,
     pub p_value: f64,
+    /// How often it is found again on half of the poses.
+    pub stability: f64,
     /// What the data does not tell from it.
     pub inseparable: Vec<Named>,
     /// Name, value and interval of each parameter.
@@ -188,6 +190,7 @@ fn as_found(finding: &Finding) -> Found {
         what: Named::new(finding.effect, &finding.place),
         physical: !GEOMETRY.contains(&finding.effect),
         p_value: finding.p_value,
+        stability: finding.stability,
         inseparable: rivals.map(|a| Named::new(a.effect, &a.place)).collect(),
         parameters: parameters.map(|p| (p.name.clone(), p.value, p.ci95)).collect(),
     }
