@@ -6,7 +6,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// What a stream of random numbers is for; one does not depend on how much another draws.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Stream {
+#[allow(missing_docs, reason = "the names say what is drawn")]
+pub enum Stream {
     Noise = 101,
     Poses = 102,
     Loads = 103,
@@ -14,6 +15,8 @@ pub(crate) enum Stream {
     Climate = 105,
     Frames = 106,
     Truths = 107,
+    Arm = 108,
+    Visits = 109,
 }
 
 /// A seed for the `k`-th of many things that one seed decides (SplitMix64's finaliser).
@@ -25,56 +28,63 @@ pub(crate) fn seed_of(seed: u64, k: usize) -> u64 {
 }
 
 /// Random numbers.
-pub(crate) struct Dice(ChaCha8Rng);
+pub struct Dice(ChaCha8Rng);
 
 impl Dice {
     /// Of one seed and one purpose.
-    pub(crate) fn new(seed: u64, stream: Stream) -> Dice {
+    pub fn new(seed: u64, stream: Stream) -> Dice {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         generator.set_stream(stream as u64);
         Dice(generator)
     }
 
     /// From 0, included, to 1, excluded: 53 random bits.
-    pub(crate) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Evenly from `low` to `high`.
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// 0 to `n` − 1, `n` far below 2⁵³.
-    pub(crate) fn below(&mut self, n: usize) -> usize {
+    pub fn below(&mut self, n: usize) -> usize {
         ((self.unit() * n as f64) as usize).min(n.saturating_sub(1))
     }
 
     /// −1 or 1.
-    pub(crate) fn sign(&mut self) -> f64 {
+    pub fn sign(&mut self) -> f64 {
         if self.unit() < 0.5 { -1.0 } else { 1.0 }
     }
 
     /// Of mean 0 and variance 1 (Box and Muller).
-    pub(crate) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         radius * (core::f64::consts::TAU * self.unit()).cos()
     }
 
-    /// Three of them.
-    pub(crate) fn normal3(&mut self) -> Vector3<f64> {
+    /// Student's t with so many degrees of freedom, at least 1: heavy tails.
+    pub fn student(&mut self, freedom: u32) -> f64 {
+        let freedom = freedom.max(1);
+        let squares: f64 = (0..freedom).map(|_| self.normal().powi(2)).sum();
+        self.normal() / (squares / f64::from(freedom)).sqrt()
+    }
+
+    /// Three normal numbers.
+    pub fn normal3(&mut self) -> Vector3<f64> {
         Vector3::new(self.normal(), self.normal(), self.normal())
     }
 
     /// A direction, evenly over the sphere.
-    pub(crate) fn direction(&mut self) -> Vector3<f64> {
+    pub fn direction(&mut self) -> Vector3<f64> {
         let vector = self.normal3();
         let length = vector.norm();
         if length > 1e-3 { vector / length } else { self.direction() }
     }
 
     /// The order of a list, at random.
-    pub(crate) fn shuffle<T>(&mut self, list: &mut [T]) {
+    pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             list.swap(last, self.below(last + 1));
         }
@@ -93,6 +103,17 @@ mod tests {
         // Four standard errors: 1/√n, √(2/n), √(96/n).
         assert!(moment(1).abs() < 0.02 && (moment(2) - 1.0).abs() < 0.03);
         assert!((moment(4) - 3.0).abs() < 0.2, "{}", moment(4));
+    }
+
+    #[test]
+    fn student_numbers_have_heavy_tails() {
+        let mut dice = Dice::new(2, Stream::Noise);
+        let beyond = |from: f64, dice: &mut Dice| {
+            (0..40_000).filter(|_| dice.student(4).abs() > from).count() as f64 / 40_000.0
+        };
+        // Two-sided 5 % and 1 % points of four degrees of freedom; four standard errors.
+        assert!((beyond(2.776, &mut dice) - 0.05).abs() < 0.0044);
+        assert!((beyond(4.604, &mut dice) - 0.01).abs() < 0.002);
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub mod compensate;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
-mod dice;
+pub mod dice;
 pub mod displacement;
 pub mod effects;
 #[cfg(test)]

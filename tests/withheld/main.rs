@@ -1,11 +1,13 @@
 //! The withheld check on arms of two, six and seven joints: effects are put into a plant, the
 //! diagnosis is not told, and what it finds is held against what was put in.
 //!
-//! `cargo test -p stiffarm --release --test withheld -- --ignored --nocapture` runs the full form and prints
-//! its table; the quick one runs with all other tests.
+//! `cargo test -p stiffarm --release --test withheld -- --ignored --nocapture full` runs the full
+//! form and prints its table; the quick one runs with all other tests. `realistic` has commands of
+//! its own.
 
 mod arms;
 mod goals;
+mod realistic;
 mod suite;
 
 use goals::Goals;
@@ -25,7 +27,7 @@ fn quick() {
 
 /// Forty cases of each arm with each design.
 #[test]
-#[ignore = "takes minutes: cargo test -p stiffarm --release --test withheld -- --ignored --nocapture"]
+#[ignore = "takes minutes: cargo test -p stiffarm --release --test withheld -- --ignored --nocapture full"]
 fn full() {
     let mut reports = Vec::new();
     for setting in settings() {

@@ -18,12 +18,8 @@ pub struct Draw<'a> {
 }
 
 impl<'a> Draw<'a> {
-    pub(crate) fn new(
-        arm: &'a Arm,
-        place: Place,
-        session: &'a Measurements,
-        dice: &'a mut Dice,
-    ) -> Self {
+    /// Of this arm, place and session.
+    pub fn new(arm: &'a Arm, place: Place, session: &'a Measurements, dice: &'a mut Dice) -> Self {
         Draw { arm, place, session, dice }
     }
 

@@ -15,6 +15,7 @@
 
 mod assemble;
 mod balance;
+mod campaign;
 mod chain;
 mod law;
 mod laws;
@@ -30,6 +31,7 @@ pub mod design;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use campaign::{Campaign, Instrument, Scatter};
 pub use laws::{effects, has_law};
 pub use noise::Noise;
 pub use observe::Frames;

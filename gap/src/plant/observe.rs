@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector6};
 
 use super::assemble::Situation;
 use super::balance::{Unstable, rest};
+use super::campaign::Instrument;
 use super::noise::Noise;
 use super::reading::direction;
 use super::reality::{Jump, Reality};
@@ -72,6 +73,15 @@ impl Shown {
         self.position += noise.position * dice.normal3();
         self.rotation = rotation_of(&(noise.rotation * dice.normal3())) * self.rotation;
         self
+    }
+
+    pub(super) fn by_instrument(mut self, instrument: Instrument, dice: &mut Dice) -> Shown {
+        let Instrument { scale, freedom, wrong, wrong_by } = instrument;
+        let mut three = |scale: f64| scale * Vector3::from_fn(|_, _| dice.student(freedom));
+        let (moved, turned) = (three(scale.position), three(scale.rotation));
+        self.position += moved;
+        self.rotation = rotation_of(&turned) * self.rotation;
+        if dice.unit() < wrong { self.noisy(wrong_by, dice) } else { self }
     }
 
     /// From here towards `other`, part of the way.

@@ -6,7 +6,7 @@ use crate::effects::Quantity;
 use crate::plant::Truth;
 
 /// The truth with a size so many times as large; `None` beyond what an arm can have.
-pub(super) fn resized(truth: &Truth, arm: &Arm, factor: f64) -> Option<Truth> {
+pub fn resized(truth: &Truth, arm: &Arm, factor: f64) -> Option<Truth> {
     let mut resized = truth.clone();
     for (name, value) in &mut resized.values {
         let quantity = truth.effect.number(arm, truth.place, name)?.1.quantity;

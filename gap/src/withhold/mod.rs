@@ -16,6 +16,7 @@ mod verdict;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use draw::resized;
 pub use exact::exact;
 pub use predict::{Predict, with_findings};
 pub use report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};

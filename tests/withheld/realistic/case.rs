@@ -1,0 +1,237 @@
+//! One arm diagnosed as a user would, and held against the truth.
+
+use std::time::Instant;
+
+use nalgebra::Vector6;
+use serde::Serialize;
+use stiffarm_gap::diagnose::{Diagnosed, Diagnosis, Finding, Nuisance};
+use stiffarm_gap::gap::rms;
+use stiffarm_gap::{Options, diagnose_with};
+
+use super::draw::{Drawn, lasts};
+
+/// Findings of ordinary calibration; every other is physical.
+pub const GEOMETRY: [&str; 4] = ["joint_offset", "link_geometry", "base_frame", "tool_frame"];
+
+/// An effect at a place.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Named {
+    pub effect: String,
+    pub place: String,
+}
+
+/// A physical effect that the arm has, and what the diagnosis made of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Truth {
+    #[serde(flatten)]
+    pub what: Named,
+    pub text: String,
+    pub ratio: f64,
+    pub evidence: f64,
+    /// Named at its place.
+    pub named: bool,
+    /// Named, or in the set of what the data does not tell from a finding.
+    pub in_set: bool,
+    /// Of each of its values, if it is named: whether the interval covers it.
+    pub covered: Vec<bool>,
+}
+
+/// A finding.
+#[derive(Clone, Debug, Serialize)]
+pub struct Found {
+    #[serde(flatten)]
+    pub what: Named,
+    pub physical: bool,
+    pub p_value: f64,
+    /// How often it is found again on half of the poses.
+    pub stability: f64,
+    /// What the data does not tell from it.
+    pub inseparable: Vec<Named>,
+    /// Name, value and interval of each parameter.
+    pub parameters: Vec<(String, f64, [f64; 2])>,
+}
+
+/// What is predicted of other poses, and what is so.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shrink {
+    pub predicted: f64,
+    pub ci95: [f64; 2],
+    pub realised: f64,
+}
+
+/// One arm.
+#[derive(Clone, Debug, Serialize)]
+pub struct Case {
+    pub seed: u64,
+    pub robot: &'static str,
+    pub orientation: bool,
+    pub loads: bool,
+    pub rows: usize,
+    pub truths: Vec<Truth>,
+    pub found: Vec<Found>,
+    /// Whether the first physical finding is a truth; `None` where there is none to be found.
+    pub first: Option<bool>,
+    /// Physical findings that are no truth.
+    pub spurious: usize,
+    /// Position rms, m: of the robot file, held out with the findings, and of the noise as it was
+    /// drawn.
+    pub before: f64,
+    pub after: f64,
+    pub floor: f64,
+    /// The same of the rotation, rad; 0 where it is not measured.
+    pub after_rotation: f64,
+    pub floor_rotation: f64,
+    /// What the diagnosis takes the noise to be, rms, and from what.
+    pub noise: f64,
+    pub noise_rotation: f64,
+    pub noise_from: &'static str,
+    pub unexplained: bool,
+    /// `None` without findings, and where something happened in the first session alone.
+    pub shrink: Option<Shrink>,
+    pub seconds: f64,
+    /// Why there is no diagnosis.
+    pub error: Option<String>,
+}
+
+impl Named {
+    fn new(effect: &str, place: &str) -> Named {
+        Named { effect: effect.to_owned(), place: place.to_owned() }
+    }
+}
+
+impl Case {
+    /// Gap that is left over that of the noise.
+    pub fn over_floor(&self) -> f64 {
+        self.after / self.floor
+    }
+}
+
+/// Diagnoses an arm whose frames and noise nobody knows.
+pub fn run(drawn: &Drawn) -> Case {
+    let nuisances = vec![Nuisance::BaseFrame, Nuisance::ToolFrame];
+    let options = Options { version: "test".to_owned(), nuisances, ..Options::default() };
+    let start = Instant::now();
+    let outcome = diagnose_with(&drawn.arm, &drawn.data, &options, &|_| {});
+    let seconds = start.elapsed().as_secs_f64();
+    let floor = drawn.floor();
+    let truths = drawn.planted.iter().map(|planted| Truth {
+        what: Named::new(planted.truth.effect.identifier(), &planted.truth.place.to_string()),
+        text: planted.truth.to_string(),
+        ratio: planted.ratio,
+        evidence: planted.evidence,
+        named: false,
+        in_set: false,
+        covered: Vec::new(),
+    });
+    let mut case = Case {
+        seed: drawn.seed,
+        robot: drawn.robot,
+        orientation: drawn.orientation,
+        loads: drawn.loads,
+        rows: drawn.data.rows.len(),
+        first: (!drawn.planted.is_empty()).then_some(false),
+        truths: truths.collect(),
+        found: Vec::new(),
+        spurious: 0,
+        before: 0.0,
+        after: f64::INFINITY,
+        floor: floor.position_rms,
+        after_rotation: 0.0,
+        floor_rotation: floor.rotation_rms,
+        noise: 0.0,
+        noise_rotation: 0.0,
+        noise_from: "",
+        unexplained: false,
+        shrink: None,
+        seconds,
+        error: None,
+    };
+    match outcome {
+        Ok(diagnosed) => case.hold(drawn, &diagnosed),
+        Err(error) => case.error = Some(error.to_string()),
+    }
+    case
+}
+
+impl Case {
+    fn hold(&mut self, drawn: &Drawn, diagnosed: &Diagnosed) {
+        let found = &diagnosed.diagnosis;
+        self.found = found.findings.iter().map(as_found).collect();
+        for (truth, planted) in self.truths.iter_mut().zip(&drawn.planted) {
+            let own = self.found.iter().find(|f| f.what == truth.what);
+            truth.named = own.is_some();
+            let in_set = |f: &Found| f.inseparable.contains(&truth.what);
+            truth.in_set = truth.named || self.found.iter().any(in_set);
+            truth.covered = own.map_or_else(Vec::new, |own| covered(&planted.truth, own));
+        }
+        let is_true = |f: &&Found| self.truths.iter().any(|truth| truth.what == f.what);
+        let physical = || self.found.iter().filter(|f| f.physical);
+        self.first = self.first.map(|_| physical().next().is_some_and(|f| is_true(&f)));
+        self.spurious = physical().filter(|f| !is_true(f)).count();
+        self.before = found.gap.before.position_rms;
+        self.after = found.gap.after.position_rms;
+        self.after_rotation = found.gap.after.rotation_rms;
+        self.noise = found.gap.noise.position_rms;
+        self.noise_rotation = found.gap.noise.rotation_rms;
+        self.noise_from = found.gap.noise.from;
+        self.unexplained = found.unexplained.present;
+        let happened = drawn.planted.iter().any(|p| !lasts(p.truth.effect))
+            || self.found.iter().any(|f| matches!(f.what.effect.as_str(), "slip" | "drift"));
+        self.shrink = promised(found).filter(|_| !happened).and_then(|[predicted, low, high]| {
+            Some(Shrink { predicted, ci95: [low, high], realised: realised(drawn, diagnosed)? })
+        });
+    }
+}
+
+fn as_found(finding: &Finding) -> Found {
+    let rivals = finding.alternatives.iter().filter(|a| !a.separable);
+    let parameters = finding.parameters.iter();
+    Found {
+        what: Named::new(finding.effect, &finding.place),
+        physical: !GEOMETRY.contains(&finding.effect),
+        p_value: finding.p_value,
+        stability: finding.stability,
+        inseparable: rivals.map(|a| Named::new(a.effect, &a.place)).collect(),
+        parameters: parameters.map(|p| (p.name.clone(), p.value, p.ci95)).collect(),
+    }
+}
+
+/// Of each value of the truth whether the finding's interval covers it; a value that the finding
+/// does not have is 0 without doubt. The row of a jump is a number without an interval.
+fn covered(truth: &stiffarm_gap::plant::Truth, found: &Found) -> Vec<bool> {
+    let values = truth.values.iter().filter(|(name, _)| name != "after");
+    let is_covered = |(name, value): &(String, f64)| {
+        let own = found.parameters.iter().find(|(own, _, _)| own == name);
+        own.is_some_and(|(_, _, [low, high])| (*low..=*high).contains(value))
+    };
+    values.map(is_covered).collect()
+}
+
+/// How far the gap is said to shrink by all findings together, with its interval: the steps' ratios
+/// multiply, and the logarithms' half widths add as those of independent numbers.
+fn promised(found: &Diagnosis) -> Option<[f64; 3]> {
+    let log = |shrink: f64| (1.0 - shrink).max(1e-9).ln();
+    let (mut sum, mut below, mut above) = (0.0, 0.0, 0.0);
+    for finding in &found.findings {
+        let [low, high] = finding.held_out.shrink_ci95.map(log);
+        let step = log(finding.held_out.shrink);
+        sum += step;
+        below += (step - high).powi(2);
+        above += (low - step).powi(2);
+    }
+    let shrink = |log: f64| 1.0 - log.exp();
+    let interval = [shrink(sum), shrink(sum + f64::sqrt(above)), shrink(sum - f64::sqrt(below))];
+    (!found.findings.is_empty()).then_some(interval)
+}
+
+/// How far it shrinks over all later sessions.
+fn realised(drawn: &Drawn, diagnosed: &Diagnosed) -> Option<f64> {
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    let size = |gap: &Vector6<f64>| gap.fixed_rows::<3>(0).norm();
+    for fresh in &drawn.fresh {
+        let prediction = diagnosed.explanation.predict(fresh).ok()?;
+        before.extend(prediction.before.iter().map(size));
+        after.extend(prediction.after.iter().map(size));
+    }
+    Some(1.0 - rms(&after) / rms(&before))
+}
