@@ -74,7 +74,7 @@ pub struct Drawn {
 pub fn draw(seed: u64) -> Drawn {
     let k = seed.saturating_sub(1);
     let orientation = (k / 5).is_multiple_of(2);
-    let loads = !(k / 10 % 4 == 3);
+    let loads = k / 10 % 4 != 3;
     let model = &MODELS[((k + k / 5) % MODELS.len() as u64) as usize];
     let arm = model.arm();
     let frames = Frames::unknown(seed);

@@ -99,7 +99,7 @@ fn quick() {
 
 /// The ratio by the noiseless rows of the arm with an effect and without, geometry in place.
 fn sizes_are_right(drawn: &Drawn) {
-    assert_eq!(drawn.planted.is_empty(), drawn.seed % 5 == 0);
+    assert_eq!(drawn.planted.is_empty(), drawn.seed.is_multiple_of(5));
     for (own, planted) in drawn.planted.iter().enumerate() {
         let with = |skipped: Option<usize>| {
             let kept = drawn.planted.iter().enumerate().filter(|(k, _)| Some(*k) != skipped);
