@@ -2,7 +2,7 @@
 //!
 //! # From the file to the verdict
 //!
-//! 1. [`file`]: a data file gives each equation of a paper as it is printed, in LaTeX, and what it
+//! 1. [`mod@file`]: a data file gives each equation of a paper as it is printed, in LaTeX, and what it
 //!    is an equation of: an output of the generator, a formula, a relation between matrices.
 //! 2. [`latex`]: the equation is cut at its equals signs and into the cells of its matrices
 //!    ([`latex::formula`]), each cell becomes tokens in the paper's notation ([`latex::lexer`]) and

@@ -1,9 +1,8 @@
 //! Stiffnesses from a measurement file: any subset of components, displacements or poses, points
 //! off the tool origin, the links' weights and the loaded geometry taken into account.
 //!
-//! [`super::identify`] is the paper's method: whole displacements of an unloaded arm, linear in
-//! the compliances. Here each row is compared with the arm at static equilibrium
-//! ([`crate::simulate`]), and the compliances are found by Gauss and Newton's steps.
+//! Each row is compared with the arm at static equilibrium ([`crate::simulate`]), and the compliances
+//! are found by Gauss and Newton's steps.
 //!
 //! # Poses
 //! Of a file of poses only the differences *within* one pose are used: each pose (and each marker
