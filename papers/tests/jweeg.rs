@@ -4,7 +4,7 @@
 use nalgebra::{Matrix4, Vector3, Vector6};
 use proptest::prelude::*;
 use stiffarm_codegen::derive::{Displacements, Form, flexible};
-use stiffarm_codegen::emit::{RustOptions, flexible_rust};
+use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, flexible_rust};
 use stiffarm_codegen::expr::Symbol;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
@@ -64,7 +64,7 @@ fn the_closed_forms_are_generated() {
     let kept = Displacements::read("dx,dy,dphi", 2).unwrap();
     let options = RustOptions { kernels: "::stiffarm_kernels".into(), fused: false };
     let committed = include_str!("../src/jweeg/two_link/closed_form.rs");
-    assert_eq!(flexible_rust(&robot, &kept, &options), committed);
+    assert_eq!(format!("{FILE_HEAD}{}", flexible_rust(&robot, &kept, &options)), committed);
 }
 
 /// The generated forms of arms in space, standard and modified, revolute and prismatic, with tools,
