@@ -33,16 +33,17 @@ pub struct Setting {
 
 /// A path such as `jacobian[3][2]`, `compliance[1][1] of joint 2`, `arm: pose[1][4]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Path<'p> {
+pub(crate) struct Path<'p> {
     robot: Option<&'p str>,
-    name: &'p str,
+    /// Of what is derived.
+    pub name: &'p str,
     /// From 0.
     indices: Vec<usize>,
     joint: Option<usize>,
 }
 
 impl<'p> Path<'p> {
-    fn read(text: &'p str) -> Result<Self, String> {
+    pub fn read(text: &'p str) -> Result<Self, String> {
         let (robot, rest) = match text.split_once(':') {
             Some((robot, rest)) => (Some(robot.trim()), rest.trim()),
             None => (None, text.trim()),
@@ -64,6 +65,20 @@ impl<'p> Path<'p> {
         }
         Ok(Path { robot, name: name.trim(), indices, joint })
     }
+
+    /// The entry of a matrix of some shape that the path names, none if all of it; a vector's entry
+    /// has one index.
+    pub fn entry(&self, (rows, columns): (usize, usize)) -> Result<Option<(usize, usize)>, String> {
+        let entry = match self.indices.as_slice() {
+            [] => return Ok(None),
+            [row] if columns == 1 => (*row, 0),
+            [row, column] => (*row, *column),
+            _ => (rows, columns),
+        };
+        let inside = entry.0 < rows && entry.1 < columns;
+        let wrong = || format!("the index lies outside of {rows}×{columns}");
+        inside.then_some(Some(entry)).ok_or_else(wrong)
+    }
 }
 
 fn index(text: &str) -> Result<usize, String> {
@@ -77,30 +92,23 @@ fn index(text: &str) -> Result<usize, String> {
 /// Why it cannot be derived.
 pub fn derived(path: &str, setting: &Setting) -> Result<Matrix, String> {
     let path = Path::read(path)?;
+    let transport = || {
+        let product = product(&setting.product, &setting.notation, &setting.defined)?;
+        product.transport().map_err(|why| format!("{why:?}"))
+    };
     let whole = match path.name {
         "product" => product(&setting.product, &setting.notation, &setting.defined)?,
-        "transport_transposed" => product(&setting.product, &setting.notation, &setting.defined)?
-            .transport()
-            .map_err(|why| format!("{why:?}"))?
-            .transposed(),
-        "transport" => product(&setting.product, &setting.notation, &setting.defined)?
-            .transport()
-            .map_err(|why| format!("{why:?}"))?,
+        "transport" => transport()?,
+        "transport_transposed" => transport()?.transposed(),
         name => return output(name, &path, setting),
     };
-    entry(&whole, &path.indices)
-}
-
-fn entry(whole: &Matrix, indices: &[usize]) -> Result<Matrix, String> {
-    let found = match indices {
-        [] => return Ok(whole.clone()),
-        [row] if whole.columns == 1 => whole.get(*row, 0),
-        [row, column] => whole.get(*row, *column),
-        _ => None,
-    };
-    let found = found
-        .ok_or_else(|| format!("the index lies outside of {}×{}", whole.rows(), whole.columns))?;
-    Ok(Matrix { columns: 1, entries: vec![found.clone()] })
+    Ok(match path.entry((whole.rows(), whole.columns))? {
+        None => whole,
+        Some((row, column)) => Matrix {
+            columns: 1,
+            entries: vec![whole.entries[row * whole.columns + column].clone()],
+        },
+    })
 }
 
 /// What of a robot's derivation a path names.
@@ -166,23 +174,16 @@ fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, Stri
     let reading = Reading { joints, wrench: setting.wrench.clone(), parameters };
     let entries = &program.blocks[0].entries;
     let of = |row: usize, column: usize| {
-        let e = entries.get(column * rows + row).copied();
-        let e = e.ok_or_else(|| format!("the index lies outside of {rows}×{columns}"))?;
-        let exact = reading.of(&program.graph, e);
+        let exact = reading.of(&program.graph, entries[column * rows + row]);
         let exact = exact.map_err(|why| format!("entry {},{}: {why:?}", row + 1, column + 1))?;
         limited(exact, &setting.infinite)
     };
-    let single = |value| Matrix { columns: 1, entries: vec![value] };
-    match path.indices.as_slice() {
-        [row] if columns == 1 && *row < rows => Ok(single(of(*row, 0)?)),
-        [row, column] if *row < rows && *column < columns => Ok(single(of(*row, *column)?)),
-        [] => {
-            let places = (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c)));
-            let entries = places.map(|(r, c)| of(r, c)).collect::<Result<_, _>>()?;
-            Ok(Matrix { columns, entries })
-        }
-        _ => Err(format!("the index lies outside of {rows}×{columns}")),
-    }
+    let (columns, places): (_, Vec<_>) = match path.entry((rows, columns))? {
+        Some(place) => (1, vec![place]),
+        None => (columns, (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))).collect()),
+    };
+    let entries = places.into_iter().map(|(r, c)| of(r, c)).collect::<Result<_, _>>()?;
+    Ok(Matrix { columns, entries })
 }
 
 /// With some symbols grown without bounds.

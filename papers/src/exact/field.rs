@@ -7,8 +7,8 @@ use std::sync::Mutex;
 
 use num_rational::Ratio;
 
-use super::evaluate::Arithmetic;
-use crate::latex::tree::{Angle, Function};
+use super::evaluate::{Arithmetic, NoValue};
+use crate::latex::tree::{Angle, Function, Tree};
 
 /// 2⁶¹ − 1.
 const P: u64 = (1 << 61) - 1;
@@ -49,7 +49,7 @@ impl Modular {
         let square = mul(t, t);
         // −1 is no square modulo P, so 1 + t² has an inverse.
         let inverse = power(add(1, square), P - 2);
-        let pair = (mul(add(t, t), inverse), mul(sub(1, square), inverse));
+        let pair = (mul(add(t, t), inverse), mul(minus(1, square), inverse));
         circle.insert(name.to_owned(), pair);
         pair
     }
@@ -60,7 +60,8 @@ fn add(a: u64, b: u64) -> u64 {
     if sum >= P { sum - P } else { sum }
 }
 
-fn sub(a: u64, b: u64) -> u64 {
+/// `a − b` of two residues.
+pub(crate) fn minus(a: u64, b: u64) -> u64 {
     add(a, P - b)
 }
 
@@ -84,48 +85,53 @@ fn power(mut base: u64, mut n: u64) -> u64 {
 
 impl Arithmetic for Modular {
     type Value = u64;
+    type Error = NoValue;
 
-    fn number(&self, n: Ratio<i128>) -> Option<u64> {
+    fn number(&self, n: Ratio<i128>) -> Result<u64, NoValue> {
         let residue = |i: i128| i.rem_euclid(i128::from(P)) as u64;
         self.div(residue(*n.numer()), residue(*n.denom()))
     }
 
-    fn symbol(&self, name: &str) -> Option<u64> {
-        Some(self.defined.get(name).copied().unwrap_or_else(|| self.residue(0, name)))
+    fn named(&self, key: &str) -> Result<u64, NoValue> {
+        Ok(self.defined.get(key).copied().unwrap_or_else(|| self.residue(0, key)))
     }
 
-    fn trig(&self, function: Function, angle: &Angle) -> Option<u64> {
+    fn trig(&self, function: Function, angle: &Angle) -> Result<u64, NoValue> {
         let (mut s, mut c) = (0, 1);
         for (name, times) in angle.terms() {
             let (one, other) = self.sin_cos(name);
-            let one = if times < 0 { sub(0, one) } else { one };
+            let one = if times < 0 { minus(0, one) } else { one };
             for _ in 0..times.unsigned_abs().min(64) {
-                (s, c) = (add(mul(s, other), mul(c, one)), sub(mul(c, other), mul(s, one)));
+                (s, c) = (add(mul(s, other), mul(c, one)), minus(mul(c, other), mul(s, one)));
             }
         }
-        Some(if function == Function::Sin { s } else { c })
+        Ok(if function == Function::Sin { s } else { c })
     }
 
-    fn add(&self, a: u64, b: u64) -> u64 {
-        add(a, b)
+    fn add(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+        Ok(add(a, b))
     }
 
-    fn sub(&self, a: u64, b: u64) -> u64 {
-        sub(a, b)
+    fn sub(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+        Ok(minus(a, b))
     }
 
-    fn mul(&self, a: u64, b: u64) -> u64 {
-        mul(a, b)
+    fn mul(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+        Ok(mul(a, b))
     }
 
-    fn div(&self, a: u64, b: u64) -> Option<u64> {
-        (b != 0).then(|| mul(a, power(b, P - 2)))
+    fn div(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+        if b != 0 { Ok(mul(a, power(b, P - 2))) } else { Err(NoValue) }
     }
 
-    /// The root that is a square itself; `None` where there is no root.
-    fn sqrt(&self, a: u64) -> Option<u64> {
+    /// The root that is a square itself.
+    fn sqrt(&self, a: u64) -> Result<u64, NoValue> {
         let root = power(a, P.div_ceil(4));
-        (mul(root, root) == a).then_some(root)
+        if mul(root, root) == a { Ok(root) } else { Err(NoValue) }
+    }
+
+    fn other(&self, _: &Tree) -> Result<u64, NoValue> {
+        Err(NoValue)
     }
 }
 
@@ -136,12 +142,12 @@ mod tests {
     #[test]
     fn the_field_is_a_field() {
         let f = Modular::point(3);
-        let (a, b) = (f.symbol("a").unwrap(), f.symbol("b").unwrap());
+        let (a, b) = (f.named("a").unwrap(), f.named("b").unwrap());
         assert_ne!(a, b);
-        assert_eq!(f.mul(f.div(a, b).unwrap(), b), a);
-        assert_eq!(f.sub(f.add(a, b), b), a);
-        assert_eq!(f.div(a, 0), None);
-        let square = f.mul(a, a);
+        assert_eq!(f.mul(f.div(a, b).unwrap(), b), Ok(a));
+        assert_eq!(f.sub(add(a, b), b), Ok(a));
+        assert_eq!(f.div(a, 0), Err(NoValue));
+        let square = mul(a, a);
         let root = f.sqrt(square).unwrap();
         assert!(root == a || root == P - a);
         assert_eq!(f.number(Ratio::new(-1, 2)), f.div(P - 1, 2));
@@ -156,6 +162,6 @@ mod tests {
             angle
         };
         let (s, c) = (f.trig(Function::Sin, &sum).unwrap(), f.trig(Function::Cos, &sum).unwrap());
-        assert_eq!(f.add(f.mul(s, s), f.mul(c, c)), 1);
+        assert_eq!(add(mul(s, s), mul(c, c)), 1);
     }
 }

@@ -8,7 +8,8 @@ use num_traits::{One, Signed};
 use super::polynomial::{Polynomial, Variable};
 use super::rational::Rational;
 use crate::latex::lexer::Lexeme;
-use crate::latex::notation::{Notation, key};
+use crate::latex::name::key;
+use crate::latex::notation::Notation;
 use crate::latex::tree::Function;
 use crate::mend::Inventory;
 
@@ -16,8 +17,8 @@ use crate::mend::Inventory;
 pub fn exact(value: &Rational, notation: &Notation, inventory: &Inventory) -> String {
     let mut names: HashMap<String, String> = HashMap::new();
     for token in inventory.tokens() {
-        if let Lexeme::Name { base, sub } = &token.is {
-            names.entry(key(base, sub.as_deref())).or_insert_with(|| token.text.clone());
+        if let Lexeme::Name(name) = &token.is {
+            names.entry(name.key.clone()).or_insert_with(|| token.text.clone());
         }
     }
     let printer = Printer { notation, names };
@@ -123,6 +124,8 @@ pub fn decimal(text: &str) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::evaluate::Arithmetic;
+    use crate::exact::rational::Exact;
     use crate::latex::lexer::lex;
     use crate::latex::parser::parse;
 
@@ -134,7 +137,7 @@ mod tests {
         let mut inventory = Inventory::default();
         inventory.add(&lex(text, &notation).unwrap());
         let tree = parse(text, &notation).unwrap();
-        let value = Rational::of_tree(&tree, &HashMap::new()).unwrap();
+        let value = Exact(&HashMap::new()).tree(&tree).unwrap();
         assert_eq!(
             exact(&value, &notation, &inventory),
             "-a^2 \\cos \\theta_2 + \\frac{\\lambda_6 s_1}{2}"

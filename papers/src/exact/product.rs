@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use num_rational::Ratio;
 
+use super::evaluate::Arithmetic;
 use super::polynomial::Polynomial;
-use super::rational::{Inexact, Rational};
+use super::rational::{Exact, Inexact, Rational};
 use crate::latex::notation::Notation;
 use crate::latex::parser::{collect, parse};
 use crate::latex::tree::{Angle, Function, Tree};
@@ -116,7 +117,7 @@ fn element(
         trees
             .get(k)
             .ok_or_else(|| format!("argument {} is missing", k + 1))
-            .and_then(|t| Rational::of_tree(t, defined).map_err(|why| format!("{why:?}")))
+            .and_then(|t| Exact(defined).tree(t).map_err(|why| format!("{why:?}")))
     };
     let mut m = Matrix::identity(4);
     let axis = |c: char| "xyz".find(c);
@@ -201,7 +202,7 @@ mod tests {
         for (r, row) in printed.iter().enumerate() {
             for (c, text) in row.iter().enumerate().filter(|(c, _)| *c != r) {
                 let tree = parse(text, &Notation::default()).unwrap();
-                let expected = Rational::of_tree(&tree, &HashMap::new()).unwrap();
+                let expected = Exact(&HashMap::new()).tree(&tree).unwrap();
                 assert_eq!(m.get(r, c), Some(&expected), "{r} {c}");
             }
         }

@@ -3,10 +3,11 @@
 use std::collections::{BTreeSet, HashMap};
 
 use num_rational::Ratio;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
+use super::evaluate::Arithmetic;
 use super::polynomial::{Polynomial, TooLong, Variable};
-use crate::latex::tree::{Angle, Tree};
+use crate::latex::tree::{Angle, Function, Tree};
 use stiffarm_codegen::expr::{Expr, Graph, Node, Symbol};
 use stiffarm_codegen::number::Number;
 
@@ -21,6 +22,8 @@ pub enum Inexact {
     Zero,
     /// An integral of something that is no polynomial in the variable.
     Integral,
+    /// It is of matrices.
+    Matrix,
     /// A rounded constant, or an angle with an offset that is no multiple of a quarter turn.
     Rounded,
 }
@@ -107,39 +110,6 @@ impl Rational {
         Ok(self.above.times(&other.below)? == other.above.times(&self.below)?)
     }
 
-    /// A printed formula; the names in `defined` stand for what they are given there.
-    pub fn of_tree(tree: &Tree, defined: &HashMap<String, Rational>) -> Result<Self, Inexact> {
-        let of = |tree: &Tree| Self::of_tree(tree, defined);
-        match tree {
-            Tree::Number(n) => Ok(Self::number(*n)),
-            Tree::Symbol(name) => {
-                Ok(defined.get(name).cloned().unwrap_or_else(|| Polynomial::symbol(name).into()))
-            }
-            Tree::Trig(function, angle) => Ok(Polynomial::trig(*function, angle)?.into()),
-            Tree::Sum(terms) => {
-                terms.iter().try_fold(Self::number(Ratio::zero()), |sum, (negative, term)| {
-                    sum.plus(&of(term)?, if *negative { -1 } else { 1 })
-                })
-            }
-            Tree::Product(factors) => factors
-                .iter()
-                .try_fold(Self::number(Ratio::one()), |product, f| product.times(&of(f)?)),
-            Tree::Quotient(a, b) => of(a)?.times(&of(b)?.reciprocal()?),
-            Tree::Power(base, n) => of(base)?.power(*n),
-            Tree::Sqrt(inner) => of(inner)?.root(),
-            Tree::Derivative(body, by) => {
-                let body = of(body)?.polynomial().ok_or(Inexact::Integral)?;
-                Ok(body.derivative(by).into())
-            }
-            Tree::Integral { body, over, ends } => {
-                let body = of(body)?.polynomial().ok_or(Inexact::Integral)?;
-                let rising = body.integral(over).ok_or(Inexact::Integral)?;
-                let (from, to) = (of(&ends.0)?, of(&ends.1)?);
-                substitute(&rising, over, &to)?.plus(&substitute(&rising, over, &from)?, -1)
-            }
-        }
-    }
-
     /// Adds the angles and the plain symbols in it.
     pub fn names(&self, angles: &mut BTreeSet<String>, symbols: &mut BTreeSet<String>) {
         let monomials = self.above.terms().chain(self.below.terms());
@@ -162,6 +132,63 @@ fn substitute(p: &Polynomial, name: &str, value: &Rational) -> Result<Rational, 
     p.by_power(name).into_iter().try_fold(Rational::number(Ratio::zero()), |sum, (power, rest)| {
         sum.plus(&value.power(power)?.times(&rest.into())?, 1)
     })
+}
+
+/// Exact forms; the names in the table stand for what they are given there.
+pub struct Exact<'d>(pub &'d HashMap<String, Rational>);
+
+impl Arithmetic for Exact<'_> {
+    type Value = Rational;
+    type Error = Inexact;
+
+    fn number(&self, n: Ratio<i128>) -> Result<Rational, Inexact> {
+        Ok(Rational::number(n))
+    }
+
+    fn named(&self, key: &str) -> Result<Rational, Inexact> {
+        Ok(self.0.get(key).cloned().unwrap_or_else(|| Polynomial::symbol(key).into()))
+    }
+
+    fn trig(&self, function: Function, angle: &Angle) -> Result<Rational, Inexact> {
+        Ok(Polynomial::trig(function, angle)?.into())
+    }
+
+    fn add(&self, a: Rational, b: Rational) -> Result<Rational, Inexact> {
+        a.plus(&b, 1)
+    }
+
+    fn sub(&self, a: Rational, b: Rational) -> Result<Rational, Inexact> {
+        a.plus(&b, -1)
+    }
+
+    fn mul(&self, a: Rational, b: Rational) -> Result<Rational, Inexact> {
+        a.times(&b)
+    }
+
+    fn div(&self, a: Rational, b: Rational) -> Result<Rational, Inexact> {
+        a.times(&b.reciprocal()?)
+    }
+
+    fn sqrt(&self, a: Rational) -> Result<Rational, Inexact> {
+        a.root()
+    }
+
+    fn power(&self, base: Rational, n: i32) -> Result<Rational, Inexact> {
+        base.power(n)
+    }
+
+    fn other(&self, tree: &Tree) -> Result<Rational, Inexact> {
+        let polynomial = |tree| self.tree(tree)?.polynomial().ok_or(Inexact::Integral);
+        match tree {
+            Tree::Derivative(body, by) => Ok(polynomial(body)?.derivative(&by.key).into()),
+            Tree::Integral { body, over, ends } => {
+                let rising = polynomial(body)?.integral(over).ok_or(Inexact::Integral)?;
+                let (from, to) = (self.tree(&ends.0)?, self.tree(&ends.1)?);
+                substitute(&rising, over, &to)?.plus(&substitute(&rising, over, &from)?, -1)
+            }
+            _ => Err(Inexact::Matrix),
+        }
+    }
 }
 
 /// What the symbols of a graph stand for in a paper's notation.
@@ -206,8 +233,8 @@ impl Reading {
             Node::Mul(a, b) => of(a)?.times(&of(b)?),
             Node::Recip(a) => of(a)?.reciprocal(),
             Node::Sqrt(a) => of(a)?.root(),
-            Node::Sin(a) => self.trig(graph, crate::latex::tree::Function::Sin, a),
-            Node::Cos(a) => self.trig(graph, crate::latex::tree::Function::Cos, a),
+            Node::Sin(a) => self.trig(graph, Function::Sin, a),
+            Node::Cos(a) => self.trig(graph, Function::Cos, a),
         }
     }
 
@@ -232,12 +259,7 @@ impl Reading {
         }
     }
 
-    fn trig(
-        &self,
-        graph: &Graph,
-        function: crate::latex::tree::Function,
-        of: Expr,
-    ) -> Result<Rational, Inexact> {
+    fn trig(&self, graph: &Graph, function: Function, of: Expr) -> Result<Rational, Inexact> {
         let mut angle = Angle::default();
         self.collect(graph, of, 1, &mut angle)?;
         Ok(Polynomial::trig(function, &angle)?.into())

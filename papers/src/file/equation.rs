@@ -52,7 +52,7 @@ pub(super) fn read(
     let mut matrices = Vec::new();
     if let Some(symbols) = section.section("matrices", &[], notes) {
         for (symbol, at, value) in symbols.entries() {
-            if !matrix::is_symbol(&symbol) {
+            if matrix::single(&symbol).is_none() {
                 notes.wrong(at, format!("`{symbol}` is no symbol of a matrix"));
             }
             matrices.extend(string(value, notes).map(|source| (symbol, source)));
@@ -134,8 +134,8 @@ fn check(latex: &Piece, about: Option<&About>, notation: &Notation, notes: &mut 
         });
         let given: Vec<Piece> = given.collect();
         for written in core::iter::once(latex).chain(&relation.truth).chain(&given) {
-            if let Err((at, why)) = matrix::sides(&written.text) {
-                notes.wrong(written.at + at..written.at + at + 1, why);
+            if let Err(mistake) = matrix::read(&written.text) {
+                notes.mistakes.push(mistake.moved(written.at));
             }
         }
     }

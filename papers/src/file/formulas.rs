@@ -3,10 +3,11 @@
 use std::collections::HashMap;
 
 use super::section::{Notes, Section, string};
-use crate::exact::rational::Rational;
+use crate::exact::evaluate::Arithmetic;
+use crate::exact::rational::{Exact, Rational};
 use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, lex};
-use crate::latex::notation::{Notation, key};
+use crate::latex::notation::Notation;
 use crate::latex::parser::parse;
 use crate::latex::tree::Tree;
 
@@ -15,8 +16,8 @@ pub(super) fn symbol(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> O
     let at = w.at..w.at + w.text.len();
     match lex(&w.text, notation).as_deref() {
         Ok([token]) => {
-            if let Lexeme::Name { base, sub } = &token.is {
-                return Some(key(base, sub.as_deref()));
+            if let Lexeme::Name(name) = &token.is {
+                return Some(name.key.clone());
             }
             notes.wrong(at, format!("`{}` is no symbol", w.text));
         }
@@ -38,7 +39,7 @@ pub(super) fn exact(
     notes: &mut Notes<'_>,
 ) -> Option<Rational> {
     let tree = tree(w, notation, notes)?;
-    let exact = Rational::of_tree(&tree, defined);
+    let exact = Exact(defined).tree(&tree);
     let at = w.at..w.at + w.text.len();
     exact.map_err(|why| notes.wrong(at, format!("this has no exact form: {why:?}"))).ok()
 }
@@ -65,7 +66,7 @@ pub(super) fn definitions(
         let mut waiting = Vec::new();
         for (name, value, tree) in open {
             let mut waits = false;
-            tree.each_name(&mut |used| waits |= names.iter().any(|n| n == used));
+            tree.each_name(&mut |used, _| waits |= names.iter().any(|n| n == used));
             if waits {
                 waiting.push((name, value, tree));
             } else if let Some(exact) = exact(&value, notation, &defined, notes) {

@@ -105,7 +105,8 @@ fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
         }
         _ => Slash::Factor,
     };
-    Notation { functions, names: names.into_iter().map(|w| w.text).collect(), slash }
+    let names = names.into_iter().map(|w| w.text).collect();
+    Notation { functions, names, slash, matrices: false }
 }
 
 #[cfg(test)]

@@ -27,16 +27,21 @@ pub struct Formula {
     pub sides: Vec<Side>,
 }
 
-/// Takes an equation apart at its equals signs.
-pub fn formula(latex: &str) -> Formula {
-    let cuts = top_level(latex, "=");
+/// The sides of an equation, cut at its equals signs.
+pub fn sides(latex: &str) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut start = 0;
-    for cut in cuts {
+    for cut in top_level(latex, "=") {
         pieces.push(piece(latex, start, cut));
         start = cut + 1;
     }
     pieces.push(piece(latex, start, latex.len()));
+    pieces
+}
+
+/// Takes an equation apart.
+pub fn formula(latex: &str) -> Formula {
+    let mut pieces = sides(latex);
     let left = if pieces.len() > 1 { pieces.remove(0).text } else { String::new() };
     Formula {
         left: left.trim_matches(['&', ' ']).to_owned(),

@@ -1,10 +1,11 @@
 //! LaTeX into tokens, each with its place and its own spelling, so that a mended formula is printed
 //! back as it stood.
 
-use super::letters::{letter, matched};
+mod names;
+
 use super::mistake::Mistake;
 use super::notation::Notation;
-pub use super::token::{Bracket, Lexeme, Token};
+pub use super::token::{Bracket, Count, Lexeme, Token};
 use super::tree::Function;
 
 /// Splits LaTeX into tokens.
@@ -12,7 +13,8 @@ use super::tree::Function;
 /// # Errors
 /// The first character that cannot begin a token.
 pub fn lex(text: &str, notation: &Notation) -> Result<Vec<Token>, Mistake> {
-    let mut lexer = Lexer { text, at: 0, names: notation.long_names(), ends: false };
+    let (names, matrices) = (notation.long_names(), notation.matrices);
+    let mut lexer = Lexer { text, at: 0, names, matrices, ends: false };
     let mut tokens = Vec::new();
     while let Some(token) = lexer.next()? {
         // A line that breaks at a sign repeats it.
@@ -32,19 +34,20 @@ struct Lexer<'t> {
     text: &'t str,
     at: usize,
     names: Vec<String>,
+    matrices: bool,
     /// Whether a `^` still belongs to an integral.
     ends: bool,
 }
 
-/// Marks that only lay the formula out.
+/// Marks that only lay the formula out; of these the first two part cells where letters are matrices.
 const IGNORED: [&str; 12] = [
     "\\\\",
+    "&",
     "\\,",
     "\\;",
     "\\!",
     "\\:",
     "\\ ",
-    "&",
     "~",
     "\\begin{aligned}",
     "\\end{aligned}",
@@ -79,6 +82,12 @@ impl Lexer<'_> {
         &self.text[self.at..]
     }
 
+    fn eat(&mut self, mark: &str) -> bool {
+        let found = self.rest().starts_with(mark);
+        self.at += if found { mark.len() } else { 0 };
+        found
+    }
+
     fn next(&mut self) -> Result<Option<Token>, Mistake> {
         let mut start = self.skip(self.at);
         self.at = start;
@@ -91,6 +100,11 @@ impl Lexer<'_> {
                 return self.next();
             }
         }
+        if self.matrices
+            && let Some(is) = self.of_matrices()?
+        {
+            return Ok(Some(self.token(is, start)));
+        }
         if let Some(name) = self.name()? {
             return Ok(Some(self.token(name, start)));
         }
@@ -98,7 +112,8 @@ impl Lexer<'_> {
         let Some(c) = rest.chars().next() else { return Ok(None) };
         if c == '\\' {
             let command: String = rest[1..].chars().take_while(char::is_ascii_alphabetic).collect();
-            if SILENT.contains(&command.as_str()) {
+            let dots = self.matrices && ["dots", "ldots", "cdots"].contains(&command.as_str());
+            if dots || SILENT.contains(&command.as_str()) {
                 self.at += 1 + command.len();
                 return self.next();
             }
@@ -149,7 +164,8 @@ impl Lexer<'_> {
     fn skip(&self, mut at: usize) -> usize {
         loop {
             let rest = &self.text[at..];
-            if let Some(mark) = IGNORED.iter().find(|mark| rest.starts_with(**mark)) {
+            let ignored = &IGNORED[if self.matrices { 2 } else { 0 }..];
+            if let Some(mark) = ignored.iter().find(|mark| rest.starts_with(**mark)) {
                 at += mark.len();
             } else if let Some(c) = rest.chars().next().filter(|c| c.is_whitespace()) {
                 at += c.len_utf8();
@@ -208,55 +224,6 @@ impl Lexer<'_> {
         }
     }
 
-    /// A name with its subscript, or `None` where none begins.
-    fn name(&mut self) -> Result<Option<Lexeme>, Mistake> {
-        let rest = self.rest();
-        let long =
-            self.names.iter().find_map(|name| matched(rest, name).map(|n| (name.clone(), n)));
-        let (base, length) = match long {
-            Some(found) => found,
-            None => match letter(rest) {
-                Some(length) => (rest[..length].to_owned(), length),
-                None => return Ok(None),
-            },
-        };
-        self.at += length;
-        let mut base = base;
-        while self.rest().starts_with('\'') {
-            base.push('\'');
-            self.at += 1;
-        }
-        let sub = self.subscript()?;
-        Ok(Some(Lexeme::Name { base, sub }))
-    }
-
-    fn subscript(&mut self) -> Result<Option<String>, Mistake> {
-        let at = self.skip(self.at);
-        let Some(rest) = self.text[at..].strip_prefix('_') else { return Ok(None) };
-        let start = self.skip(at + 1);
-        let rest = if start == at + 1 { rest } else { &self.text[start..] };
-        if let Some(inner) = rest.strip_prefix('{') {
-            let Some(end) = inner.find('}') else {
-                return Err(Mistake::new(start..start + 1, "this subscript is never closed"));
-            };
-            self.at = start + end + 2;
-            let text = inner[..end].chars().filter(|c| !c.is_whitespace() && *c != '{');
-            return Ok(Some(text.collect()));
-        }
-        match rest.chars().next() {
-            Some(c) if c.is_alphanumeric() => {
-                self.at = start + c.len_utf8();
-                Ok(Some(c.to_string()))
-            }
-            Some('\\') => {
-                let length = letter(rest).unwrap_or(1);
-                self.at = start + length;
-                Ok(Some(rest[..length].to_owned()))
-            }
-            _ => Err(Mistake::new(at..at + 1, "nothing stands in this subscript")),
-        }
-    }
-
     fn number(&mut self) -> Result<Token, Mistake> {
         let start = self.at;
         let rest = self.rest();
@@ -286,13 +253,22 @@ impl Lexer<'_> {
             }
         };
         let power = inner.trim().parse::<i32>().ok().filter(|p| p.abs() <= 64);
-        let Some(power) = power else {
-            let found = if inner.is_empty() { "nothing" } else { inner };
-            let message = format!("`{found}` stands where a whole-number power is expected");
-            return Err(Mistake::new(start..at + length, message));
+        let is = match (power, inner.trim()) {
+            (Some(power), _) => Lexeme::Power(power),
+            (None, "T") if self.matrices => Lexeme::Transposed { inverse: false },
+            (None, "-T") if self.matrices => Lexeme::Transposed { inverse: true },
+            _ => {
+                let found = if inner.is_empty() { "nothing" } else { inner };
+                let expected = match self.matrices {
+                    true => "is no power of a matrix: T, -T or a whole number",
+                    false => "stands where a whole-number power is expected",
+                };
+                let message = format!("`{found}` {expected}");
+                return Err(Mistake::new(start..at + length, message));
+            }
         };
         self.at = at + length;
-        Ok(self.token(Lexeme::Power(power), start))
+        Ok(self.token(is, start))
     }
 }
 

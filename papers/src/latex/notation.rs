@@ -1,6 +1,7 @@
 //! A paper's notation: which letters are sines, which names have more than one letter, how far a
 //! slash reaches.
 
+use super::name::key;
 use super::tree::{Angle, Function};
 
 /// How far a division by `/` reaches.
@@ -23,9 +24,15 @@ pub struct Notation {
     pub names: Vec<String>,
     /// How far a slash reaches.
     pub slash: Slash,
+    /// Whether letters stand for matrices, in whatever typeface and with whatever accent.
+    pub matrices: bool,
 }
 
 impl Notation {
+    /// That of relations between matrices.
+    pub const MATRICES: Notation =
+        Notation { functions: Vec::new(), names: Vec::new(), slash: Slash::Factor, matrices: true };
+
     /// All names of more than one letter, spaces removed, longest first.
     pub(crate) fn long_names(&self) -> Vec<String> {
         let letters = self.functions.iter().flat_map(|(letter, _, angle)| [letter, angle]);
@@ -55,12 +62,6 @@ impl Notation {
     }
 }
 
-/// The name of a printed symbol in the graph: `RL_4` is `RL4`, `\lambda_6` is `lambda6`.
-pub(crate) fn key(base: &str, sub: Option<&str>) -> String {
-    let letters = base.chars().chain(sub.unwrap_or_default().chars());
-    letters.filter(|c| c.is_alphanumeric() || *c == '\'').collect()
-}
-
 /// A name without the spaces that LaTeX ignores.
 pub(crate) fn squeezed(name: &str) -> String {
     name.chars().filter(|c| !c.is_whitespace()).collect()
@@ -78,7 +79,7 @@ mod tests {
                 function("cd", Function::Cos, "d\\phi"),
             ],
             names: vec!["\\delta x".into()],
-            slash: Slash::Factor,
+            ..Notation::default()
         }
     }
 
@@ -93,9 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn names_become_identifiers() {
-        assert_eq!(key("\\lambda", Some("6")), "lambda6");
-        assert_eq!(key("\\delta x", Some("{2}")), "deltax2");
+    fn the_longest_name_comes_first() {
         assert_eq!(notation().long_names()[0], "\\deltax");
     }
 }

@@ -3,12 +3,14 @@
 mod calls;
 
 use core::ops::Range;
+use std::sync::Arc;
 
 use num_rational::Ratio;
 
 use super::lexer::{Bracket, Lexeme, Token, lex};
 use super::mistake::Mistake;
-use super::notation::{Notation, Slash, key};
+use super::name::Name;
+use super::notation::{Notation, Slash};
 use super::tree::{Angle, Tree};
 
 /// Brackets deeper than this are no formula.
@@ -27,7 +29,7 @@ pub fn parse(text: &str, notation: &Notation) -> Result<Tree, Mistake> {
 /// # Errors
 /// The first place that cannot be read.
 pub fn parse_tokens(tokens: &[Token], notation: &Notation, end: usize) -> Result<Tree, Mistake> {
-    let mut parser = Parser { tokens, notation, next: 0, end, depth: 0 };
+    let mut parser = Parser { tokens, notation, next: 0, end, depth: 0, norm: false };
     let tree = parser.sum()?;
     match parser.peek() {
         None => Ok(tree),
@@ -41,6 +43,8 @@ struct Parser<'t> {
     next: usize,
     end: usize,
     depth: usize,
+    /// Whether a norm is open, which the next bar closes.
+    norm: bool,
 }
 
 impl<'t> Parser<'t> {
@@ -125,27 +129,36 @@ impl<'t> Parser<'t> {
     }
 
     fn begins_factor(&self) -> bool {
-        matches!(
-            self.peek().map(|t| &t.is),
+        match self.peek().map(|t| &t.is) {
+            Some(Lexeme::Bar) => !self.norm,
             Some(
                 Lexeme::Number(_)
-                    | Lexeme::Name { .. }
-                    | Lexeme::Open(_)
-                    | Lexeme::Function(_)
-                    | Lexeme::Frac
-                    | Lexeme::Sqrt
-                    | Lexeme::Integral
-            )
-        )
+                | Lexeme::Name(_)
+                | Lexeme::Open(_)
+                | Lexeme::Function(_)
+                | Lexeme::Frac
+                | Lexeme::Sqrt
+                | Lexeme::Integral
+                | Lexeme::Trace
+                | Lexeme::Over(_),
+            ) => true,
+            _ => false,
+        }
     }
 
     fn factor(&mut self) -> Result<Tree, Mistake> {
         let mut base = self.deeper(Self::primary)?;
-        while let Some(Lexeme::Power(power)) = self.peek().map(|t| &t.is) {
-            base = Tree::Power(Box::new(base), *power);
+        loop {
+            base = match self.peek().map(|t| &t.is) {
+                Some(Lexeme::Power(power)) => Tree::Power(Box::new(base), *power),
+                Some(Lexeme::Transposed { inverse }) => {
+                    let inner = if *inverse { Tree::Power(Box::new(base), -1) } else { base };
+                    Tree::Transpose(Box::new(inner))
+                }
+                _ => return Ok(base),
+            };
             self.next += 1;
         }
-        Ok(base)
     }
 
     fn primary(&mut self) -> Result<Tree, Mistake> {
@@ -158,16 +171,28 @@ impl<'t> Parser<'t> {
         self.next += 1;
         match &token.is {
             Lexeme::Number(value) => Ok(Tree::Number(*value)),
-            Lexeme::Name { base, sub } => Ok(self.name(base, sub.as_deref())),
-            Lexeme::Open(bracket) => self.closed(token, *bracket),
+            Lexeme::Name(name) => Ok(self.name(name)),
+            Lexeme::Open(Bracket::Matrix) => self.blocks(token),
+            Lexeme::Open(bracket) => {
+                let outer = core::mem::take(&mut self.norm);
+                let inner = self.sum()?;
+                self.norm = outer;
+                self.closed(token, &Lexeme::Close(*bracket))?;
+                Ok(inner)
+            }
+            Lexeme::Bar => {
+                self.norm = true;
+                let inner = self.sum()?;
+                self.norm = false;
+                self.closed(token, &Lexeme::Bar)?;
+                Ok(Tree::Norm(Box::new(inner)))
+            }
+            Lexeme::Trace => self.group().map(|inner| Tree::Trace(Box::new(inner))),
+            Lexeme::Over(over) => Ok(Tree::Over(over.clone(), Box::new(self.product()?))),
             Lexeme::Function(function) => self.call(*function),
             Lexeme::Frac => self.fraction(),
             Lexeme::Sqrt => self.group().map(|inner| Tree::Sqrt(Box::new(inner))),
             Lexeme::Integral => self.integral(),
-            Lexeme::Close(_) => {
-                let message = format!("`{}` stands where a term is expected", token.text);
-                Err(Mistake::new(token.at.clone(), message))
-            }
             _ => {
                 let message = format!("`{}` stands where a term is expected", token.text);
                 Err(Mistake::new(token.at.clone(), message))
@@ -175,18 +200,17 @@ impl<'t> Parser<'t> {
         }
     }
 
-    fn name(&self, base: &str, sub: Option<&str>) -> Tree {
-        match self.notation.function(base, sub) {
+    fn name(&self, name: &Arc<Name>) -> Tree {
+        match self.notation.function(&name.base, name.sub.as_deref()) {
             Some((function, angle)) => Tree::Trig(function, angle),
-            None => Tree::Symbol(key(base, sub)),
+            None => Tree::Symbol(name.clone()),
         }
     }
 
-    /// What stands in a bracket that has just been opened.
-    fn closed(&mut self, open: &Token, bracket: Bracket) -> Result<Tree, Mistake> {
-        let inner = self.sum()?;
-        if self.eat(&Lexeme::Close(bracket)) {
-            return Ok(inner);
+    /// What closes a bracket.
+    fn closed(&mut self, open: &Token, close: &Lexeme) -> Result<(), Mistake> {
+        if self.eat(close) {
+            return Ok(());
         }
         match self.peek() {
             Some(Token { is: Lexeme::Close(_), text, at }) => {
@@ -195,6 +219,24 @@ impl<'t> Parser<'t> {
             }
             Some(token) => Err(self.unexpected(token)),
             None => Err(Mistake::new(open.at.clone(), "this bracket is never closed")),
+        }
+    }
+
+    /// Rows of cells.
+    fn blocks(&mut self, open: &Token) -> Result<Tree, Mistake> {
+        let outer = core::mem::take(&mut self.norm);
+        let mut rows = vec![vec![self.sum()?]];
+        loop {
+            if self.eat(&Lexeme::Row) {
+                rows.push(vec![self.sum()?]);
+            } else if self.eat(&Lexeme::Cell) {
+                let cell = self.sum()?;
+                rows.last_mut().into_iter().for_each(|row| row.push(cell.clone()));
+            } else {
+                self.norm = outer;
+                self.closed(open, &Lexeme::Close(Bracket::Matrix))?;
+                return Ok(Tree::Blocks(rows));
+            }
         }
     }
 
@@ -223,7 +265,7 @@ pub(crate) fn collect(tree: &Tree, times: Ratio<i128>, into: &mut Angle) -> bool
         Tree::Number(n) => *n.numer() == 0,
         Tree::Symbol(name) => match i64::try_from(times.to_integer()) {
             Ok(whole) if times.is_integer() => {
-                into.add(name, whole);
+                into.add(&name.key, whole);
                 true
             }
             _ => false,

@@ -1,9 +1,11 @@
 //! Tokens of a formula.
 
 use core::ops::Range;
+use std::sync::Arc;
 
 use num_rational::Ratio;
 
+use super::name::Name;
 use super::tree::Function;
 
 /// A bracket's shape.
@@ -17,6 +19,8 @@ pub enum Bracket {
     Brace,
     /// `{ }`, which LaTeX does not print.
     Group,
+    /// `\begin{bmatrix} \end{bmatrix}`
+    Matrix,
 }
 
 /// What a token is.
@@ -25,12 +29,7 @@ pub enum Lexeme {
     /// A decimal number.
     Number(Ratio<i128>),
     /// A letter, Greek letter or longer name, with its subscript.
-    Name {
-        /// Without spaces.
-        base: String,
-        /// Without braces and spaces.
-        sub: Option<String>,
-    },
+    Name(Arc<Name>),
     /// `+`
     Plus,
     /// `-`
@@ -47,6 +46,11 @@ pub enum Lexeme {
     Close(Bracket),
     /// `^2`
     Power(i32),
+    /// `^T`, or `^{-T}` of the inverse.
+    Transposed {
+        /// Of the inverse.
+        inverse: bool,
+    },
     /// `\sin`, `\cos`
     Function(Function),
     /// `\frac`
@@ -57,6 +61,39 @@ pub enum Lexeme {
     Integral,
     /// `\partial`
     Partial,
+    /// `\text{tr}`
+    Trace,
+    /// `\|`
+    Bar,
+    /// `\prod_{j=1}^{n}`
+    Over(Count),
+    /// `&`, where it parts the cells of a matrix.
+    Cell,
+    /// `\\`, where it parts the rows of a matrix.
+    Row,
+}
+
+/// An index that counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Count {
+    /// The index.
+    pub index: String,
+    /// From here …
+    pub from: String,
+    /// … to here.
+    pub to: String,
+}
+
+impl Lexeme {
+    /// Whether a term may begin behind it.
+    pub fn opens(&self) -> bool {
+        matches!(self, Lexeme::Open(_) | Lexeme::Cell | Lexeme::Row)
+    }
+
+    /// Whether a term ends before it.
+    pub fn closes(&self) -> bool {
+        matches!(self, Lexeme::Close(_) | Lexeme::Cell | Lexeme::Row)
+    }
 }
 
 /// A token.

@@ -2,8 +2,12 @@
 
 use core::fmt;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use num_rational::Ratio;
+
+use super::name::Name;
+use super::token::Count;
 
 /// Sine or cosine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -71,13 +75,13 @@ impl fmt::Display for Angle {
     }
 }
 
-/// A formula.
+/// A formula, of numbers or of matrices.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tree {
     /// An exact number.
     Number(Ratio<i128>),
-    /// A plain symbol by its name in the graph.
-    Symbol(String),
+    /// A plain symbol.
+    Symbol(Arc<Name>),
     /// A sine or cosine.
     Trig(Function, Angle),
     /// Terms, each with whether it is subtracted.
@@ -86,7 +90,7 @@ pub enum Tree {
     Product(Vec<Tree>),
     /// Numerator and denominator.
     Quotient(Box<Tree>, Box<Tree>),
-    /// A whole-number power.
+    /// A whole-number power; −1 is the inverse.
     Power(Box<Tree>, i32),
     /// A square root.
     Sqrt(Box<Tree>),
@@ -99,30 +103,65 @@ pub enum Tree {
         /// Lower and upper end.
         ends: Box<(Tree, Tree)>,
     },
-    /// `∂ body/∂ symbol` with respect to a plain symbol.
-    Derivative(Box<Tree>, String),
+    /// `∂ body/∂ symbol`; of matrices by a joint, or column by column by all of them.
+    Derivative(Box<Tree>, Arc<Name>),
+    /// Rows for columns.
+    Transpose(Box<Tree>),
+    /// The sum of the diagonal.
+    Trace(Box<Tree>),
+    /// Frobenius' norm.
+    Norm(Box<Tree>),
+    /// Blocks, row by row.
+    Blocks(Vec<Vec<Tree>>),
+    /// A product over an index.
+    Over(Count, Box<Tree>),
 }
 
 impl Tree {
-    /// Every plain symbol in the formula, and every angle, by a visitor.
-    pub fn each_name(&self, visit: &mut dyn FnMut(&str)) {
+    /// The formulas that it is made of.
+    pub fn children(&self) -> Vec<&Tree> {
         match self {
-            Tree::Number(_) => {}
-            Tree::Symbol(name) => visit(name),
-            Tree::Trig(_, angle) => angle.terms().for_each(|(name, _)| visit(name)),
-            Tree::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_name(visit)),
-            Tree::Product(factors) => factors.iter().for_each(|f| f.each_name(visit)),
-            Tree::Quotient(a, b) => {
-                a.each_name(visit);
-                b.each_name(visit);
-            }
-            Tree::Power(base, _) => base.each_name(visit),
-            Tree::Sqrt(inner) | Tree::Derivative(inner, _) => inner.each_name(visit),
-            Tree::Integral { body, ends, .. } => {
-                body.each_name(visit);
-                ends.0.each_name(visit);
-                ends.1.each_name(visit);
-            }
+            Tree::Number(_) | Tree::Symbol(_) | Tree::Trig(..) => Vec::new(),
+            Tree::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
+            Tree::Product(factors) => factors.iter().collect(),
+            Tree::Quotient(a, b) => vec![a, b],
+            Tree::Integral { body, ends, .. } => vec![body, &ends.0, &ends.1],
+            Tree::Blocks(rows) => rows.iter().flatten().collect(),
+            Tree::Power(a, _)
+            | Tree::Sqrt(a)
+            | Tree::Derivative(a, _)
+            | Tree::Transpose(a)
+            | Tree::Trace(a)
+            | Tree::Norm(a)
+            | Tree::Over(_, a) => vec![a],
+        }
+    }
+
+    /// Every plain symbol in the formula, and every angle, by a visitor that is told whether it is
+    /// an angle.
+    pub fn each_name(&self, visit: &mut dyn FnMut(&str, bool)) {
+        match self {
+            Tree::Symbol(name) => visit(&name.key, false),
+            Tree::Trig(_, angle) => angle.terms().for_each(|(name, _)| visit(name, true)),
+            _ => self.children().into_iter().for_each(|child| child.each_name(visit)),
+        }
+    }
+
+    /// The smallest parts of two formulas outside of which they are the same.
+    pub fn difference<'t>(&'t self, other: &'t Tree) -> (&'t Tree, &'t Tree) {
+        let same = match (self, other) {
+            (Tree::Sum(a), Tree::Sum(b)) => a.iter().map(|t| t.0).eq(b.iter().map(|t| t.0)),
+            (Tree::Power(_, a), Tree::Power(_, b)) => a == b,
+            (Tree::Derivative(_, a), Tree::Derivative(_, b)) => a == b,
+            (Tree::Over(a, _), Tree::Over(b, _)) => a == b,
+            (Tree::Blocks(a), Tree::Blocks(b)) => a.iter().map(Vec::len).eq(b.iter().map(Vec::len)),
+            (a, b) => core::mem::discriminant(a) == core::mem::discriminant(b),
+        };
+        let (ours, theirs) = (self.children(), other.children());
+        let mut apart = ours.iter().zip(&theirs).filter(|(a, b)| a != b);
+        match (same && ours.len() == theirs.len(), apart.next(), apart.next()) {
+            (true, Some((a, b)), None) => a.difference(b),
+            _ => (self, other),
         }
     }
 }
@@ -130,6 +169,8 @@ impl Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::latex::notation::Notation;
+    use crate::latex::parser::parse;
 
     #[test]
     fn angles_cancel() {
@@ -143,11 +184,24 @@ mod tests {
 
     #[test]
     fn names_are_visited() {
-        let tree = Tree::Power(Box::new(Tree::Symbol("a".into())), 2);
-        let sum =
-            Tree::Sum(vec![(false, tree), (true, Tree::Sqrt(Box::new(Tree::Symbol("b".into()))))]);
         let mut names = Vec::new();
-        sum.each_name(&mut |name| names.push(name.to_owned()));
-        assert_eq!(names, ["a", "b"]);
+        let tree = parse("a^2 - \\sqrt{b} \\cos\\theta_1", &Notation::default()).unwrap();
+        tree.each_name(&mut |name, angle| names.push((name.to_owned(), angle)));
+        assert_eq!(names, [("a".into(), false), ("b".into(), false), ("theta1".into(), true)]);
+    }
+
+    #[test]
+    fn the_smallest_difference_is_found() {
+        let read = |text: &str| parse(text, &Notation::MATRICES).unwrap();
+        for (a, b, part, other) in [
+            ("A (B^T C)^{-1} + D", "A (C B^T)^{-1} + D", "B^T C", "C B^T"),
+            ("A (B + C)", "A (B - C)", "B + C", "B - C"),
+            ("A B_i", "A B_j", "B_i", "B_j"),
+            ("A + B C", "(A + B) C", "A + B C", "(A + B) C"),
+        ] {
+            let (a, b) = (read(a), read(b));
+            let (a, b) = a.difference(&b);
+            assert_eq!((a.latex(), b.latex()), (part.to_owned(), other.to_owned()));
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::judge::truth;
-use crate::exact::evaluate::{Arithmetic, Real};
+use crate::exact::evaluate::{Arithmetic, NoValue, Real};
 use crate::exact::print::{decimal, short};
 use crate::exact::rational::Rational;
 use crate::file::{Column, Paper, Table};
@@ -98,11 +98,11 @@ fn by_formula(
     let given = given.as_ref().map_err(Clone::clone)?;
     let plain = Real(|name: &str| values.get(name).copied());
     let resolved = Real(|name: &str| match given.get(name) {
-        Some(exact) => plain.rational(exact),
+        Some(exact) => plain.rational(exact).ok(),
         None => values.get(name).copied(),
     });
-    let value = resolved.tree(formula).ok_or("a symbol of the formula has no value")?;
-    Ok(Some(value))
+    let value = resolved.tree(formula);
+    value.map(Some).map_err(|NoValue| "a symbol of the formula has no value".into())
 }
 
 fn judge(entry: &mut Entry, column: &Column, printed: &str, value: Result<Option<f64>, String>) {

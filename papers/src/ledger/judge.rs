@@ -6,12 +6,13 @@ use super::labels::{Member, shifted};
 use super::reader::Reader;
 use super::witness::witness;
 use crate::exact::derived::{Setting, derived, limited};
+use crate::exact::evaluate::Arithmetic;
 use crate::exact::product::Matrix;
-use crate::exact::rational::Rational;
+use crate::exact::rational::{Exact, Rational};
 use crate::file::{About, Equation, Paper};
 use crate::latex::formula::{Formula, formula};
 use crate::latex::lexer::{Token, lex};
-use crate::latex::parser::parse_tokens;
+use crate::latex::parser::{parse, parse_tokens};
 use crate::mend::{Inventory, Search, mend, written};
 use crate::verdict::{Entry, Kind, Verdict};
 
@@ -60,9 +61,8 @@ pub fn truth(paper: &Paper, equation: &Equation) -> Result<Matrix, String> {
     let columns = side.rows.first().map_or(0, Vec::len);
     let mut entries = Vec::new();
     for cell in side.rows.iter().flatten() {
-        let tree =
-            crate::latex::parser::parse(&cell.text, &paper.notation).map_err(|m| m.message)?;
-        let exact = Rational::of_tree(&tree, &defined).map_err(|why| format!("{why:?}"))?;
+        let tree = parse(&cell.text, &paper.notation).map_err(|m| m.message)?;
+        let exact = Exact(&defined).tree(&tree).map_err(|why| format!("{why:?}"))?;
         entries.push(limited(exact, &equation.infinite)?);
     }
     Ok(Matrix { columns, entries })

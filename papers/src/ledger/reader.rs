@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::exact::evaluate::Arithmetic;
 use crate::exact::field::Modular;
-use crate::exact::rational::Rational;
+use crate::exact::rational::{Exact, Rational};
 use crate::latex::lexer::Token;
 use crate::latex::notation::Notation;
 use crate::latex::parser::parse_tokens;
@@ -32,7 +32,7 @@ impl Reader<'_> {
         let Ok(tree) = parse_tokens(tokens, self.notation, 0) else { return false };
         (1..6).find_map(|seed| {
             let point = self.point(seed)?;
-            Some(point.tree(&tree)? == point.rational(truth)?)
+            Some(point.tree(&tree).ok()? == point.rational(truth).ok()?)
         }) == Some(true)
     }
 
@@ -44,7 +44,7 @@ impl Reader<'_> {
     /// How the formula is known to be the truth, if it is.
     pub fn agrees(&self, tokens: &[Token], truth: &Rational) -> Option<Verdict> {
         let tree = parse_tokens(tokens, self.notation, 0).ok()?;
-        let exact = Rational::of_tree(&tree, self.defined).and_then(|e| e.equals(truth));
+        let exact = Exact(self.defined).tree(&tree).and_then(|e| e.equals(truth));
         match exact {
             Ok(true) => Some(Verdict::Agrees),
             Ok(false) => None,
@@ -52,7 +52,7 @@ impl Reader<'_> {
                 let mut seen = 0;
                 for seed in 1..POINTS * 8 {
                     let Some(point) = self.point(seed) else { continue };
-                    let (Some(a), Some(b)) = (point.tree(&tree), point.rational(truth)) else {
+                    let (Ok(a), Ok(b)) = (point.tree(&tree), point.rational(truth)) else {
                         continue;
                     };
                     if a != b {
@@ -71,7 +71,7 @@ impl Reader<'_> {
     fn point(&self, seed: u64) -> Option<Modular> {
         let mut point = Modular::point(seed);
         for (name, value) in self.defined {
-            let value = point.rational(value)?;
+            let value = point.rational(value).ok()?;
             point.defined.insert(name.clone(), value);
         }
         Some(point)

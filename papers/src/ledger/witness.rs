@@ -19,7 +19,9 @@ pub fn witness(
     given: &HashMap<String, f64>,
 ) -> Option<Witness> {
     let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
-    names_of_tree(printed, &mut angles, &mut symbols);
+    printed.each_name(&mut |name, angle| {
+        if angle { &mut angles } else { &mut symbols }.insert(name.to_owned());
+    });
     derived.names(&mut angles, &mut symbols);
     let used: Vec<String> = symbols.iter().cloned().collect();
     for name in used {
@@ -41,10 +43,10 @@ pub fn witness(
         }
         let plain = Real(|name: &str| values.get(name).copied());
         let resolved = Real(|name: &str| match defined.get(name) {
-            Some(value) if !values.contains_key(name) => plain.rational(value),
+            Some(value) if !values.contains_key(name) => plain.rational(value).ok(),
             _ => values.get(name).copied(),
         });
-        let (Some(p), Some(d)) = (resolved.tree(printed), plain.rational(derived)) else {
+        let (Ok(p), Ok(d)) = (resolved.tree(printed), plain.rational(derived)) else {
             continue;
         };
         if (p - d).abs() > 1e-6 * p.abs().max(d.abs()) {
@@ -60,36 +62,17 @@ pub fn witness(
     None
 }
 
-fn names_of_tree(tree: &Tree, angles: &mut BTreeSet<String>, symbols: &mut BTreeSet<String>) {
-    match tree {
-        Tree::Number(_) => {}
-        Tree::Symbol(name) => {
-            symbols.insert(name.clone());
-        }
-        Tree::Trig(_, angle) => angles.extend(angle.terms().map(|(n, _)| n.to_owned())),
-        Tree::Sum(terms) => terms.iter().for_each(|(_, t)| names_of_tree(t, angles, symbols)),
-        Tree::Product(fs) => fs.iter().for_each(|t| names_of_tree(t, angles, symbols)),
-        Tree::Quotient(a, b) => {
-            names_of_tree(a, angles, symbols);
-            names_of_tree(b, angles, symbols);
-        }
-        Tree::Power(inner, _) | Tree::Sqrt(inner) | Tree::Derivative(inner, _) => {
-            names_of_tree(inner, angles, symbols);
-        }
-        Tree::Integral { body, .. } => names_of_tree(body, angles, symbols),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::rational::Exact;
     use crate::latex::notation::Notation;
     use crate::latex::parser::parse;
 
     #[test]
     fn a_witness_tells_two_formulas_apart() {
         let read = |text: &str| parse(text, &Notation::default()).unwrap();
-        let exact = Rational::of_tree(&read("a \\cos\\theta_1"), &HashMap::new()).unwrap();
+        let exact = Exact(&HashMap::new()).tree(&read("a \\cos\\theta_1")).unwrap();
         let given = HashMap::from([("a".to_owned(), 2.0)]);
         let found = witness(&read("a \\sin\\theta_1"), &exact, &HashMap::new(), &given).unwrap();
         assert_eq!(found.angles.len(), 1);

@@ -2,9 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::dense::{Dense, inverse, is_scalar, plus, scalar};
-use super::dense::{blocks, times as multiply};
-use super::tree::{Name, Tree, count};
+use num_rational::Ratio;
+
+use super::dense::{Dense, blocks, inverse, is_scalar, plus, scalar, times};
+use crate::exact::evaluate::{Arithmetic, NoValue, Real};
+use crate::latex::name::{Name, count};
+use crate::latex::tree::{Angle, Function, Tree};
 
 /// Step of the derivatives by joints, rad: the formula of fourth order errs by 1e-13, and rounding
 /// by as much.
@@ -43,127 +46,178 @@ pub enum Value {
 
 type Found<T> = Result<T, String>;
 
+/// A shape in words.
+fn shape(m: &Dense) -> String {
+    format!("{}×{}", m.nrows(), m.ncols())
+}
+
+impl Value {
+    /// As one matrix; the derivatives of a vector by the joints are its columns.
+    fn matrix(self) -> Found<Dense> {
+        match self {
+            Value::One(matrix) => Ok(matrix),
+            Value::Stack(each) => side_by_side(&each).ok_or_else(|| {
+                "a derivative by all joints stands without what it multiplies".into()
+            }),
+        }
+    }
+
+    fn number(self) -> Found<f64> {
+        let matrix = self.matrix()?;
+        let wrong = || format!("{} stands where a number is expected", shape(&matrix));
+        is_scalar(&matrix).then(|| matrix[(0, 0)]).ok_or_else(wrong)
+    }
+}
+
+/// `a + factor · b`; a lone zero is a zero of any shape.
+fn sum(a: Value, b: Value, factor: f64) -> Found<Value> {
+    let (a, b) = (a.matrix()?, b.matrix()?);
+    if is_scalar(&a) && a[(0, 0)] == 0.0 {
+        return Ok(Value::One(b * factor));
+    }
+    let wrong = || format!("{} and {} are added", shape(&a), shape(&b));
+    plus(&a, &b, factor).map(Value::One).ok_or_else(wrong)
+}
+
+fn product(a: &Dense, b: &Dense) -> Found<Dense> {
+    times(a, b).ok_or_else(|| format!("{} and {} are multiplied", shape(a), shape(b)))
+}
+
+/// Columns as a matrix; `None` if they are no columns.
+fn side_by_side(each: &[Dense]) -> Option<Dense> {
+    let (rows, columns) = each.first()?.shape();
+    (columns == 1).then(|| Dense::from_fn(rows, each.len(), |r, c| each[c][(r, 0)]))
+}
+
+impl Arithmetic for Point<'_> {
+    type Value = Value;
+    type Error = String;
+
+    fn number(&self, n: Ratio<i128>) -> Found<Value> {
+        let number = Real(|_: &str| None).number(n);
+        number.map(|x| Value::One(scalar(x))).map_err(|NoValue| format!("{n} is too large"))
+    }
+
+    fn named(&self, key: &str) -> Found<Value> {
+        self.value(key)?.ok_or_else(|| format!("`{key}` has no value"))
+    }
+
+    fn symbol(&self, name: &Name) -> Found<Value> {
+        let value = self.value(&name.counted(&self.counted))?;
+        value.ok_or_else(|| format!("`{}` has no value", name.latex().trim()))
+    }
+
+    fn trig(&self, _: Function, angle: &Angle) -> Found<Value> {
+        Err(format!("the sine or cosine of {angle} stands among matrices"))
+    }
+
+    fn add(&self, a: Value, b: Value) -> Found<Value> {
+        sum(a, b, 1.0)
+    }
+
+    fn sub(&self, a: Value, b: Value) -> Found<Value> {
+        sum(a, b, -1.0)
+    }
+
+    /// Derivatives by all joints times a vector are the columns of a matrix.
+    fn mul(&self, a: Value, b: Value) -> Found<Value> {
+        match (a, b) {
+            (Value::One(a), Value::One(b)) => product(&a, &b).map(Value::One),
+            (Value::Stack(each), Value::One(b)) => {
+                if let Some(matrix) = side_by_side(&each) {
+                    return product(&matrix, &b).map(Value::One);
+                }
+                let products: Vec<Dense> =
+                    each.iter().map(|a| product(a, &b)).collect::<Found<_>>()?;
+                Ok(side_by_side(&products).map_or(Value::Stack(products), Value::One))
+            }
+            (Value::One(a), Value::Stack(each)) => {
+                each.iter().map(|b| product(&a, b)).collect::<Found<_>>().map(Value::Stack)
+            }
+            (Value::Stack(_), Value::Stack(_)) => {
+                Err("two derivatives by all joints are multiplied".into())
+            }
+        }
+    }
+
+    fn div(&self, a: Value, b: Value) -> Found<Value> {
+        match b.number()? {
+            0.0 => Err("a division by zero".into()),
+            b => Ok(Value::One(a.matrix()? * (1.0 / b))),
+        }
+    }
+
+    fn sqrt(&self, a: Value) -> Found<Value> {
+        Ok(Value::One(scalar(a.number()?.sqrt())))
+    }
+
+    fn power(&self, base: Value, n: i32) -> Found<Value> {
+        let mut base = base.matrix()?;
+        if n < 0 {
+            base = inverse(&base).ok_or("a matrix that has no inverse is inverted")?;
+        }
+        let power = (0..n.unsigned_abs()).try_fold(scalar(1.0), |p, _| product(&p, &base))?;
+        Ok(Value::One(power))
+    }
+
+    fn other(&self, tree: &Tree) -> Found<Value> {
+        Ok(Value::One(match tree {
+            Tree::Transpose(a) => match self.tree(a)? {
+                Value::One(matrix) => matrix.transpose(),
+                Value::Stack(each) => {
+                    return Ok(Value::Stack(each.iter().map(Dense::transpose).collect()));
+                }
+            },
+            Tree::Derivative(body, by) => return self.derivative(body, by),
+            Tree::Trace(a) => {
+                let matrix = self.matrix(a)?;
+                if !matrix.is_square() {
+                    return Err("a trace of no square matrix".into());
+                }
+                scalar(matrix.trace())
+            }
+            Tree::Norm(a) => scalar(self.matrix(a)?.norm()),
+            Tree::Blocks(rows) => self.blocks(rows)?,
+            Tree::Over(over, body) => {
+                let bound = |text: &str| {
+                    count(text, &self.counted).ok_or_else(|| format!("`{text}` does not count"))
+                };
+                let mut inside = self.clone();
+                let mut whole = scalar(1.0);
+                for k in bound(&over.from)?..=bound(&over.to)? {
+                    inside.counted.insert(over.index.clone(), k);
+                    whole = product(&whole, &inside.matrix(body)?)?;
+                }
+                whole
+            }
+            _ => return Err(format!("`{}` stands among matrices", tree.latex())),
+        }))
+    }
+}
+
 impl Point<'_> {
     /// The value of a formula that is one matrix.
     ///
     /// # Errors
     /// A symbol without a value, shapes that do not fit, a singular matrix.
     pub fn matrix(&self, tree: &Tree) -> Found<Dense> {
-        match self.value(tree)? {
-            Value::One(matrix) => Ok(matrix),
-            // The columns that the derivatives of a vector by the joints are.
-            Value::Stack(each) => {
-                let shape = each.first().map_or((0, 0), Dense::shape);
-                if shape.1 != 1 {
-                    return Err(
-                        "a derivative by all joints stands without what it multiplies".into()
-                    );
-                }
-                Ok(Dense::from_fn(shape.0, each.len(), |r, c| each[c][(r, 0)]))
-            }
-        }
+        self.tree(tree)?.matrix()
     }
 
-    fn scalar(&self, tree: &Tree) -> Found<f64> {
-        let matrix = self.matrix(tree)?;
-        is_scalar(&matrix).then(|| matrix[(0, 0)]).ok_or_else(|| {
-            format!("`{}` is {}×{}, not a number", tree.latex(), matrix.nrows(), matrix.ncols())
-        })
-    }
-
-    fn value(&self, tree: &Tree) -> Found<Value> {
-        let one = |matrix| Ok(Value::One(matrix));
-        match tree {
-            Tree::Number(text) => {
-                one(scalar(text.parse().map_err(|_| format!("`{text}` is no number"))?))
-            }
-            Tree::Name(name) => one(self.name(name)?),
-            Tree::Sum(terms) => self.sum(terms),
-            Tree::Product(factors) => {
-                let mut product = self.value(&factors[0])?;
-                for factor in &factors[1..] {
-                    product = times(product, self.value(factor)?)
-                        .ok_or_else(|| format!("the shapes in `{}` do not fit", tree.latex()))?;
-                }
-                Ok(product)
-            }
-            Tree::Quotient(a, b) => {
-                let (a, b) = (self.matrix(a)?, self.scalar(b)?);
-                if b == 0.0 { Err("a division by zero".into()) } else { one(a * (1.0 / b)) }
-            }
-            Tree::Transpose(a) => match self.value(a)? {
-                Value::One(matrix) => one(matrix.transpose()),
-                Value::Stack(each) => Ok(Value::Stack(each.iter().map(Dense::transpose).collect())),
-            },
-            Tree::Inverse(a) => {
-                let singular = || format!("`{}` has no inverse", a.latex());
-                one(inverse(&self.matrix(a)?).ok_or_else(singular)?)
-            }
-            Tree::Derivative(body, by) => self.derivative(body, by),
-            Tree::Sqrt(a) => one(scalar(self.scalar(a)?.sqrt())),
-            Tree::Trace(a) => {
-                let matrix = self.matrix(a)?;
-                if !matrix.is_square() {
-                    return Err("a trace of no square matrix".into());
-                }
-                one(scalar(matrix.trace()))
-            }
-            Tree::Norm(a) => one(scalar(self.matrix(a)?.norm())),
-            Tree::Blocks(rows) => one(self.blocks(rows)?),
-            Tree::Over { index, from, to, body } => {
-                let bound = |text: &str| {
-                    count(text, &self.counted).ok_or_else(|| format!("`{text}` does not count"))
-                };
-                let mut product = scalar(1.0);
-                for k in bound(from)?..=bound(to)? {
-                    let mut inside = self.clone();
-                    inside.counted.insert(index.clone(), k);
-                    let factor = inside.matrix(body)?;
-                    product =
-                        multiply(&product, &factor).ok_or("the factors' shapes do not fit")?;
-                }
-                one(product)
-            }
-        }
-    }
-
-    fn name(&self, name: &Name) -> Found<Dense> {
-        let key = name.key(&self.counted);
-        if let Some(value) = self.symbols.value(&key, &self.q)? {
-            return Ok(value);
-        }
-        match self.formulas.get(&key) {
-            Some(formula) => self.matrix(formula),
-            None => Err(format!("`{}` has no value", name.latex().trim())),
-        }
-    }
-
-    fn sum(&self, terms: &[(bool, Tree)]) -> Found<Value> {
-        let mut total: Option<Dense> = None;
-        for (negative, term) in terms {
-            let (value, sign) = (self.matrix(term)?, if *negative { -1.0 } else { 1.0 });
-            total = Some(match total {
-                None => value * sign,
-                Some(sum) => plus(&sum, &value, sign).ok_or_else(|| {
-                    format!(
-                        "{}×{} and {}×{} are added",
-                        sum.nrows(),
-                        sum.ncols(),
-                        value.nrows(),
-                        value.ncols()
-                    )
-                })?,
-            });
-        }
-        total.map(Value::One).ok_or_else(|| "an empty sum".into())
+    fn value(&self, key: &str) -> Found<Option<Value>> {
+        let value = match self.symbols.value(key, &self.q)? {
+            None => self.formulas.get(key).map(|formula| self.matrix(formula)).transpose()?,
+            found => found,
+        };
+        Ok(value.map(Value::One))
     }
 
     /// By one joint, or by all where no index or one that does not count names it.
     fn derivative(&self, body: &Tree, by: &Name) -> Found<Value> {
-        if !["theta", "q"].contains(&by.base.as_str()) {
+        if !["theta", "q"].contains(&by.base.trim_start_matches('\\')) {
             return Err(format!("`{}` is no joint", by.latex().trim()));
         }
-        let joint = by.indices.first().and_then(|index| count(index, &self.counted));
+        let joint = by.indices().next().and_then(|index| count(index, &self.counted));
         let slope = |joint: usize| -> Found<Dense> {
             let at = |steps: f64| {
                 let mut moved = self.clone();
@@ -212,36 +266,11 @@ impl Point<'_> {
     }
 }
 
-/// Columns as a matrix; `None` if they are no columns.
-fn side_by_side(each: &[Dense]) -> Option<Dense> {
-    let (rows, columns) = each.first()?.shape();
-    (columns == 1).then(|| Dense::from_fn(rows, each.len(), |r, c| each[c][(r, 0)]))
-}
-
-/// A product; derivatives by all joints times a vector are the columns of a matrix.
-fn times(a: Value, b: Value) -> Option<Value> {
-    match (a, b) {
-        (Value::One(a), Value::One(b)) => multiply(&a, &b).map(Value::One),
-        (Value::Stack(each), Value::One(b)) => {
-            // The derivatives of a vector are the columns of a matrix.
-            if let Some(matrix) = side_by_side(&each) {
-                return multiply(&matrix, &b).map(Value::One);
-            }
-            let products: Vec<Dense> =
-                each.iter().map(|a| multiply(a, &b)).collect::<Option<_>>()?;
-            Some(side_by_side(&products).map_or(Value::Stack(products), Value::One))
-        }
-        (Value::One(a), Value::Stack(each)) => {
-            each.iter().map(|b| multiply(&a, b)).collect::<Option<_>>().map(Value::Stack)
-        }
-        (Value::Stack(_), Value::Stack(_)) => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::parse::sides;
     use super::*;
+    use crate::latex::notation::Notation;
+    use crate::latex::parser::parse;
 
     /// A(q) = [[q1², q1 q2], [sin q1, 3]], v = (2, −1), n = 3.
     struct Sample;
@@ -266,7 +295,7 @@ mod tests {
             counted: HashMap::from([("n".into(), 2)]),
             formulas: HashMap::new(),
         };
-        point.matrix(&sides(latex).unwrap()[0])
+        point.matrix(&parse(latex, &Notation::MATRICES).unwrap())
     }
 
     #[test]
@@ -288,6 +317,7 @@ mod tests {
     fn products_over_an_index_and_blocks() {
         assert_eq!(of("\\prod_{j=1}^{n} B_j").unwrap()[(0, 0)], 35.0);
         assert_eq!(of("\\prod_{j=1}^{n-1} B_{j+1}").unwrap()[(0, 0)], 7.0);
+        assert!((of("A^2 - A A").unwrap()).amax() < 1e-15);
         let blocks = of("\\begin{bmatrix} A & 0 \\\\ v^T & 1 \\end{bmatrix}").unwrap();
         assert_eq!((blocks.shape(), blocks[(0, 2)], blocks[(2, 2)]), ((3, 3), 0.0, 1.0));
     }
@@ -295,8 +325,9 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_said() {
         assert_eq!(of("A + v").unwrap_err(), "2×2 and 2×1 are added");
-        assert_eq!(of("v A").unwrap_err(), "the shapes in `v A` do not fit");
-        assert_eq!(of("(v v^T)^{-1}").unwrap_err(), "`v v^T` has no inverse");
+        assert_eq!(of("v A").unwrap_err(), "2×1 and 2×2 are multiplied");
+        assert_eq!(of("(v v^T)^{-1}").unwrap_err(), "a matrix that has no inverse is inverted");
+        assert_eq!(of("\\frac{1}{v}").unwrap_err(), "2×1 stands where a number is expected");
         assert_eq!(of("C_{j,x}").unwrap_err(), "`C_{j,x}` has no value");
     }
 }

@@ -3,24 +3,25 @@
 
 mod dense;
 mod evaluate;
-mod mend;
-mod parse;
-mod relation;
 mod source;
 mod transform;
-mod tree;
 
 use std::collections::HashMap;
 
 use dense::{Dense, is_scalar, plus};
 use evaluate::Point;
-use source::Sources;
-use tree::Tree;
+use source::{At, Sources};
 
-pub(super) use parse::{is_symbol, sides};
-pub use relation::Relation;
+pub use source::single;
 
 use crate::exact::derived::Setting;
+use crate::latex::formula::{Piece, sides};
+use crate::latex::lexer::{Lexeme, Token, lex};
+use crate::latex::mistake::Mistake;
+use crate::latex::notation::Notation;
+use crate::latex::parser::parse_tokens;
+use crate::latex::tree::Tree;
+use crate::mend::{Edit, Inventory, Slip, apply, brackets, every_pair, moved_brackets, slips};
 use crate::verdict::{Entry, Verdict};
 
 /// Points at which a relation is evaluated.
@@ -30,8 +31,44 @@ const POINTS: u64 = 4;
 /// inverses of random matrices lose up to four digits.
 const TOLERANCE: f64 = 1e-8;
 
-/// At most so many pairs of slips are tried.
-const PAIRS: usize = 60_000;
+/// At most so many slips of an index are tried in pairs.
+const PAIRED: usize = 300;
+
+/// A printed relation between matrices, as its data file gives it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Relation {
+    /// Symbols as printed, and what they stand for.
+    pub matrices: Vec<(String, Piece)>,
+    /// The value of the left side, or a condition on it; without one the printed left side itself.
+    pub truth: Option<Piece>,
+}
+
+impl Relation {
+    /// What it is compared with, in words.
+    pub fn words(&self) -> String {
+        let truth = self.truth.iter().map(|truth| truth.text.clone());
+        let each =
+            self.matrices.iter().map(|(symbol, source)| match source.text.strip_prefix('=') {
+                Some(formula) => format!("{symbol} = {}", formula.trim()),
+                None => format!("{symbol} is {}", source.text),
+            });
+        truth.chain(each).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The sides of a relation: their tokens and their trees.
+///
+/// # Errors
+/// The first place that cannot be read.
+pub fn read(latex: &str) -> Result<Vec<(Vec<Token>, Tree)>, Mistake> {
+    let read = |side: &Piece| {
+        let tokens = lex(&side.text, &Notation::MATRICES)?;
+        let tree = parse_tokens(&tokens, &Notation::MATRICES, side.text.len())?;
+        Ok((tokens, tree))
+    };
+    let moved = |side: Piece| read(&side).map_err(|mistake: Mistake| mistake.moved(side.at));
+    sides(latex).into_iter().map(moved).collect()
+}
 
 /// What a relation must fulfil, and the symbols in it.
 struct Question<'r> {
@@ -51,12 +88,9 @@ pub(super) fn judge(
     given: &HashMap<String, f64>,
 ) {
     entry.source = relation.words();
-    match verdict(entry, latex, relation, setting, given) {
-        Ok(()) => {}
-        Err(why) => {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(why);
-        }
+    if let Err(why) = verdict(entry, latex, relation, setting, given) {
+        entry.verdict = Verdict::NotJudged;
+        entry.note = Some(why);
     }
 }
 
@@ -67,23 +101,21 @@ fn verdict(
     setting: &Setting,
     given: &HashMap<String, f64>,
 ) -> Result<(), String> {
-    let read = |latex: &str| {
-        parse::sides(latex).map_err(|(at, why)| format!("in `{latex}` at character {at}: {why}"))
-    };
+    let words = |mistake: Mistake| mistake.message;
     let symbols: Vec<(String, String)> = relation
         .matrices
         .iter()
         .map(|(symbol, source)| (symbol.clone(), source.text.clone()))
         .collect();
     let sources = Sources::read(&symbols, setting, given)?;
-    let mut printed = read(latex)?;
-    let left = match printed.first() {
-        Some(Tree::Name(name)) if printed.len() > 1 => Some(name.key(&HashMap::new())),
+    let mut printed = read(latex).map_err(words)?;
+    let left = match &printed[..] {
+        [(_, Tree::Symbol(name)), _, ..] => Some(name.counted(&HashMap::new())),
         _ => None,
     };
     let truth = match &relation.truth {
-        Some(truth) => read(&truth.text)?,
-        None => vec![printed[0].clone()],
+        Some(truth) => read(&truth.text).map_err(words)?.into_iter().map(|side| side.1).collect(),
+        None => vec![printed[0].1.clone()],
     };
     let head = match printed.len() {
         1 => String::new(),
@@ -93,23 +125,24 @@ fn verdict(
             format!("{} = ", head.trim())
         }
     };
-    let mut question = Question { relation, sources, truth, left };
+    let question = Question { relation, sources, truth, left };
     entry.verdict = Verdict::AgreesAtPoints;
     let mut sides = Vec::new();
     let mut changes = Vec::new();
-    for side in printed {
-        if question.holds(&side)? {
-            sides.push(side.latex());
+    for (tokens, tree) in printed {
+        if question.holds(&tree)? {
+            sides.push(tree.latex());
             continue;
         }
         entry.verdict = Verdict::Misprint;
-        match question.mend(&side)? {
-            Some((mended, what)) => {
-                sides.push(mended.latex());
-                changes.push(what);
-            }
-            None => return Err("it does not hold, and no small change of it does".into()),
-        }
+        let trees = question.mend(&tokens, &tree);
+        let trees = trees.ok_or("it does not hold, and no small change of it does")?;
+        let change = |pair: &[Tree]| {
+            let (from, to) = pair[0].difference(&pair[1]);
+            format!("`{}` → `{}`", from.latex().trim(), to.latex().trim())
+        };
+        sides.extend(trees.last().map(Tree::latex));
+        changes.push(trees.windows(2).map(change).collect::<Vec<_>>().join(", "));
     }
     if entry.verdict == Verdict::Misprint {
         entry.correction = Some(format!("{head}{}", sides.join(" = ")));
@@ -120,26 +153,27 @@ fn verdict(
 
 impl Question<'_> {
     /// Whether the relation holds with `side` on its right.
-    fn holds(&mut self, side: &Tree) -> Result<bool, String> {
+    fn holds(&self, side: &Tree) -> Result<bool, String> {
         for at in 1..=POINTS {
-            let q = self.sources.go_to(at);
+            let at = At(&self.sources, at);
             let mut formulas = self.sources.formulas.clone();
             if let (Some(left), true) = (&self.left, self.relation.truth.is_some()) {
                 formulas.insert(left.clone(), side.clone());
             }
             let counted = self.sources.counted.clone();
-            let point = Point { symbols: &self.sources, q, counted, formulas };
+            let point = Point { symbols: &at, q: at.posture(), counted, formulas };
             // What is printed may not even fit together; the truth must.
             let Ok(printed) = point.matrix(side) else { return Ok(false) };
-            let wanted: Vec<Dense> = match (self.truth.as_slice(), self.uses_left()) {
-                ([one, rest @ ..], true) => match point.matrix(one) {
+            let wanted: Vec<Dense> = match self.truth.as_slice() {
+                // A condition on the printed left side rather than a value of it.
+                [one, rest @ ..] if !rest.is_empty() => match point.matrix(one) {
                     Ok(one) => {
                         let rest = rest.iter().map(|side| point.matrix(side));
                         core::iter::once(Ok(one)).chain(rest).collect::<Result<_, _>>()?
                     }
                     Err(_) => return Ok(false),
                 },
-                (sides, _) => {
+                sides => {
                     let each = sides.iter().map(|side| point.matrix(side));
                     each.chain([Ok(printed)]).collect::<Result<_, _>>()?
                 }
@@ -151,42 +185,33 @@ impl Question<'_> {
         Ok(true)
     }
 
-    /// Whether the truth is a condition on the printed left side rather than a value of it.
-    fn uses_left(&self) -> bool {
-        self.truth.len() > 1
-    }
-
-    /// The smallest change: one slip, or two.
-    fn mend(&mut self, side: &Tree) -> Result<Option<mend::Edit>, String> {
-        // The truth itself, where it is a symbol, is no answer.
-        let answer = |name: &tree::Name| self.truth == [Tree::Name(name.clone())];
-        let known: Vec<tree::Name> =
-            self.sources.printed.iter().filter(|name| !answer(name)).cloned().collect();
-        let once = mend::edits(side, &known);
-        for edit in &once {
-            if self.holds(&edit.0)? {
-                return Ok(Some(edit.clone()));
+    /// The smallest change, one slip or two of an index: what is printed, with the first slip
+    /// mended, with both.
+    fn mend(&self, tokens: &[Token], printed: &Tree) -> Option<Vec<Tree>> {
+        let mut known = Inventory::default();
+        for token in &self.sources.printed {
+            let Lexeme::Name(name) = &token.is else { continue };
+            // The truth itself, where it is a symbol, is no answer.
+            let answer = self.truth == [Tree::Symbol(name.clone())];
+            if !answer && !name.is_family() {
+                known.add(core::slice::from_ref(token));
             }
         }
-        let mut left = PAIRS;
-        for (first, what) in once.iter().filter(|(_, what)| of_an_index(what)) {
-            for (second, more) in mend::edits(first, &known) {
-                left = left.saturating_sub(1);
-                if left == 0 {
-                    return Ok(None);
-                }
-                if of_an_index(&more) && self.holds(&second)? {
-                    return Ok(Some((second, format!("{what}, {more}"))));
-                }
-            }
-        }
-        Ok(None)
+        let mended = |edits: &[&Edit]| {
+            let tokens = apply(tokens, edits);
+            parse_tokens(&tokens, &Notation::MATRICES, 0).ok()
+        };
+        let holds = |edits: &[&Edit]| mended(edits).is_some_and(|t| self.holds(&t) == Ok(true));
+        let single = slips(tokens, &Notation::MATRICES, &known, &known);
+        let (bracket, moved) = (brackets(tokens), moved_brackets(tokens));
+        let one = single.iter().chain(&bracket).chain(&moved).find(|edit| holds(&[edit]));
+        let found = one.map(|edit| vec![edit]).or_else(|| {
+            let index = single.iter().filter(|edit| edit.slip == Slip::Index).take(PAIRED);
+            every_pair(index, &holds)
+        })?;
+        let steps = (1..=found.len()).map(|count| mended(&found[..count]));
+        core::iter::once(Some(printed.clone())).chain(steps).collect()
     }
-}
-
-/// Whether a slip is one of an index: only such are tried in pairs.
-fn of_an_index(what: &str) -> bool {
-    what.contains(",") || what.contains("\\prod")
 }
 
 fn same(a: &Dense, b: &Dense) -> bool {

@@ -5,10 +5,12 @@ use std::collections::HashMap;
 
 use super::dense::{self, Dense};
 use super::evaluate::Symbols;
-use super::parse;
 use super::transform::transform;
-use super::tree::Tree;
-use crate::exact::derived::Setting;
+use crate::exact::derived::{Path, Setting};
+use crate::latex::lexer::{Lexeme, Token};
+use crate::latex::notation::Notation;
+use crate::latex::parser::parse;
+use crate::latex::tree::Tree;
 use stiffarm_codegen::derive::{Output, Program, derive_in};
 use stiffarm_codegen::robot::{Robot, Value};
 
@@ -45,6 +47,21 @@ enum Source {
     PseudoInverse(String),
 }
 
+/// The token of a text that is a single symbol of matrices.
+pub fn single(latex: &str) -> Option<Token> {
+    let mut tokens = crate::latex::lexer::lex(latex, &Notation::MATRICES).ok()?;
+    let token = tokens.pop().filter(|token| matches!(token.is, Lexeme::Name(_)))?;
+    tokens.is_empty().then_some(token)
+}
+
+/// Its key; of a family `K_#`, one for each value of its index.
+fn key(token: &Token) -> String {
+    match &token.is {
+        Lexeme::Name(name) => name.counted(&HashMap::new()),
+        _ => token.text.clone(),
+    }
+}
+
 /// The symbols of one relation.
 pub struct Sources {
     known: HashMap<String, Source>,
@@ -54,11 +71,13 @@ pub struct Sources {
     /// Symbols that stand for formulas of others.
     pub formulas: HashMap<String, Tree>,
     /// How the symbols are printed, by which a misprint may have been meant.
-    pub printed: Vec<super::tree::Name>,
+    pub printed: Vec<Token>,
     given: HashMap<String, f64>,
-    /// Which point this is: all random numbers follow from it.
-    point: u64,
 }
+
+/// The symbols at one point: all random numbers follow from its number.
+#[derive(Clone, Copy)]
+pub struct At<'s>(pub &'s Sources, pub u64);
 
 impl Sources {
     /// Reads what each symbol stands for. `given` are values of the data file.
@@ -78,25 +97,23 @@ impl Sources {
             formulas: HashMap::new(),
             printed: Vec::new(),
             given: given.clone(),
-            point: 0,
         };
         for (symbol, text) in symbols {
-            let name = parse::name(symbol).ok_or_else(|| format!("`{symbol}` is no symbol"))?;
-            // A family, one for each value of its index.
-            let key = name.key(&HashMap::new());
+            let token = single(symbol).ok_or_else(|| format!("`{symbol}` is no symbol"))?;
+            let key = key(&token);
             if let Some(number) = text.strip_prefix("index ") {
                 let number = number.parse().map_err(|_| format!("`{text}` is no index"))?;
                 out.counted.insert(key, number);
                 continue;
             }
             if let Some(formula) = text.strip_prefix('=') {
-                let sides = parse::sides(formula).map_err(|(at, why)| format!("{at}: {why}"))?;
-                out.formulas.insert(key, sides.into_iter().next().ok_or("an empty formula")?);
+                let formula = parse(formula, &Notation::MATRICES).map_err(|m| m.message)?;
+                out.formulas.insert(key, formula);
             } else {
                 let source = out.source(text.trim(), setting)?;
                 out.known.insert(key, source);
             }
-            out.printed.push(name);
+            out.printed.push(token);
         }
         Ok(out)
     }
@@ -127,8 +144,7 @@ impl Sources {
             ["identity", n] => size(n).map(Source::Identity),
             ["ones", n] => size(n).map(Source::Ones),
             ["pseudo-inverse", "of", other] => {
-                let other = parse::name(other).ok_or_else(unknown)?;
-                Some(Source::PseudoInverse(other.key(&HashMap::new())))
+                Some(Source::PseudoInverse(key(&single(other).ok_or_else(unknown)?)))
             }
             ["stiffness"] => Some(Source::Stiffness),
             ["wrench"] => Some(Source::Wrench),
@@ -148,37 +164,25 @@ impl Sources {
     /// `jacobian`, `pose[1][4]`.
     fn output(&self, path: &str) -> Option<Source> {
         let robot = self.robot.as_ref()?;
-        let (name, indices) = path.split_at(path.find('[').unwrap_or(path.len()));
-        let output = Output::EACH.into_iter().find(|output| output.name() == name)?;
-        let mut each = indices.split_terminator(']').map(|part| part.strip_prefix('['));
-        let mut index = || each.next().flatten()?.parse::<usize>().ok()?.checked_sub(1);
+        let path = Path::read(path).ok()?;
+        let output = Output::EACH.into_iter().find(|output| output.name() == path.name)?;
         let shape = output.shape(robot.dof());
-        let entry = match indices {
-            "" => None,
-            _ => {
-                let row = index()?;
-                // A vector's entry has one index.
-                let column = if shape.1 == 1 { index().unwrap_or(0) } else { index()? };
-                Some((row, column)).filter(|(row, column)| *row < shape.0 && *column < shape.1)
-            }
-        };
-        if entry.is_none() && !indices.is_empty() {
-            return None;
-        }
+        let entry = path.entry(shape).ok()?;
         Some(Source::Output { program: Box::new(derive_in(robot, &[output], 0)), shape, entry })
     }
+}
 
-    /// Goes to another point, and gives its posture.
-    pub fn go_to(&mut self, point: u64) -> Vec<f64> {
-        self.point = point;
-        let joints = self.robot.as_ref().map_or(JOINTS, Robot::dof);
+impl At<'_> {
+    /// Its posture.
+    pub fn posture(&self) -> Vec<f64> {
+        let joints = self.0.robot.as_ref().map_or(JOINTS, Robot::dof);
         (0..joints).map(|k| 1.3 * self.random("q", k)).collect()
     }
 
     /// A number from −1 to 1 that follows from the point, a name and a count (FNV-1a, then a mixing
     /// step of SplitMix64).
     fn random(&self, name: &str, k: usize) -> f64 {
-        let bytes = name.bytes().chain(k.to_le_bytes()).chain(self.point.to_le_bytes());
+        let bytes = name.bytes().chain(k.to_le_bytes()).chain(self.1.to_le_bytes());
         let mut hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
         });
@@ -189,7 +193,7 @@ impl Sources {
 
     /// A value above zero.
     fn positive(&self, name: &str) -> f64 {
-        self.given.get(name).copied().unwrap_or_else(|| 1.5 + 0.9 * self.random(name, 0))
+        self.0.given.get(name).copied().unwrap_or_else(|| 1.5 + 0.9 * self.random(name, 0))
     }
 
     fn of_source(&self, key: &str, source: &Source, q: &[f64]) -> Result<Dense, String> {
@@ -229,7 +233,7 @@ impl Sources {
                 entry.map_or(whole.clone(), |(r, c)| dense::scalar(whole[(r, c)]))
             }
             Source::Stiffness => {
-                let joints = self.robot.as_ref().map_or(&[][..], |robot| &robot.joints);
+                let joints = self.0.robot.as_ref().map_or(&[][..], |robot| &robot.joints);
                 let each: Vec<f64> = joints
                     .iter()
                     .map(|joint| match &joint.stiffness {
@@ -255,9 +259,9 @@ impl Sources {
     }
 }
 
-impl Symbols for Sources {
+impl Symbols for At<'_> {
     fn value(&self, key: &str, q: &[f64]) -> Result<Option<Dense>, String> {
-        if let Some(n) = self.counted.get(key) {
+        if let Some(n) = self.0.counted.get(key) {
             return Ok(Some(dense::scalar(*n as f64)));
         }
         // `K_2,kin` is of the family `K_#,kin`.
@@ -271,7 +275,7 @@ impl Symbols for Sources {
             }
             None => key.to_owned(),
         };
-        let source = self.known.get(key).or_else(|| self.known.get(&family));
+        let source = self.0.known.get(key).or_else(|| self.0.known.get(&family));
         source.map(|source| self.of_source(key, source, q)).transpose()
     }
 }

@@ -111,15 +111,15 @@ fn what_is_no_source_is_named() {
         assert!(note.contains(message) || note.contains("`A`"), "{source}: {note}");
     }
     let text = format!(
-        "{ROBOT}[[equation]]\nnumber = '(1)'\nlatex = 'A = B^4'\nmatrices = {{ A = 'random 3' }}\n"
+        "{ROBOT}[[equation]]\nnumber = '(1)'\nlatex = 'A = B^x'\nmatrices = {{ A = 'random 3' }}\n"
     );
     let error = read(&text, "x.toml").err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(error.contains("`4` is no power of a matrix") && error.contains("latex = 'A = B^4'"));
+    assert!(error.contains("`x` is no power of a matrix") && error.contains("latex = 'A = B^x'"));
     let text = format!(
         "{ROBOT}[[equation]]\nnumber = '(1)'\nlatex = 'A = B'\n\
          matrices = {{ A = '= B (', 'a b' = 'random 3' }}\n"
     );
     let error = read(&text, "x.toml").err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(error.contains("the end stands where a matrix is expected"), "{error}");
+    assert!(error.contains("the formula ends where a term is expected"), "{error}");
     assert!(error.contains("`a b` is no symbol of a matrix"), "{error}");
 }

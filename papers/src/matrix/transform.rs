@@ -2,7 +2,7 @@
 
 use super::dense::Dense;
 use crate::exact::derived::Setting;
-use crate::exact::evaluate::{Arithmetic, Real};
+use crate::exact::evaluate::{Arithmetic, NoValue, Real};
 use crate::exact::product::{Matrix, product};
 
 /// A part of a product of elementary transforms: its rotation, its position, the matrix of the
@@ -20,11 +20,10 @@ pub(super) fn transform(
         Some(0.3 + f64::from(sum % 1000) / 700.0)
     };
     let numbers = |matrix: &Matrix| {
-        let each: Option<Vec<f64>> =
+        let each: Result<Vec<f64>, NoValue> =
             matrix.entries.iter().map(|entry| Real(value).rational(entry)).collect();
-        let columns = matrix.columns;
-        each.map(|each| Dense::from_fn(each.len() / columns, columns, |r, c| each[r * columns + c]))
-            .ok_or("the product has no value here")
+        each.map(|each| Dense::from_row_slice(matrix.rows(), matrix.columns, &each))
+            .map_err(|NoValue| "the product has no value here")
     };
     if part == "transport" {
         let transport = whole.transport().map_err(|why| format!("{why:?}"))?;

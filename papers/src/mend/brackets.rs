@@ -3,13 +3,17 @@
 use super::edit::{Edit, Slip, token};
 use crate::latex::lexer::{Bracket, Lexeme, Token};
 
+/// Whether it is a bracket that is printed as one.
+fn visible(t: &Token) -> bool {
+    match t.is {
+        Lexeme::Open(b) | Lexeme::Close(b) => !matches!(b, Bracket::Group | Bracket::Matrix),
+        _ => false,
+    }
+}
+
 /// Slips of brackets: one too many, one too few, one elsewhere; a power that belongs to the next
 /// one.
 pub fn brackets(tokens: &[Token]) -> Vec<Edit> {
-    let visible = |t: &Token| match t.is {
-        Lexeme::Open(b) | Lexeme::Close(b) => b != Bracket::Group,
-        _ => false,
-    };
     let mut edits = Vec::new();
     for (i, t) in tokens.iter().enumerate() {
         if let Lexeme::Power(_) = t.is {
@@ -52,13 +56,16 @@ pub fn brackets(tokens: &[Token]) -> Vec<Edit> {
 pub fn moved_brackets(tokens: &[Token]) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (i, t) in tokens.iter().enumerate() {
-        let fits: fn(&Token, &Token) -> bool = match t.is {
-            Lexeme::Open(b) if b != Bracket::Group => |_, next| begins(&next.is),
-            Lexeme::Close(b) if b != Bracket::Group => |last, _| ends(&last.is),
-            _ => continue,
+        if !visible(t) {
+            continue;
+        }
+        let opens = matches!(t.is, Lexeme::Open(_));
+        let fits = |k: usize| match k.checked_sub(1).filter(|_| !opens) {
+            Some(before) => ends(&tokens[before].is),
+            None => opens && begins(&tokens[k].is),
         };
-        for k in 1..tokens.len() {
-            if k != i && k != i + 1 && fits(&tokens[k - 1], &tokens[k]) {
+        for k in 0..tokens.len() {
+            if k != i && k != i + 1 && fits(k) {
                 let what = format!("`{}` belongs before `{}`", t.text, tokens[k].text);
                 let mut parts = vec![(i..i + 1, Vec::new()), (k..k, vec![t.clone()])];
                 parts.sort_by_key(|(at, _)| at.start);
@@ -72,17 +79,20 @@ pub fn moved_brackets(tokens: &[Token]) -> Vec<Edit> {
 pub(super) fn begins(is: &Lexeme) -> bool {
     matches!(
         is,
-        Lexeme::Name { .. }
+        Lexeme::Name(_)
             | Lexeme::Number(_)
             | Lexeme::Open(_)
             | Lexeme::Minus
             | Lexeme::Function(_)
             | Lexeme::Frac
+            | Lexeme::Trace
+            | Lexeme::Over(_)
     )
 }
 
 pub(super) fn ends(is: &Lexeme) -> bool {
-    matches!(is, Lexeme::Name { .. } | Lexeme::Number(_) | Lexeme::Close(_) | Lexeme::Power(_))
+    use Lexeme::{Close, Name, Number, Power, Transposed};
+    matches!(is, Name(_) | Number(_) | Close(_) | Power(_) | Transposed { .. })
 }
 
 /// The token, with what a power is a power of.

@@ -1,7 +1,7 @@
 //! The part of a formula in which slips add up.
 
 use crate::exact::evaluate::Arithmetic;
-use crate::exact::field::Modular;
+use crate::exact::field::{Modular, minus};
 use crate::latex::tree::Tree;
 
 /// Values at the two points by which candidates are judged.
@@ -21,13 +21,12 @@ impl Core {
         let at = |k: usize| -> Option<(u64, u64)> {
             let f: &Modular = &points[k];
             if !root {
-                return Some((1, f.tree(tree)?));
+                return Some((1, f.tree(tree).ok()?));
             }
-            let product =
-                |trees: &[&Tree]| trees.iter().try_fold(1, |p, t| Some(f.mul(p, f.tree(t)?)));
+            let product = |trees: &[&Tree]| trees.iter().try_fold(1, |p, t| f.mul(p, f.tree(t)?));
             let over =
                 |(above, below): &(Vec<&Tree>, Vec<&Tree>)| f.div(product(above)?, product(below)?);
-            Some((over(&rest)?, product(&squared)?))
+            over(&rest).and_then(|rest| Ok((rest, product(&squared)?))).ok()
         };
         let (a, b) = (at(0)?, at(1)?);
         Some(Core { root, rest: [a.0, b.0], value: [a.1, b.1] })
@@ -40,10 +39,10 @@ impl Core {
         }
         let root = |k: usize| -> Option<u64> {
             let f: &Modular = &points[k];
-            f.sqrt(f.div(truth[k], self.rest[k])?)
+            f.div(truth[k], self.rest[k]).and_then(|square| f.sqrt(square)).ok()
         };
         let (a, b) = (root(0)?, root(1)?);
-        let (minus_a, minus_b) = (points[0].sub(0, a), points[1].sub(0, b));
+        let (minus_a, minus_b) = (minus(0, a), minus(0, b));
         Some(vec![[a, b], [a, minus_b], [minus_a, b], [minus_a, minus_b]])
     }
 }

@@ -13,12 +13,14 @@ pub enum Slip {
     Function,
     /// An index.
     Index,
-    /// A power.
+    /// A power, or a transposition.
     Power,
     /// A bracket that is missing, too many or in the wrong place.
     Bracket,
     /// Another symbol.
     Symbol,
+    /// Factors that change places.
+    Order,
     /// A factor or term too many.
     Extra,
     /// A factor that is missing.
@@ -35,6 +37,7 @@ impl Slip {
             Slip::Power => "power",
             Slip::Bracket => "bracket",
             Slip::Symbol => "symbol",
+            Slip::Order => "order",
             Slip::Extra => "too much",
             Slip::Missing => "missing",
         }

@@ -8,10 +8,11 @@
 mod brackets;
 mod core;
 mod edit;
+mod matrices;
 mod search;
 mod slips;
 
 pub use brackets::{brackets, moved_brackets};
 pub use edit::{Edit, Slip, apply, written};
-pub use search::{Search, mend};
+pub use search::{Search, every_pair, mend};
 pub use slips::{Inventory, slips};

@@ -7,10 +7,11 @@ use super::core::{Core, Pair};
 use super::edit::{Edit, Slip, apply};
 use super::slips::{Inventory, slips};
 use crate::exact::evaluate::Arithmetic;
-use crate::exact::field::Modular;
+use crate::exact::field::{Modular, minus};
 use crate::exact::rational::Rational;
 use crate::latex::lexer::{Lexeme, Token};
-use crate::latex::notation::{Notation, key};
+use crate::latex::name::Name;
+use crate::latex::notation::Notation;
 use crate::latex::parser::parse_tokens;
 use crate::latex::tree::Tree;
 
@@ -46,15 +47,9 @@ pub fn mend(search: &Search<'_>, confirm: impl Fn(&[Token]) -> bool) -> Option<V
         eye.agrees(&tokens) && confirm(&tokens)
     };
     let owned = |edits: &[&Edit]| Some(edits.iter().map(|e| (*e).clone()).collect());
-    for edit in single.iter().chain(&bracket) {
-        if accept(&[edit]) {
-            return owned(&[edit]);
-        }
-    }
-    for edit in &moved_brackets(search.tokens) {
-        if accept(&[edit]) {
-            return owned(&[edit]);
-        }
+    let moved = moved_brackets(search.tokens);
+    if let Some(edit) = single.iter().chain(&bracket).chain(&moved).find(|e| accept(&[e])) {
+        return owned(&[edit]);
     }
     if let Some(found) = same_term(&single, &accept) {
         return owned(&found);
@@ -73,7 +68,7 @@ pub fn mend(search: &Search<'_>, confirm: impl Fn(&[Token]) -> bool) -> Option<V
         }
     }
     if search.tokens.len() <= SHORT
-        && let Some(found) = every_pair(&single, &bracket, &accept)
+        && let Some(found) = every_pair(single.iter().chain(&bracket), &accept)
     {
         return owned(&found);
     }
@@ -94,14 +89,13 @@ fn wanted_names(search: &Search<'_>) -> Inventory {
     let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
     search.truth.names(&mut angles, &mut symbols);
     for token in search.inventory.tokens() {
-        let Lexeme::Name { base, sub } = &token.is else { continue };
-        let name = key(base, sub.as_deref());
-        if angles.contains(&name) || symbols.contains(&name) {
+        let Lexeme::Name(name) = &token.is else { continue };
+        if angles.contains(&name.key) || symbols.contains(&name.key) {
             names.add(std::slice::from_ref(token));
         }
     }
     for name in symbols.iter().filter(|name| name.chars().count() == 1) {
-        let is = Lexeme::Name { base: name.clone(), sub: None };
+        let is = Lexeme::Name(Name::new(name.clone(), None, name).into());
         names.add(&[Token { is, text: name.clone(), at: 0..0 }]);
     }
     names
@@ -138,20 +132,15 @@ fn same_term<'e>(single: &'e [Edit], accept: &dyn Fn(&[&Edit]) -> bool) -> Optio
     None
 }
 
-fn every_pair<'e>(
-    single: &'e [Edit],
-    bracket: &'e [Edit],
+/// The first two that are accepted together.
+pub fn every_pair<'e>(
+    slips: impl Iterator<Item = &'e Edit>,
     accept: &dyn Fn(&[&Edit]) -> bool,
 ) -> Option<Vec<&'e Edit>> {
-    let all: Vec<&Edit> = single.iter().chain(bracket).collect();
-    for (i, a) in all.iter().enumerate() {
-        for b in &all[i + 1..] {
-            if !a.clashes(b) && accept(&[a, b]) {
-                return Some(vec![a, b]);
-            }
-        }
-    }
-    None
+    let all: Vec<&Edit> = slips.collect();
+    let pairs = all.iter().enumerate().flat_map(|(i, a)| all[i + 1..].iter().map(|b| [*a, *b]));
+    let mut apart = pairs.filter(|[a, b]| !a.clashes(b));
+    apart.find(|pair| accept(pair)).map(Vec::from)
 }
 
 /// Tokens between the first and the last of some edits.
@@ -174,10 +163,10 @@ impl<'a> Eye<'a> {
         for seed in 1..40 {
             let mut point = Modular::point(seed);
             for (name, value) in search.defined {
-                let value = point.rational(value)?;
+                let value = point.rational(value).ok()?;
                 point.defined.insert(name.clone(), value);
             }
-            if let Some(value) = point.rational(search.truth) {
+            if let Ok(value) = point.rational(search.truth) {
                 points.push(point);
                 truth.push(value);
             }
@@ -196,7 +185,7 @@ impl<'a> Eye<'a> {
 
     fn agrees(&self, tokens: &[Token]) -> bool {
         let Some(tree) = self.tree(tokens) else { return false };
-        (0..2).all(|k| self.points[k].tree(&tree) == Some(self.truth[k]))
+        (0..2).all(|k| self.points[k].tree(&tree) == Ok(self.truth[k]))
     }
 
     /// Up to `count` slips in different terms, on top of `base`; of several ways the one in which
@@ -218,19 +207,19 @@ impl<'a> Eye<'a> {
             let tree = self.tree(&apply(self.search.tokens, &edits));
             let Some(core) = tree.and_then(|t| Core::of(&t, &self.points)) else { continue };
             if core.rest == start.rest && core.root == start.root && core.value != start.value {
-                changes.push((self.minus(core.value, start.value), edit));
+                changes.push((difference(core.value, start.value), edit));
             }
         }
         let table: HashMap<Pair, &Edit> =
             changes.iter().rev().map(|(change, edit)| (*change, *edit)).collect();
         let mut found: Vec<Vec<&Edit>> = Vec::new();
         for goal in wanted {
-            let gap = self.minus(goal, start.value);
+            let gap = difference(goal, start.value);
             found.extend(table.get(&gap).map(|edit| vec![*edit]));
             for (i, (change, edit)) in changes.iter().enumerate().filter(|_| count > 1) {
-                let gap = self.minus(gap, *change);
+                let gap = difference(gap, *change);
                 let others: &[(Pair, &Edit)] = if count > 2 { &changes[i + 1..] } else { &[] };
-                let thirds = others.iter().map(|(c, e)| (self.minus(gap, *c), Some(*e)));
+                let thirds = others.iter().map(|(c, e)| (difference(gap, *c), Some(*e)));
                 for (gap, second) in std::iter::once((gap, None)).chain(thirds) {
                     if let Some(last) = table.get(&gap) {
                         let mut edits = vec![*edit];
@@ -251,10 +240,10 @@ impl<'a> Eye<'a> {
             accept(&all).then_some(all)
         })
     }
+}
 
-    fn minus(&self, a: Pair, b: Pair) -> Pair {
-        [self.points[0].sub(a[0], b[0]), self.points[1].sub(a[1], b[1])]
-    }
+fn difference(a: Pair, b: Pair) -> Pair {
+    [minus(a[0], b[0]), minus(a[1], b[1])]
 }
 
 #[cfg(test)]

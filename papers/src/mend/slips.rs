@@ -1,12 +1,15 @@
 //! Every single slip that could have led to what is printed.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use num_rational::Ratio;
 
 use super::brackets::{begins, beside};
 use super::edit::{Edit, Slip, token};
+use super::matrices;
 use crate::latex::lexer::{Bracket, Lexeme, Token};
+use crate::latex::name::Name;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Function;
 
@@ -18,8 +21,8 @@ impl Inventory {
     /// Adds the names of a formula.
     pub fn add(&mut self, tokens: &[Token]) {
         for token in tokens {
-            if let Lexeme::Name { base, sub } = &token.is {
-                let spelt = format!("{base}_{}", sub.as_deref().unwrap_or_default());
+            if let Lexeme::Name(name) = &token.is {
+                let spelt = format!("{}_{}", name.base, name.sub.as_deref().unwrap_or_default());
                 self.0.entry(spelt).or_insert_with(|| token.clone());
             }
         }
@@ -52,23 +55,28 @@ pub fn slips(
             }
             Lexeme::Power(p) => powers(tokens, i, *p, &mut edits),
             Lexeme::Number(n) => numbers(tokens, i, *n, own, &mut edits),
-            Lexeme::Name { base, .. } => {
-                names(tokens, i, base, notation, inventory, own, &mut edits);
+            Lexeme::Name(name) => names(tokens, i, name, notation, inventory, own, &mut edits),
+            Lexeme::Over(over) => edits.extend(matrices::other_counts(t, i, over)),
+            Lexeme::Transposed { .. } => {
+                let what = format!("`{}` is too many", t.text);
+                edits.push(Edit::new(Slip::Power, i..i + 1, Vec::new(), what));
             }
             _ => {}
         }
-        if let (Lexeme::Name { base, sub: None }, Some(next)) = (&t.is, tokens.get(i + 1))
-            && let Lexeme::Name { sub: Some(sub), .. } = &next.is
+        if let (Lexeme::Name(name), Some(next)) = (&t.is, tokens.get(i + 1))
+            && let (None, Lexeme::Name(indexed)) = (&name.sub, &next.is)
+            && let Some(sub) = &indexed.sub
         {
             // A stray letter between a letter and its index.
-            let is = Lexeme::Name { base: base.clone(), sub: Some(sub.clone()) };
             let index = &next.text[next.text.find('_').unwrap_or(0)..];
-            let by = token(is, &format!("{}{index}", t.text));
+            let text = format!("{}{index}", t.text);
+            let by = token(Lexeme::Name(name.under(sub.clone()).into()), &text);
             let what = format!("`{} {}` → `{}`", t.text, next.text, by.text);
             edits.push(Edit::new(Slip::Symbol, i..i + 2, vec![by], what));
         }
-        let starts = i == 0 || matches!(tokens[i - 1].is, Lexeme::Open(b) if b != Bracket::Group);
-        if starts && !matches!(t.is, Lexeme::Plus | Lexeme::Minus | Lexeme::Close(_)) {
+        let starts =
+            i == 0 || tokens[i - 1].is.opens() && tokens[i - 1].is != Lexeme::Open(Bracket::Group);
+        if starts && !matches!(t.is, Lexeme::Plus | Lexeme::Minus) && !t.is.closes() {
             let what = format!("a minus before `{}`", t.text);
             let minus = vec![token(Lexeme::Minus, "-")];
             edits.push(Edit::new(Slip::Sign, i..i, minus, what));
@@ -76,6 +84,12 @@ pub fn slips(
     }
     terms(tokens, &mut edits);
     missing(tokens, own, &mut edits);
+    if notation.matrices {
+        edits.extend(matrices::missing_behind(tokens, own));
+        // A number in front of a product stays in front: what is missing is tried from the right.
+        edits.sort_by_key(|e| (e.slip == Slip::Missing).then(|| Reverse(e.parts[0].0.start)));
+        edits.extend(matrices::exchanged(tokens));
+    }
     edits.sort_by_key(|e| e.slip);
     edits
 }
@@ -93,7 +107,7 @@ fn swap(slip: Slip, tokens: &[Token], i: usize, by: Token) -> Edit {
         _ => "",
     };
     let beside = match i.checked_sub(1).map(|k| &tokens[k]) {
-        Some(t) if matches!(t.is, Lexeme::Name { .. }) => format!(" after `{}`", t.text),
+        Some(t) if matches!(t.is, Lexeme::Name(_)) => format!(" after `{}`", t.text),
         _ => String::new(),
     };
     let what = format!("`{}{context}` → `{}{context}`{beside}", tokens[i].text, by.text);
@@ -138,45 +152,48 @@ fn numbers(tokens: &[Token], i: usize, n: Ratio<i128>, own: &Inventory, edits: &
 fn names(
     tokens: &[Token],
     i: usize,
-    base: &str,
+    name: &Name,
     notation: &Notation,
     inventory: &Inventory,
     own: &Inventory,
     edits: &mut Vec<Edit>,
 ) {
     let function = |t: &Token| match &t.is {
-        Lexeme::Name { base, sub } => notation.function(base, sub.as_deref()),
+        Lexeme::Name(name) => notation.function(&name.base, name.sub.as_deref()),
         _ => None,
     };
     let here = function(&tokens[i]);
-    if let (Lexeme::Name { base, sub }, Some((f, _))) = (&tokens[i].is, &here) {
-        let family = notation.functions.iter().find(|(letter, ..)| letter == base).map(|f| &f.2);
+    if let Some((f, _)) = &here {
+        let family = notation.functions.iter().find(|f| f.0 == name.base).map(|f| &f.2);
         let partner = notation
             .functions
             .iter()
             .find(|(_, g, angle)| *g == f.other() && Some(angle) == family);
         if let Some((letter, ..)) = partner {
             let rest = &tokens[i].text[tokens[i].text.find('_').unwrap_or(0)..];
-            let is = Lexeme::Name { base: letter.clone(), sub: sub.clone() };
-            let by = token(is, &format!("{letter}{rest}"));
+            let text = format!("{letter}{rest}");
+            let is = Name::new(letter.clone(), name.sub.clone(), &text);
+            let by = token(Lexeme::Name(is.into()), &text);
             edits.push(swap(Slip::Function, tokens, i, by));
         }
     }
     for (spelling, other) in &inventory.0 {
-        let Lexeme::Name { base: letter, .. } = &other.is else { continue };
+        let Lexeme::Name(letter) = &other.is else { continue };
+        let kindred = letter.base == name.base;
         if other.is == tokens[i].is {
             continue;
         }
         let kin = match (&here, function(other)) {
             (Some(_), Some(_)) => true,
-            (None, None) => letter == base || own.0.contains_key(spelling),
+            (None, None) => kindred || own.0.contains_key(spelling),
             _ => own.0.contains_key(spelling),
         };
         if kin {
-            let slip = if letter == base { Slip::Index } else { Slip::Symbol };
+            let slip = if kindred { Slip::Index } else { Slip::Symbol };
             edits.push(swap(slip, tokens, i, other.clone()));
         }
     }
+    edits.extend(matrices::other_indices(name).map(|by| swap(Slip::Index, tokens, i, by)));
     let power = matches!(tokens.get(i + 1).map(|t| &t.is), Some(Lexeme::Power(_)));
     let end = i + 1 + usize::from(power);
     let dropped: String = tokens[i..end].iter().map(|t| t.text.as_str()).collect();
@@ -185,9 +202,12 @@ fn names(
         edits.push(Edit::new(Slip::Extra, i..end, Vec::new(), what));
     }
     if !power {
-        for n in [2, 3] {
-            let what = format!("`{0}` → `{0}^{n}`", tokens[i].text);
-            let by = vec![token(Lexeme::Power(n), &format!("^{n}"))];
+        let (two, three) = ((Lexeme::Power(2), "^2"), (Lexeme::Power(3), "^3"));
+        let inverse = (Lexeme::Power(-1), "^{-1}");
+        let transposed = (Lexeme::Transposed { inverse: false }, "^T");
+        for (is, text) in if notation.matrices { [transposed, inverse] } else { [two, three] } {
+            let what = format!("`{0}` → `{0}{text}`", tokens[i].text);
+            let by = vec![token(is, text)];
             edits.push(Edit::new(Slip::Power, i + 1..i + 1, by, what));
         }
     }
@@ -195,16 +215,16 @@ fn names(
 
 /// Whether the tokens make up a term by themselves.
 fn whole_term(tokens: &[Token], start: usize, end: usize) -> bool {
-    use Lexeme::{Close, Minus, Open, Plus};
+    let sign = |t: &Lexeme| matches!(t, Lexeme::Plus | Lexeme::Minus);
     let before = start.checked_sub(1).map(|k| &tokens[k].is);
-    let begins = before.is_none_or(|t| matches!(t, Plus | Minus | Open(_)));
-    begins && tokens.get(end).is_none_or(|t| matches!(t.is, Plus | Minus | Close(_)))
+    let begins = before.is_none_or(|t| sign(t) || t.opens());
+    begins && tokens.get(end).is_none_or(|t| sign(&t.is) || t.is.closes())
 }
 
 /// Whole terms that are too many.
 fn terms(tokens: &[Token], edits: &mut Vec<Edit>) {
     for start in 0..tokens.len() {
-        let first = start == 0 || matches!(tokens[start - 1].is, Lexeme::Open(_));
+        let first = start == 0 || tokens[start - 1].is.opens();
         let signed = matches!(tokens[start].is, Lexeme::Plus | Lexeme::Minus);
         if !first && !signed {
             continue;
@@ -214,7 +234,7 @@ fn terms(tokens: &[Token], edits: &mut Vec<Edit>) {
         while let Some(t) = tokens.get(end) {
             match t.is {
                 Lexeme::Open(_) => depth += 1,
-                Lexeme::Close(_) if depth == 0 => break,
+                _ if depth == 0 && t.is.closes() => break,
                 Lexeme::Close(_) => depth -= 1,
                 Lexeme::Plus | Lexeme::Minus if depth == 0 => break,
                 _ => {}

@@ -1,4 +1,6 @@
 use super::*;
+use crate::exact::evaluate::Arithmetic;
+use crate::exact::rational::Exact;
 use crate::latex::parser::parse;
 
 const ARM: &str = "name = \"x\"\nconvention = \"standard\"\n\
@@ -17,7 +19,7 @@ fn setting() -> Setting {
 
 fn exact(text: &str) -> Rational {
     let tree = parse(text, &Notation::default()).unwrap();
-    Rational::of_tree(&tree, &HashMap::new()).unwrap()
+    Exact(&HashMap::new()).tree(&tree).unwrap()
 }
 
 #[test]

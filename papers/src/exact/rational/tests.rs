@@ -4,7 +4,7 @@ use crate::latex::parser::parse;
 
 fn read(text: &str) -> Rational {
     let tree = parse(text, &Notation::default()).unwrap();
-    Rational::of_tree(&tree, &HashMap::new()).unwrap()
+    Exact(&HashMap::new()).tree(&tree).unwrap()
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn integrals_are_exact() {
 fn what_has_no_exact_form_says_why() {
     let inexact = |text: &str| {
         let tree = parse(text, &Notation::default()).unwrap();
-        Rational::of_tree(&tree, &HashMap::new()).unwrap_err()
+        Exact(&HashMap::new()).tree(&tree).unwrap_err()
     };
     assert_eq!(inexact("\\sqrt{a+b}"), Inexact::Root);
     assert_eq!(inexact("\\frac{1}{a-a}"), Inexact::Zero);

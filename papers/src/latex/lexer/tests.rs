@@ -1,11 +1,10 @@
-use super::super::notation::Slash;
 use super::*;
 
 fn texts(text: &str) -> Vec<String> {
     let notation = Notation {
         functions: vec![("cd".into(), Function::Cos, "d\\phi".into())],
         names: vec!["RL".into(), "\\delta x".into()],
-        slash: Slash::Factor,
+        ..Notation::default()
     };
     lex(text, &notation).unwrap().into_iter().map(|t| t.text).collect()
 }
@@ -34,4 +33,22 @@ fn mistakes_have_a_place() {
     assert_eq!(at("a^x"), 1..3);
     assert_eq!(at("a_{2"), 2..3);
     assert_eq!(at("_2"), 0..1);
+}
+
+#[test]
+fn matrices_may_have_a_typeface_an_accent_and_an_index_before_them() {
+    let key = |text: &str| match &lex(text, &Notation::MATRICES).unwrap()[..] {
+        [Token { is: Lexeme::Name(name), .. }] => name.counted(&Default::default()),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(key("\\mathbf{K}_\\theta"), "K_theta");
+    assert_eq!(key("{}^B\\dot w_d"), "^Bdotw_d");
+    assert_eq!(key("\\mathbf{I}_{3 \\times 3}"), "I_3times3");
+    assert_eq!(key("\\overline{\\boldsymbol{\\Gamma}}"), "overlineGamma");
+    let text = "\\text{tr}(A_\\otimes^{-T} \\ldots)\\prod_{j = 1}^n \\begin{bmatrix} a & b \\\\ c";
+    let is: Vec<_> = lex(text, &Notation::MATRICES).unwrap().into_iter().map(|t| t.is).collect();
+    let over = |token: &Lexeme| matches!(token, Lexeme::Over(over) if over.from == "1");
+    assert!(is[0] == Lexeme::Trace && is[3] == Lexeme::Transposed { inverse: true });
+    assert!(over(&is[5]) && is[6] == Lexeme::Open(Bracket::Matrix) && is[8] == Lexeme::Cell);
+    assert_eq!((is.len(), &is[10]), (12, &Lexeme::Row));
 }

@@ -5,34 +5,32 @@ use num_rational::Ratio;
 use super::{Parser, collect};
 use crate::latex::lexer::{Bracket, Lexeme, Token};
 use crate::latex::mistake::Mistake;
-use crate::latex::notation::key;
 use crate::latex::tree::{Angle, Function, Tree};
 
 impl Parser<'_> {
-    /// `\frac{\partial}{\partial P}(body)`.
+    /// `\frac{\partial}{\partial P}(body)`, `\frac{\partial body}{\partial P}`.
     pub(super) fn partial(&mut self) -> Result<Option<Tree>, Mistake> {
-        let is = |k: usize| self.tokens.get(self.next + k).map(|t| &t.is);
-        let open = Lexeme::Open(Bracket::Group);
-        if is(0) != Some(&open) || is(1) != Some(&Lexeme::Partial) {
+        let (open, close) = (Lexeme::Open(Bracket::Group), Lexeme::Close(Bracket::Group));
+        let ahead = self.tokens.get(self.next..self.next + 2);
+        if !ahead.is_some_and(|two| two[0].is == open && two[1].is == Lexeme::Partial) {
             return Ok(None);
         }
-        let close = Some(&Lexeme::Close(Bracket::Group));
-        let shape = is(2) == close
-            && is(3) == Some(&open)
-            && is(4) == Some(&Lexeme::Partial)
-            && is(6) == close;
-        let name = match is(5) {
-            Some(Lexeme::Name { base, sub }) if shape => key(base, sub.as_deref()),
-            _ => {
-                return Err(Mistake::new(
-                    self.here(),
-                    "a derivative is written \\frac{\\partial}{\\partial x}( … )",
-                ));
+        self.next += 2;
+        let above = if self.eat(&close) { None } else { Some(self.product()?) };
+        let divided = above.is_none() || self.eat(&close);
+        if divided
+            && self.eat(&open)
+            && self.eat(&Lexeme::Partial)
+            && let Some(Lexeme::Name(name)) = self.peek().map(|t| &t.is)
+        {
+            self.next += 1;
+            if self.eat(&close) {
+                let body = above.map_or_else(|| self.group(), Ok)?;
+                return Ok(Some(Tree::Derivative(Box::new(body), name.clone())));
             }
-        };
-        self.next += 7;
-        let body = self.group()?;
-        Ok(Some(Tree::Derivative(Box::new(body), name)))
+        }
+        let message = "a derivative is written \\frac{\\partial}{\\partial x}( … )";
+        Err(Mistake::new(self.here(), message))
     }
 
     /// `\int_{a}^{b} body dx`.
@@ -40,11 +38,12 @@ impl Parser<'_> {
         let from = self.group()?;
         let to = self.group()?;
         let body = self.group()?;
-        let d =
-            |token: &Token| matches!(&token.is, Lexeme::Name { base, sub: None } if base == "d");
-        let over = match (self.peek(), self.tokens.get(self.next + 1).map(|t| &t.is)) {
-            (Some(token), Some(Lexeme::Name { base, sub })) if d(token) => {
-                key(base, sub.as_deref())
+        let two = self.tokens.get(self.next..self.next + 2).unwrap_or_default();
+        let over = match two {
+            [Token { is: Lexeme::Name(d), .. }, Token { is: Lexeme::Name(over), .. }]
+                if d.base == "d" && d.sub.is_none() =>
+            {
+                over.key.clone()
             }
             _ => return Err(Mistake::new(self.here(), "an integral ends with d and its variable")),
         };

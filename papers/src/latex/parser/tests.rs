@@ -8,6 +8,7 @@ fn notation(slash: Slash) -> Notation {
         functions: vec![f("s", Function::Sin), f("c", Function::Cos)],
         names: vec!["RL".into()],
         slash,
+        matrices: false,
     }
 }
 
@@ -49,10 +50,32 @@ fn mistakes_point_at_their_character() {
 fn integrals_and_derivatives() {
     assert!(matches!(read("\\int_{0}^{L_1}(a x)dx"), Tree::Integral { over, .. } if over == "x"));
     let d = read("\\frac{\\partial}{\\partial P}(P a)");
-    assert!(matches!(d, Tree::Derivative(_, name) if name == "P"));
+    assert!(matches!(&d, Tree::Derivative(_, name) if name.base == "P"));
+    assert_eq!(read("\\frac{\\partial (P a)}{\\partial P}"), d);
+}
+
+#[test]
+fn mistakes_in_matrices_point_at_their_place() {
+    let at = |text: &str| {
+        let m = parse(text, &Notation::MATRICES).unwrap_err();
+        (m.at.start, m.message)
+    };
+    assert_eq!(at("A + ) B").0, 4);
+    assert_eq!(at("(A B"), (0, "this bracket is never closed".into()));
+    assert_eq!(at("\\|A (B").0, 4);
+    assert_eq!(at("A^x"), (1, "`x` is no power of a matrix: T, -T or a whole number".into()));
+    assert!(at("\\prod_j A").1.starts_with("a product is written"));
+    assert!(at("\\begin{bmatrix} A & \\end{bmatrix}").1.contains("stands where a term"));
 }
 
 proptest! {
+    #[test]
+    fn no_relation_panics(
+        text in "(\\\\(frac|sqrt|prod|dot|begin\\{bmatrix\\}|left|text|\\|)|[{}()^_&=+a1-]){0,14}",
+    ) {
+        let _ = parse(&text, &Notation::MATRICES);
+    }
+
     #[test]
     fn no_text_panics(text in "\\PC{0,60}") {
         let _ = parse(&text, &notation(Slash::Product));

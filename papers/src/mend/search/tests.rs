@@ -1,4 +1,5 @@
 use super::*;
+use crate::exact::rational::Exact;
 use crate::latex::lexer::lex;
 use crate::latex::tree::Function;
 
@@ -9,7 +10,7 @@ fn changes(printed: &str, truth: &str) -> Option<Vec<String>> {
     let tokens = lex(printed, &notation).unwrap();
     let exact = |tokens: &[Token]| {
         let tree = parse_tokens(tokens, &notation, 0).ok()?;
-        Rational::of_tree(&tree, &HashMap::new()).ok()
+        Exact(&HashMap::new()).tree(&tree).ok()
     };
     let truth = exact(&lex(truth, &notation).unwrap()).unwrap();
     let mut inventory = Inventory::default();
