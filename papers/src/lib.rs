@@ -9,8 +9,8 @@
 //!    a tree ([`latex::parser`]).
 //! 3. [`exact`]: what it should be is derived from the graph ([`exact::derived`]); both are brought
 //!    to one quotient of polynomials in symbols, sines and cosines ([`exact::rational`]) in which
-//!    equal functions are equal. What has no exact form is evaluated, in doubles and modulo a prime
-//!    ([`exact::evaluate`], [`exact::field`]).
+//!    equal functions are equal. What has no exact form is evaluated modulo a prime ([`exact::field`]);
+//!    one walk of the tree ([`exact::evaluate`]) serves these, doubles and matrices.
 //! 4. [`matrix`]: a relation between matrices is evaluated at random postures, loads and parameters.
 //! 5. [`mend`]: where the two differ, the smallest change of what is printed that makes it true.
 //! 6. [`ledger`]: the finding becomes a [`Verdict`] with its correction, its change and a joint
@@ -18,8 +18,8 @@
 //!    is written as text, Markdown, JSON or a page.
 //!
 //! What needs a paper's whole method is worked out by it: [`bicchi`], [`dumas`], [`jweeg`],
-//! [`knapczyk`], [`lin`], on the [`chain`] with an error at every place. `methods` calls them by the
-//! names that the data files use.
+//! [`knapczyk`], [`lin`], on the textbook and on the simulation of `stiffarm_gap`; Bicchi's recursion is
+//! its own. `methods` calls them by the names that the data files use.
 //!
 //! # Ours, and libraries
 //!
@@ -31,12 +31,9 @@
 #![forbid(unsafe_code)]
 
 pub mod bicchi;
-pub mod chain;
 pub mod dumas;
 pub mod exact;
 pub mod file;
-#[cfg(test)]
-mod fixture;
 pub mod jweeg;
 pub mod knapczyk;
 pub mod latex;
@@ -45,6 +42,7 @@ pub mod lin;
 pub mod matrix;
 pub mod mend;
 mod methods;
+pub mod transport;
 pub mod verdict;
 
 pub use file::{Paper, read};

@@ -1,5 +1,6 @@
 //! Jweeg & Al-Khafaji, "Kinematic analysis of semi-flexible robot" (2012): their equations against
-//! the chain, and the size of the difference that they publish.
+//! the simulation of a chain with those displacements, and the size of the difference that they
+//! publish.
 
 use nalgebra::{Matrix4, Vector3, Vector6};
 use proptest::prelude::*;
@@ -7,8 +8,9 @@ use stiffarm_codegen::derive::{Displacements, Form, flexible};
 use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, flexible_rust};
 use stiffarm_codegen::expr::Symbol;
 use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::displacement::Displacement;
+use stiffarm_gap::simulate::{Actual, Site, State, rest};
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::chain::{Chain, Displacement};
 use stiffarm_papers::jweeg::two_link::{Bend, TwoLink};
 use stiffarm_papers::jweeg::{growth, rpy};
 
@@ -41,18 +43,43 @@ fn matrix(columns: [[f64; 3]; 4]) -> Matrix4<f64> {
     })
 }
 
+/// A rigid arm with displacements at its places, by the simulation.
+fn simulated(arm: &Arm, errors: &[Displacement], q: &[f64]) -> State {
+    let mut rigid = arm.clone();
+    for joint in &mut rigid.joints {
+        (joint.compliance, joint.beam) = (0.0, None);
+    }
+    let mut actual = Actual::new(&rigid, q, &Vector6::zeros());
+    for (site, error) in sites(arm).zip(errors) {
+        *actual.fixed_at(site) = error.vector();
+    }
+    rest(&actual, None).unwrap()
+}
+
+/// The places of eq. 20.
+fn sites(arm: &Arm) -> impl Iterator<Item = Site> {
+    let rows = (0..arm.dof()).map(Site::Link);
+    core::iter::once(Site::Base).chain(rows).chain([Site::Tool])
+}
+
 /// The chain in each form: eq. 20 with eq. 18, with eq. 19, and to the strict first order.
 fn forms(arm: &Arm, errors: &[Displacement], q: &[f64]) -> [Matrix4<f64>; 3] {
-    let chain = Chain::new(arm, errors).unwrap();
+    let still = simulated(arm, &vec![Displacement::ZERO; errors.len()], q);
+    let each = sites(arm).zip(errors).map(|(site, error)| still.carry(site, &error.vector()));
+    let twist: Vector6<f64> = each.sum();
     let nominal = arm.pose(q).to_homogeneous();
-    let twist = chain.displacement_first_order(q).unwrap();
     let mut strict = nominal;
     let swung = twist.fixed_rows::<3>(3).into_owned().cross_matrix();
     let turned = nominal.fixed_view::<3, 3>(0, 0) + swung * nominal.fixed_view::<3, 3>(0, 0);
     strict.fixed_view_mut::<3, 3>(0, 0).copy_from(&turned);
     let moved = nominal.fixed_view::<3, 1>(0, 3) + twist.fixed_rows::<3>(0);
     strict.fixed_view_mut::<3, 1>(0, 3).copy_from(&moved);
-    let product = |form: fn(&Displacement) -> Matrix4<f64>| chain.product(q, form).unwrap();
+    let product =
+        |form: fn(&Displacement) -> Matrix4<f64>| rpy::product(arm, q, errors, form).unwrap();
+    // The simulation turns by rotation vectors: those of roll, pitch and yaw.
+    let vectors: Vec<_> = errors.iter().map(|e| Displacement::of(&rpy::transform(e))).collect();
+    let simulated = simulated(arm, &vectors, q).tool.to_homogeneous();
+    assert!((product(rpy::matrix) - simulated).amax() < 1e-13);
     [product(rpy::matrix), product(rpy::first_order), strict]
 }
 
@@ -120,8 +147,6 @@ proptest! {
         for (found, expected) in found.into_iter().zip(forms(&arm, &errors, &t)) {
             prop_assert!((matrix(found.columns()) - expected).amax() < 1e-14);
         }
-        let vector = Chain::new(&arm, &errors).unwrap().pose(&t).unwrap().to_homogeneous();
-        prop_assert!((matrix(found[0].columns()) - vector).amax() < 1e-14);
     }
 
     /// Eqs. 57 and 58, to the letter.
@@ -155,7 +180,7 @@ proptest! {
             (joint.alpha, joint.d) = (alpha[k], d[k]);
         }
         let ([one, two], errors) = (bends(e), errors(bends(e)));
-        let found = Chain::new(&arm, &errors).unwrap().pose(&t).unwrap().translation.vector;
+        let found = simulated(&arm, &errors, &t).tool.translation.vector;
         let ((s1, c1), (s2, c2)) = (t[0].sin_cos(), t[1].sin_cos());
         let ((sa1, ca1), (sa2, ca2)) = (alpha[0].sin_cos(), alpha[1].sin_cos());
         let (sd1, cd1) = one.phi.sin_cos();
@@ -212,19 +237,24 @@ fn the_turn_behind_the_published_difference() {
     }
 }
 
-/// The difference in space: a six-joint arm's errors grown tenfold make it a hundred times larger.
+/// In space the gap of both approximations grows with the square of the errors: ten times the errors,
+/// a hundred times the gap.
 #[test]
 fn growth_in_space() {
     let text = include_str!("../../robots/arms/ur5.toml");
     let arm = stiffarm_gap::robot::arm(&Robot::from_toml(text, "ur5.toml").unwrap().0).unwrap();
-    let error = Displacement {
-        translation: Vector3::new(1e-4, -2e-4, 1e-4),
-        rotation: Vector3::new(2e-4, -1e-4, 3e-4),
-    };
+    let error = Vector6::new(1e-4, -2e-4, 1e-4, 2e-4, -1e-4, 3e-4);
     let q = [0.3, -1.2, 0.9, 0.4, -0.8, 1.1];
-    let rows = growth::chain(&arm, &q, &[error; 8], &[0.1, 1.0, 10.0]).unwrap();
-    for pair in rows.windows(2) {
-        assert!((pair[1].approximate / pair[0].approximate - 100.0).abs() < 3.0);
-        assert!((pair[1].strict / pair[0].strict - 100.0).abs() < 3.0);
+    let gaps = |scale: f64| {
+        let [exact, approximate, strict] =
+            forms(&arm, &[Displacement::new(&(error * scale)); 8], &q);
+        [(exact - approximate).norm(), (exact - strict).norm()]
+    };
+    for (small, large) in [(0.1, 1.0), (1.0, 10.0)] {
+        for (small, large) in gaps(small).into_iter().zip(gaps(large)) {
+            assert!((large / small - 100.0).abs() < 3.0);
+        }
     }
+    let wrong = rpy::product(&arm, &q, &[Displacement::ZERO; 6], rpy::matrix).unwrap_err();
+    assert!(wrong.to_string().starts_with("found 6 as the number of displacements"), "{wrong}");
 }

@@ -4,9 +4,8 @@
 //! The displacement of the tool is linear in the joints' compliances: `A x = δd` for one [`Test`]
 //! (eqs. 20-21), `B x = c` for all of them (eqs. 22-24).
 //!
-//! * [`identify`] solves it with the instrument's noise as [`Weighting`], columns scaled, by an
-//!   orthogonal decomposition; the paper's normal equations (eq. 26) are there to compare. A joint
-//!   that the tests do not show is refused by name, with the [`Pull`](stiffarm_gap::identify::pull::Pull) that would show it.
+//! * [`identify`] solves it with the instrument's noise as [`Weighting`], columns scaled; the paper's
+//!   [`normal_equations`] (eq. 26) are there to compare. A joint that the tests do not show is refused.
 //! * [`cartesian_stiffness`]: K_X of eq. 10.
 //! * [`zones`] compares parts of a map of dexterity, and [`choose`] picks test postures from it.
 //! * [`points`]: the displacement from three points before and after (eqs. 27-30).
@@ -18,7 +17,6 @@
 //! Units are SI; twists and wrenches stand at the tool origin in base axes.
 
 mod choice;
-mod hidden;
 pub mod links;
 pub mod points;
 pub mod rig;
@@ -31,8 +29,7 @@ mod weighting;
 pub mod zones;
 
 pub use choice::{Choice, TestPosture, choose};
-pub use hidden::{Hidden, Reason};
-pub use solve::{Estimate, Identified, Method, Settings, identify};
+pub use solve::{Identified, identify, normal_equations};
 pub use stiffness::{NoStiffness, cartesian_stiffness};
 pub use system::System;
 pub use validate::{Checked, Validation, validate};
@@ -85,9 +82,9 @@ pub enum IdentifyError {
         /// What it must be.
         expected: &'static str,
     },
-    /// Joints that the tests leave open.
-    #[error("the tests do not determine every joint: {}", hidden::listing(.0))]
-    Hidden(Vec<Hidden>),
+    /// Joints that the tests leave open, from 1.
+    #[error("the tests do not determine joint {}: load them in other directions", .0.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))]
+    Open(Vec<usize>),
     /// Three points that span no frame.
     #[error("the three points lie on a line: they give no orientation")]
     Collinear,

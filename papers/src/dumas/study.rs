@@ -5,7 +5,7 @@ use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::rig::{Errors, PoseFit, Rig, carry_out};
-use super::{Identified, IdentifyError, Settings, Test, identify};
+use super::{IdentifyError, Test, Weighting, identify};
 use stiffarm_gap::random::uniform;
 
 /// Stiffnesses from many sets of equally many tests.
@@ -38,7 +38,7 @@ impl Spread {
 pub fn number_of_tests(
     arm: &Arm,
     tests: &[Test],
-    settings: &Settings,
+    by: &Weighting,
     counts: &[usize],
     sets: usize,
     seed: u64,
@@ -50,9 +50,9 @@ pub fn number_of_tests(
         let mut solved: Vec<Vec<f64>> = Vec::new();
         for _ in 0..sets {
             let set = subset(tests, count, &mut random);
-            match identify(arm, &set, settings) {
-                Ok(found) => solved.extend(stiffnesses(&found)),
-                Err(IdentifyError::Hidden(_)) => {}
+            match identify(arm, &set, by) {
+                Ok(found) => solved.extend(found.stiffnesses()),
+                Err(IdentifyError::Open(_)) => {}
                 Err(other) => return Err(other),
             }
         }
@@ -65,11 +65,6 @@ pub fn number_of_tests(
         spreads.push(Spread { tests: count, solved: solved.len(), sets, stiffness });
     }
     Ok(spreads)
-}
-
-/// All stiffnesses, if every compliance is positive.
-fn stiffnesses(found: &Identified) -> Option<Vec<f64>> {
-    found.joints.iter().map(|estimate| estimate.stiffness()).collect()
 }
 
 fn subset(tests: &[Test], count: usize, random: &mut ChaCha8Rng) -> Vec<Test> {
@@ -128,7 +123,7 @@ pub struct Repeat<'a> {
 pub fn measurement_errors(
     arm: &Arm,
     plan: &[Test],
-    settings: &Settings,
+    by: &Weighting,
     repeat: &Repeat<'_>,
 ) -> Result<Vec<StiffnessError>, IdentifyError> {
     if let Some(rigid) = arm.joints.iter().position(|joint| joint.compliance == 0.0) {
@@ -139,7 +134,7 @@ pub fn measurement_errors(
     for draw in 0..repeat.draws {
         let seed = repeat.seed.wrapping_add(draw as u64);
         let tests = carry_out(arm, repeat.rig, plan, repeat.errors, repeat.fit, seed)?;
-        all.extend(stiffnesses(&identify(arm, &tests, settings)?));
+        all.extend(identify(arm, &tests, by)?.stiffnesses());
     }
     if all.len() < 2 {
         let (what, expected) = ("the number of experiments that gave stiffnesses", "at least 2");

@@ -17,8 +17,6 @@ pub struct System {
     pub c: DVector<f64>,
     /// Columns that hold nothing but rounding.
     pub empty: Vec<bool>,
-    /// Rows that count, less than 6t where a weight is 0.
-    pub rows: usize,
 }
 
 impl System {
@@ -57,7 +55,7 @@ impl System {
         }
         let floor = ROUNDING * possible.sqrt();
         let empty = b.column_iter().map(|column| column.norm() <= floor).collect();
-        Ok(System { b, c, empty, rows: by.rows() * tests.len() })
+        Ok(System { b, c, empty })
     }
 }
 

@@ -4,7 +4,6 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use super::{IdentifyError, Test, check};
-use crate::chain::transport::{lower, upper};
 
 /// One test predicted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,8 +14,6 @@ pub struct Checked {
     pub predicted: Vector6<f64>,
     /// Distance of the two displacements, m.
     pub position_gap: f64,
-    /// Size of the difference of the two rotations, rad.
-    pub rotation_gap: f64,
     /// `position_gap` as a part of the measured displacement; none without a displacement.
     pub unexplained: Option<f64>,
 }
@@ -30,8 +27,6 @@ pub struct Validation {
     pub mean_position_gap: f64,
     /// Largest, m.
     pub max_position_gap: f64,
-    /// Mean of the rotation gaps, rad.
-    pub mean_rotation_gap: f64,
     /// Mean unexplained part of the displacement.
     pub mean_unexplained: f64,
     /// Largest.
@@ -50,13 +45,12 @@ pub fn validate(arm: &Arm, tests: &[Test]) -> Result<Validation, IdentifyError> 
     for test in tests {
         let predicted = arm.deflection(&test.q, &test.wrench)?;
         let gap = test.displacement - predicted;
-        let size = upper(&test.displacement).norm();
-        let position_gap = upper(&gap).norm();
+        let size = test.displacement.fixed_rows::<3>(0).norm();
+        let position_gap = gap.fixed_rows::<3>(0).norm();
         checked.push(Checked {
             measured: test.displacement,
             predicted,
             position_gap,
-            rotation_gap: lower(&gap).norm(),
             unexplained: (size > 0.0).then(|| position_gap / size),
         });
     }
@@ -68,7 +62,6 @@ pub fn validate(arm: &Arm, tests: &[Test]) -> Result<Validation, IdentifyError> 
     Ok(Validation {
         mean_position_gap: mean(&|c| c.position_gap),
         max_position_gap: most(&|c| c.position_gap),
-        mean_rotation_gap: mean(&|c| c.rotation_gap),
         mean_unexplained: mean(&unexplained),
         max_unexplained: most(&unexplained),
         tests: checked,

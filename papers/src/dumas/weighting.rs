@@ -83,14 +83,4 @@ impl Weighting {
             }
         }
     }
-
-    /// How many of a test's six rows count.
-    pub(super) fn rows(&self) -> usize {
-        match self {
-            Weighting::Rows { translation, rotation } => {
-                [*translation, *rotation].iter().filter(|weight| **weight > 0.0).count() * 3
-            }
-            Weighting::Points { .. } => 6,
-        }
-    }
 }

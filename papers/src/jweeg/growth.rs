@@ -2,14 +2,8 @@
 //! flexibility: Jweeg & Al-Khafaji's conclusion ("with increasing the flexibility of links this
 //! difference will be increase") as numbers.
 
-use nalgebra::Vector3;
-use stiffarm_kernels::generic::Arm;
-
-use super::rpy;
+use super::small::{lag, versine};
 use super::two_link::{Bend, TwoLink};
-use crate::chain::displacement::{lag, versine};
-use crate::chain::transport::along;
-use crate::chain::{Chain, ChainError, Displacement};
 
 /// One row of the two-link arm's table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,59 +59,9 @@ pub fn largest(two: TwoLink, w: f64, offset: f64) -> [Largest; 2] {
     found
 }
 
-/// One row of the table of any chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Growth {
-    /// What all displacements were multiplied with.
-    pub scale: f64,
-    /// How far the errors move the tool, eq. 20 with eq. 18, m.
-    pub moved: f64,
-    /// Distance between the tool by eq. 18 and by eq. 19 in eq. 20, m: the published difference.
-    pub approximate: f64,
-    /// Distance between the tool by eq. 18 and by the strict first order, m.
-    pub strict: f64,
-}
-
-/// The same in space for any arm: its `errors`, roll-pitch-yaw, multiplied with each of `scales`.
-///
-/// # Errors
-/// Those of [`Chain`].
-pub fn chain(
-    arm: &Arm,
-    q: &[f64],
-    errors: &[Displacement],
-    scales: &[f64],
-) -> Result<Vec<Growth>, ChainError> {
-    let nominal: Vector3<f64> = arm_tool(arm, q)?;
-    let row = |&scale: &f64| {
-        let scaled: Vec<_> =
-            errors.iter().map(|error| Displacement::new(&(error.vector() * scale))).collect();
-        let chain = Chain::new(arm, &scaled)?;
-        let place = |form: fn(&Displacement) -> nalgebra::Matrix4<f64>| {
-            chain.product(q, form).map(|t| t.fixed_view::<3, 1>(0, 3).into_owned())
-        };
-        let (exact, approximate) = (place(rpy::matrix)?, place(rpy::first_order)?);
-        let first_order = chain.displacement_first_order(q)?;
-        let strict = nominal + first_order.fixed_rows::<3>(0);
-        Ok(Growth {
-            scale,
-            moved: (exact - nominal).norm(),
-            approximate: (exact - approximate).norm(),
-            strict: (exact - strict).norm(),
-        })
-    };
-    scales.iter().map(row).collect()
-}
-
-fn arm_tool(arm: &Arm, q: &[f64]) -> Result<Vector3<f64>, ChainError> {
-    Ok(along(crate::chain::steps(arm, q)?).translation.vector)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixture::bent;
-    use nalgebra::Vector6;
 
     /// a2 = 0.4 m: the difference to the digits that a table would print, and how long its leading
     /// term holds.
@@ -140,16 +84,5 @@ mod tests {
             let part = row.leading / row.difference;
             assert!((least - 5e-5..1.003).contains(&part), "{row:?} {part}");
         }
-    }
-
-    #[test]
-    fn in_space_both_approximations_lose_quadratically() {
-        let entry = |k: usize| 1e-3 * ((7 * k % 11) as f64 - 5.0);
-        let errors: Vec<_> =
-            (0..5).map(|i| Displacement::new(&Vector6::from_fn(|k, _| entry(6 * i + k)))).collect();
-        let rows = chain(&bent(), &[0.4, -0.9, 1.3], &errors, &[0.1, 1.0]).unwrap();
-        assert!((rows[1].moved / rows[0].moved - 10.0).abs() < 0.1);
-        assert!((rows[1].approximate / rows[0].approximate - 100.0).abs() < 1.0);
-        assert!((rows[1].strict / rows[0].strict - 100.0).abs() < 1.0);
     }
 }

@@ -6,8 +6,9 @@
 //! [`Displacement`] in that order.
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, Translation3, UnitQuaternion, Vector3};
-
-use crate::chain::Displacement;
+use stiffarm_gap::dexterity::{DexterityError, check_posture};
+use stiffarm_gap::displacement::Displacement;
+use stiffarm_kernels::generic::Arm;
 
 /// `E = T(δ) · Rot(z, dφ) · Rot(y, dβ) · Rot(x, dψ)`, exact (eqs. 11, 16 and 17).
 ///
@@ -34,6 +35,32 @@ pub fn first_order(error: &Displacement) -> Matrix4<f64> {
     matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
     matrix.fixed_view_mut::<3, 1>(0, 3).copy_from(&error.translation);
     matrix
+}
+
+/// One chain with an error at every place, `T = E_0 · A_1 E_1 · … · A_n E_n · T_tool E_tool` (eq. 20):
+/// the tool in the base frame, m. Each error stands in the axes of its nominal frame on the displaced
+/// chain before it; its `form` is [`matrix`] for eq. 18, [`first_order`] for eq. 19.
+///
+/// # Errors
+/// [`DexterityError::Posture`], [`DexterityError::NotFinite`]; [`DexterityError::Setting`] unless there
+/// is an error for the base, one for each row of the table and one for the tool.
+pub fn product(
+    arm: &Arm,
+    q: &[f64],
+    errors: &[Displacement],
+    form: impl Fn(&Displacement) -> Matrix4<f64>,
+) -> Result<Matrix4<f64>, DexterityError> {
+    check_posture(arm, q)?;
+    if errors.len() != arm.dof() + 2 {
+        let (what, expected) =
+            ("the number of displacements", "one for the base, each row, the tool");
+        return Err(DexterityError::Setting { what, found: errors.len() as f64, expected });
+    }
+    let mut frames = arm.frames(q);
+    frames.push(arm.pose(q));
+    let nominal = frames.windows(2).map(|pair| (pair[0].inverse() * pair[1]).to_homogeneous());
+    let steps = core::iter::once(Matrix4::identity()).chain(nominal);
+    Ok(steps.zip(errors).map(|(step, error)| step * form(error)).product())
 }
 
 #[cfg(test)]

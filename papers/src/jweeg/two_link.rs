@@ -16,7 +16,7 @@
 use nalgebra::Vector2;
 use stiffarm_kernels::Pose;
 
-use crate::chain::displacement::{lag, versine};
+use super::small::{lag, versine};
 
 /// The closed forms, as `stiffarm generate` writes them.
 #[rustfmt::skip]

@@ -1,11 +1,12 @@
 //! The tool's load and the distributed weights of the links at every joint (eq. 8).
 
 use nalgebra::{Isometry3, Translation3, Vector3, Vector6};
+use stiffarm_gap::dexterity::check_posture;
+use stiffarm_gap::displacement::Displacement;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{CompensateError, finite, orientation_jacobian, pose_jacobian};
-use crate::chain::{Displacement, steps};
 
 /// What pulls on an arm at one posture: the tool's load and the links' weights.
 pub(super) struct Pulls {
@@ -44,7 +45,7 @@ impl Weight {
 
 impl Pulls {
     pub(super) fn new(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Result<Self, CompensateError> {
-        steps(arm, q)?;
+        check_posture(arm, q)?;
         finite("a component of the load", load)?;
         let (frames, tool) = (arm.frames(q), arm.pose(q));
         let mut weights = Vec::new();
@@ -96,7 +97,7 @@ impl Pulls {
 /// standard table the last component is the moment about the axis of joint i.
 ///
 /// # Errors
-/// As [`steps`]; [`CompensateError::NotFinite`].
+/// [`CompensateError::Posture`], [`CompensateError::NotFinite`].
 pub fn generalized_forces(
     arm: &Arm,
     q: &[f64],
@@ -104,31 +105,4 @@ pub fn generalized_forces(
 ) -> Result<Vec<Vector6<f64>>, CompensateError> {
     let pulls = Pulls::new(arm, q, load)?;
     Ok((1..=arm.dof()).map(|row| pulls.at_joint(row)).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fixture::bent;
-
-    /// The virtual work of each joint, by the textbook.
-    #[test]
-    fn the_moment_about_each_axis_is_the_joint_torque() {
-        let arm = bent();
-        let q = [0.4, -0.9, 1.3];
-        let load = Vector6::new(30.0, -50.0, -80.0, 4.0, 7.0, -2.0);
-        let torque = arm.joint_torque(&q, &load) + arm.weight_torque(&q);
-        for (force, torque) in generalized_forces(&arm, &q, &load).unwrap().iter().zip(&torque) {
-            assert!((force[5] - torque).abs() < 1e-12 * (1.0 + torque.abs()));
-        }
-    }
-
-    #[test]
-    fn bad_input_is_named() {
-        let arm = bent();
-        let load = Vector6::new(f64::NAN, 0.0, 0.0, 0.0, 0.0, 0.0);
-        let wrong = generalized_forces(&arm, &[0.0; 3], &load).unwrap_err();
-        assert_eq!(wrong.to_string(), "a component of the load is not a finite number");
-        assert!(generalized_forces(&arm, &[0.0; 2], &Vector6::zeros()).is_err());
-    }
 }

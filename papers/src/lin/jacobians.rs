@@ -2,10 +2,11 @@
 //! axes alone, and from joint changes to the change of the tool.
 
 use nalgebra::{Isometry3, Matrix6, Matrix6xX, Vector3, Vector6};
+use stiffarm_gap::dexterity::{DexterityError, check_posture};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::chain::{ChainError, steps, wrench_matrix};
+use crate::transport::wrench_matrix;
 
 /// The Pose Jacobian `⁰J_C` of the frame `frame` (eq. 5), 6×6: takes a small displacement of a body
 /// as the reference frame sees it (about the reference's origin) to what the frame sees of it:
@@ -31,9 +32,9 @@ pub fn orientation_jacobian(frame: &Isometry3<f64>) -> Matrix6<f64> {
 /// wrong sign; here it is `−a_x p_y + a_y p_x`.
 ///
 /// # Errors
-/// As [`steps`].
-pub fn differential_jacobian(arm: &Arm, q: &[f64]) -> Result<Matrix6xX<f64>, ChainError> {
-    steps(arm, q)?;
+/// [`DexterityError::Posture`], [`DexterityError::NotFinite`].
+pub fn differential_jacobian(arm: &Arm, q: &[f64]) -> Result<Matrix6xX<f64>, DexterityError> {
+    check_posture(arm, q)?;
     let frames = arm.frames(q);
     let first = match arm.convention {
         Convention::Standard => 0,
@@ -57,59 +58,4 @@ pub fn differential_jacobian(arm: &Arm, q: &[f64]) -> Result<Matrix6xX<f64>, Cha
     let motions = arm.joints.iter().map(|joint| joint.motion);
     let columns: Vec<_> = frames[first..].iter().zip(motions).map(column).collect();
     Ok(Matrix6xX::from_fn(columns.len(), |row, joint| columns[joint][row]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::chain::{Displacement, twist_matrix};
-    use crate::fixture::bent;
-
-    fn frame() -> Isometry3<f64> {
-        Displacement::new(&Vector6::new(0.3, -0.7, 0.4, 1.1, -0.6, 0.9)).transform()
-    }
-
-    /// Eq. 5 element by element.
-    #[test]
-    fn the_pose_jacobian_is_as_printed() {
-        let (jacobian, p) = (pose_jacobian(&frame()), frame().translation.vector);
-        for (k, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
-            let axis = frame().rotation * axis;
-            let lever = p.cross(&axis);
-            for j in 0..3 {
-                assert!((jacobian[(k, j)] - axis[j]).abs() < 1e-15);
-                assert!((jacobian[(k, j + 3)] - lever[j]).abs() < 1e-15);
-                assert_eq!(jacobian[(k + 3, j)], 0.0);
-                assert!((jacobian[(k + 3, j + 3)] - axis[j]).abs() < 1e-15);
-            }
-        }
-    }
-
-    #[test]
-    fn the_pose_jacobian_undoes_the_twist_matrix() {
-        let there_and_back = pose_jacobian(&frame()) * twist_matrix(&frame());
-        assert!((there_and_back - Matrix6::identity()).amax() < 1e-15);
-    }
-
-    #[test]
-    fn the_orientation_jacobian_is_orthogonal_and_moves_nothing() {
-        let turn = orientation_jacobian(&frame());
-        assert!((turn * turn.transpose() - Matrix6::identity()).amax() < 1e-15);
-        assert_eq!(turn.fixed_view::<3, 3>(3, 0).amax(), 0.0);
-        assert_eq!(turn.fixed_view::<3, 3>(0, 3).amax(), 0.0);
-    }
-
-    #[test]
-    fn the_differential_jacobian_is_the_geometric_one_in_tool_axes() {
-        let mut arm = bent();
-        for convention in [Convention::Standard, Convention::Modified] {
-            for motion in [Motion::Revolute, Motion::Prismatic] {
-                (arm.convention, arm.joints[1].motion) = (convention, motion);
-                let q = [0.4, -0.9, 1.3];
-                let difference = differential_jacobian(&arm, &q).unwrap() - arm.jacobian_tool(&q);
-                assert!(difference.amax() < 1e-15, "{convention:?} {motion:?}");
-            }
-        }
-        assert!(differential_jacobian(&arm, &[0.0]).is_err());
-    }
 }

@@ -8,7 +8,7 @@
 //! * [`deflections`]: what the links do to the tool, of any table: YT, YC and YD (eqs. 18-36, 46).
 //! * [`TwoLink`], [`ElbowLinks`]: the same in closed form for the paper's two arms.
 //! * [`ParallelElbow`]: all inverse solutions of an arm whose axes 2, 3 and 4 are parallel.
-//! * [`correction`], [`compensate`], [`plan`]: the joint corrections, and the ten steps.
+//! * [`correction`], [`plan`]: the joint corrections, and the ten steps.
 //!
 //! # Definitions
 //!
@@ -27,29 +27,28 @@ mod deflections;
 mod elbow;
 mod forces;
 mod inverse;
-mod iterate;
 mod jacobians;
 mod plan;
 mod two_link;
 
-pub use correction::{Correction, Damping, correction};
+pub use correction::{Correction, correction};
 pub use deflections::{Deflections, LinkDeflection, deflections};
 pub use elbow::ElbowLinks;
 pub use forces::generalized_forces;
 pub use inverse::{Branch, InverseError, Inverses, Missing, ParallelElbow, Sign, Solution};
-pub use iterate::{Compensation, Ended, Forward, Options, compensate, loaded_pose};
 pub use jacobians::{differential_jacobian, orientation_jacobian, pose_jacobian};
-pub use plan::{Candidate, Measure, Model, Plan, PlanOptions, plan};
+pub use plan::{Candidate, Measure, Model, Plan, plan};
 pub use two_link::TwoLink;
 
-use crate::chain::ChainError;
+use stiffarm_gap::dexterity::DexterityError;
+use stiffarm_kernels::Unstable;
 
 /// Why no deflection or compensation could be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompensateError {
-    /// Joint values that do not fit the arm, or an equilibrium that does not exist.
+    /// Joint values that do not fit the arm.
     #[error(transparent)]
-    Chain(#[from] ChainError),
+    Posture(#[from] DexterityError),
     /// The target has no inverse solution.
     #[error(transparent)]
     Inverse(#[from] InverseError),
@@ -68,8 +67,8 @@ pub enum CompensateError {
         found: f64,
     },
     /// The joint springs do not hold the load.
-    #[error("the arm has no stable rest under its load: the joint springs would buckle")]
-    Unstable,
+    #[error(transparent)]
+    Unstable(#[from] Unstable),
 }
 
 /// Refuses a vector of which an element is infinite or not a number.

@@ -1,12 +1,12 @@
 //! The ten steps of Lin, Chiang & Cui: all inverse solutions, the deflection at each, the one that
-//! bends least, and its compensation.
+//! bends least, and its correction.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::{
-    CompensateError, Compensation, InverseError, Missing, Options, ParallelElbow, Solution,
-    compensate, deflections, finite,
+    CompensateError, Correction, InverseError, Missing, ParallelElbow, Solution, correction,
+    deflections, finite, orientation_jacobian,
 };
 
 /// Which deflection the configurations are compared by.
@@ -43,17 +43,6 @@ impl Measure {
     }
 }
 
-/// How the ten steps are taken.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlanOptions {
-    /// Which deflection the configurations are compared by.
-    pub model: Model,
-    /// What of it has to be small.
-    pub measure: Measure,
-    /// Of the compensation.
-    pub compensation: Options,
-}
-
 /// One configuration of the arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
@@ -74,8 +63,8 @@ pub struct Plan {
     pub candidates: Vec<Candidate>,
     /// Why there are not eight.
     pub missing: Vec<Missing>,
-    /// The chosen one, compensated.
-    pub compensation: Compensation,
+    /// Add_1 to Add_6 of the chosen one: its joint values less these compensate its deflection.
+    pub add: Correction,
 }
 
 /// The deflection of the tool by one model, base axes.
@@ -86,7 +75,7 @@ fn deflection(
     model: Model,
 ) -> Result<Vector6<f64>, CompensateError> {
     if model == Model::Whole {
-        return arm.deflection_with_gravity(q, load).map_err(|_| CompensateError::Unstable);
+        return Ok(arm.deflection_with_gravity(q, load)?);
     }
     let all = deflections(arm, q, load)?;
     Ok(match model {
@@ -98,19 +87,22 @@ fn deflection(
 
 /// Steps 1 to 10 for an elbow manipulator: of all joint values that put the unloaded tool at
 /// `target` those with the smallest deflection under `load` (base axes, at the tool origin) and the
-/// weights, corrected until the loaded tool stands there. Joint limits are not regarded.
+/// weights, and their correction. The deflections are compared by `model` and `measure`. Joint limits
+/// are not regarded.
 ///
 /// # Errors
-/// [`InverseError`] if the arm is of another kind or the target out of reach; those of
-/// [`compensate`]; [`CompensateError::NotPositive`] for a direction of no length.
+/// [`InverseError`] if the arm is of another kind or the target out of reach;
+/// [`CompensateError::Unstable`]; [`CompensateError::NotFinite`]; [`CompensateError::NotPositive`]
+/// for a direction of no length.
 pub fn plan(
     arm: &Arm,
     target: &Isometry3<f64>,
     load: &Vector6<f64>,
-    options: &PlanOptions,
+    model: Model,
+    measure: Measure,
 ) -> Result<Plan, CompensateError> {
     finite("a component of the load", load)?;
-    if let Measure::Along(direction) = options.measure {
+    if let Measure::Along(direction) = measure {
         let found = direction.norm();
         if !(found > 0.0 && found.is_finite()) {
             let what = "the length of the direction along which deflection is measured";
@@ -119,8 +111,8 @@ pub fn plan(
     }
     let inverses = ParallelElbow::new(arm)?.solve(target)?;
     let candidate = |solution: &Solution| {
-        let deflection = deflection(arm, &solution.q, load, options.model)?;
-        Ok(Candidate { solution: *solution, deflection, size: options.measure.of(&deflection) })
+        let deflection = deflection(arm, &solution.q, load, model)?;
+        Ok(Candidate { solution: *solution, deflection, size: measure.of(&deflection) })
     };
     let mut candidates: Vec<Candidate> =
         inverses.solutions.iter().map(candidate).collect::<Result<_, CompensateError>>()?;
@@ -130,6 +122,7 @@ pub fn plan(
         return Err(InverseError::Unreachable { missing }.into());
     };
     let q = &chosen.solution.q;
-    let compensation = compensate(arm, q, target, load, &options.compensation)?;
-    Ok(Plan { chosen, candidates, missing, compensation })
+    let seen = orientation_jacobian(&arm.pose(q)).tr_mul(&chosen.deflection);
+    let add = correction(arm, q, &seen)?;
+    Ok(Plan { chosen, candidates, missing, add })
 }

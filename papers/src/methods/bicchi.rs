@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::bicchi::{Gradient, Method, Stop, Task, Weights, compensate};
-use crate::chain::Load;
-use crate::chain::elastic::{ElasticArm, Elasticity};
+use crate::bicchi::{Task, compensate};
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
@@ -26,12 +24,9 @@ fn bending(ej: f64) -> Result<Arm, String> {
 
 /// The load of 10 N at the tip, and the set-point: the same wrench on the rigid straight arm.
 fn task(arm: &Arm) -> Task<'_> {
-    Task {
-        arm: ElasticArm::new(arm, Elasticity::default()),
-        load: Load::Follower(Vector6::new(0.0, 10.0, 0.0, 0.0, 0.0, 0.0)),
-        target: Vector6::new(0.0, 10.0, 0.0, 0.0, 0.0, 30.0),
-        weights: Weights::UNIT,
-    }
+    let load = Vector6::new(0.0, 10.0, 0.0, 0.0, 0.0, 0.0);
+    let target = Vector6::new(0.0, 10.0, 0.0, 0.0, 0.0, 30.0);
+    Task { arm, load, target, weights: Vector6::repeat(1.0) }
 }
 
 /// The components f_x, f_y and m_z of the force error.
@@ -44,9 +39,6 @@ pub fn force_error(ej: f64) -> Result<Vec<f64>, String> {
 /// Steps of the gradient law, eqs. 12 to 15, until V ≤ 1e-6.
 pub fn steps() -> Result<Vec<f64>, String> {
     let arm = bending(HALF)?;
-    let stop = Stop { value: 1e-6, ..Stop::default() };
-    let law = Method::GradientLaw { limit: None };
-    let found = compensate(&task(&arm), &[0.0; 3], law, Gradient::Frozen, stop)
-        .map_err(|error| error.to_string())?;
-    Ok(vec![found.steps as f64])
+    let found = compensate(&task(&arm), &[0.0; 3], None, 1e-6, 1000);
+    Ok(vec![found.map_err(|error| error.to_string())?.steps as f64])
 }

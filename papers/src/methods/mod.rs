@@ -26,7 +26,7 @@ pub fn column(name: &str) -> Option<Column> {
 }
 
 /// One of the papers' arms.
-fn arm(id: &str) -> Result<Arm, String> {
+pub(crate) fn arm(id: &str) -> Result<Arm, String> {
     let known = stiffarm_robots::ARMS.iter().find(|arm| arm.id == id);
     let toml = known.ok_or_else(|| format!("there is no arm `{id}`"))?.toml;
     let (robot, _) = Robot::from_toml(toml, id).map_err(|error| error.to_string())?;

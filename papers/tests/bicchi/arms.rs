@@ -3,19 +3,13 @@
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::bicchi::{Task, Weights};
-use stiffarm_papers::chain::Load;
-use stiffarm_papers::chain::elastic::{Axes, ElasticArm, Elasticity, Loaded};
+use stiffarm_papers::bicchi::{Loaded, Task};
 
 /// E = 210 GPa and the section's own second moment of area: EJ = 1649 N·m².
 pub const STEEL: f64 = 210e9 * std::f64::consts::PI * 1e-8 / 4.0;
 
 /// Half of what E = 205 GPa gives: the EJ that reproduces the printed wrench error.
 pub const HALF: f64 = 205e9 * std::f64::consts::PI * 1e-8 / 8.0;
-
-pub const DEFORMED: Elasticity = Elasticity { axes: Axes::Deformed, foreshortening: false };
-pub const UNDEFORMED: Elasticity = Elasticity { axes: Axes::Undeformed, foreshortening: false };
-pub const SHORTENED: Elasticity = Elasticity { axes: Axes::Deformed, foreshortening: true };
 
 /// The arm of `n` = 3 or 5 joints with the bending stiffness `ej` in both planes, N·m².
 pub fn arm(n: usize, ej: f64) -> Arm {
@@ -38,18 +32,14 @@ pub fn degrees(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value.to_radians()).collect()
 }
 
-/// The paper's load on the tip times `size`/10 N, turning with it.
-pub fn follower(size: f64) -> Load {
-    Load::Follower(planar(0.0, size, 0.0))
-}
-
 /// A wrench in the plane.
 pub fn planar(fx: f64, fy: f64, mz: f64) -> Vector6<f64> {
     Vector6::new(fx, fy, 0.0, 0.0, 0.0, mz)
 }
 
-pub fn settled(arm: &Arm, q: &[f64], size: f64, elasticity: Elasticity) -> Loaded {
-    ElasticArm::new(arm, elasticity).settle(q, &follower(size)).unwrap()
+/// The arm under the paper's load on the tip times `size`/10 N, turning with it.
+pub fn loaded(arm: &Arm, q: &[f64], size: f64) -> Loaded {
+    Loaded::new(arm, q, &planar(0.0, size, 0.0)).unwrap()
 }
 
 /// fx, fy, mz of a wrench and x, y, angle of a pose.
@@ -63,13 +53,13 @@ pub fn pose_in_plane(pose: &Isometry3<f64>) -> [f64; 3] {
     [at.x, at.y, pose.rotation.scaled_axis().z]
 }
 
-/// The task of section 5: the straight arm's rigid wrench is wanted, P = I.
-pub fn straight_task(arm: &Arm, elasticity: Elasticity) -> Task<'_> {
+/// The task of section 5: the straight arm's rigid wrench is wanted, P = 1.
+pub fn straight_task(arm: &Arm) -> Task<'_> {
     Task {
-        arm: ElasticArm::new(arm, elasticity),
-        load: follower(10.0),
+        arm,
+        load: planar(0.0, 10.0, 0.0),
         target: planar(0.0, 10.0, 10.0 * arm.dof() as f64),
-        weights: Weights::UNIT,
+        weights: Vector6::repeat(1.0),
     }
 }
 

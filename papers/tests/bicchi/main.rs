@@ -1,10 +1,8 @@
 //! Bicchi & Melchiorri, "Quasi-static compensation of force errors for flexible manipulators": the
-//! two planar arms of section 5, against the printed numbers and against an independent exact rod.
+//! two planar arms of section 5, against the printed numbers, against an independent exact rod and
+//! against the simulation.
 
 mod arms;
 mod compensation;
-mod dead;
-mod reach;
 mod recursion;
 mod rod;
-mod small;

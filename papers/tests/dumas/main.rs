@@ -5,7 +5,6 @@
 
 mod design;
 mod dexterity;
-mod identifiable;
 mod identify;
 mod links;
 mod robot;

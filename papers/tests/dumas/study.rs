@@ -2,7 +2,7 @@
 
 use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
 use stiffarm_papers::dumas::study::{Repeat, StiffnessError, measurement_errors, number_of_tests};
-use stiffarm_papers::dumas::{IdentifyError, Settings, Weighting};
+use stiffarm_papers::dumas::{IdentifyError, Weighting};
 
 use crate::robot::with_tool;
 
@@ -16,8 +16,7 @@ fn percent(weighting: &Weighting, fit: PoseFit, errors: Errors, rig: &Rig) -> [f
     for design in 0..designs {
         let plan = rig.plan(&arm, 10, 40 + design).unwrap();
         let repeat = Repeat { rig, errors, fit, draws: DRAWS, seed: 1000 * design };
-        let settings = Settings::new(weighting.clone());
-        let all: Vec<StiffnessError> = measurement_errors(&arm, &plan, &settings, &repeat).unwrap();
+        let all: Vec<StiffnessError> = measurement_errors(&arm, &plan, weighting, &repeat).unwrap();
         for (slot, error) in sum.iter_mut().zip(&all) {
             *slot += 100.0 * error.deviation / designs as f64;
         }
@@ -76,9 +75,8 @@ fn more_tests_give_closer_stiffnesses() {
     let rig = Rig::dumas();
     let plan = rig.plan(&arm, 23, 11).unwrap();
     let tests = carry_out(&arm, &rig, &plan, Errors::quoted(), PoseFit::GramSchmidt, 2).unwrap();
-    let settings = Settings::new(Weighting::SI);
     let counts = [1, 3, 6, 10, 20, 23, 99];
-    let all = number_of_tests(&arm, &tests, &settings, &counts, 60, 9).unwrap();
+    let all = number_of_tests(&arm, &tests, &Weighting::SI, &counts, 60, 9).unwrap();
     assert_eq!(all.iter().map(|s| s.tests).collect::<Vec<_>>(), [1, 3, 6, 10, 20, 23, 23]);
     let mean = |k: usize| all[k].half_widths().unwrap().iter().sum::<f64>() / 6.0;
     assert!(mean(0) > mean(1) && mean(1) > mean(2) && mean(2) > mean(3) && mean(3) > mean(4));
@@ -86,7 +84,7 @@ fn more_tests_give_closer_stiffnesses() {
     assert!((0.01..0.08).contains(&mean(4)), "{}", mean(4));
     // All tests are one set.
     assert!(mean(5) < 1e-12 && all[5].solved == 60);
-    let again = number_of_tests(&arm, &tests, &settings, &counts, 60, 9).unwrap();
+    let again = number_of_tests(&arm, &tests, &Weighting::SI, &counts, 60, 9).unwrap();
     assert_eq!(all, again);
 }
 
@@ -97,8 +95,7 @@ fn a_study_needs_draws_and_a_rig_its_joints() {
     let plan = rig.plan(&arm, 3, 1).unwrap();
     let repeat =
         Repeat { rig: &rig, errors: Errors::NONE, fit: PoseFit::Kabsch, draws: 1, seed: 0 };
-    let settings = Settings::new(Weighting::SI);
-    let error = measurement_errors(&arm, &plan, &settings, &repeat).unwrap_err();
+    let error = measurement_errors(&arm, &plan, &Weighting::SI, &repeat).unwrap_err();
     assert!(matches!(error, IdentifyError::Setting { .. }));
     let wrong = Rig { joints: [1, 6], ..rig.clone() };
     assert!(matches!(wrong.plan(&arm, 3, 1), Err(IdentifyError::Setting { .. })));

@@ -1,8 +1,8 @@
 //! The two-link arm's printed equations against the general functions.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_papers::chain::Load;
-use stiffarm_papers::chain::elastic::{ElasticArm, Elasticity};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Convention};
 use stiffarm_papers::lin::{
     TwoLink, deflections, differential_jacobian, generalized_forces, orientation_jacobian,
     pose_jacobian,
@@ -118,19 +118,69 @@ fn what_is_counted_again() {
     }
 }
 
-/// Castigliano's deflection is what the chain with an error behind every row does under a small
-/// load: errors from the links' wrenches, carried to the tool.
-#[test]
-fn yc_is_the_chain_under_a_small_load() {
+/// An elbow with weights, of either convention, of which one joint may be prismatic, joint values and
+/// a load.
+fn spatial() -> impl Iterator<Item = (Arm, [f64; 6], Vector6<f64>)> {
     let mut random = draws(6);
-    for _ in 0..50 {
-        let mut links = random.elbow();
-        links.weights = [0.0; 4];
-        let (arm, q): (_, [f64; 6]) = (elbow(&links), random.array(-3.0, 3.0));
-        let load = Vector6::from(random.array::<6>(-1e-4, 1e-4));
-        let chain = ElasticArm::new(&arm, Elasticity::default());
-        let whole = chain.settle(&q, &Load::Dead(load)).unwrap().deflection();
-        let yc = deflections(&arm, &q, &load).unwrap().castigliano;
-        assert!((whole - yc).norm() < 1e-5 * yc.norm(), "{whole} {yc}");
+    (0..40).map(move |round| {
+        let mut arm = elbow(&random.elbow());
+        for joint in &mut arm.joints {
+            (joint.mass, joint.com) = (random.between(0.0, 1.0), random.array(-1.0, 1.0).into());
+        }
+        arm.tool = Isometry3::new(random.array(-1.0, 1.0).into(), random.array(-2.0, 2.0).into());
+        if round % 2 == 1 {
+            arm.convention = Convention::Modified;
+        }
+        if round % 4 > 1 {
+            arm.joints[2].motion = Motion::Prismatic;
+        }
+        (arm, random.array(-3.0, 3.0), random.array::<6>(-20.0, 20.0).into())
+    })
+}
+
+/// YC is the textbook's deflection with rigid joints; the moments about the axes are its torques; J''
+/// is its Jacobian in tool axes.
+#[test]
+fn the_papers_sums_are_the_textbook() {
+    for (arm, q, load) in spatial() {
+        let textbook = arm.deflection_with_gravity(&q, &load).unwrap();
+        let sum = deflections(&arm, &q, &load).unwrap();
+        assert!((sum.castigliano - textbook).amax() < 1e-12 * textbook.amax());
+        assert!((sum.timoshenko + sum.carried() - textbook).amax() < 1e-12 * textbook.amax());
+        let jacobian = differential_jacobian(&arm, &q).unwrap() - arm.jacobian_tool(&q);
+        assert!(jacobian.amax() < 1e-13 * (1.0 + arm.jacobian(&q).amax()));
+        if arm.convention == Convention::Standard {
+            let torque = arm.joint_torque(&q, &load) + arm.weight_torque(&q);
+            let forces = generalized_forces(&arm, &q, &load).unwrap();
+            for ((force, torque), joint) in forces.iter().zip(&torque).zip(&arm.joints) {
+                let axis = if joint.motion == Motion::Revolute { 5 } else { 2 };
+                near(force[axis], *torque, 1e-11 * (1.0 + force.amax()));
+            }
+        }
     }
+    let (arm, q, load) = spatial().next().unwrap();
+    let wrong = generalized_forces(&arm, &q, &(load * f64::NAN)).unwrap_err();
+    assert_eq!(wrong.to_string(), "a component of the load is not a finite number");
+    assert!(generalized_forces(&arm, &q[..2], &load).is_err());
+    assert!(differential_jacobian(&arm, &[0.0]).is_err());
+}
+
+/// Eq. 5 element by element; eq. 25 turns and moves nothing.
+#[test]
+fn the_jacobians_of_a_frame_are_as_printed() {
+    let frame = Isometry3::new([0.3, -0.7, 0.4].into(), [1.1, -0.6, 0.9].into());
+    let (jacobian, p) = (pose_jacobian(&frame), frame.translation.vector);
+    for k in 0..3 {
+        let axis = frame.rotation * nalgebra::Vector3::ith(k, 1.0);
+        let lever = p.cross(&axis);
+        for j in 0..3 {
+            near(jacobian[(k, j)], axis[j], 1e-15);
+            near(jacobian[(k, j + 3)], lever[j], 1e-15);
+            assert_eq!(jacobian[(k + 3, j)], 0.0);
+            near(jacobian[(k + 3, j + 3)], axis[j], 1e-15);
+        }
+    }
+    let turn = orientation_jacobian(&frame);
+    assert!((turn * turn.transpose() - nalgebra::Matrix6::identity()).amax() < 1e-15);
+    assert_eq!(turn.fixed_view::<3, 3>(3, 0).amax() + turn.fixed_view::<3, 3>(0, 3).amax(), 0.0);
 }
