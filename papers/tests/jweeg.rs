@@ -148,56 +148,6 @@ proptest! {
             prop_assert!((matrix(found.columns()) - expected).amax() < 1e-14);
         }
     }
-
-    /// Eqs. 57 and 58, to the letter.
-    #[test]
-    fn the_published_position(
-        t in prop::array::uniform2(-3.0..3.0f64), e in prop::array::uniform6(-0.2..0.2f64),
-    ) {
-        let (two, [a1, a2]) = (TwoLink { a1: 0.4, a2: 0.35 }, [0.4, 0.35]);
-        let [x1, y1, f, x2, y2, _] = e;
-        let ((s1, c1), (s2, c2)) = (t[0].sin_cos(), t[1].sin_cos());
-        let px = c1 * c2 * (x2 + a2 - f * y2) - c1 * s2 * (y2 + f * (x2 + a2))
-            - s1 * c2 * (f * (x2 + a2) + y2) + s1 * s2 * (f * y2 - (x2 + a2))
-            + c1 * (x1 + a1) - s1 * y1;
-        let py = s1 * c2 * (x2 + a2 - f * y2) - s1 * s2 * (f * (x2 + a2) + y2)
-            + c1 * c2 * (f * (x2 + a2) + y2) + c1 * s2 * (x2 + a2 - f * y2)
-            + c1 * y1 + s1 * (x1 + a1);
-        let [x, y, _] = two.approximate(t, bends(e)).position;
-        prop_assert!((x - px).abs() < 1e-14 && (y - py).abs() < 1e-14);
-    }
-
-    /// Eqs. 41-43: the position with any α and d, links bending in their x-y planes.
-    #[test]
-    fn the_general_position(
-        t in prop::array::uniform2(-3.0..3.0f64),
-        alpha in prop::array::uniform2(-3.0..3.0f64),
-        d in prop::array::uniform2(-0.5..0.5f64),
-        e in prop::array::uniform6(-0.2..0.2f64),
-    ) {
-        let mut arm = arm(0.4, 0.35);
-        for (k, joint) in arm.joints.iter_mut().enumerate() {
-            (joint.alpha, joint.d) = (alpha[k], d[k]);
-        }
-        let ([one, two], errors) = (bends(e), errors(bends(e)));
-        let found = simulated(&arm, &errors, &t).tool.translation.vector;
-        let ((s1, c1), (s2, c2)) = (t[0].sin_cos(), t[1].sin_cos());
-        let ((sa1, ca1), (sa2, ca2)) = (alpha[0].sin_cos(), alpha[1].sin_cos());
-        let (sd1, cd1) = one.phi.sin_cos();
-        let (x, y) = (two.dx + 0.35, two.dy);
-        let px = c1 * c2 * (cd1 * x - sd1 * y * ca2) - c1 * s2 * (cd1 * ca2 * y + sd1 * x)
-            - s1 * c2 * (ca1 * sd1 * x + ca1 * cd1 * y * ca2)
-            + s1 * s2 * (ca1 * sd1 * ca2 * y - ca1 * cd1 * x)
-            + sa1 * s1 * sa2 * y + sa1 * s1 * d[1] + c1 * (one.dx + 0.4) - ca1 * s1 * one.dy;
-        let py = s1 * c2 * (cd1 * x - sd1 * y * ca2) - s1 * s2 * (sd1 * x + cd1 * ca2 * y)
-            + c1 * c2 * (sd1 * ca1 * x + cd1 * ca1 * y * ca2)
-            + c1 * s2 * (cd1 * ca1 * x - sd1 * ca1 * ca2 * y)
-            + c1 * (ca1 * one.dy - sa1 * sa2 * y - sa1 * d[1]) + s1 * (one.dx + 0.4);
-        let pz = c2 * (sa1 * sd1 * x + sa1 * cd1 * y * ca2)
-            + s2 * (sa1 * cd1 * x - sa1 * sd1 * ca2 * y)
-            + ca1 * sa2 * y + ca1 * d[1] + sa1 * one.dy + d[0];
-        prop_assert!((found - Vector3::new(px, py, pz)).amax() < 1e-14);
-    }
 }
 
 /// The published largest differences are 6.3e-8 m in px and 2.9e-8 m in py. A weight at the tip of

@@ -90,14 +90,6 @@ mod tests {
         assert!((matrix(&turned(psi, beta, phi)) - printed).amax() < 1e-15);
     }
 
-    /// The printed `Rot(y)` of eqs. 4 and 13 does not give eq. 15.
-    #[test]
-    fn the_printed_pitch_contradicts_eq_15() {
-        let printed = transform(&turned(0.0, 0.5, 0.0)).inverse().rotation;
-        let corrected = transform(&turned(0.0, 0.5, 0.0)).rotation;
-        assert!(printed.angle_to(&corrected) > 0.9);
-    }
-
     /// In space roll-pitch-yaw and rotation vector differ at the second order: `[[−(β²+φ²)/2, βψ,
     /// φψ], [0, −(φ²+ψ²)/2, βφ], [0, 0, −(β²+ψ²)/2]]` here, `[r]×²/2` there.
     #[test]

@@ -112,36 +112,6 @@ mod tests {
         Vector2::new(pose.position[0], pose.position[1])
     }
 
-    /// θ = 20°, 30°, dφ = 0.01, 0.02: eqs. 45, 47 and 48 corrected, and what the printed ones give.
-    #[test]
-    fn orientation_and_the_misprints() {
-        let theta = [20f64.to_radians(), 30f64.to_radians()];
-        let bends = [bend(0.0, 0.0, 0.01), bend(0.0, 0.0, 0.02)];
-        let [[_, ny, _], [ox, oy, _], a] = ARM.flexible(theta, bends).rotation;
-        assert_eq!(a, [0.0, 0.0, 1.0]);
-        assert!((ny - 0.784980484849).abs() < 1e-12);
-        assert!((ox + 0.784980484849).abs() < 1e-12);
-        assert!((oy - 0.619520490707).abs() < 1e-12);
-
-        let ((s1, c1), (s2, c2)) = (theta[0].sin_cos(), theta[1].sin_cos());
-        let ((sp, cp), (sm, cm)) = (0.03f64.sin_cos(), (-0.01f64).sin_cos());
-        let (s12, c12) = (theta[0] + theta[1]).sin_cos();
-        let eq45 = c1 * c2 * sp + s1 * s2 * sm + c2 * s1 * cm + c1 * s2 * cp;
-        let eq47 = s1 * s2 * sm - c1 * c2 * sp - c1 * s2 * cm - s1 * c2 * cp;
-        let eq48 = c12 * cp - s12 * sm;
-        assert!((eq45 - 0.788518414654).abs() < 1e-12);
-        assert!((eq47 + 0.792008012567).abs() < 1e-12);
-        assert!((eq48 - 0.650158693713).abs() < 1e-12);
-        // What the misprints add, in closed form.
-        let [t1, t2] = theta;
-        let added = 2.0 * 0.01f64.sin() * t1.sin() * (t2 + 0.02).sin();
-        assert!((eq45 - ny - added).abs() < 1e-15);
-        let added = -2.0 * 0.02f64.sin() * t2.sin() * (t1 + 0.01).sin();
-        assert!((eq47 - ox - added).abs() < 1e-15);
-        let added = 2.0 * 0.02f64.sin() * 0.01f64.cos() * (t1 + t2).sin();
-        assert!((eq48 - oy - added).abs() < 1e-15);
-    }
-
     /// Deflections like those of the paper's rig: the products that eqs. 57 and 58 keep are as
     /// large as the published difference.
     #[test]

@@ -13,6 +13,7 @@ mod witness;
 
 pub use builtin::built_in;
 pub use cells::Methods;
+pub use judge::truth;
 
 use crate::verdict::{Entry, Kind, Verdict};
 use cells::cells;

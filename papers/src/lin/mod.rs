@@ -6,7 +6,6 @@
 //!   Jacobians (eqs. 5, 25 and 37-41).
 //! * [`generalized_forces`]: the load and all weights at every joint (eq. 8).
 //! * [`deflections`]: what the links do to the tool, of any table: YT, YC and YD (eqs. 18-36, 46).
-//! * [`TwoLink`], [`ElbowLinks`]: the same in closed form for the paper's two arms.
 //! * [`ParallelElbow`]: all inverse solutions of an arm whose axes 2, 3 and 4 are parallel.
 //! * [`correction`], [`plan`]: the joint corrections, and the ten steps.
 //!
@@ -18,27 +17,22 @@
 //! * Frames are those of `stiffarm_kernels::generic`; the paper's table is a standard one.
 //! * Deflections are displacements of the arm, so that a load along −y gives a negative y; the
 //!   paper's tables print their magnitudes.
-//! * Misprints of the paper that are corrected here: eq. 28 (`C1³` must read `C1²`), eq. 38 (the
-//!   last component must read `−a_x p_y + a_y p_x`), eq. 45 (row 2: `+ L2 C12`), and in the
-//!   appendix the terms that [`ElbowLinks`] lists.
+//! * The closed forms of the paper's two arms, eqs. 15 to 46 and the appendix, stand in its data file
+//!   with their corrections: they are what these functions are tested against.
 
 mod correction;
 mod deflections;
-mod elbow;
 mod forces;
 mod inverse;
 mod jacobians;
 mod plan;
-mod two_link;
 
 pub use correction::{Correction, correction};
 pub use deflections::{Deflections, LinkDeflection, deflections};
-pub use elbow::ElbowLinks;
 pub use forces::generalized_forces;
 pub use inverse::{Branch, InverseError, Inverses, Missing, ParallelElbow, Sign, Solution};
 pub use jacobians::{differential_jacobian, orientation_jacobian, pose_jacobian};
 pub use plan::{Candidate, Measure, Model, Plan, plan};
-pub use two_link::TwoLink;
 
 use stiffarm_gap::dexterity::DexterityError;
 use stiffarm_kernels::Unstable;

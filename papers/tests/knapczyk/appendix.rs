@@ -1,7 +1,10 @@
-//! Equations (A.1) to (A.3): the roots of the printed squares, eight as they are and six mended.
+//! Equations (A.1) to (A.3).
+
+use std::collections::HashMap;
 
 use stiffarm_papers::knapczyk::apparent;
 
+use crate::printed::Printed;
 use crate::{PUMA, fanuc, near};
 
 /// l1, l2, l3, λ4, λ6, m.
@@ -13,60 +16,30 @@ const POSTURES: [[f64; 6]; 3] = [
     [2.0, -0.4, 0.9, -1.7, 1.2, -0.5],
 ];
 
-/// Roots of c11, c22, c33 for joints 1 to 5, mended.
-fn roots(q: &[f64; 6]) -> [[f64; 5]; 3] {
-    let [l1, l2, l3, l4, l6] = LENGTHS;
-    let [q1, q2, q3, q4, q5, _] = *q;
-    let ((s1, c1), (s2, c2), (s23, c23)) = (q1.sin_cos(), q2.sin_cos(), (q2 + q3).sin_cos());
-    let ((s4, c4), (s5, c5)) = (q4.sin_cos(), q5.sin_cos());
-    let s = l1 + l2 * c2 + l3 * c23 + s23 * l4;
-    let wx = (c1 * c23 * c4 + s1 * s4) * s5 + c1 * s23 * c5;
-    let wy = (s1 * c23 * c4 - c1 * s4) * s5 + s1 * s23 * c5;
-    let wz = s23 * c4 * s5 - c23 * c5;
-    [
-        [
-            -s1 * s - l6 * wy,
-            // Printed l3 c23.
-            c1 * (l2 * s2 + l3 * s23 - c23 * l4 + wz * l6),
-            c1 * (l3 * s23 - c23 * l4 + wz * l6),
-            l6 * (s1 * s23 * wz + c23 * wy),
-            l6 * ((-s1 * c23 * s4 - c1 * c4) * wz + s23 * s4 * wy),
-        ],
-        [
-            // Printed with a bracket too few, c1 s4 and s1 s23 c5.
-            c1 * s + l6 * wx,
-            s1 * (l2 * s2 + l3 * s23 - c23 * l4 + wz * l6),
-            s1 * (l3 * s23 - c23 * l4 + wz * l6),
-            l6 * (-c23 * wx - c1 * s23 * wz),
-            l6 * (-s23 * s4 * wx + (c1 * c23 * s4 - s1 * c4) * wz),
-        ],
-        [
-            0.0,
-            // Printed with l1, l2 s2 and a last term too many.
-            l2 * c2 + l3 * c23 + l4 * s23 + l6 * (c23 * c4 * s5 + s23 * c5),
-            // Printed c1 c23 c4 − c1 s4.
-            l3 * c23 + l4 * s23 + l6 * (c23 * c4 * s5 + s23 * c5),
-            // Printed s1 s23 c5.
-            -l6 * s4 * s5 * s23,
-            // Printed with a bracket too few.
-            l6 * (c23 * s5 + s23 * c4 * c5),
-        ],
-    ]
-}
-
+/// Each printed term, as it should read, is what its joint adds.
 #[test]
 fn the_elements_are_sums_of_the_mended_squares() {
-    let arm = fanuc(&PUMA);
+    let (arm, printed) = (fanuc(&PUMA), Printed::of("knapczyk/equations.toml"));
+    let names = ["l1", "l2", "l3", "lambda4", "lambda6"];
     for q in POSTURES {
         let got = apparent(&arm, &q).unwrap();
-        for (i, row) in roots(&q).iter().enumerate() {
-            let terms: Vec<f64> = row.iter().zip(PUMA).map(|(root, k)| root * root / k).collect();
-            for (j, term) in terms.iter().enumerate() {
-                near(got.by_joint[(i, j)], *term, 1e-13 * term + 1e-18);
-            }
-            // O6 lies on axis 6.
+        let mut values: HashMap<String, f64> =
+            names.into_iter().zip(LENGTHS).map(|(name, value)| (name.into(), value)).collect();
+        for j in 0..6 {
+            values.insert(format!("kappa{}", j + 1), PUMA[j]);
+            values.insert(format!("theta{}", j + 1), q[j]);
+        }
+        // Joint 1 does not lift; O6 lies on axis 6.
+        near(got.by_joint[(2, 0)], 0.0, 1e-30);
+        for i in 0..3 {
             near(got.by_joint[(i, 5)], 0.0, 1e-30);
-            let sum: f64 = terms.iter().sum();
+            let mut sum = 0.0;
+            for j in usize::from(i == 2)..5 {
+                let number = format!("(A.{0}) c_{{{0}{0}}}, joint {1}", i + 1, j + 1);
+                let term = printed.entries(&number, &values)[0];
+                near(got.by_joint[(i, j)], term, 1e-13 * term + 1e-18);
+                sum += term;
+            }
             near(got.compliance[i], sum, 1e-13 * sum);
         }
     }

@@ -3,6 +3,8 @@
 
 mod appendix;
 mod example;
+#[path = "../support/printed.rs"]
+mod printed;
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;

@@ -1,10 +1,48 @@
 //! The paper's arms, and random numbers.
 
+use std::collections::HashMap;
+
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_draws::Draws;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
-use stiffarm_papers::lin::{ElbowLinks, TwoLink};
+
+/// Links that bend, in any one system of units.
+#[derive(Clone, Copy, Debug)]
+pub struct Links<const N: usize> {
+    pub lengths: [f64; N],
+    /// E I.
+    pub rigidity: [f64; N],
+    /// Per unit length.
+    pub weights: [f64; N],
+    /// P: the weight at the end-effector.
+    pub load: f64,
+}
+
+impl<const N: usize> Links<N> {
+    pub fn drawn(random: &mut Draws) -> Self {
+        Links {
+            lengths: random.array(2.0, 30.0),
+            rigidity: random.array(1e5, 5e7),
+            weights: random.array(0.0, 0.3),
+            load: random.between(0.5, 10.0),
+        }
+    }
+
+    /// The values of the paper's symbols; each link by the name of its length and its number.
+    pub fn values(&self, names: [(&str, usize); N], q: &[f64]) -> HashMap<String, f64> {
+        let mut values = HashMap::from([("P".to_owned(), self.load)]);
+        for (k, (length, number)) in names.into_iter().enumerate() {
+            values.insert(length.to_owned(), self.lengths[k]);
+            values.insert(format!("E{number}"), self.rigidity[k]);
+            values.insert(format!("I{number}"), 1.0);
+            values.insert(format!("W{number}"), self.weights[k]);
+        }
+        let angles = q.iter().enumerate().map(|(k, q)| (format!("theta{}", k + 1), *q));
+        values.extend(angles);
+        values
+    }
+}
 
 /// So large that a link does not stretch (the paper neglects it).
 const AREA: f64 = 1e15;
@@ -61,20 +99,20 @@ fn arm(joints: Vec<Joint>, gravity: Vector3<f64>) -> Arm {
 }
 
 /// The data of Tables II and III.
-pub fn two_link(weights: [f64; 2], load: f64) -> TwoLink {
+pub fn two_link(weights: [f64; 2], load: f64) -> Links<2> {
     let rigidity = [YOUNG * 1.920, YOUNG * 0.289];
-    TwoLink { lengths: [24.0, 24.0], rigidity, weights, load }
+    Links { lengths: [24.0, 24.0], rigidity, weights, load }
 }
 
 /// The same arm as a table.
-pub fn planar(links: &TwoLink) -> Arm {
+pub fn planar(links: &Links<2>) -> Arm {
     let of =
         |k: usize| row(links.lengths[k], 0.0, 0.0, Some((links.rigidity[k], links.weights[k])));
     arm(vec![of(0), of(1)], -Vector3::y())
 }
 
 /// The table of the elbow manipulator.
-pub fn elbow(links: &ElbowLinks) -> Arm {
+pub fn elbow(links: &Links<4>) -> Arm {
     let [a2, a3, a4, d6] = links.lengths;
     let section = |k: usize| Some((links.rigidity[k], links.weights[k]));
     let rows = vec![
@@ -89,8 +127,8 @@ pub fn elbow(links: &ElbowLinks) -> Arm {
 }
 
 /// Table IV under 5 lb, with links of `weight` lb/in (which the paper does not print).
-pub fn printed_elbow(weight: f64) -> ElbowLinks {
-    ElbowLinks { lengths: ELBOW, rigidity: [YOUNG * TUBE; 4], weights: [weight; 4], load: 5.0 }
+pub fn printed_elbow(weight: f64) -> Links<4> {
+    Links { lengths: ELBOW, rigidity: [YOUNG * TUBE; 4], weights: [weight; 4], load: 5.0 }
 }
 
 /// A weight of `p` along an axis of the base, downwards.
@@ -98,32 +136,6 @@ pub fn weight(axis: usize, p: f64) -> Vector6<f64> {
     let mut load = Vector6::zeros();
     load[axis] = -p;
     load
-}
-
-/// Random links.
-pub trait Links {
-    fn elbow(&mut self) -> ElbowLinks;
-    fn two_link(&mut self) -> TwoLink;
-}
-
-impl Links for Draws {
-    fn elbow(&mut self) -> ElbowLinks {
-        ElbowLinks {
-            lengths: self.array(2.0, 30.0),
-            rigidity: self.array(1e5, 5e7),
-            weights: self.array(0.0, 0.3),
-            load: self.between(0.5, 10.0),
-        }
-    }
-
-    fn two_link(&mut self) -> TwoLink {
-        TwoLink {
-            lengths: self.array(2.0, 30.0),
-            rigidity: self.array(1e5, 5e7),
-            weights: self.array(0.0, 0.3),
-            load: self.between(0.5, 10.0),
-        }
-    }
 }
 
 /// A stream for each seed.

@@ -1,120 +1,125 @@
-//! The two-link arm's printed equations against the general functions.
+//! The paper's equations against the general functions.
+
+use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 use stiffarm_papers::lin::{
-    TwoLink, deflections, differential_jacobian, generalized_forces, orientation_jacobian,
-    pose_jacobian,
+    deflections, differential_jacobian, generalized_forces, orientation_jacobian, pose_jacobian,
 };
 
 use crate::arms::{Links, draws, elbow, near, planar, weight};
+use crate::printed::Printed;
 
-fn cases() -> impl Iterator<Item = (TwoLink, [f64; 2])> {
-    let mut random = draws(1);
-    (0..200).map(move |_| (random.two_link(), random.array(-3.1, 3.1)))
-}
-
-/// Eqs. 9-12 and 15-17: the forces at both joints.
-#[test]
-fn generalized_forces_of_two_links() {
-    for (links, q) in cases() {
-        let forces = generalized_forces(&planar(&links), &q, &weight(1, links.load)).unwrap();
-        let ([_, l2], [w1, w2], p) = (links.lengths, links.weights, links.load);
-        let ((s1, c1), c12) = (q[0].sin_cos(), (q[0] + q[1]).cos());
-        let down = p + w2 * l2;
-        let moment = -p * l2 * c12 - 0.5 * w2 * l2 * l2 * c12;
-        let second = Vector6::new(-down * s1, -down * c1, 0.0, 0.0, 0.0, moment);
-        let all = down + w1 * links.lengths[0];
-        let first = Vector6::new(0.0, -all, 0.0, 0.0, 0.0, links.base_moment(q));
-        assert!((forces[1] - second).amax() < 1e-12 && (forces[0] - first).amax() < 1e-11);
+/// What an equation should say is what the functions find; both are of the size `size`.
+fn same(printed: &Printed, number: &str, values: &HashMap<String, f64>, found: &[f64], size: f64) {
+    let wanted = printed.entries(number, values);
+    assert_eq!(wanted.len(), found.len(), "{number}");
+    for (wanted, found) in wanted.iter().zip(found) {
+        assert!((wanted - found).abs() <= 1e-11 * size, "{number}: {found} is not {wanted}");
     }
 }
 
-/// Eqs. 43-45, row 2 of eq. 45 with a plus.
+/// Eqs. 15-17: the forces at both joints; 27, 28: each link's own deflection; 32: Castigliano's
+/// theorem; 35, 36: the joints' angles; 43-46: what they do to the tool. And what YTD counts again:
+/// `YC = YT + A L2 C12/E1I1`, `YT + YD = YC + A L1 C1/E1I1 + B (L1 C1 + 2 L2 C12)/E2I2`.
 #[test]
-fn the_angles_move_the_tool() {
-    for (links, q) in cases() {
-        let arm = planar(&links);
+fn the_two_link_arm() {
+    let (printed, mut random) = (Printed::of("lin1991/equations.toml"), draws(1));
+    for _ in 0..20 {
+        let (links, q) = (Links::<2>::drawn(&mut random), random.array::<2>(-3.1, 3.1));
+        let (arm, load) = (planar(&links), weight(1, links.load));
+        let mut values = links.values([("L1", 1), ("L2", 2)], &q);
+        let all = deflections(&arm, &q, &load).unwrap();
+        let forces = generalized_forces(&arm, &q, &load).unwrap();
         let jacobian = differential_jacobian(&arm, &q).unwrap();
-        let [l1, l2] = links.lengths;
-        let (s2, c2) = q[1].sin_cos();
-        let first = Vector6::new(l1 * s2, l2 + l1 * c2, 0.0, 0.0, 0.0, 1.0);
-        let second = Vector6::new(0.0, l2, 0.0, 0.0, 0.0, 1.0);
-        assert!((jacobian.column(0) - first).amax() < 1e-13);
-        assert!((jacobian.column(1) - second).amax() < 1e-13);
-        let turned = orientation_jacobian(&arm.pose(&q)) * jacobian;
-        let ((s1, c1), (s12, c12)) = (q[0].sin_cos(), (q[0] + q[1]).sin_cos());
-        let (a, b) = (0.3, -0.7);
-        let moved = &turned * nalgebra::DVector::from_vec(vec![a, b]);
-        near(moved[0], -l1 * s1 * a - l2 * s12 * (a + b), 1e-13);
-        near(moved[1], l1 * c1 * a + l2 * c12 * (a + b), 1e-13);
-        near(moved[5], a + b, 1e-15);
-        // The sign that eq. 45 prints is another displacement.
-        assert!((moved[1] - (l1 * c1 * a - l2 * c12 * (a + b))).abs() > 1e-4);
+        let moved = |turned: nalgebra::Matrix6<f64>| turned * &jacobian * &all.joint_angles;
+        let in_tool = moved(nalgebra::Matrix6::identity());
+        let in_base = moved(orientation_jacobian(&arm.pose(&q)));
+        for name in ["A", "B"] {
+            let value = printed.entries(&format!("(35) {name}"), &values)[0];
+            values.insert(name.into(), value);
+        }
+        values.insert("dtheta1".into(), all.joint_angles[0]);
+        values.insert("dtheta2".into(), all.joint_angles[1]);
+        values.insert("mz".into(), forces[0][5]);
+        let rows: Vec<f64> = jacobian.transpose().iter().copied().collect();
+        let size = all.castigliano.norm() + all.angular.norm();
+        for (number, found, size) in [
+            ("(15)", forces[1].as_slice(), forces[1].norm()),
+            ("(16)", forces[0].as_slice(), forces[0].norm()),
+            ("(17)", &[forces[0][5]], forces[0].norm()),
+            ("(27)", &[all.links[1].twist.y], size),
+            ("(28)", &[all.links[0].twist.y], size),
+            ("(32)", &[all.castigliano.y], size),
+            ("(35)", &[all.joint_angles[0]], all.joint_angles.norm()),
+            ("(36)", &[all.joint_angles[1]], all.joint_angles.norm()),
+            ("(43)", &rows, jacobian.norm()),
+            ("(44)", in_tool.as_slice(), in_tool.norm()),
+            ("(45)", in_base.as_slice(), in_base.norm()),
+            ("(46)", &[all.angular.y], size),
+        ] {
+            same(&printed, number, &values, found, size);
+        }
+        let [a, b] = [0, 1].map(|k| values[["A", "B"][k]] / links.rigidity[k]);
+        let (r1, r2) = (links.lengths[0] * q[0].cos(), links.lengths[1] * (q[0] + q[1]).cos());
+        near(all.carried().y, -a * r2, 1e-11 * size);
+        near(all.counted_again().y, -a * r1 - b * (r1 + 2.0 * r2), 1e-11 * size);
     }
 }
 
-/// The last component of eq. 38 with the printed sign is not that of a rigid body's motion.
+/// The appendix term by term: dy2, each link's own deflection, and dy1, what the turn of one link's
+/// tip does through the joints before it.
 #[test]
-fn equation_38_needs_a_minus() {
+fn the_elbow() {
+    let (printed, mut random) = (Printed::of("lin1991/equations.toml"), draws(2));
+    for _ in 0..5 {
+        let (links, q) = (Links::<4>::drawn(&mut random), random.array::<6>(-3.1, 3.1));
+        let (arm, load) = (elbow(&links), weight(2, links.load));
+        let names = [("a2", 2), ("a3", 3), ("a4", 4), ("d6", 6)];
+        let mut values = links.values(names, &q);
+        for name in ["B", "C", "D"] {
+            let value = printed.entries(&format!("App. {name}"), &values)[0];
+            values.insert(name.into(), value);
+        }
+        let all = deflections(&arm, &q, &load).unwrap();
+        for (link, (_, row)) in all.links.iter().zip(names) {
+            assert_eq!(link.row, row);
+            let own = format!("App. dy_2, E_{row}I_{row} term");
+            same(&printed, &own, &values, &[link.twist.z], link.twist.norm());
+            let mut alone = arm.clone();
+            for joint in &mut alone.joints {
+                if let Some(beam) = &mut joint.beam {
+                    (beam.iy, beam.iz, beam.j) = (1e20, 1e20, 1e20);
+                }
+            }
+            alone.joints[row - 1].beam = arm.joints[row - 1].beam.clone();
+            let yd = deflections(&alone, &q, &load).unwrap().angular;
+            let angular = format!("App. dy_1, E_{row}I_{row} term");
+            same(&printed, &angular, &values, &[yd.z], yd.norm());
+        }
+    }
+}
+
+/// Eq. 38: the motion about an axis, its last component with a minus.
+#[test]
+fn equation_38() {
+    let printed = Printed::of("lin1991/equations.toml");
     let frame = Isometry3::new([0.3, -0.8, 0.5].into(), [0.2, 1.1, 0.1].into());
+    let turn = frame.rotation.to_rotation_matrix();
+    let mut values = HashMap::new();
+    for (c, letter) in "noa".chars().enumerate() {
+        for (r, axis) in "xyz".chars().enumerate() {
+            values.insert(format!("{letter}{axis}"), turn[(r, c)]);
+            values.insert(format!("p{axis}"), frame.translation.vector[r]);
+        }
+    }
     let motion = pose_jacobian(&frame).column(5).into_owned();
-    let p = frame.translation.vector;
-    let a = frame.rotation * nalgebra::Vector3::z();
-    near(motion[2], -a.x * p.y + a.y * p.x, 1e-15);
-    assert!((motion[2] - (a.x * p.y + a.y * p.x)).abs() > 0.1);
-}
-
-/// Eqs. 22, 23, 26-29: each link's own deflection, vertically; eq. 28 with `C1²`.
-#[test]
-fn equation_28_is_the_oriented_deflection_of_link_1() {
-    let mut apart: f64 = 0.0;
-    for (links, q) in cases() {
-        let all = deflections(&planar(&links), &q, &weight(1, links.load)).unwrap();
-        let (first, second) = (all.links[0].twist.y, all.links[1].twist.y);
-        near(first, links.link_1(q), 1e-12 * first.abs());
-        near(second, links.link_2(q), 1e-12 * second.abs());
-        near(all.timoshenko.y, links.timoshenko(q), 1e-12 * all.timoshenko.norm());
-        // As printed, with C1³ in the third term.
-        let ([l1, l2], w2, c1) = (links.lengths, links.weights[1], q[0].cos());
-        let third = 8.0 * w2 * l1.powi(3) * l2 / (24.0 * links.rigidity[0]);
-        let printed = links.link_1(q) + third * (c1.powi(2) - c1.powi(3));
-        apart = apart.max((printed - first).abs() / first.abs());
-    }
-    assert!(apart > 0.1, "{apart}");
-}
-
-/// Eqs. 31, 32: Castigliano's theorem is the sum of carried deflections; eqs. 34-36 and 46.
-#[test]
-fn equations_32_35_36_and_46() {
-    for (links, q) in cases() {
-        let all = deflections(&planar(&links), &q, &weight(1, links.load)).unwrap();
-        let size = all.castigliano.norm() + all.angular.norm();
-        near(all.castigliano.y, links.castigliano(q), 1e-13 * size);
-        near(all.angular.y, links.angular(q), 1e-13 * size);
-        let angles = links.joint_angles(q);
-        near(all.joint_angles[0], angles[0], 1e-12 * all.joint_angles.norm());
-        near(all.joint_angles[1], angles[1], 1e-12 * all.joint_angles.norm());
-        // dθ1 is how much the tip of the clamped chain turns.
-        near(angles[0], all.castigliano[5], 1e-12 * all.joint_angles.norm());
-    }
-}
-
-/// `YC = YT + A L2 C12/E1I1`, and what YTD has beyond YC.
-#[test]
-fn what_is_counted_again() {
-    for (links, q) in cases() {
-        let all = deflections(&planar(&links), &q, &weight(1, links.load)).unwrap();
-        let size = all.castigliano.norm() + all.angular.norm();
-        near(links.timoshenko(q) + links.carried(q), links.castigliano(q), 1e-14 * size);
-        near(all.carried().y, links.carried(q), 1e-13 * size);
-        let ytd = links.timoshenko(q) + links.angular(q);
-        near(links.castigliano(q) + links.counted_again(q), ytd, 1e-14 * size);
-        near(all.counted_again().y, links.counted_again(q), 1e-13 * size);
-        let [a, b] = [0, 1].map(|k| links.moments(q)[k] / links.rigidity[k]);
-        near(all.links[0].twist[5], -a, 1e-12 * a.abs());
-        near(all.links[1].twist[5], -b, 1e-12 * b.abs());
+    for (k, unit) in ["i", "j", "k"].into_iter().enumerate() {
+        values.extend(["i", "j", "k"].map(|other| (other.into(), f64::from(other == unit))));
+        same(&printed, "(38)", &values, &[motion[k]], 1.0);
+        same(&printed, "(39)", &values, &[motion[k + 3]], 1.0);
     }
 }
 
@@ -123,7 +128,7 @@ fn what_is_counted_again() {
 fn spatial() -> impl Iterator<Item = (Arm, [f64; 6], Vector6<f64>)> {
     let mut random = draws(6);
     (0..40).map(move |round| {
-        let mut arm = elbow(&random.elbow());
+        let mut arm = elbow(&Links::drawn(&mut random));
         for joint in &mut arm.joints {
             (joint.mass, joint.com) = (random.between(0.0, 1.0), random.array(-1.0, 1.0).into());
         }

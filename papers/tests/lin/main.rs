@@ -2,10 +2,11 @@
 //! deflection at a robot end-effector*, J. Robotic Systems 8(2), 1991: equations and tables, in the
 //! paper's inches and pounds.
 
-mod appendix;
 mod arms;
 mod compensation;
 mod equations;
 mod inverse;
+#[path = "../support/printed.rs"]
+mod printed;
 mod table_5;
 mod tables;

@@ -1,8 +1,8 @@
 //! Tables I, II and III.
 
-use stiffarm_papers::lin::{TwoLink, deflections};
+use stiffarm_papers::lin::deflections;
 
-use crate::arms::{WEIGHTS, planar, two_link, weight};
+use crate::arms::{Links, WEIGHTS, planar, two_link, weight};
 
 /// theta1, YC and YT.
 const TABLE_1: [(f64, f64); 5] =
@@ -42,7 +42,7 @@ const TABLE_3: [[f64; 7]; 12] = [
 ];
 
 /// YC, YT, YD as the tables print them: magnitudes, by the general functions.
-fn magnitudes(links: &TwoLink, degrees: [f64; 2]) -> [f64; 3] {
+fn magnitudes(links: &Links<2>, degrees: [f64; 2]) -> [f64; 3] {
     let q = degrees.map(f64::to_radians);
     let all = deflections(&planar(links), &q, &weight(1, links.load)).unwrap();
     [-all.castigliano.y, -all.timoshenko.y, -all.angular.y]
