@@ -9,8 +9,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{
-    Answer, Parameter, Question, Spread, Status, Unknown, identify_measured,
+    Answer, Parameter, Question, Status, Unknown, identify_measured,
 };
 use stiffarm_gap::measurement::Dimension;
 
@@ -209,7 +210,7 @@ struct Entry {
 
 impl Written {
     fn new(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Written {
-        let sizes = |s: &Spread| Sizes {
+        let sizes = |s: &Statistics| Sizes {
             position_rms: s.position_rms,
             position_max: s.position_max,
             rotation_rms: s.rotation_rms,
@@ -225,7 +226,7 @@ impl Written {
             noise: NoiseIs {
                 position: answer.noise.position,
                 rotation: answer.noise.rotation,
-                from: if answer.noise.given { "option" } else { "residual" },
+                from: answer.noise.from,
             },
             freedom: answer.freedom,
             reduced_chi2: answer.reduced_chi2,

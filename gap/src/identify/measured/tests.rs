@@ -7,6 +7,7 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Answer, MeasuredError, Question, Status, Unknown, identify_measured};
+use crate::diagnose::DiagnoseError;
 use crate::measurement::Measurements;
 use crate::random::{between, normal};
 use crate::simulate::equilibrium;
@@ -240,5 +241,5 @@ fn what_cannot_be_answered_is_refused() {
     let mut wrong = arm.clone();
     wrong.joints.pop();
     let error = answer(&robot, &wrong, &text, &Question::default()).unwrap_err();
-    assert!(matches!(error, MeasuredError::Joints { .. }), "{error}");
+    assert!(matches!(error, MeasuredError::Diagnose(DiagnoseError::Joints { .. })), "{error}");
 }
