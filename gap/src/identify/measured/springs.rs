@@ -8,7 +8,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::Question;
 use crate::diagnose::fit::Fitted;
-use crate::effects::{Effect, JointCompliance, Parameter, Place, Quantity, Scene, Spot};
+use crate::effects::{Effect, JOINT_SPRING, Parameter, Place, Quantity, Scene, Spot};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -49,7 +49,7 @@ impl Unknown {
     /// The effect that adds to that, by `value`.
     pub(super) fn added(self, arm: &Arm, value: f64) -> Fitted {
         let (effect, spot): (&'static dyn Effect, Spot) = match self {
-            Unknown::Joint(joint) => (&JointCompliance, Spot::at(Place::Joint(joint))),
+            Unknown::Joint(joint) => (JOINT_SPRING, Spot::at(Place::Joint(joint))),
             Unknown::Link(row) => (&LinkFlexibility, Spot::at(Place::Link(row))),
             Unknown::Base(form) => (&Foundation, Spot { place: Place::Base, form }),
         };
