@@ -63,36 +63,12 @@ pub(crate) fn bent() -> Arm {
 
 /// A row with readings and wrench.
 pub(crate) fn row(q: &[f64], wrench: Vector6<f64>) -> Row {
-    Row {
-        line: 2,
-        q: q.to_vec(),
-        wrench,
-        direction: None,
-        temperature: None,
-        time: None,
-        pose: None,
-        group: 0,
-        marker: None,
-        offset: Some([0.0; 3]),
-        measured: Vector6::zeros(),
-        sim: None,
-    }
+    Row { wrench, ..Row::new(2, q.to_vec()) }
 }
 
 /// Measurements of these rows, each row's group as it stands.
 pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
-    let poses = rows.iter().map(|r| r.group + 1).max().unwrap_or(0);
-    Measurements {
-        file: "test.csv".to_owned(),
-        rows,
-        kind,
-        sim_given: [false; 6],
-        poses,
-        extra: Vec::new(),
-        unused: Vec::new(),
-        measured_in: [None; 6],
-        wrench_in: [None; 6],
-    }
+    Measurements::new("test.csv", kind, rows)
 }
 
 /// A robot of revolute joints without markers.

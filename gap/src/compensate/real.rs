@@ -64,8 +64,8 @@ impl<'a> Real<'a> {
         q: &[f64],
         at: &Situation,
     ) -> Result<(State, Isometry3<f64>), Unstable> {
-        let mut row = Row::blank(0, q.len());
-        (row.q, row.wrench, row.direction) = (q.to_vec(), at.load, at.direction.clone());
+        let direction = at.direction.clone();
+        let row = Row { wrench: at.load, direction, ..Row::new(0, q.to_vec()) };
         let before = at.before.as_deref().unwrap_or(q);
         let last_move = q.iter().zip(before).map(|(now, then)| now - then).collect();
         let warming = at.warming.unwrap_or(0.0);

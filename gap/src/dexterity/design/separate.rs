@@ -69,12 +69,9 @@ impl Apart {
         for (posture, load) in super::candidates::pairs(postures, plan) {
             let side = |_: &f64| if uniform(&mut random) < 0.5 { -1 } else { 1 };
             let direction: Vec<i8> = postures[posture].q.iter().map(side).collect();
-            let mut row = Row::blank(0, arm.dof());
-            row.q.clone_from(&postures[posture].q);
-            row.wrench = plan.loads[load];
-            row.direction = Some(direction);
-            row.group = posture;
-            rows.push(row);
+            let (q, wrench) = (postures[posture].q.clone(), plan.loads[load]);
+            let direction = Some(direction);
+            rows.push(Row { wrench, direction, group: posture, ..Row::new(0, q) });
         }
         let all = pair.iter().chain(&plan.along);
         let line_up = LineUp::new(arm, all, rows.clone());
