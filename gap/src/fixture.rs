@@ -1,6 +1,7 @@
 //! Small arms and rows that the tests of this crate share.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
@@ -59,6 +60,17 @@ pub(crate) fn bent() -> Arm {
         });
     }
     arm
+}
+
+/// The arm of a robot file.
+pub(crate) fn arm(text: &str) -> Arm {
+    crate::robot::arm(&Robot::from_toml(text, "arm.toml").unwrap().0).unwrap()
+}
+
+/// A KUKA KR 240-2, its tool where it is told.
+pub(crate) fn kr240(tool: [f64; 3]) -> Arm {
+    let text = include_str!("../../robots/arms/kuka_kr240.toml");
+    Arm { tool: Isometry3::translation(tool[0], tool[1], tool[2]), ..arm(text) }
 }
 
 /// A row with readings and wrench.

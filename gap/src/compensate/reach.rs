@@ -9,16 +9,14 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
-use core::f64::consts::PI;
-
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{CompensateError, Real, Situation, finite};
 use crate::random::between;
+use crate::robot::ranges;
 
 /// Where the tool should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,13 +104,13 @@ pub fn reach(
             missed => best = missed,
         }
     }
-    let Some(bounds) = bounds(arm) else {
-        return match (best, unlimited(arm)) {
-            (None, Some(joint)) if start.is_none() => Err(CompensateError::Unlimited { joint }),
-            (best, _) => {
-                Ok(best.map_or_else(|| nothing(arm, start), |end| finish(&task, end, search)))
-            }
-        };
+    let bounds = match ranges(arm) {
+        Ok(bounds) => bounds,
+        Err(joint) if start.is_none() => return Err(CompensateError::Unlimited { joint }),
+        Err(_) => {
+            let end = best.map(|end| finish(&task, end, search));
+            return Ok(end.unwrap_or_else(|| nothing(arm, start)));
+        }
     };
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let mut reached: Option<(f64, steps::Point)> = None;
@@ -197,19 +195,4 @@ fn within(arm: &Arm, q: &[f64]) -> Vec<f64> {
         None => *q,
     };
     q.iter().zip(&arm.joints).map(clamped).collect()
-}
-
-/// The first prismatic joint without limits, from 1.
-fn unlimited(arm: &Arm) -> Option<usize> {
-    let free = |joint: &stiffarm_kernels::generic::Joint| {
-        joint.limits.is_none() && joint.motion == Motion::Prismatic
-    };
-    arm.joints.iter().position(free).map(|k| k + 1)
-}
-
-/// What random starts are drawn from; none if a prismatic joint has no limits.
-fn bounds(arm: &Arm) -> Option<Vec<[f64; 2]>> {
-    unlimited(arm)
-        .is_none()
-        .then(|| arm.joints.iter().map(|joint| joint.limits.unwrap_or([-PI, PI])).collect())
 }

@@ -15,7 +15,7 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{Effect, Forms, Parameter, Place, Spot};
+use crate::effects::{Effect, Forms, Parameter, Place, Spot, at_place, cannot_act, did_you_mean};
 use crate::measurement::nearest;
 
 /// One effect at one place, with its size.
@@ -49,10 +49,6 @@ impl fmt::Display for Truth {
     }
 }
 
-fn did_you_mean(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
-}
-
 impl Truth {
     /// Reads a truth about this arm.
     ///
@@ -65,13 +61,7 @@ impl Truth {
             wrong("found no `=`, expected a size: `backlash@joint 2=0.3 mrad`".to_owned())
         })?;
         let (head, size) = text.split_at(end);
-        let (name, place) = match head.split_once('@') {
-            Some((name, place)) => (name.trim(), Some(place.trim())),
-            None => (head.trim(), None),
-        };
-        let known = effects().into_iter().find(|effect| effect.identifier() == name);
-        let effect = known.ok_or_else(|| wrong(unknown_effect(name)))?;
-        let place = read_place(effect, place, arm).map_err(wrong)?;
+        let (effect, place) = at_place(head, arm, effects()).map_err(wrong)?;
         let values = match size.strip_prefix(':') {
             Some(list) => named_values(effect, place, arm, list).map_err(wrong)?,
             None => {
@@ -127,36 +117,6 @@ impl Truth {
         }
         Ok(())
     }
-}
-
-fn unknown_effect(found: &str) -> String {
-    let all: Vec<&str> = effects().into_iter().map(Effect::identifier).collect();
-    let near = did_you_mean(nearest(found, all.iter().copied()));
-    format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
-}
-
-fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
-    let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
-    let name = effect.identifier();
-    if places.is_empty() {
-        return format!("{} has no place for {name}", arm.name);
-    }
-    let near = did_you_mean(nearest(found, places.iter().map(String::as_str)));
-    format!("found the place `{found}`, expected one of {} for {name}{near}", places.join(", "))
-}
-
-fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
-    let places = effect.places(arm);
-    let Some(found) = found else {
-        return match places.as_slice() {
-            [only] => Ok(*only),
-            _ => Err(cannot_act(effect, "", arm).replace("the place ``", "no place")),
-        };
-    };
-    // `joint2` and `joint  2` are `joint 2`.
-    let plain = |text: &str| text.split_whitespace().collect::<String>();
-    let meant = places.into_iter().find(|p| plain(&p.to_string()) == plain(found));
-    meant.ok_or_else(|| cannot_act(effect, found, arm))
 }
 
 fn unknown_parameter(effect: &dyn Effect, place: Place, arm: &Arm, found: &str) -> String {

@@ -3,7 +3,6 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Ended, Reached, Search, Target, reach};
@@ -13,13 +12,8 @@ use crate::plant::{Plant, Truth};
 use crate::random::between;
 use crate::simulate::equilibrium;
 
-fn arm(text: &str) -> Arm {
-    let robot = Robot::from_toml(text, "arm.toml").unwrap().0;
-    crate::robot::arm(&robot).unwrap()
-}
-
 fn kr240() -> Arm {
-    let mut arm = arm(include_str!("../../../../robots/arms/kuka_kr240.toml"));
+    let mut arm = crate::fixture::kr240([0.0; 3]);
     for joint in &mut arm.joints[1..4] {
         (joint.mass, joint.compliance) = (150.0, 3.0 * joint.compliance);
     }
@@ -43,8 +37,8 @@ const LOAD: [f64; 6] = [500.0, -300.0, -2000.0, 100.0, 50.0, -80.0];
 #[test]
 fn the_loaded_arm_stands_at_the_target() {
     let load = Vector6::from(LOAD);
-    let lin = arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
-    let panda = arm(include_str!("../../../../robots/arms/panda.toml"));
+    let lin = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
+    let panda = crate::fixture::arm(include_str!("../../../../robots/arms/panda.toml"));
     for (arm, load) in [(kr240(), load), (lin, load / 50.0), (panda, load / 100.0)] {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         for _ in 0..5 {
