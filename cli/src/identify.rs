@@ -55,10 +55,10 @@ pub struct Args {
     /// Identify the foundation too: three translations, three rotations
     #[arg(long)]
     base: bool,
-    /// Standard deviation of a measured coordinate: 30um [default: from what is left]
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from what is left]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from what is left]
+    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from what is left]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
     /// Number of folds [default: one per pose up to 10]

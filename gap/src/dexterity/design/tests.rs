@@ -213,7 +213,7 @@ fn what_cannot_be_told_apart_is_said() {
     let wrong =
         |text: &str| Suspect::parse(text, &arm, &Catalogue::default()).unwrap_err().to_string();
     assert!(wrong("backlas@joint 2").contains("did you mean `backlash`?"));
-    assert!(wrong("backlash").contains("found no place, expected backlash@ with one of joint 1,"));
+    assert!(wrong("backlash").contains("found no place, expected one of joint 1, joint 2,"));
     assert!(wrong("backlash@tool").contains("found the place `tool`"));
 }
 
