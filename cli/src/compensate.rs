@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
+use stiffarm_gap::compensate::{Real, Situation};
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
 
 use super::Verdict;
@@ -92,7 +93,14 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         let load = given.unwrap_or(row.wrench);
         let before = found.last().filter(|end| end.ended == Ended::Reached);
         let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
-        let end = reach(&arm, &goal(row, targets.kind), &load, from.map(Vec::as_slice), &search);
+        let at = Situation {
+            load,
+            direction: row.direction.clone(),
+            warming: row.temperature.zip(targets.rows[0].temperature).map(|(now, then)| now - then),
+            before: found.last().map(|end| end.q.clone()),
+        };
+        let real = Real::nominal(&arm);
+        let end = reach(&real, &goal(row, targets.kind), &at, from.map(Vec::as_slice), &search);
         found.push(end.map_err(|error| {
             Failure::new(format!("{}: line {}: {error}", targets.file, row.line))
         })?);

@@ -9,8 +9,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{
-    Answer, Parameter, Question, Spread, Status, Unknown, identify_measured,
+    Answer, Parameter, Question, Status, Unknown, identify_measured,
 };
 use stiffarm_gap::measurement::Dimension;
 
@@ -54,10 +55,10 @@ pub struct Args {
     /// Identify the foundation too: three translations, three rotations
     #[arg(long)]
     base: bool,
-    /// Standard deviation of a measured coordinate: 30um [default: from what is left]
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from what is left]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from what is left]
+    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from what is left]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
     /// Number of folds [default: one per pose up to 10]
@@ -209,7 +210,7 @@ struct Entry {
 
 impl Written {
     fn new(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Written {
-        let sizes = |s: &Spread| Sizes {
+        let sizes = |s: &Statistics| Sizes {
             position_rms: s.position_rms,
             position_max: s.position_max,
             rotation_rms: s.rotation_rms,
@@ -225,7 +226,7 @@ impl Written {
             noise: NoiseIs {
                 position: answer.noise.position,
                 rotation: answer.noise.rotation,
-                from: if answer.noise.given { "option" } else { "residual" },
+                from: answer.noise.from,
             },
             freedom: answer.freedom,
             reduced_chi2: answer.reduced_chi2,

@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
+
+use crate::random;
 
 /// What a stream of random numbers is for; one does not depend on how much another draws.
 #[derive(Clone, Copy, Debug)]
@@ -40,12 +42,12 @@ impl Dice {
 
     /// From 0, included, to 1, excluded: 53 random bits.
     pub fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+        random::uniform(&mut self.0)
     }
 
     /// Evenly from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
+        random::between(&mut self.0, [low, high])
     }
 
     /// 0 to `n` − 1, `n` far below 2⁵³.
@@ -60,8 +62,7 @@ impl Dice {
 
     /// Of mean 0 and variance 1 (Box and Muller).
     pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (core::f64::consts::TAU * self.unit()).cos()
+        random::normal(&mut self.0)
     }
 
     /// Student's t with so many degrees of freedom, at least 1: heavy tails.
@@ -73,7 +74,7 @@ impl Dice {
 
     /// Three normal numbers.
     pub fn normal3(&mut self) -> Vector3<f64> {
-        Vector3::new(self.normal(), self.normal(), self.normal())
+        random::normal3(&mut self.0)
     }
 
     /// A direction, evenly over the sphere.

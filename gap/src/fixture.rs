@@ -1,6 +1,7 @@
 //! Small arms and rows that the tests of this crate share.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
@@ -61,38 +62,25 @@ pub(crate) fn bent() -> Arm {
     arm
 }
 
+/// The arm of a robot file.
+pub(crate) fn arm(text: &str) -> Arm {
+    crate::robot::arm(&Robot::from_toml(text, "arm.toml").unwrap().0).unwrap()
+}
+
+/// A KUKA KR 240-2, its tool where it is told.
+pub(crate) fn kr240(tool: [f64; 3]) -> Arm {
+    let text = include_str!("../../robots/arms/kuka_kr240.toml");
+    Arm { tool: Isometry3::translation(tool[0], tool[1], tool[2]), ..arm(text) }
+}
+
 /// A row with readings and wrench.
 pub(crate) fn row(q: &[f64], wrench: Vector6<f64>) -> Row {
-    Row {
-        line: 2,
-        q: q.to_vec(),
-        wrench,
-        direction: None,
-        temperature: None,
-        time: None,
-        pose: None,
-        group: 0,
-        marker: None,
-        offset: Some([0.0; 3]),
-        measured: Vector6::zeros(),
-        sim: None,
-    }
+    Row { wrench, ..Row::new(2, q.to_vec()) }
 }
 
 /// Measurements of these rows, each row's group as it stands.
 pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
-    let poses = rows.iter().map(|r| r.group + 1).max().unwrap_or(0);
-    Measurements {
-        file: "test.csv".to_owned(),
-        rows,
-        kind,
-        sim_given: [false; 6],
-        poses,
-        extra: Vec::new(),
-        unused: Vec::new(),
-        measured_in: [None; 6],
-        wrench_in: [None; 6],
-    }
+    Measurements::new("test.csv", kind, rows)
 }
 
 /// A robot of revolute joints without markers.

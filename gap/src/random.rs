@@ -26,18 +26,3 @@ pub fn normal(random: &mut ChaCha8Rng) -> f64 {
 pub fn normal3(random: &mut ChaCha8Rng) -> Vector3<f64> {
     Vector3::new(normal(random), normal(random), normal(random))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand_chacha::rand_core::SeedableRng;
-
-    #[test]
-    fn the_moments_are_those_of_a_normal() {
-        let mut random = ChaCha8Rng::seed_from_u64(3);
-        let draws: Vec<f64> = (0..40_000).map(|_| normal(&mut random)).collect();
-        let moment = |p: i32| draws.iter().map(|x| x.powi(p)).sum::<f64>() / draws.len() as f64;
-        assert!(moment(1).abs() < 0.02 && (moment(2) - 1.0).abs() < 0.03);
-        assert!((moment(4) - 3.0).abs() < 0.2);
-    }
-}

@@ -1,7 +1,10 @@
 //! From the robot file's model to the arm that is simulated, and to what the reader must know.
 
+use core::f64::consts::PI;
+
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Angle, Robot, Value};
+use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::measurement::{Layout, Marker};
@@ -139,6 +142,19 @@ fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
     Err(RobotError::Symbolic { robot: robot.name.clone(), symbols: read.symbols })
 }
 
+/// Limits of each joint; a revolute one without any turns once around.
+///
+/// # Errors
+/// The first prismatic joint without limits, from 1: it cannot be searched.
+pub fn ranges(arm: &Arm) -> Result<Vec<[f64; 2]>, usize> {
+    let each = arm.joints.iter().enumerate().map(|(k, joint)| match (joint.limits, joint.motion) {
+        (Some(limits), _) => Ok(limits),
+        (None, Motion::Revolute) => Ok([-PI, PI]),
+        (None, Motion::Prismatic) => Err(k + 1),
+    });
+    each.collect()
+}
+
 fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
     let at = |what: &'static str| move || format!("{what} of {}", joint.name);
     Joint {
@@ -178,8 +194,6 @@ fn beam(read: &mut Reader, beam: &robot::Beam, joint: &str) -> Beam {
 
 #[cfg(test)]
 mod tests {
-    use stiffarm_kernels::Motion;
-
     use super::*;
     use stiffarm_codegen::number::Number;
 

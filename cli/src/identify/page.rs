@@ -32,7 +32,11 @@ pub fn facts(
     let mut looked_for = vec!["joints"];
     looked_for.extend(question.links.then_some("links"));
     looked_for.extend(question.base.then_some("base"));
-    let noise = if answer.noise.given { "as given by option" } else { "from what is left" };
+    let noise = match answer.noise.from {
+        "option" => "as given by option",
+        "repeats" => "from repeats",
+        _ => "from what is left",
+    };
     vec![
         ("stiffarm", env!("CARGO_PKG_VERSION").to_owned()),
         ("robot", source.given.clone()),

@@ -1,7 +1,8 @@
 //! What was identified, on one screen, in the units that people use.
 
 use stiffarm_gap::Measurements;
-use stiffarm_gap::identify::measured::{Answer, Spread, Unknown};
+use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::identify::measured::{Answer, Unknown};
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 
 use super::words;
@@ -102,11 +103,11 @@ fn gap(answer: &Answer) -> String {
     if noise.rotation.is_some() {
         heads.push(dim("rms mrad"));
     }
-    let main = |s: &Spread| match noise.position {
+    let main = |s: &Statistics| match noise.position {
         Some(_) => s.position_rms,
         None => s.rotation_rms,
     };
-    let line = |name: &str, s: &Spread| {
+    let line = |name: &str, s: &Statistics| {
         let mut cells = vec![name.to_owned()];
         if noise.position.is_some() {
             cells.extend([s.position_rms, s.position_max].map(|x| short(1e3 * x)));
@@ -119,8 +120,12 @@ fn gap(answer: &Answer) -> String {
         cells
     };
     let mut last = vec![
-        if noise.given { "noise of a component, as given" } else { "noise of a component, left" }
-            .to_owned(),
+        match noise.from {
+            "option" => "noise of a component, as given",
+            "repeats" => "noise of a component, repeats",
+            _ => "noise of a component, left",
+        }
+        .to_owned(),
     ];
     if let Some(sd) = noise.position {
         last.extend([short(1e3 * sd), String::new()]);

@@ -88,7 +88,7 @@ pub fn sentence(source: &Source, answer: &Answer, unit: &Unit, positions: bool) 
     };
     changed.sort_by(|a, b| surprise(b).total_cmp(&surprise(a)));
     let gap = &answer.gap;
-    let size = |s: &stiffarm_gap::identify::measured::Spread| {
+    let size = |s: &stiffarm_gap::gap::Statistics| {
         if positions { s.position_rms } else { s.rotation_rms }
     };
     let (before, after) = (size(&gap.before), size(&gap.held_out));

@@ -7,7 +7,8 @@ use nalgebra::Isometry3;
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::Measurements;
-use stiffarm_gap::identify::measured::{Answer, Parameter, Spread};
+use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::identify::measured::{Answer, Parameter};
 use stiffarm_gap::measurement::Kind;
 use stiffarm_kernels::generic::Arm;
 
@@ -182,7 +183,7 @@ impl Identified<'_> {
 
     fn steps(&self, experiment: &Experiment<'_>) -> Vec<Step> {
         let (gap, noise) = (&self.answer.gap, &self.answer.noise);
-        let size = |s: &Spread| {
+        let size = |s: &Statistics| {
             if experiment.has_positions() { s.position_rms } else { s.rotation_rms }
         };
         let unit = experiment.main_unit();
@@ -202,7 +203,11 @@ impl Identified<'_> {
         let floor = one.unwrap_or(0.0) * (measured as f64).sqrt();
         let whole = unit.with_unit(before);
         let removed = format!("{} less", percent(less));
-        let of = if noise.given { "noise, as given" } else { "noise, from what is left" };
+        let of = match noise.from {
+            "option" => "noise, as given",
+            "repeats" => "noise, from repeats",
+            _ => "noise, from what is left",
+        };
         vec![
             plain("as the robot file is", "whole", 0.0, before, whole),
             plain("springs found", "removed", after.min(before), after.max(before), removed),

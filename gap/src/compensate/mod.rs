@@ -1,10 +1,15 @@
 //! Compensation of the static deflection at the end-effector: set-points of any arm, its joint
-//! limits kept, at equilibrium in the loaded geometry ([`mod@reach`]).
+//! limits kept, at equilibrium in the loaded geometry ([`mod@reach`]), with every effect that is
+//! present ([`Real`]): what must be known to compensate one, the effect says itself
+//! ([`Depends`](crate::effects::Depends)).
 //!
 //! SI units, radians. A load is a wrench `[fx fy fz mx my mz]`, constant in base axes, and acts at
 //! the tool origin.
 
 pub mod reach;
+mod real;
+
+pub use real::{Present, Real, Situation};
 
 /// Why no compensation could be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -36,6 +41,14 @@ pub enum CompensateError {
     Unlimited {
         /// From 1.
         joint: usize,
+    },
+    /// An effect depends on what is not known.
+    #[error("{effect} is not compensated without knowing {unknown}")]
+    Unknown {
+        /// In words.
+        effect: String,
+        /// On what it depends.
+        unknown: &'static str,
     },
     /// The joint springs do not hold the load.
     #[error("the arm has no stable rest under its load: the joint springs would buckle")]

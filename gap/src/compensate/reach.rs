@@ -9,24 +9,21 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
-use core::f64::consts::PI;
-
-use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{CompensateError, finite};
+use super::{CompensateError, Real, Situation, finite};
 use crate::random::between;
-use crate::simulate::equilibrium;
+use crate::robot::ranges;
 
 /// Where the tool should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Of the tool origin in the base frame, m.
+    /// Of the tool origin in the measuring frame, which is the base frame unless an effect moves it, m.
     pub position: Vector3<f64>,
-    /// Of the tool frame in the base frame; none if any will do.
+    /// Of the tool frame there; none if any will do.
     pub rotation: Option<UnitQuaternion<f64>>,
 }
 
@@ -77,7 +74,7 @@ pub struct Reached {
     pub ended: Ended,
 }
 
-/// Set-points for one target under a load on the tool (base axes, at the tool origin).
+/// Set-points for one target in a situation.
 ///
 /// From `start` if there is one; where that is not given or leads nowhere, from random starts, of
 /// which the one is taken whose arm gives way least.
@@ -85,33 +82,35 @@ pub struct Reached {
 /// # Errors
 /// [`CompensateError::NotFinite`]; [`CompensateError::JointValues`] if the start has not as many values
 /// as the arm has joints; [`CompensateError::Unlimited`] if a prismatic joint has no limits and no
-/// start is given; [`CompensateError::NotPositive`] for a tolerance.
+/// start is given; [`CompensateError::NotPositive`] for a tolerance; [`CompensateError::Unknown`] if an
+/// effect depends on what the situation leaves open.
 pub fn reach(
-    arm: &Arm,
+    real: &Real<'_>,
     target: &Target,
-    load: &Vector6<f64>,
+    at: &Situation,
     start: Option<&[f64]>,
     search: &Search,
 ) -> Result<Reached, CompensateError> {
-    check(arm, target, load, start, search)?;
-    let task = steps::Task::new(arm, *target, *load, search);
+    let arm = real.arm;
+    check(arm, target, &at.load, start, search)?;
+    real.check(at)?;
+    let task = steps::Task::new(real, at, *target, search);
     let mut best: Option<steps::Point> = None;
     if let Some(start) = start {
         match task.settle(&within(arm, start)) {
             Some(end) if task.reached(&end) => {
-                return Ok(finish(arm, target, &task, end, search));
+                return Ok(finish(&task, end, search));
             }
             missed => best = missed,
         }
     }
-    let Some(bounds) = bounds(arm) else {
-        return match (best, unlimited(arm)) {
-            (None, Some(joint)) if start.is_none() => Err(CompensateError::Unlimited { joint }),
-            (best, _) => Ok(best.map_or_else(
-                || nothing(arm, start),
-                |end| finish(arm, target, &task, end, search),
-            )),
-        };
+    let bounds = match ranges(arm) {
+        Ok(bounds) => bounds,
+        Err(joint) if start.is_none() => return Err(CompensateError::Unlimited { joint }),
+        Err(_) => {
+            let end = best.map(|end| finish(&task, end, search));
+            return Ok(end.unwrap_or_else(|| nothing(arm, start)));
+        }
     };
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let mut reached: Option<(f64, steps::Point)> = None;
@@ -129,43 +128,31 @@ pub fn reach(
         }
     }
     let end = reached.map(|(_, end)| end).or(best);
-    Ok(end.map_or_else(|| nothing(arm, start), |end| finish(arm, target, &task, end, search)))
+    Ok(end.map_or_else(|| nothing(arm, start), |end| finish(&task, end, search)))
 }
 
-fn finish(
-    arm: &Arm,
-    target: &Target,
-    task: &steps::Task<'_>,
-    end: steps::Point,
-    search: &Search,
-) -> Reached {
+fn finish(task: &steps::Task<'_>, end: steps::Point, search: &Search) -> Reached {
     let ended = if task.reached(&end) {
         Ended::Reached
     } else {
         Ended::Nearest(task.at_limits(&end).into_iter().map(|joint| joint + 1).collect())
     };
-    let uncompensated = uncompensated(arm, target, task, &end.q, search);
+    let uncompensated = uncompensated(task, &end.q, search);
     Reached { error: end.error, q: end.q, uncompensated, ended }
 }
 
-/// What the loaded arm misses at the set-points of a rigid one near `q`.
-fn uncompensated(
-    arm: &Arm,
-    target: &Target,
-    task: &steps::Task<'_>,
-    q: &[f64],
-    search: &Search,
-) -> Option<Vector6<f64>> {
-    let mut rigid = arm.clone();
+/// What the loaded arm misses at the set-points of a rigid one near `q`, of which nothing is wrong.
+fn uncompensated(task: &steps::Task<'_>, q: &[f64], search: &Search) -> Option<Vector6<f64>> {
+    let mut rigid = task.arm().clone();
     for joint in &mut rigid.joints {
         (joint.compliance, joint.beam) = (0.0, None);
         // Where a rigid arm would have to stand is no question of limits.
         joint.limits = None;
     }
-    let ideal = steps::Task::new(&rigid, *target, Vector6::zeros(), search);
+    let (rigid, unloaded) = (Real::nominal(&rigid), Situation::under(Vector6::zeros()));
+    let ideal = steps::Task::new(&rigid, &unloaded, task.target, search);
     let end = ideal.settle(q).filter(|end| ideal.reached(end))?;
-    let state = equilibrium(arm, &end.q, task.load()).ok()?;
-    Some(task.missed(&state.tool))
+    Some(task.at(end.q)?.error)
 }
 
 fn nothing(arm: &Arm, start: Option<&[f64]>) -> Reached {
@@ -208,24 +195,4 @@ fn within(arm: &Arm, q: &[f64]) -> Vec<f64> {
         None => *q,
     };
     q.iter().zip(&arm.joints).map(clamped).collect()
-}
-
-/// The first prismatic joint without limits, from 1.
-fn unlimited(arm: &Arm) -> Option<usize> {
-    let free = |joint: &stiffarm_kernels::generic::Joint| {
-        joint.limits.is_none() && joint.motion == Motion::Prismatic
-    };
-    arm.joints.iter().position(free).map(|k| k + 1)
-}
-
-/// What random starts are drawn from; none if a prismatic joint has no limits.
-fn bounds(arm: &Arm) -> Option<Vec<[f64; 2]>> {
-    unlimited(arm)
-        .is_none()
-        .then(|| arm.joints.iter().map(|joint| joint.limits.unwrap_or([-PI, PI])).collect())
-}
-
-/// The loaded tool at some set-points, as the simulator has it.
-pub fn loaded(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Option<Isometry3<f64>> {
-    equilibrium(arm, q, load).ok().map(|state| state.tool)
 }

@@ -47,15 +47,8 @@ pub fn condition_number(m: &DMatrix<f64>) -> f64 {
 /// As [`normalised_jacobian`].
 pub fn inverse_condition(arm: &Arm, q: &[f64], length: f64) -> Result<f64, DexterityError> {
     let normalised = normalised_jacobian(arm, q, length)?;
-    let square = &normalised * normalised.transpose();
-    if arm.dof() < 6 {
-        let n = arm.dof();
-        let dynamic = DMatrix::from_fn(6, n, |r, c| normalised[(r, c)]);
-        return Ok(1.0 / condition_number(&dynamic));
-    }
-    let Some(inverse) = square.try_inverse() else { return Ok(0.0) };
-    let product = square.trace() * inverse.trace();
-    Ok(if product.is_finite() && product > 0.0 { 6.0 / product.sqrt() } else { 0.0 })
+    let normalised = DMatrix::from_fn(6, arm.dof(), |r, c| normalised[(r, c)]);
+    Ok(1.0 / condition_number(&normalised))
 }
 
 /// The length that suits one posture best.

@@ -6,11 +6,12 @@ use core::f64::consts::PI;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::search::climb;
 use super::{Best, DexterityError, best_length};
 use crate::random::between;
+use crate::robot::ranges;
 
 /// How to search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +59,11 @@ pub fn characteristic_length(arm: &Arm, search: Search) -> Result<Characteristic
         let (what, expected) = ("the number of starts", "at least 1");
         return Err(DexterityError::Setting { what, found: 0.0, expected });
     }
-    let bounds = bounds(arm, search.limits)?;
+    let mut bounds = ranges(arm).map_err(|joint| DexterityError::Unlimited { joint })?;
+    let freed = |joint: &Joint| !search.limits && joint.motion == Motion::Revolute;
+    for (range, _) in bounds.iter_mut().zip(&arm.joints).filter(|(_, joint)| freed(joint)) {
+        *range = [-PI, PI];
+    }
     let value = |q: &[f64]| best_length(arm, q).map_or(f64::NAN, |best| best.inverse_condition);
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let ends: Vec<(Vec<f64>, f64)> = (0..search.starts)
@@ -74,14 +79,4 @@ pub fn characteristic_length(arm: &Arm, search: Search) -> Result<Characteristic
     let Best { length, inverse_condition } = best_length(arm, posture)?;
     let agreeing = ends.iter().filter(|end| end.1 > height - 1e-6).count();
     Ok(Characteristic { length, inverse_condition, posture: posture.clone(), agreeing })
-}
-
-fn bounds(arm: &Arm, limits: bool) -> Result<Vec<[f64; 2]>, DexterityError> {
-    let each = arm.joints.iter().enumerate().map(|(k, joint)| match (joint.motion, joint.limits) {
-        (Motion::Revolute, Some(within)) if limits => Ok(within),
-        (Motion::Revolute, _) => Ok([-PI, PI]),
-        (Motion::Prismatic, Some(within)) => Ok(within),
-        (Motion::Prismatic, None) => Err(DexterityError::Unlimited { joint: k + 1 }),
-    });
-    each.collect()
 }

@@ -18,13 +18,13 @@
 //!
 //! [`Options`] say what may be chosen, a [`Diagnosis`] is what is reported.
 
-mod data;
-mod fit;
+pub(crate) mod data;
+pub(crate) mod fit;
 mod options;
 mod progress;
 mod promise;
 mod report;
-mod search;
+pub(crate) mod search;
 mod sight;
 mod sums;
 #[cfg(test)]

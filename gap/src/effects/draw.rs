@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::{Parameter, Place, Quantity};
+use super::{Parameter, Place};
 use crate::dice::Dice;
 use crate::measurement::Measurements;
 
@@ -64,35 +64,6 @@ impl<'a> Draw<'a> {
         match ends.and_then(|(first, last)| first.time.zip(last.time)) {
             Some((first, last)) => last - first,
             None => self.session.rows.len() as f64,
-        }
-    }
-}
-
-impl Quantity {
-    /// About what arms of a metre or two have; the proportions of an effect's parameters.
-    pub fn typical(self) -> f64 {
-        match self {
-            Quantity::Length | Quantity::Angle | Quantity::LengthRate | Quantity::AngleRate => 3e-4,
-            Quantity::AnglePerMoment => 1e-6,
-            Quantity::LengthPerForce => 1e-7,
-            Quantity::AnglePerMomentCubed => 1e-10,
-            Quantity::LengthPerForceCubed => 1e-12,
-            Quantity::Flexibility => 1e-6,
-            Quantity::Mass => 1.0,
-            Quantity::Ratio | Quantity::AnglePerLength | Quantity::LengthPerAngle => 1e-2,
-            Quantity::PerKelvin => 12e-6,
-            Quantity::Row => 1.0,
-        }
-    }
-
-    /// Beyond this no arm is still the arm of its file.
-    pub fn largest(self) -> f64 {
-        match self {
-            Quantity::Length | Quantity::Angle => 0.05,
-            Quantity::Ratio | Quantity::AnglePerLength | Quantity::LengthPerAngle => 0.5,
-            Quantity::Mass => 100.0,
-            Quantity::PerKelvin => 1e-3,
-            _ => f64::INFINITY,
         }
     }
 }

@@ -2,41 +2,6 @@
 
 use stiffarm_kernels::Motion;
 
-/// The kind of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// m.
-    Length,
-    /// rad.
-    Angle,
-    /// rad/(N·m).
-    AnglePerMoment,
-    /// m/N.
-    LengthPerForce,
-    /// rad/(N·m)³.
-    AnglePerMomentCubed,
-    /// m/N³.
-    LengthPerForceCubed,
-    /// 1/(N·m²): one over EI or GJ.
-    Flexibility,
-    /// kg.
-    Mass,
-    /// A plain number.
-    Ratio,
-    /// rad/m.
-    AnglePerLength,
-    /// m/rad.
-    LengthPerAngle,
-    /// 1/K.
-    PerKelvin,
-    /// m/s; metres per row where the rows have no time.
-    LengthRate,
-    /// rad/s; radians per row where the rows have no time.
-    AngleRate,
-    /// The number of a row, from 1.
-    Row,
-}
-
 /// A unit and what it is in SI.
 type Named = (&'static str, f64);
 
@@ -51,28 +16,86 @@ const MASSES: [Named; 3] = [("kg", 1.0), ("g", 1e-3), ("lb", 0.453_592_37)];
 const PARTS: [Named; 4] = [("", 1.0), ("1", 1.0), ("%", 1e-2), ("ppm", 1e-6)];
 const KELVINS: [Named; 2] = [("K", 1.0), ("degC", 1.0)];
 const NUMBER: [Named; 2] = [("", 1.0), ("1", 1.0)];
+const ROWS: [Named; 2] = [("", 1.0), ("rows", 1.0)];
+const NONE: [Named; 0] = [];
+const ANY: f64 = f64::INFINITY;
 const AREAS: [Named; 4] = [("N*m^2", 1.0), ("Nm^2", 1.0), ("Nm2", 1.0), ("kN*m^2", 1e3)];
+
+/// Everything about a kind of number.
+struct Kind {
+    unit: &'static str,
+    /// Units above and below the stroke, and the power of the latter.
+    above: &'static [Named],
+    below: &'static [Named],
+    power: i32,
+    /// About what arms of a metre or two have; the proportions of an effect's parameters.
+    typical: f64,
+    /// Beyond this no arm is still the arm of its file.
+    largest: f64,
+}
+
+/// The kinds, one to a line: SI unit; units above and below the stroke with the latter's power; what
+/// is typical of it, and the largest.
+macro_rules! quantities {
+    ($($(#[$more:meta])* $name:ident: $unit:literal; $above:ident / $below:ident^$power:literal; $typical:literal, $largest:expr)*) => {
+        /// The kind of a parameter.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Quantity {
+            $(#[doc = concat!("In ", $unit, ".")] $(#[$more])* $name,)*
+        }
+
+        impl Quantity {
+            /// All of them.
+            pub const ALL: &[Quantity] = &[$(Quantity::$name),*];
+
+            fn kind(self) -> Kind {
+                let (unit, above, below, power, typical, largest) = match self {
+                    $(Quantity::$name => {
+                        ($unit, &$above[..], &$below[..], $power, $typical, $largest)
+                    })*
+                };
+                Kind { unit, above, below, power, typical, largest }
+            }
+        }
+    };
+}
+
+quantities! {
+    Length: "m"; LENGTHS / NONE^0; 3e-4, 0.05
+    Angle: "rad"; ANGLES / NONE^0; 3e-4, 0.05
+    AnglePerMoment: "rad/(N·m)"; ANGLES / MOMENTS^1; 1e-6, ANY
+    LengthPerForce: "m/N"; LENGTHS / FORCES^1; 1e-7, ANY
+    AnglePerMomentCubed: "rad/(N·m)³"; ANGLES / MOMENTS^3; 1e-10, ANY
+    LengthPerForceCubed: "m/N³"; LENGTHS / FORCES^3; 1e-12, ANY
+    /// One over EI or GJ.
+    Flexibility: "1/(N·m²)"; NUMBER / AREAS^1; 1e-6, ANY
+    Mass: "kg"; MASSES / NONE^0; 1.0, 100.0
+    Ratio: "1"; PARTS / NONE^0; 1e-2, 0.5
+    AnglePerLength: "rad/m"; ANGLES / LENGTHS^1; 1e-2, 0.5
+    LengthPerAngle: "m/rad"; LENGTHS / ANGLES^1; 1e-2, 0.5
+    PerKelvin: "1/K"; PARTS / KELVINS^1; 12e-6, 1e-3
+    /// By the row where the rows have no time.
+    LengthRate: "m/s"; LENGTHS / TIMES^1; 3e-4, ANY
+    /// By the row where the rows have no time.
+    AngleRate: "rad/s"; ANGLES / TIMES^1; 3e-4, ANY
+    /// The number of a row, from 1.
+    Row: "rows"; ROWS / NONE^0; 1.0, ANY
+}
 
 impl Quantity {
     /// The SI unit, as it is printed.
     pub fn unit(self) -> &'static str {
-        match self {
-            Quantity::Length => "m",
-            Quantity::Angle => "rad",
-            Quantity::AnglePerMoment => "rad/(N·m)",
-            Quantity::LengthPerForce => "m/N",
-            Quantity::AnglePerMomentCubed => "rad/(N·m)³",
-            Quantity::LengthPerForceCubed => "m/N³",
-            Quantity::Flexibility => "1/(N·m²)",
-            Quantity::Mass => "kg",
-            Quantity::Ratio => "1",
-            Quantity::AnglePerLength => "rad/m",
-            Quantity::LengthPerAngle => "m/rad",
-            Quantity::PerKelvin => "1/K",
-            Quantity::LengthRate => "m/s",
-            Quantity::AngleRate => "rad/s",
-            Quantity::Row => "rows",
-        }
+        self.kind().unit
+    }
+
+    /// About what arms of a metre or two have; the proportions of an effect's parameters.
+    pub fn typical(self) -> f64 {
+        self.kind().typical
+    }
+
+    /// Beyond this no arm is still the arm of its file.
+    pub fn largest(self) -> f64 {
+        self.kind().largest
     }
 
     /// The SI unit with rows that have a time, or that have none: what happens by the second happens
@@ -93,30 +116,9 @@ impl Quantity {
         }
     }
 
-    /// Numerators, denominators, and the power of the denominator.
-    fn parts(self) -> (&'static [Named], &'static [Named], i32) {
-        match self {
-            Quantity::Length => (&LENGTHS, &[], 0),
-            Quantity::Angle => (&ANGLES, &[], 0),
-            Quantity::AnglePerMoment => (&ANGLES, &MOMENTS, 1),
-            Quantity::LengthPerForce => (&LENGTHS, &FORCES, 1),
-            Quantity::AnglePerMomentCubed => (&ANGLES, &MOMENTS, 3),
-            Quantity::LengthPerForceCubed => (&LENGTHS, &FORCES, 3),
-            Quantity::Flexibility => (&NUMBER, &AREAS, 1),
-            Quantity::Mass => (&MASSES, &[], 0),
-            Quantity::Ratio => (&PARTS, &[], 0),
-            Quantity::AnglePerLength => (&ANGLES, &LENGTHS, 1),
-            Quantity::LengthPerAngle => (&LENGTHS, &ANGLES, 1),
-            Quantity::PerKelvin => (&PARTS, &KELVINS, 1),
-            Quantity::LengthRate => (&LENGTHS, &TIMES, 1),
-            Quantity::AngleRate => (&ANGLES, &TIMES, 1),
-            Quantity::Row => (&[("", 1.0), ("rows", 1.0)], &[], 0),
-        }
-    }
-
     /// The units that may be written, as a message lists them.
     pub fn units(self) -> String {
-        let (above, below, power) = self.parts();
+        let Kind { above, below, power, .. } = self.kind();
         let names = |list: &[Named]| {
             let names: Vec<&str> =
                 list.iter().map(|(name, _)| *name).filter(|n| !n.is_empty()).collect();
@@ -134,7 +136,7 @@ impl Quantity {
 
     /// What one `unit` is in SI; `None` if it is no unit of this quantity.
     fn factor(self, unit: &str) -> Option<f64> {
-        let (above, below, power) = self.parts();
+        let Kind { above, below, power, .. } = self.kind();
         let find =
             |list: &[Named], name: &str| list.iter().find(|(n, _)| *n == name).map(|(_, f)| *f);
         if below.is_empty() {
@@ -234,24 +236,7 @@ mod tests {
 
     #[test]
     fn every_si_unit_is_one() {
-        use Quantity::*;
-        for quantity in [
-            Length,
-            Angle,
-            AnglePerMoment,
-            LengthPerForce,
-            AnglePerMomentCubed,
-            LengthPerForceCubed,
-            Flexibility,
-            Mass,
-            Ratio,
-            AnglePerLength,
-            LengthPerAngle,
-            PerKelvin,
-            LengthRate,
-            AngleRate,
-            Row,
-        ] {
+        for quantity in Quantity::ALL {
             assert_eq!(quantity.read(&format!("3 {}", quantity.unit())), Some(3.0));
             assert!(!quantity.units().is_empty());
         }

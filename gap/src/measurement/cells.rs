@@ -56,7 +56,7 @@ pub(crate) fn row(
         mistakes.add(line, None, Fault::EmptyRow);
         return None;
     }
-    let mut row = Row::blank(line, layout.motions.len());
+    let mut row = Row::new(line, vec![0.0; layout.motions.len()]);
     let mut good = true;
     for (head, cell) in heads.iter().zip(cells) {
         if let Err(fault) = fill(&mut row, head, cell, layout) {

@@ -36,7 +36,7 @@ mod tests {
 
     fn row(q: &[f64], pose: Option<&str>) -> Row {
         let pose = pose.map(str::to_owned);
-        Row { q: q.to_vec(), pose, ..Row::blank(1, q.len()) }
+        Row { pose, ..Row::new(1, q.to_vec()) }
     }
 
     fn groups(mut rows: Vec<Row>) -> (usize, Vec<usize>) {

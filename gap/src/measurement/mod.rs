@@ -108,10 +108,11 @@ pub struct Row {
 }
 
 impl Row {
-    pub(crate) fn blank(line: u64, joints: usize) -> Row {
+    /// A row at some readings, without load, of which nothing was measured.
+    pub fn new(line: u64, q: Vec<f64>) -> Row {
         Row {
             line,
-            q: vec![0.0; joints],
+            q,
             wrench: Vector6::zeros(),
             direction: None,
             temperature: None,
@@ -144,6 +145,21 @@ pub struct ExtraColumn {
 }
 
 impl Measurements {
+    /// Rows that no file holds, each of the pose that its `group` says.
+    pub fn new(file: &str, kind: Kind, rows: Vec<Row>) -> Measurements {
+        Measurements {
+            file: file.to_owned(),
+            poses: rows.iter().map(|row| row.group + 1).max().unwrap_or(0),
+            rows,
+            kind,
+            sim_given: [false; 6],
+            extra: Vec::new(),
+            unused: Vec::new(),
+            measured_in: [None; 6],
+            wrench_in: [None; 6],
+        }
+    }
+
     /// Whether every row has a time.
     pub fn is_timed(&self) -> bool {
         self.rows.iter().all(|row| row.time.is_some())

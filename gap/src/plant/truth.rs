@@ -15,7 +15,7 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{Effect, Forms, Parameter, Place, Spot};
+use crate::effects::{Effect, Forms, Parameter, Place, Spot, at_place, cannot_act, did_you_mean};
 use crate::measurement::nearest;
 
 /// One effect at one place, with its size.
@@ -49,10 +49,6 @@ impl fmt::Display for Truth {
     }
 }
 
-fn did_you_mean(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
-}
-
 impl Truth {
     /// Reads a truth about this arm.
     ///
@@ -65,19 +61,11 @@ impl Truth {
             wrong("found no `=`, expected a size: `backlash@joint 2=0.3 mrad`".to_owned())
         })?;
         let (head, size) = text.split_at(end);
-        let (name, place) = match head.split_once('@') {
-            Some((name, place)) => (name.trim(), Some(place.trim())),
-            None => (head.trim(), None),
-        };
-        let known = effects().into_iter().find(|effect| effect.identifier() == name);
-        let effect = known.ok_or_else(|| wrong(unknown_effect(name)))?;
-        let place = read_place(effect, place, arm).map_err(wrong)?;
+        let (effect, place) = at_place(head, arm, effects()).map_err(wrong)?;
+        let numbers = Numbers { effect, place, arm };
         let values = match size.strip_prefix(':') {
-            Some(list) => named_values(effect, place, arm, list).map_err(wrong)?,
-            None => {
-                let value = size.trim_start_matches('=');
-                vec![first_value(effect, place, arm, value).map_err(wrong)?]
-            }
+            Some(list) => numbers.named(list).map_err(wrong)?,
+            None => vec![numbers.first(size.trim_start_matches('=')).map_err(wrong)?],
         };
         let truth = Truth { effect, place, values };
         truth.check(arm).map_err(wrong)?;
@@ -105,7 +93,7 @@ impl Truth {
         }
         for (k, (name, value)) in values.iter().enumerate() {
             if effect.number(arm, *place, name).is_none() {
-                return Err(unknown_parameter(*effect, *place, arm, name));
+                return Err(Numbers { effect: *effect, place: *place, arm }.unknown(name));
             }
             if !value.is_finite() {
                 return Err(format!("`{name}`: found {value}, expected a finite number"));
@@ -129,95 +117,53 @@ impl Truth {
     }
 }
 
-fn unknown_effect(found: &str) -> String {
-    let all: Vec<&str> = effects().into_iter().map(Effect::identifier).collect();
-    let near = did_you_mean(nearest(found, all.iter().copied()));
-    format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
+/// An effect at a place of an arm, whose numbers are read.
+struct Numbers<'a> {
+    effect: &'a dyn Effect,
+    place: Place,
+    arm: &'a Arm,
 }
 
-fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
-    let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
-    let name = effect.identifier();
-    if places.is_empty() {
-        return format!("{} has no place for {name}", arm.name);
+impl Numbers<'_> {
+    fn unknown(&self, found: &str) -> String {
+        let Numbers { effect, place, arm } = self;
+        let known = effect.numbers(arm, *place);
+        let near = did_you_mean(nearest(found, known.iter().map(|p| p.name.as_ref())));
+        let (names, name) = (effect.names(arm, *place), effect.identifier());
+        format!("found the parameter `{found}`, expected {names} for {name} at {place}{near}")
     }
-    let near = did_you_mean(nearest(found, places.iter().map(String::as_str)));
-    format!("found the place `{found}`, expected one of {} for {name}{near}", places.join(", "))
-}
 
-fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
-    let places = effect.places(arm);
-    let Some(found) = found else {
-        return match places.as_slice() {
-            [only] => Ok(*only),
-            _ => Err(cannot_act(effect, "", arm).replace("the place ``", "no place")),
-        };
-    };
-    // `joint2` and `joint  2` are `joint 2`.
-    let plain = |text: &str| text.split_whitespace().collect::<String>();
-    let meant = places.into_iter().find(|p| plain(&p.to_string()) == plain(found));
-    meant.ok_or_else(|| cannot_act(effect, found, arm))
-}
-
-fn unknown_parameter(effect: &dyn Effect, place: Place, arm: &Arm, found: &str) -> String {
-    let known = effect.numbers(arm, place);
-    let near = did_you_mean(nearest(found, known.iter().map(|p| p.name.as_ref())));
-    let names = effect.names(arm, place);
-    format!(
-        "found the parameter `{found}`, expected {names} for {} at {place}{near}",
-        effect.identifier()
-    )
-}
-
-fn read_value(
-    effect: &dyn Effect,
-    place: Place,
-    arm: &Arm,
-    name: &str,
-    text: &str,
-) -> Result<(String, f64), String> {
-    let (_, Parameter { quantity, .. }) = effect
-        .number(arm, place, name)
-        .ok_or_else(|| unknown_parameter(effect, place, arm, name))?;
-    let value = quantity.read(text).ok_or_else(|| {
-        let found = text.trim();
-        format!("`{name}`: found `{found}`, expected a number and its unit: {}", quantity.units())
-    })?;
-    Ok((name.to_owned(), value))
-}
-
-fn first_value(
-    effect: &dyn Effect,
-    place: Place,
-    arm: &Arm,
-    text: &str,
-) -> Result<(String, f64), String> {
-    let natural = !matches!(effect.forms_are(), Forms::Joints | Forms::Rows);
-    match effect.numbers(arm, place).first().filter(|_| natural) {
-        Some(first) => read_value(effect, place, arm, &first.name, text),
-        None => Err(format!(
-            "found a size without a name, expected {} for {}: `{}@{place}:NAME=VALUE`",
-            effect.names(arm, place),
-            effect.identifier(),
-            effect.identifier(),
-        )),
-    }
-}
-
-fn named_values(
-    effect: &dyn Effect,
-    place: Place,
-    arm: &Arm,
-    list: &str,
-) -> Result<Vec<(String, f64)>, String> {
-    let each = list.split(',').map(|part| {
-        let (name, value) = part.split_once('=').ok_or_else(|| {
-            let found = part.trim();
-            format!("found `{found}`, expected name=value (numbers have a point, not a comma)")
+    fn value(&self, name: &str, text: &str) -> Result<(String, f64), String> {
+        let number = self.effect.number(self.arm, self.place, name);
+        let Parameter { quantity, .. } = number.ok_or_else(|| self.unknown(name))?.1;
+        let value = quantity.read(text).ok_or_else(|| {
+            let (found, units) = (text.trim(), quantity.units());
+            format!("`{name}`: found `{found}`, expected a number and its unit: {units}")
         })?;
-        // `joint2`, `cos  2`: one space stands between word and number.
-        let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
-        read_value(effect, place, arm, &name, value)
-    });
-    each.collect()
+        Ok((name.to_owned(), value))
+    }
+
+    fn first(&self, text: &str) -> Result<(String, f64), String> {
+        let Numbers { effect, place, arm } = self;
+        let natural = !matches!(effect.forms_are(), Forms::Joints | Forms::Rows);
+        if let Some(first) = effect.numbers(arm, *place).first().filter(|_| natural) {
+            return self.value(&first.name, text);
+        }
+        let (names, name) = (effect.names(arm, *place), effect.identifier());
+        Err(format!(
+            "found a size without a name, expected {names} for {name}: `{name}@{place}:NAME=VALUE`"
+        ))
+    }
+
+    fn named(&self, list: &str) -> Result<Vec<(String, f64)>, String> {
+        let each = list.split(',').map(|part| {
+            let (name, value) = part.split_once('=').ok_or_else(|| {
+                let found = part.trim();
+                format!("found `{found}`, expected name=value (numbers have a point, not a comma)")
+            })?;
+            // `joint2`, `cos  2`: one space stands between word and number.
+            self.value(&name.split_whitespace().collect::<Vec<_>>().join(" "), value)
+        });
+        each.collect()
+    }
 }

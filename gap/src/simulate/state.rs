@@ -36,6 +36,11 @@ impl State {
         &self.loads[self.index(site)]
     }
 
+    /// The displacement of a site, in its own axes.
+    pub fn displacement(&self, site: Site) -> &Vector6<f64> {
+        &self.displacements[self.index(site)]
+    }
+
     /// The frame in which a site's displacement is expressed, in the base frame.
     pub fn frame(&self, site: Site) -> &Isometry3<f64> {
         &self.frames[self.index(site)]

@@ -1,15 +1,18 @@
 //! The plant on its design: how large an effect's gap is, in multiples of the noise.
 
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
 
 use super::draw::resized;
 use super::exact;
 use super::{Plan, WithholdError};
 use crate::diagnose::Nuisance;
+use crate::diagnose::fit::Basis;
 use crate::dice::Dice;
 use crate::effects::{Draw, Effect, Place};
+use crate::gap::difference;
 use crate::measurement::Measurements;
 use crate::plant::{PlantError, Truth};
+use crate::simulate::Reading;
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -20,8 +23,8 @@ pub(super) struct Bench<'a> {
     pub(super) plan: &'a Plan<'a>,
     /// What the arm of the file shows, without noise.
     nominal: Measurements,
-    /// An orthonormal basis of what unknown frames could do to the whitened gap.
-    nuisance: Option<DMatrix<f64>>,
+    /// What unknown frames could do to the whitened gap, and which of that is decided.
+    nuisance: Option<(DMatrix<f64>, Basis)>,
 }
 
 /// An effect put in, and what it does.
@@ -106,8 +109,8 @@ impl<'a> Bench<'a> {
     /// frames have been fitted.
     fn multiple(&self, exact: &Measurements) -> f64 {
         let mut gap = self.whitened(exact);
-        if let Some(basis) = &self.nuisance {
-            gap -= basis * (basis.transpose() * &gap);
+        if let Some((columns, basis)) = &self.nuisance {
+            gap -= columns * basis.solve(&columns.tr_mul(&gap));
         }
         gap.norm() / (gap.len() as f64).sqrt()
     }
@@ -117,7 +120,7 @@ impl<'a> Bench<'a> {
         let mut gap = Vec::new();
         for (row, nominal) in exact.rows.iter().zip(&self.nominal.rows) {
             let predicted = row.sim.as_ref().unwrap_or(&nominal.measured);
-            let off = difference(&row.measured, predicted, components);
+            let off = difference(&row.measured, &Reading::from_vector(predicted), components);
             for k in (0..6).filter(|k| components[*k]) {
                 gap.push(off[k] / if k < 3 { noise.position } else { noise.rotation });
             }
@@ -125,7 +128,7 @@ impl<'a> Bench<'a> {
         DVector::from_vec(gap)
     }
 
-    fn what_frames_do(&self) -> Result<DMatrix<f64>, PlantError> {
+    fn what_frames_do(&self) -> Result<(DMatrix<f64>, Basis), PlantError> {
         let mut columns = Vec::new();
         for effect in Nuisance::ALL.map(Nuisance::effect) {
             let places = effect.places(self.plan.arm).into_iter();
@@ -136,38 +139,8 @@ impl<'a> Bench<'a> {
                 columns.push(self.whitened(&self.exact(&[Truth { effect, place, values }])?));
             }
         }
-        Ok(orthonormal(columns))
+        let columns = DMatrix::from_columns(&columns);
+        let basis = Basis::new(&columns.tr_mul(&columns));
+        Ok((columns, basis))
     }
-}
-
-/// A basis of what the columns span (Gram and Schmidt, twice over); what the others make up to
-/// seven digits is left out.
-fn orthonormal(columns: Vec<DVector<f64>>) -> DMatrix<f64> {
-    let rows = columns.first().map_or(0, DVector::len);
-    let mut basis: Vec<DVector<f64>> = Vec::new();
-    for mut column in columns {
-        let size = column.norm();
-        for own in basis.iter().chain(&basis) {
-            column -= own * own.dot(&column);
-        }
-        if column.norm() > 1e-7 * size {
-            basis.push(column.normalize());
-        }
-    }
-    if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
-}
-
-/// Measured less predicted; of whole rotations the rotation vector between them.
-pub(super) fn difference(
-    measured: &Vector6<f64>,
-    predicted: &Vector6<f64>,
-    components: [bool; 6],
-) -> Vector6<f64> {
-    let mut off = measured - predicted;
-    if components[3..] == [true; 3] {
-        let turn = |v: &Vector6<f64>| Rotation3::from_scaled_axis(Vector3::new(v[3], v[4], v[5]));
-        let between = (turn(measured) * turn(predicted).inverse()).scaled_axis();
-        off.fixed_rows_mut::<3>(3).copy_from(&between);
-    }
-    off
 }

@@ -81,34 +81,13 @@ pub fn loaded(convention: Convention) -> Arm {
 }
 
 pub fn reading(q: &[f64], wrench: [f64; 6]) -> Row {
-    Row {
-        line: 1,
-        q: q.to_vec(),
-        wrench: Vector6::from_row_slice(&wrench),
-        direction: None,
-        temperature: None,
-        time: None,
-        pose: None,
-        group: 0,
-        marker: None,
-        offset: Some([0.0; 3]),
-        measured: Vector6::zeros(),
-        sim: None,
-    }
+    Row { wrench: wrench.into(), ..Row::new(1, q.to_vec()) }
 }
 
 pub fn rows(kind: Kind, rows: Vec<Row>) -> Measurements {
-    Measurements {
-        file: "rows".to_owned(),
-        poses: rows.len(),
-        rows: (0..).zip(rows).map(|(k, r)| Row { line: k + 2, ..r }).collect(),
-        kind,
-        sim_given: [false; 6],
-        extra: Vec::new(),
-        unused: Vec::new(),
-        measured_in: [None; 6],
-        wrench_in: [None; 6],
-    }
+    let rows = (0..).zip(rows);
+    let each = rows.map(|(k, row)| Row { line: k as u64 + 2, group: k, ..row });
+    Measurements::new("rows", kind, each.collect())
 }
 
 pub fn plant(arm: &Arm, truths: &[&str]) -> Plant {

@@ -2,12 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::{DMatrix, DVector, Isometry3, Vector6};
+use nalgebra::{DMatrix, DVector, Isometry3, Matrix6xX, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Search, Target};
-use crate::simulate::{State, equilibrium};
+use crate::compensate::{Real, Situation};
 
 /// Most steps from one start.
 const MOST_STEPS: usize = 100;
@@ -25,11 +25,11 @@ const DAMPING: [f64; 2] = [1e-12, 1e6];
 /// A joint so near to its limit stands at it, rad or m.
 const AT_LIMIT: f64 = 1e-9;
 
-/// An arm, a load and a target.
+/// An arm in a situation, and a target.
 pub(super) struct Task<'a> {
-    arm: &'a Arm,
-    target: Target,
-    load: Vector6<f64>,
+    real: &'a Real<'a>,
+    situation: &'a Situation,
+    pub(super) target: Target,
     translation: f64,
     rotation: f64,
     /// Makes translations comparable to rotations, m.
@@ -42,41 +42,50 @@ pub(super) struct Point {
     pub(super) error: Vector6<f64>,
     /// Of the error, translations in units of the length.
     pub(super) size: f64,
-    state: State,
+    tool: Isometry3<f64>,
+    jacobian: Matrix6xX<f64>,
 }
 
 impl<'a> Task<'a> {
     pub(super) fn new(
-        arm: &'a Arm,
+        real: &'a Real<'a>,
+        situation: &'a Situation,
         target: Target,
-        load: Vector6<f64>,
         search: &Search,
     ) -> Task<'a> {
+        let arm = real.arm;
         let reach: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
         let length = (reach + arm.tool.translation.vector.norm()) / 2.0;
         let length = if length > 0.0 { length } else { 1.0 };
         let (translation, rotation) = (search.translation, search.rotation);
-        Task { arm, target, load, translation, rotation, length }
+        Task { real, situation, target, translation, rotation, length }
     }
 
-    pub(super) fn load(&self) -> &Vector6<f64> {
-        &self.load
+    pub(super) fn arm(&self) -> &'a Arm {
+        self.real.arm
     }
 
-    /// From a tool to the target, base axes.
-    pub(super) fn missed(&self, tool: &Isometry3<f64>) -> Vector6<f64> {
+    /// From a tool to the target.
+    fn missed(&self, tool: &Isometry3<f64>) -> Vector6<f64> {
         let p = self.target.position - tool.translation.vector;
         let r = self.target.rotation.map(|to| (to * tool.rotation.inverse()).scaled_axis());
         let r = r.unwrap_or_default();
         Vector6::new(p.x, p.y, p.z, r.x, r.y, r.z)
     }
 
-    fn at(&self, q: Vec<f64>) -> Option<Point> {
-        let state = equilibrium(self.arm, &q, &self.load).ok()?;
-        let error = self.missed(&state.tool);
+    pub(super) fn at(&self, q: Vec<f64>) -> Option<Point> {
+        let (state, base) = self.real.rest(&q, self.situation).ok()?;
+        let (tool, mut jacobian) = (base * state.tool, state.jacobian());
+        for mut column in jacobian.column_iter_mut() {
+            for first in [0, 3] {
+                let turned = base.rotation * column.fixed_rows::<3>(first);
+                column.fixed_rows_mut::<3>(first).copy_from(&turned);
+            }
+        }
+        let error = self.missed(&tool);
         let size =
             (error.fixed_rows::<3>(0).norm() / self.length).hypot(error.fixed_rows::<3>(3).norm());
-        size.is_finite().then_some(Point { q, error, size, state })
+        size.is_finite().then_some(Point { q, error, size, tool, jacobian })
     }
 
     pub(super) fn reached(&self, point: &Point) -> bool {
@@ -86,15 +95,15 @@ impl<'a> Task<'a> {
 
     /// How much the springs give: the largest motion of a joint in units of the arm.
     pub(super) fn gives(&self, point: &Point) -> f64 {
-        let unloaded = self.arm.pose(&point.q);
-        let shift = point.state.tool.translation.vector - unloaded.translation.vector;
-        shift.norm() / self.length + point.state.tool.rotation.angle_to(&unloaded.rotation)
+        let unloaded = self.arm().pose(&point.q);
+        let shift = point.tool.translation.vector - unloaded.translation.vector;
+        shift.norm() / self.length + point.tool.rotation.angle_to(&unloaded.rotation)
     }
 
     /// Each joint that turns, by whole turns, as near to 0 as its limits let it: a random start may
     /// have wound it up.
     pub(super) fn turned_back(&self, mut point: Point) -> Point {
-        for (q, joint) in point.q.iter_mut().zip(&self.arm.joints) {
+        for (q, joint) in point.q.iter_mut().zip(&self.arm().joints) {
             let back = *q - (*q / TAU).round() * TAU;
             let allowed = joint.limits.is_none_or(|[low, high]| (low..=high).contains(&back));
             if joint.motion == Motion::Revolute && allowed {
@@ -110,7 +119,7 @@ impl<'a> Task<'a> {
             let near = |[low, high]: [f64; 2]| {
                 point.q[*k] - low <= AT_LIMIT || high - point.q[*k] <= AT_LIMIT
             };
-            self.arm.joints[*k].limits.is_some_and(near)
+            self.arm().joints[*k].limits.is_some_and(near)
         };
         (0..point.q.len()).filter(at).collect()
     }
@@ -138,9 +147,8 @@ impl<'a> Task<'a> {
     fn slope(&self, point: &Point) -> (DMatrix<f64>, DVector<f64>) {
         let rows = if self.target.rotation.is_some() { 6 } else { 3 };
         let unit = |row: usize| if row < 3 { self.length } else { 1.0 };
-        let n = self.arm.dof();
-        let jacobian = self.arm.jacobian(&point.state.joints);
-        let slope = DMatrix::from_fn(rows, n, |r, c| jacobian[(r, c)] / unit(r));
+        let n = self.arm().dof();
+        let slope = DMatrix::from_fn(rows, n, |r, c| point.jacobian[(r, c)] / unit(r));
         (slope, DVector::from_fn(rows, |r, _| point.error[r] / unit(r)))
     }
 
@@ -170,7 +178,7 @@ impl<'a> Task<'a> {
         gap: &DVector<f64>,
         damping: f64,
     ) -> Vec<f64> {
-        let n = self.arm.dof();
+        let n = self.arm().dof();
         let mut free: Vec<usize> = (0..n).collect();
         loop {
             let columns = slope.select_columns(&free);
@@ -183,7 +191,7 @@ impl<'a> Task<'a> {
             let part = if longest > LONGEST { LONGEST / longest } else { 1.0 };
             let blocked = |(slot, &k): (usize, &usize)| {
                 let (q, change) = (point.q[k], step[slot]);
-                self.arm.joints[k].limits.is_some_and(|[low, high]| {
+                self.arm().joints[k].limits.is_some_and(|[low, high]| {
                     change < 0.0 && q - low <= AT_LIMIT || change > 0.0 && high - q <= AT_LIMIT
                 })
             };
@@ -194,7 +202,7 @@ impl<'a> Task<'a> {
                 for (slot, &k) in free.iter().enumerate() {
                     q[k] += part * step[slot];
                 }
-                return super::within(self.arm, &q);
+                return super::within(self.arm(), &q);
             }
             free.retain(|k| !stuck.contains(k));
             if free.is_empty() {

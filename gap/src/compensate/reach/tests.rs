@@ -3,20 +3,17 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
-use super::{Ended, Reached, Search, Target, loaded, reach};
-use crate::compensate::CompensateError;
+use super::{Ended, Reached, Search, Target, reach};
+use crate::compensate::{CompensateError, Present, Real, Situation};
+use crate::measurement::Kind;
+use crate::plant::{Plant, Truth};
 use crate::random::between;
-
-fn arm(text: &str) -> Arm {
-    let robot = Robot::from_toml(text, "arm.toml").unwrap().0;
-    crate::robot::arm(&robot).unwrap()
-}
+use crate::simulate::equilibrium;
 
 fn kr240() -> Arm {
-    let mut arm = arm(include_str!("../../../../robots/arms/kuka_kr240.toml"));
+    let mut arm = crate::fixture::kr240([0.0; 3]);
     for joint in &mut arm.joints[1..4] {
         (joint.mass, joint.compliance) = (150.0, 3.0 * joint.compliance);
     }
@@ -24,13 +21,13 @@ fn kr240() -> Arm {
 }
 
 fn target(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Target {
-    let tool = loaded(arm, q, load).unwrap();
+    let tool = equilibrium(arm, q, load).unwrap().tool;
     Target { position: tool.translation.vector, rotation: Some(tool.rotation) }
 }
 
 /// The error again, by the simulator and quaternions put together here.
 fn missed(arm: &Arm, target: &Target, load: &Vector6<f64>, found: &Reached) -> [f64; 2] {
-    let tool = loaded(arm, &found.q, load).unwrap();
+    let tool = equilibrium(arm, &found.q, load).unwrap().tool;
     let angle = target.rotation.map_or(0.0, |r| r.angle_to(&tool.rotation));
     [(tool.translation.vector - target.position).norm(), angle]
 }
@@ -40,8 +37,8 @@ const LOAD: [f64; 6] = [500.0, -300.0, -2000.0, 100.0, 50.0, -80.0];
 #[test]
 fn the_loaded_arm_stands_at_the_target() {
     let load = Vector6::from(LOAD);
-    let lin = arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
-    let panda = arm(include_str!("../../../../robots/arms/panda.toml"));
+    let lin = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
+    let panda = crate::fixture::arm(include_str!("../../../../robots/arms/panda.toml"));
     for (arm, load) in [(kr240(), load), (lin, load / 50.0), (panda, load / 100.0)] {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         for _ in 0..5 {
@@ -51,7 +48,9 @@ fn the_loaded_arm_stands_at_the_target() {
             let near: Vec<f64> = q.iter().map(|q| q + 0.02).collect();
             let target = target(&arm, &q, &load);
             let search = Search::default();
-            let found = reach(&arm, &target, &load, Some(&near), &search).unwrap();
+            let found =
+                reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&near), &search)
+                    .unwrap();
             assert_eq!(found.ended, Ended::Reached, "{found:?}");
             let [p, r] = missed(&arm, &target, &load, &found);
             assert!(p <= 1e-6 && r <= 1e-6, "{p} {r}");
@@ -68,13 +67,18 @@ fn random_starts_find_the_target_too() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let target = target(&arm, &[0.4, 1.2, -1.9, 0.5, 0.8, -0.3], &load);
     let search = Search::default();
-    let found = reach(&arm, &target, &load, None, &search).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
     let [p, r] = missed(&arm, &target, &load, &found);
     assert!(p <= 1e-6 && r <= 1e-6);
-    assert_eq!(reach(&arm, &target, &load, None, &search).unwrap(), found);
+    assert_eq!(
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap(),
+        found
+    );
     let far = [3.0, 0.1, -4.0, -3.0, -1.0, 3.0];
-    let found = reach(&arm, &target, &load, Some(&far), &search).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&far), &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
 }
 
@@ -85,8 +89,10 @@ fn the_gap_without_compensation_is_the_deflection() {
     let q = [0.4, 1.2, -1.9, 0.5, 0.8, -0.3];
     let ideal = arm.pose(&q);
     let target = Target { position: ideal.translation.vector, rotation: Some(ideal.rotation) };
-    let found = reach(&arm, &target, &load, Some(&q), &Search::default()).unwrap();
-    let tool = loaded(&arm, &q, &load).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&q), &Search::default())
+            .unwrap();
+    let tool = equilibrium(&arm, &q, &load).unwrap().tool;
     let sag = ideal.translation.vector - tool.translation.vector;
     let without: Vector3<f64> = found.uncompensated.unwrap().fixed_rows::<3>(0).into_owned();
     // Both to the tolerance of the search.
@@ -99,7 +105,9 @@ fn a_position_alone_leaves_the_wrist_free() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let position = Vector3::new(1.6, 0.4, 0.7);
     let target = Target { position, rotation: None };
-    let found = reach(&arm, &target, &load, None, &Search::default()).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &Search::default())
+            .unwrap();
     assert_eq!(found.ended, Ended::Reached);
     assert_eq!(found.error.fixed_rows::<3>(3).norm(), 0.0);
     assert!(missed(&arm, &target, &load, &found)[0] <= 1e-6);
@@ -109,7 +117,9 @@ fn a_position_alone_leaves_the_wrist_free() {
 fn what_cannot_be_reached_is_said() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let far = Target { position: Vector3::new(9.0, 0.0, 0.0), rotation: None };
-    let found = reach(&arm, &far, &load, None, &Search::default()).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &far, &Situation::under(load), None, &Search::default())
+            .unwrap();
     assert!(matches!(&found.ended, Ended::Nearest(_)), "{found:?}");
     // Stretched out toward it: 0.35 + 1.25 + 1.101 + 0.23 m.
     assert!((found.error.fixed_rows::<3>(0).norm() - (9.0 - 2.93)).abs() < 0.02, "{found:?}");
@@ -118,10 +128,14 @@ fn what_cannot_be_reached_is_said() {
     narrow.joints[0].limits = Some([-0.35, 0.35]);
     narrow.joints[1].limits = Some([0.0, 1.0]);
     let aside = Target { position: Vector3::new(0.0, 2.2, 0.3), rotation: None };
-    let found = reach(&narrow, &aside, &load, None, &Search::default()).unwrap();
+    let found =
+        reach(&Real::nominal(&narrow), &aside, &Situation::under(load), None, &Search::default())
+            .unwrap();
     assert!(matches!(&found.ended, Ended::Nearest(joints) if joints.contains(&1)), "{found:?}");
     let crush = Vector6::new(0.0, 0.0, -1e12, 0.0, 0.0, 0.0);
-    let found = reach(&arm, &aside, &crush, None, &Search::default()).unwrap();
+    let found =
+        reach(&Real::nominal(&arm), &aside, &Situation::under(crush), None, &Search::default())
+            .unwrap();
     assert_eq!(found.ended, Ended::Unstable);
 }
 
@@ -131,15 +145,74 @@ fn what_makes_no_sense_is_refused() {
     let target = Target { position: Vector3::x(), rotation: Some(UnitQuaternion::identity()) };
     let search = Search::default();
     let lost = Target { position: Vector3::repeat(f64::NAN), rotation: None };
-    let error = reach(&arm, &lost, &load, None, &search).unwrap_err();
+    let error =
+        reach(&Real::nominal(&arm), &lost, &Situation::under(load), None, &search).unwrap_err();
     assert!(matches!(error, CompensateError::NotFinite { .. }));
-    let error = reach(&arm, &target, &load, Some(&[0.0; 5]), &search).unwrap_err();
+    let error =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&[0.0; 5]), &search)
+            .unwrap_err();
     assert!(matches!(error, CompensateError::JointValues { .. }));
     let strict = Search { translation: 0.0, ..search };
-    let error = reach(&arm, &target, &load, None, &strict).unwrap_err();
+    let error =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &strict).unwrap_err();
     assert!(matches!(error, CompensateError::NotPositive { .. }));
     arm.joints[2].motion = stiffarm_kernels::Motion::Prismatic;
     arm.joints[2].limits = None;
-    let error = reach(&arm, &target, &load, None, &search).unwrap_err();
+    let error =
+        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap_err();
     assert_eq!(error, CompensateError::Unlimited { joint: 3 });
+}
+
+/// What else the arm does is taken into account: the independent plant stands at the target too.
+#[test]
+fn effects_are_compensated() {
+    let (arm, load) = (kr240(), Vector6::from(LOAD));
+    let told = [
+        "joint_ratio@joint 2=1e-3",
+        "backlash@joint 1=0.6 mrad",
+        "transmission_error@joint 3:cos 2=0.4 mrad",
+        "settling_lag@joint 2=1e-3",
+        "joint_compliance@joint 4=5e-7",
+        "thermal_growth=20e-6",
+        "base_frame:x=3mm,rz=4mrad",
+    ];
+    let truths: Vec<Truth> = told.iter().map(|text| Truth::parse(text, &arm).unwrap()).collect();
+    let present = |truth: &Truth| {
+        let spots = truth.effect.spots(&arm, truth.place, &truth.values);
+        spots.into_iter().map(|(spot, values)| Present { effect: truth.effect, spot, values })
+    };
+    let effects: Vec<Present> = truths.iter().flat_map(present).collect();
+    let before = vec![0.1, 1.0, -1.5, 0.0, 0.5, 0.0];
+    let situation = Situation {
+        load,
+        direction: Some(vec![1, 0, 0, 0, 0, 0]),
+        warming: Some(12.0),
+        before: Some(before.clone()),
+    };
+    let q = [0.4, 1.2, -1.9, 0.5, 0.8, -0.3];
+    let target = target(&arm, &q, &load);
+    let real = Real { arm: &arm, effects };
+    let found = reach(&real, &target, &situation, Some(&q), &Search::default()).unwrap();
+    assert_eq!(found.ended, Ended::Reached);
+    assert!(found.uncompensated.unwrap().fixed_rows::<3>(0).norm() > 2e-3);
+    let mut rows = [before, found.q].map(|q| crate::fixture::row(&q, load)).to_vec();
+    for (row, temperature) in rows.iter_mut().zip([20.0, 32.0]) {
+        (row.direction, row.temperature) = (situation.direction.clone(), Some(temperature));
+    }
+    let session = crate::fixture::table(rows, Kind::Pose { orientation: true });
+    let shown = Plant::new(&arm, &truths).unwrap().exact(&session).unwrap().rows[1].measured;
+    let is = crate::simulate::Reading::from_vector(&shown);
+    let off = (is.position - target.position).norm();
+    // Both to the tolerance of the search.
+    assert!(off < 2e-6 && is.rotation.angle_to(&target.rotation.unwrap()) < 2e-6, "{off}");
+    for (k, missing) in ["side", "warm", "before"].into_iter().enumerate() {
+        let mut at = situation.clone();
+        match k {
+            0 => at.direction = None,
+            1 => at.warming = None,
+            _ => at.before = None,
+        }
+        let error = reach(&real, &target, &at, Some(&q), &Search::default()).unwrap_err();
+        assert!(error.to_string().contains(missing), "{error}");
+    }
 }

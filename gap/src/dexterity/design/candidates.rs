@@ -1,11 +1,8 @@
 //! The postures and loads that tests are chosen from, and what each would say of springs.
 
-use core::f64::consts::PI;
-
 use nalgebra::{DMatrix, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::Plan;
@@ -13,6 +10,7 @@ use crate::dexterity::{
     DexterityError, Search, characteristic_length, influence, inverse_condition,
 };
 use crate::random::between;
+use crate::robot::ranges;
 
 /// Postures drawn per test wanted, and bounds of their number.
 const PER_TEST: usize = 40;
@@ -51,7 +49,7 @@ pub(super) struct Pool {
 }
 
 pub(super) fn draw(arm: &Arm, plan: &Plan) -> Result<Pool, DexterityError> {
-    let bounds = bounds(arm)?;
+    let bounds = ranges(arm).map_err(|joint| DexterityError::Unlimited { joint })?;
     let count = (PER_TEST * plan.count).clamp(FEWEST, MOST).max(2 * plan.count);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     let drawn: Vec<Vec<f64>> =
@@ -104,16 +102,6 @@ fn keep(postures: &mut Vec<Posture>, part: f64, least: usize, cost: impl Fn(&Pos
     postures.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     let count = (part * postures.len() as f64).ceil() as usize;
     postures.truncate(count.max(least));
-}
-
-/// Limits; a revolute joint without any turns once around.
-fn bounds(arm: &Arm) -> Result<Vec<[f64; 2]>, DexterityError> {
-    let each = arm.joints.iter().enumerate().map(|(k, joint)| match (joint.limits, joint.motion) {
-        (Some(limits), _) => Ok(limits),
-        (None, Motion::Revolute) => Ok([-PI, PI]),
-        (None, Motion::Prismatic) => Err(DexterityError::Unlimited { joint: k + 1 }),
-    });
-    each.collect()
 }
 
 /// The characteristic length; of an arm that cannot move its tool in all ways, the one that makes

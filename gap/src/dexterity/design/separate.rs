@@ -19,6 +19,7 @@ use super::candidates::{Block, Posture};
 use super::suspect::{Number, Suspect};
 use super::trial::{LineUp, Trial};
 use crate::dexterity::DexterityError;
+use crate::diagnose::fit::Basis;
 use crate::measurement::Row;
 use crate::random::uniform;
 
@@ -69,12 +70,9 @@ impl Apart {
         for (posture, load) in super::candidates::pairs(postures, plan) {
             let side = |_: &f64| if uniform(&mut random) < 0.5 { -1 } else { 1 };
             let direction: Vec<i8> = postures[posture].q.iter().map(side).collect();
-            let mut row = Row::blank(0, arm.dof());
-            row.q.clone_from(&postures[posture].q);
-            row.wrench = plan.loads[load];
-            row.direction = Some(direction);
-            row.group = posture;
-            rows.push(row);
+            let (q, wrench) = (postures[posture].q.clone(), plan.loads[load]);
+            let direction = Some(direction);
+            rows.push(Row { wrench, direction, group: posture, ..Row::new(0, q) });
         }
         let all = pair.iter().chain(&plan.along);
         let line_up = LineUp::new(arm, all, rows.clone());
@@ -169,12 +167,7 @@ impl Left {
         let part =
             |rows: &[usize], columns: &[usize]| sum.select_rows(rows).select_columns(columns);
         let shared = part(&others, &own);
-        let eigen = SymmetricEigen::new(part(&others, &others));
-        let inner = eigen.eigenvectors.tr_mul(&shared);
-        let explained = DMatrix::from_fn(own.len(), own.len(), |r, c| {
-            let solved = eigen.eigenvalues.iter().enumerate().filter(|(_, l)| **l > ROUNDING);
-            solved.map(|(k, l)| inner[(k, r)] * inner[(k, c)] / l).sum()
-        });
+        let explained = axes(&part(&others, &others)).tr_mul(&shared);
         let mut moved = DMatrix::zeros(own.len(), own.len());
         let mut readings = 0.0;
         for block in blocks {
@@ -189,8 +182,8 @@ impl Left {
             moved[(r, c)] * scale[r] * scale[c] / f64::max(readings, 1.0)
         });
         let own = part(&own, &own);
-        let left = &own - explained;
-        let axes = axes(own);
+        let left = &own - explained.tr_mul(&explained);
+        let axes = axes(&own);
         let eigen = SymmetricEigen::new(axes.tr_mul(&left) * &axes);
         Left { directions: axes * eigen.eigenvectors, parts: eigen.eigenvalues, moved, scale }
     }
@@ -230,13 +223,6 @@ impl Left {
 }
 
 /// Axes in which information is 1; what is rounding is left out.
-fn axes(information: DMatrix<f64>) -> DMatrix<f64> {
-    let eigen = SymmetricEigen::new(information);
-    let seen: Vec<usize> =
-        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > ROUNDING).collect();
-    let mut axes = eigen.eigenvectors.select_columns(&seen);
-    for (mut axis, &k) in axes.column_iter_mut().zip(&seen) {
-        axis /= eigen.eigenvalues[k].sqrt();
-    }
-    axes
+fn axes(information: &DMatrix<f64>) -> DMatrix<f64> {
+    Basis::decided(information, &information.diagonal(), ROUNDING).t
 }

@@ -2,8 +2,8 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Catalogue, Effect, Parameter, Place, Spot};
-use crate::measurement::{Measurements, nearest};
+use crate::effects::{Catalogue, Effect, Parameter, Place, Spot, at_place};
+use crate::measurement::Measurements;
 
 /// An effect of the catalogue at a place of an arm.
 #[derive(Clone)]
@@ -57,35 +57,7 @@ impl Suspect {
             Some((head, form)) => (head, Some(words(form))),
             None => (text, None),
         };
-        let (name, place) = match head.split_once('@') {
-            Some((name, place)) => (name.trim(), Some(place)),
-            None => (head.trim(), None),
-        };
-        let near = |near: Option<&str>| {
-            near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
-        };
-        let effect = catalogue.named(name).ok_or_else(|| {
-            let all = catalogue.identifiers();
-            let near = near(nearest(name, all.iter().copied()));
-            wrong(format!("found `{name}`, expected one of {}{near}", all.join(", ")))
-        })?;
-        let places = effect.places(arm);
-        let found = match place {
-            // `joint2` and `joint  2` are `joint 2`.
-            Some(place) => {
-                let plain = |text: &str| text.split_whitespace().collect::<String>();
-                places.iter().find(|p| plain(&p.to_string()) == plain(place))
-            }
-            None => places.first().filter(|_| places.len() == 1),
-        };
-        let place = *found.ok_or_else(|| {
-            let known: Vec<String> = places.iter().map(Place::to_string).collect();
-            let found = match place {
-                Some(place) => format!("the place `{}`", place.trim()),
-                None => "no place".to_owned(),
-            };
-            wrong(format!("found {found}, expected {name}@ with one of {}", known.join(", ")))
-        })?;
+        let (effect, place) = at_place(head, arm, catalogue.iter()).map_err(wrong)?;
         Ok(Suspect { effect, place, form })
     }
 

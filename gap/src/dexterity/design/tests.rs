@@ -1,7 +1,6 @@
 //! Plans against random ones and against every exchange of one test.
 
 use nalgebra::{DMatrix, Vector6};
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Design, Plan, Purpose, Suspect};
@@ -9,11 +8,7 @@ use crate::dexterity::{DexterityError, inverse_condition};
 use crate::effects::Catalogue;
 
 fn kr240() -> Arm {
-    let text = include_str!("../../../../robots/arms/kuka_kr240.toml");
-    let robot = Robot::from_toml(text, "kuka_kr240.toml").unwrap().0;
-    let mut arm = crate::robot::arm(&robot).unwrap();
-    arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
-    arm
+    crate::fixture::kr240([0.1, 0.0, 0.15])
 }
 
 fn design(arm: &Arm, plan: &Plan) -> Result<Design, DexterityError> {
@@ -218,7 +213,7 @@ fn what_cannot_be_told_apart_is_said() {
     let wrong =
         |text: &str| Suspect::parse(text, &arm, &Catalogue::default()).unwrap_err().to_string();
     assert!(wrong("backlas@joint 2").contains("did you mean `backlash`?"));
-    assert!(wrong("backlash").contains("found no place, expected backlash@ with one of joint 1,"));
+    assert!(wrong("backlash").contains("found no place, expected one of joint 1, joint 2,"));
     assert!(wrong("backlash@tool").contains("found the place `tool`"));
 }
 

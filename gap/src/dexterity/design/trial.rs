@@ -118,17 +118,7 @@ impl Trial<'_> {
 
 /// Rows that are still to be measured, as an effect asks for them.
 fn planned(rows: Vec<Row>) -> Measurements {
-    Measurements {
-        file: String::new(),
-        poses: rows.len(),
-        rows,
-        kind: Kind::Pose { orientation: false },
-        sim_given: [false; 6],
-        extra: Vec::new(),
-        unused: Vec::new(),
-        measured_in: [None; 6],
-        wrench_in: [None; 6],
-    }
+    Measurements::new("the plan", Kind::Pose { orientation: false }, rows)
 }
 
 /// The rows that are measured, one change below the other, in units of the noise.

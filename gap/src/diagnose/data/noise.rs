@@ -71,7 +71,7 @@ impl Noise {
             let total = problem.numbers();
             // Each kind pays for the parameters by its part of the numbers measured.
             let left = total.saturating_sub(parameters).max(1) as f64 / total.max(1) as f64;
-            let freedom = left * (residual.len() * components) as f64;
+            let freedom = left * (problem.free_rows() * components) as f64;
             let squares = squares(residual, first);
             with(if freedom > 0.0 { (squares / freedom).sqrt() } else { 0.0 }, Source::Residual)
         };

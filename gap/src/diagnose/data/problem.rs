@@ -28,6 +28,9 @@ pub(crate) struct Problem<'a> {
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
     pub(crate) marker_of: Vec<Option<usize>>,
+    /// Rows that have an unknown constant of their own, so that only what sets them apart counts;
+    /// all rows stand in one of these sets, or there are none.
+    pub(crate) constants: Vec<Vec<usize>>,
     /// What the arm of the robot file reads in its own base frame; where the file has the user's
     /// own simulator only.
     pub(crate) nominal: Option<Vec<Reading>>,
@@ -90,15 +93,21 @@ impl<'a> Problem<'a> {
             nuisances: options.nuisances.clone(),
             markers,
             marker_of,
+            constants: Vec::new(),
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
         })
     }
 
-    /// Numbers that are measured.
+    /// Rows beyond one for each constant.
+    pub(crate) fn free_rows(&self) -> usize {
+        self.data.rows.len() - self.constants.len()
+    }
+
+    /// Numbers that are measured, beyond those that constants take.
     pub(crate) fn numbers(&self) -> usize {
-        self.data.rows.len() * self.measured.len()
+        self.free_rows() * self.measured.len()
     }
 
     /// Whether positions are measured; else only rotations are.

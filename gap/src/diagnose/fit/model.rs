@@ -49,7 +49,7 @@ pub(crate) struct Model {
 #[derive(Clone)]
 pub(crate) struct Predicted {
     pub(crate) sims: Vec<Sim>,
-    /// Measured minus predicted, one per row.
+    /// Measured minus predicted, one per row; less the mean of the rows that share a constant.
     pub(crate) gaps: Vec<Vector6<f64>>,
 }
 
@@ -108,7 +108,11 @@ impl Model {
             if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
         });
         let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;
-        let (sims, gaps) = both.into_iter().unzip();
+        let (sims, mut gaps): (_, Vec<Vector6<f64>>) = both.into_iter().unzip();
+        for rows in &problem.constants {
+            let mean = rows.iter().map(|&row| gaps[row]).sum::<Vector6<f64>>() / rows.len() as f64;
+            rows.iter().for_each(|&row| gaps[row] -= mean);
+        }
         Ok(Predicted { sims, gaps })
     }
 

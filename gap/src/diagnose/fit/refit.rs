@@ -67,8 +67,7 @@ pub(crate) fn refit(
         if predicted >= MOST_PREDICTED || (problem.stop.is_asked() && !fit.model.found.is_empty()) {
             break;
         }
-        let (normal, right) = normal_equations(problem, &fit, weights);
-        let (step, promised) = bounded(problem, &fit.model, normal, right);
+        let (step, promised) = step(problem, &fit, weights);
         if promised <= LAST * (1.0 + now) {
             break;
         }
@@ -107,8 +106,12 @@ pub(crate) fn normal_equations(
     let k = fit.model.parameters(problem);
     // Chunks of rows are worked on at once and added up in their order.
     let rows: Vec<usize> = (0..fit.predicted.gaps.len()).collect();
-    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = rows
-        .par_chunks(CHUNK)
+    let chunks: Vec<&[usize]> = match &problem.constants[..] {
+        [] => rows.chunks(CHUNK).collect(),
+        sets => sets.iter().map(Vec::as_slice).collect(),
+    };
+    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = chunks
+        .par_iter()
         .map(|rows| {
             let mut columns = DMatrix::zeros(6 * rows.len(), k);
             let mut gaps = DVector::zeros(6 * rows.len());
@@ -117,6 +120,9 @@ pub(crate) fn normal_equations(
                 columns.rows_mut(6 * index, 6).copy_from(&block);
                 let gap = fit.predicted.gaps[row].component_mul(weights);
                 gaps.rows_mut(6 * index, 6).copy_from(&gap);
+            }
+            if !problem.constants.is_empty() {
+                subtract_means(&mut columns);
             }
             let across = columns.transpose();
             (&across * &columns, across * gaps)
@@ -156,16 +162,27 @@ pub(crate) fn block(
     block
 }
 
+/// Takes from each of the six components its mean over the rows.
+fn subtract_means(columns: &mut DMatrix<f64>) {
+    let rows = columns.nrows() / 6;
+    for mut column in columns.column_iter_mut() {
+        for component in 0..6 {
+            let mut same = column.rows_with_step_mut(component, rows, 5);
+            same.add_scalar_mut(-same.mean());
+        }
+    }
+}
+
 /// The step, with what wants to go below its least value taken to it; and by how much the squares
 /// are to fall.
-fn bounded(
+pub(crate) fn step(
     problem: &Problem<'_>,
-    model: &Model,
-    normal: DMatrix<f64>,
-    right: DVector<f64>,
+    fit: &Fit,
+    weights: &Vector6<f64>,
 ) -> (DVector<f64>, f64) {
+    let (normal, right) = normal_equations(problem, fit, weights);
     let nuisances = Model::nuisances(problem);
-    let each = model.found.iter().flat_map(|f| f.least.iter().zip(&f.values));
+    let each = fit.model.found.iter().flat_map(|f| f.least.iter().zip(&f.values));
     let room = each.map(|(least, value)| least - value);
     let mut least = vec![f64::NEG_INFINITY; nuisances];
     least.extend(room);

@@ -47,20 +47,8 @@ impl Explanation {
     /// # Errors
     /// [`DiagnoseError::Unstable`] and others of the posture.
     pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
-        let mut row = Row::blank(0, q.len());
-        row.q = q.to_vec();
-        row.wrench = *wrench;
-        let data = Measurements {
-            file: "the posture".to_owned(),
-            rows: vec![row],
-            poses: 1,
-            kind: self.kind,
-            sim_given: [false; 6],
-            extra: Vec::new(),
-            unused: Vec::new(),
-            measured_in: [None; 6],
-            wrench_in: [None; 6],
-        };
+        let row = Row { wrench: *wrench, ..Row::new(0, q.to_vec()) };
+        let data = Measurements::new("the posture", self.kind, vec![row]);
         let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
         let problem = Problem::new(&self.nominal, &data, &options)?;
         let placed = |model: &Model| {

@@ -84,14 +84,14 @@ pub(crate) struct Ranked {
 }
 
 impl Search<'_, '_> {
-    pub(super) fn weigh(&self, fit: Fit) -> Explained {
+    pub(crate) fn weigh(&self, fit: Fit) -> Explained {
         let parameters = fit.model.parameters(self.problem);
         let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
         let weights = noise.weights(&self.problem.mask);
         Explained { fit, noise, weights, gathered: OnceLock::new() }
     }
 
-    /// Fits the frames alone.
+    /// Fits the frames, and the effects that the model has.
     pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
         let first = Fit { predicted: Arc::new(model.predict(self.problem, None)?), model };
         let mut now = self.weigh(first);
@@ -100,7 +100,7 @@ impl Search<'_, '_> {
             let Explained { fit, weights, .. } = now;
             let fit = refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?;
             now = self.weigh(fit);
-            if self.problem.nuisances.is_empty() && self.problem.markers.is_empty() {
+            if now.fit.model.parameters(self.problem) == 0 {
                 break;
             }
         }

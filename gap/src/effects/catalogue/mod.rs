@@ -77,6 +77,9 @@ pub const CATALOGUE: [&dyn Effect; 23] = [
     &GeometricStiffness,
 ];
 
+/// The one that adds to the spring of a joint.
+pub(crate) const JOINT_SPRING: &dyn Effect = &JointCompliance;
+
 /// The effects that a diagnosis tries: those that stiffarm knows, and one's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Catalogue(Vec<&'static dyn Effect>);

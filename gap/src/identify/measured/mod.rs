@@ -1,13 +1,14 @@
 //! Stiffnesses from a measurement file: any subset of components, displacements or poses, points
 //! off the tool origin, the links' weights and the loaded geometry taken into account.
 //!
-//! Each row is compared with the arm at static equilibrium ([`crate::simulate`]), and the compliances
-//! are found by Gauss and Newton's steps.
+//! It is the [diagnosis](mod@crate::diagnose) with a fixed set of effects: its exact fit at static
+//! equilibrium, its noise, its covariance, its division of the poses into folds.
 //!
 //! # Poses
 //! Of a file of poses only the differences *within* one pose are used: each pose (and each marker
 //! in it) has an unknown constant, so that an arm that stands elsewhere than its table says does no
-//! harm. A pose that was measured under one load only says nothing.
+//! harm, and what the weights do to the foundation is in all of them. A pose that was measured
+//! under one load only says nothing.
 //!
 //! # What is held
 //! A column that the rows leave without a trace, or that is a combination of others, is held at the
@@ -15,43 +16,21 @@
 
 mod choose;
 mod fit;
-mod hold_out;
-mod regress;
+mod springs;
 
-pub use fit::Noise;
-pub use hold_out::{Gap, Spread};
+pub use fit::identify_measured;
+pub use springs::Unknown;
 
-use core::fmt;
-
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use super::pull::Pull;
+use crate::diagnose::{DiagnoseError, Options};
+use crate::gap::Statistics;
 use crate::measurement::Measurements;
 
-/// One number that is looked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Unknown {
-    /// The compliance of a joint (from 1), rad/(N·m), or m/N.
-    Joint(usize),
-    /// The flexibility of the beam of a row (from 1) as a multiple of the robot file's.
-    Link(usize),
-    /// A compliance of the foundation at the base origin: component 0 to 2 a translation along x,
-    /// y, z, m/N; 3 to 5 a rotation about them, rad/(N·m). It answers the load, not the weights.
-    Base(usize),
-}
-
-impl fmt::Display for Unknown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unknown::Joint(joint) => write!(f, "joint {joint}"),
-            Unknown::Link(row) => write!(f, "link {row}"),
-            Unknown::Base(k) => {
-                let what = ["along x", "along y", "along z", "about x", "about y", "about z"];
-                write!(f, "base {}", what.get(*k).copied().unwrap_or("?"))
-            }
-        }
-    }
-}
+/// By default each pose is held out in turn up to so many poses.
+const FOLDS: usize = 10;
 
 /// What to look for, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,9 +39,9 @@ pub struct Question {
     pub links: bool,
     /// The foundation too.
     pub base: bool,
-    /// Standard deviation of a measured coordinate, m; else from what is left.
+    /// Standard deviation of a measured coordinate, m; else from repeats, or from what is left.
     pub noise_position: Option<f64>,
-    /// Standard deviation of a measured component of a rotation, rad; else from what is left.
+    /// Standard deviation of a measured component of a rotation, rad; else likewise.
     pub noise_rotation: Option<f64>,
     /// Number of folds of poses; by default one per pose up to 10.
     pub folds: Option<usize>,
@@ -83,6 +62,18 @@ impl Default for Question {
             folds: None,
             seed: 0,
             confidence: 0.95,
+        }
+    }
+}
+
+impl Question {
+    fn options(&self, data: &Measurements) -> Options {
+        Options {
+            folds: Some(self.folds.unwrap_or(data.poses.min(FOLDS))),
+            seed: self.seed,
+            noise_position: self.noise_position,
+            noise_rotation: self.noise_rotation,
+            ..Options::default()
         }
     }
 }
@@ -126,6 +117,31 @@ pub struct Uncertainty {
     pub deviation: f64,
     /// Interval of the question's confidence.
     pub interval: [f64; 2],
+}
+
+/// Standard deviations of what was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of a coordinate, m; none if none was measured.
+    pub position: Option<f64>,
+    /// Of a component of a rotation, rad; none if none was measured.
+    pub rotation: Option<f64>,
+    /// `option`, `repeats` or `residual`.
+    pub from: &'static str,
+}
+
+/// Before and after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    /// By the robot file as it is.
+    pub before: Statistics,
+    /// By what the other poses identify.
+    pub held_out: Statistics,
+    /// Measured minus simulated of each row, before and held out, m and rad; of poses less the mean
+    /// over the loads of the pose. 0 where a component is not measured.
+    pub rows: [Vec<Vector6<f64>>; 2],
+    /// How many folds.
+    pub folds: usize,
 }
 
 /// What the rows say.
@@ -192,8 +208,8 @@ impl Parameter {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the message beside each variant and field says what it is")]
 pub enum MeasuredError {
-    #[error("{file}: found readings of {found} joints, expected {expected} as the robot has")]
-    Joints { file: String, found: usize, expected: usize },
+    #[error(transparent)]
+    Diagnose(#[from] DiagnoseError),
     #[error("{file}: found no load in any row, expected fx … mz: springs show under a load only")]
     NoLoad { file: String },
     #[error(
@@ -205,39 +221,15 @@ pub enum MeasuredError {
         "{file}: line {line}: marker `{marker}` has no translation in the robot file, expected one"
     )]
     UnknownOffset { file: String, line: u64, marker: String },
-    #[error(
-        "{file}: line {line}: the robot is not in stable equilibrium under this row's load and its \
-         weight: check the load, its unit and the stiffness"
-    )]
-    Unstable { file: String, line: u64 },
     #[error("{file}: found {rows} numbers measured, expected more than {unknowns}: measure more")]
     TooFew { file: String, rows: usize, unknowns: usize },
     #[error("{file}: the rows determine nothing: {}", .held.join("; "))]
     Nothing { file: String, held: Vec<String> },
-    #[error("found {found} folds, expected 2 to {poses}, the number of poses in {file}")]
-    Folds { file: String, found: usize, poses: usize },
     #[error(
         "{file}: the steps do not settle: the springs that would explain the file let the arm \
          buckle; check the loads and their units"
     )]
     Unsettled { file: String },
-}
-
-/// Finds what the question asks for in a measurement file; `done` is told the part of the work that
-/// is done, from 0 to 1. The user's own simulator, if the file has one, plays no part.
-///
-/// # Errors
-/// [`MeasuredError`].
-pub fn identify_measured(
-    arm: &Arm,
-    data: &Measurements,
-    question: &Question,
-    done: &dyn Fn(f64),
-) -> Result<Answer, MeasuredError> {
-    let sheet = regress::Sheet::new(arm, data, question)?;
-    let fitted = fit::fit(&sheet, question, done)?;
-    let gap = hold_out::gap(&sheet, &fitted, question, done)?;
-    Ok(fitted.answer(&sheet, question, gap))
 }
 
 #[cfg(test)]

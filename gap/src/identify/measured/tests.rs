@@ -3,24 +3,21 @@
 use nalgebra::{Point3, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Answer, MeasuredError, Question, Status, Unknown, identify_measured};
+use crate::diagnose::DiagnoseError;
 use crate::measurement::Measurements;
 use crate::random::{between, normal};
 use crate::simulate::equilibrium;
 
-fn kr240() -> (Robot, Arm) {
-    let text = include_str!("../../../../robots/arms/kuka_kr240.toml");
-    let robot = Robot::from_toml(text, "kuka_kr240.toml").unwrap().0;
-    let mut arm = crate::robot::arm(&robot).unwrap();
-    arm.tool = nalgebra::Isometry3::translation(0.1, 0.05, 0.15);
+fn kr240() -> Arm {
+    let mut arm = crate::fixture::kr240([0.1, 0.05, 0.15]);
     // Weights, so that the unloaded arm is bent too.
     for joint in &mut arm.joints[1..4] {
         joint.mass = 120.0;
     }
-    (robot, arm)
+    arm
 }
 
 fn rigid(arm: &Arm) -> Arm {
@@ -83,13 +80,8 @@ fn file(
     text
 }
 
-fn answer(
-    robot: &Robot,
-    model: &Arm,
-    text: &str,
-    question: &Question,
-) -> Result<Answer, MeasuredError> {
-    let layout = crate::robot::layout(robot).unwrap();
+fn answer(model: &Arm, text: &str, question: &Question) -> Result<Answer, MeasuredError> {
+    let layout = crate::fixture::layout(6);
     let data = Measurements::from_bytes("run.csv", text.as_bytes(), &layout).unwrap();
     let part = |part| assert!((0.0..=1.0).contains(&part));
     identify_measured(model, &data, question, &part)
@@ -99,10 +91,10 @@ const TRANSLATIONS: [&str; 3] = ["dx", "dy", "dz"];
 
 #[test]
 fn exact_displacements_give_the_stiffnesses_back() {
-    let (robot, arm) = kr240();
+    let arm = kr240();
     for columns in [&TRANSLATIONS[..], &["dx", "dz"], &["dx", "dy", "dz", "drx", "dry", "drz"]] {
         let text = file(&arm, columns, 8, 0.0, 1, &LOADS);
-        let found = answer(&robot, &rigid(&arm), &text, &Question::default()).unwrap();
+        let found = answer(&rigid(&arm), &text, &Question::default()).unwrap();
         for (j, joint) in arm.joints.iter().enumerate() {
             let value = found.value(Unknown::Joint(j + 1)).unwrap();
             assert!((value / joint.compliance - 1.0).abs() < 1e-6, "{columns:?} {j} {value}");
@@ -115,12 +107,12 @@ fn exact_displacements_give_the_stiffnesses_back() {
 /// differences between loads count.
 #[test]
 fn poses_do_without_the_geometry() {
-    let (robot, arm) = kr240();
+    let arm = kr240();
     let mut model = rigid(&arm);
     model.joints[1].a += 2e-3;
     model.joints[2].theta += 1e-3;
     let text = file(&arm, &["x", "y", "z"], 10, 0.0, 2, &LOADS);
-    let found = answer(&robot, &model, &text, &Question::default()).unwrap();
+    let found = answer(&model, &text, &Question::default()).unwrap();
     for (j, joint) in arm.joints.iter().enumerate() {
         let value = found.value(Unknown::Joint(j + 1)).unwrap();
         // The levers are off by a part in a thousand; what the wrist moves is a hundredth of the
@@ -129,7 +121,7 @@ fn poses_do_without_the_geometry() {
         assert!((value / joint.compliance - 1.0).abs() < most, "{j} {value}");
     }
     let single = file(&arm, &["x", "y", "z"], 10, 0.0, 2, &LOADS[..1]);
-    let error = answer(&robot, &model, &single, &Question::default()).unwrap_err();
+    let error = answer(&model, &single, &Question::default()).unwrap_err();
     assert!(error.to_string().contains("each under one load only"), "{error}");
 }
 
@@ -137,10 +129,10 @@ fn poses_do_without_the_geometry() {
 /// joint 6.
 #[test]
 fn what_does_not_show_is_held_and_said() {
-    let (robot, mut arm) = kr240();
+    let mut arm = kr240();
     arm.tool = nalgebra::Isometry3::translation(0.0, 0.0, 0.1);
     let text = file(&arm, &TRANSLATIONS, 8, 0.0, 3, &LOADS[..1]);
-    let found = answer(&robot, &rigid(&arm), &text, &Question::default()).unwrap();
+    let found = answer(&rigid(&arm), &text, &Question::default()).unwrap();
     for (k, parameter) in found.parameters.iter().enumerate() {
         let held = matches!(&parameter.status, Status::Held { with, .. } if with.is_empty());
         assert_eq!(held, [0, 5].contains(&k), "{parameter:?}");
@@ -152,17 +144,17 @@ fn what_does_not_show_is_held_and_said() {
         assert_eq!(pull.is_some(), k == 0, "{parameter:?}");
     }
     let nothing = file(&arm, &TRANSLATIONS, 4, 0.0, 3, &[[0.0; 6]]);
-    let error = answer(&robot, &arm, &nothing, &Question::default()).unwrap_err();
+    let error = answer(&arm, &nothing, &Question::default()).unwrap_err();
     assert!(matches!(error, MeasuredError::NoLoad { .. }));
 }
 
 /// A foundation that tilts about z and a first joint that twists about z are the same.
 #[test]
 fn a_base_is_found_but_for_what_joint_1_does() {
-    let (robot, arm) = kr240();
+    let arm = kr240();
     let text = file(&arm, &TRANSLATIONS, 10, 1e-6, 4, &LOADS);
     let question = Question { base: true, ..Question::default() };
-    let found = answer(&robot, &rigid(&arm), &text, &question).unwrap();
+    let found = answer(&rigid(&arm), &text, &question).unwrap();
     let last = found.parameters.last().unwrap();
     assert_eq!(last.unknown, Unknown::Base(5));
     assert!(matches!(&last.status, Status::Held { with, .. } if *with == [Unknown::Joint(1)]));
@@ -176,9 +168,7 @@ fn a_base_is_found_but_for_what_joint_1_does() {
 /// The beams of Lin's arm, half as stiff as its file says.
 #[test]
 fn links_are_found_as_multiples_of_the_files() {
-    let text = include_str!("../../../../robots/arms/lin_elbow.toml");
-    let robot = Robot::from_toml(text, "lin_elbow.toml").unwrap().0;
-    let model = crate::robot::arm(&robot).unwrap();
+    let model = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
     let mut soft = model.clone();
     let rows: Vec<usize> = (0..6).filter(|&k| model.joints[k].beam.is_some()).collect();
     for &k in &rows {
@@ -190,7 +180,7 @@ fn links_are_found_as_multiples_of_the_files() {
     let columns = ["dx", "dy", "dz", "drx", "dry", "drz"];
     let text = file(&soft, &columns, 12, 0.0, 5, &loads);
     let question = Question { links: true, ..Question::default() };
-    let found = answer(&robot, &model, &text, &question).unwrap();
+    let found = answer(&model, &text, &question).unwrap();
     for &k in &rows {
         let link = found.parameters.iter().find(|p| p.unknown == Unknown::Link(k + 1)).unwrap();
         if !matches!(link.status, Status::Held { .. }) {
@@ -203,7 +193,7 @@ fn links_are_found_as_multiples_of_the_files() {
 /// 95 % of the intervals hold the truth, with the noise given and with it estimated.
 #[test]
 fn the_intervals_hold() {
-    let (robot, arm) = kr240();
+    let arm = kr240();
     let sigma = 3e-5;
     for given in [None, Some(sigma)] {
         let question = Question { noise_position: given, folds: Some(2), ..Question::default() };
@@ -211,7 +201,7 @@ fn the_intervals_hold() {
         let draws = 20;
         for draw in 0..draws {
             let text = file(&arm, &TRANSLATIONS, 6, sigma, 100 + draw, &LOADS);
-            let found = answer(&robot, &rigid(&arm), &text, &question).unwrap();
+            let found = answer(&rigid(&arm), &text, &question).unwrap();
             noise += found.noise.position.unwrap() / draws as f64;
             for (parameter, joint) in found.parameters.iter().zip(&arm.joints) {
                 let [low, high] = parameter.interval().unwrap();
@@ -229,16 +219,16 @@ fn the_intervals_hold() {
 
 #[test]
 fn what_cannot_be_answered_is_refused() {
-    let (robot, arm) = kr240();
+    let arm = kr240();
     let text = file(&arm, &TRANSLATIONS, 3, 0.0, 6, &LOADS);
     let folds = Question { folds: Some(7), ..Question::default() };
-    let error = answer(&robot, &arm, &text, &folds).unwrap_err();
+    let error = answer(&arm, &text, &folds).unwrap_err();
     assert_eq!(error.to_string(), "found 7 folds, expected 2 to 3, the number of poses in run.csv");
     let few = file(&arm, &["dz"], 2, 0.0, 6, &LOADS[..2]);
-    let error = answer(&robot, &arm, &few, &Question::default()).unwrap_err();
+    let error = answer(&arm, &few, &Question::default()).unwrap_err();
     assert!(matches!(error, MeasuredError::TooFew { .. }), "{error}");
     let mut wrong = arm.clone();
     wrong.joints.pop();
-    let error = answer(&robot, &wrong, &text, &Question::default()).unwrap_err();
-    assert!(matches!(error, MeasuredError::Joints { .. }), "{error}");
+    let error = answer(&wrong, &text, &Question::default()).unwrap_err();
+    assert!(matches!(error, MeasuredError::Diagnose(DiagnoseError::Joints { .. })), "{error}");
 }

@@ -70,36 +70,14 @@ impl Design {
         for _ in 0..self.repeats {
             for (group, (q, loads)) in poses.iter().zip(&loads).enumerate() {
                 for wrench in loads {
-                    rows.push(Row {
-                        line: rows.len() as u64 + 2,
-                        q: q.clone(),
-                        wrench: *wrench,
-                        direction: None,
-                        temperature: None,
-                        time: None,
-                        pose: None,
-                        group,
-                        marker: None,
-                        offset: Some([0.0; 3]),
-                        measured: nalgebra::Vector6::zeros(),
-                        sim: None,
-                    });
+                    let line = rows.len() as u64 + 2;
+                    rows.push(Row { wrench: *wrench, group, ..Row::new(line, q.clone()) });
                 }
             }
         }
         approach::fill(self, &mut rows);
         climate::fill(self.seed, &mut rows);
-        Measurements {
-            file: format!("the {} design", self.shape.name()),
-            rows,
-            kind: self.kind,
-            sim_given: [false; 6],
-            poses: self.poses,
-            extra: Vec::new(),
-            unused: Vec::new(),
-            measured_in: [None; 6],
-            wrench_in: [None; 6],
-        }
+        Measurements::new(&format!("the {} design", self.shape.name()), self.kind, rows)
     }
 }
 

@@ -1,0 +1,61 @@
+//! An effect at a place, as people write it: `backlash@joint 2`.
+
+use stiffarm_kernels::generic::Arm;
+
+use super::{Effect, Place};
+use crate::measurement::nearest;
+
+/// Reads `effect[@place]`; the place may be left out where there is only one.
+///
+/// # Errors
+/// What is wrong with it, in words: an unknown effect, or a place where it cannot act.
+pub(crate) fn at_place(
+    text: &str,
+    arm: &Arm,
+    known: impl IntoIterator<Item = &'static dyn Effect>,
+) -> Result<(&'static dyn Effect, Place), String> {
+    let (name, place) = match text.split_once('@') {
+        Some((name, place)) => (name.trim(), Some(place.trim())),
+        None => (text.trim(), None),
+    };
+    let known: Vec<_> = known.into_iter().collect();
+    let effect = known.iter().find(|effect| effect.identifier() == name);
+    let effect = *effect.ok_or_else(|| unknown_effect(name, &known))?;
+    Ok((effect, read_place(effect, place, arm)?))
+}
+
+/// The end of a message.
+pub(crate) fn did_you_mean(near: Option<&str>) -> String {
+    near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
+}
+
+fn unknown_effect(found: &str, known: &[&dyn Effect]) -> String {
+    let all: Vec<&str> = known.iter().map(|effect| effect.identifier()).collect();
+    let near = did_you_mean(nearest(found, all.iter().copied()));
+    format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
+}
+
+/// Where it can act instead.
+pub(crate) fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
+    let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
+    let name = effect.identifier();
+    if places.is_empty() {
+        return format!("{} has no place for {name}", arm.name);
+    }
+    let near = did_you_mean(nearest(found, places.iter().map(String::as_str)));
+    format!("found the place `{found}`, expected one of {} for {name}{near}", places.join(", "))
+}
+
+fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
+    let places = effect.places(arm);
+    let Some(found) = found else {
+        return match places.as_slice() {
+            [only] => Ok(*only),
+            _ => Err(cannot_act(effect, "", arm).replace("the place ``", "no place")),
+        };
+    };
+    // `joint2` and `joint  2` are `joint 2`.
+    let plain = |text: &str| text.split_whitespace().collect::<String>();
+    let meant = places.into_iter().find(|p| plain(&p.to_string()) == plain(found));
+    meant.ok_or_else(|| cannot_act(effect, found, arm))
+}
