@@ -31,4 +31,4 @@ pub use output::{Form, Input, Output, Part, Side};
 pub use scalar::Scalar;
 pub use solve::Unstable;
 #[doc(hidden)]
-pub use solve::{solve, solve_fused, solve_leading, solve_leading_fused};
+pub use solve::{margin, solve, solve_fused};

@@ -1,9 +1,13 @@
 //! The graph's own evaluation on random tables of 1 to 9 joints.
 
+use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 use proptest::prelude::*;
-use stiffarm::kernels::Output;
+use proptest::strategy::ValueTree as _;
+use proptest::test_runner::TestRunner;
 use stiffarm::kernels::generic::Arm;
+use stiffarm::kernels::{Output, Part};
 use stiffarm_codegen::derive::{Passes, Program, derive, derive_in, derive_with};
+use stiffarm_codegen::number::Number;
 
 use crate::boundary::{KINDS, around};
 use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
@@ -83,6 +87,46 @@ proptest! {
             prop_assert!(worst <= 1e-11, "{} {passes:?} {worst:e}\n{}", output.name(), table.text);
         }
     }
+}
+
+/// A load within the margin that the kernels take leaves half of the springs, in every posture: the smallest
+/// eigenvalue of the symmetric part of `Kθ − K_C − K_G`, scaled to springs of 1, of the textbook.
+#[test]
+fn a_margin_leaves_half_of_the_springs() {
+    let mut runner = TestRunner::deterministic();
+    let (mut least, mut found) = (f64::INFINITY, 0);
+    for seed in 0..100 {
+        let table = table(3..=9).new_tree(&mut runner).expect("a table").current();
+        let (robot, arm, mut draws) = (table.numeric(), table.arm(), Draws::new(seed));
+        let roots = arm.joints.iter().map(|joint| joint.compliance.sqrt());
+        let roots = DMatrix::from_diagonal(&DVector::from_iterator(arm.dof(), roots));
+        for output in [Output::Deflection, Output::DeflectionWithGravity] {
+            let program = derive(&robot, &[output]);
+            let Some(most) = program.solves.first().and_then(|solve| solve.margin) else {
+                continue;
+            };
+            let [force, moment] = most.map(Number::to_f64);
+            found += 1;
+            for _ in 0..20 {
+                let (q, part) = (draws.posture(&arm), draws.part());
+                let [f, m] =
+                    [(force, part), (moment, 1.0 - part)].map(|(most, part): (f64, f64)| {
+                        Vector3::from(draws.array(-1.0, 1.0)).normalize() * (most * part.sqrt())
+                    });
+                let wrench = Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z);
+                let mut load = arm.complementary_stiffness(&q, &wrench);
+                if output.depends_on(Part::Weights) {
+                    load += arm.weight_stiffness(&q);
+                }
+                let left = DMatrix::identity(arm.dof(), arm.dof()) - &roots * load * &roots;
+                let left = ((&left + left.transpose()) / 2.0).symmetric_eigenvalues().min();
+                assert!(left > 0.5, "{left} with {wrench:?} at {q:?}\n{}", table.text);
+                least = least.min(left);
+            }
+        }
+    }
+    // Neither empty nor so cautious that no load would come near it.
+    assert!(found > 40 && least < 0.8, "{found} {least}");
 }
 
 proptest! {

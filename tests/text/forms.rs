@@ -55,8 +55,8 @@ fn fused_products_are_written_where_they_are_asked_for() {
         collection().into_iter().find(|(id, _, _)| *id == "kuka_kr240").expect("in the collection");
     let options = |fused| RustOptions { kernels: "::here".to_owned(), fused };
     let [plain, fused] = [false, true].map(|fused| rust(&robot, &options(fused)));
-    assert!(!plain.contains("mul_add") && plain.contains(" solve_leading::<S, 6, 5>(stiffness"));
-    assert!(fused.contains("S::mul_add(") && fused.contains(" solve_leading_fused::<S, 6, 5>("));
+    assert!(!plain.contains("mul_add") && plain.contains(" solve::<S, 6, 5>(stiffness"));
+    assert!(fused.contains("S::mul_add(") && fused.contains(" solve_fused::<S, 6, 5>("));
     assert!(fused.contains("`stiffarm generate ROBOT --fused --check FILE`"));
     assert!(expansion("").ends_with(&tokens(&plain)));
     assert!(expansion("products: separate;").ends_with(&tokens(&plain)));

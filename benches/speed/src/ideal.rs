@@ -241,7 +241,7 @@ pub fn all<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<All<S>, Unstable> {
     let jacobian = jacobian_of(a);
     let complementary_stiffness = complementary_stiffness_of(a, w);
     let joint_torque = torques_of(a, w);
-    let turns = turns_of(&complementary_stiffness, &joint_torque)?;
+    let turns = turns_of(&complementary_stiffness, &joint_torque, w)?;
     Ok(All {
         pose: pose_of(a, [c6, s6]),
         compliance: compliance_of(&jacobian),

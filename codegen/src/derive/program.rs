@@ -6,6 +6,7 @@ use stiffarm_kernels::{Output, Unstable};
 
 use super::chain::ROW;
 use crate::expr::{Expr, Graph, OpCount, Symbol};
+use crate::number::Number;
 
 /// Expressions for a set of outputs of one arm.
 #[derive(Clone, Debug)]
@@ -42,6 +43,9 @@ pub struct Solve {
     pub right: Vec<Expr>,
     /// The symbols that stand for their deflections.
     pub unknowns: Vec<Expr>,
+    /// Force and moment, N and N·m, within whose ellipsoid every load is borne in every posture, so that the
+    /// test of stability can be left out; where the table says them.
+    pub margin: Option<[Number; 2]>,
 }
 
 impl Solve {

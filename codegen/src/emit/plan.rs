@@ -7,6 +7,7 @@ use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
 use crate::derive::{COMPONENTS, Program};
 use crate::expr::{Binding, Expr, Graph, Item, Node, Schedule, Symbol};
+use crate::number::Number;
 
 /// One function, ready to be printed.
 pub(super) struct Plan<'p> {
@@ -81,6 +82,25 @@ impl<'p> Plan<'p> {
             }
         }
         found
+    }
+
+    /// Force and moment below which a load of system `k` needs no test: only where the wrench is read.
+    pub fn margin(&self, k: usize) -> Option<[Number; 2]> {
+        self.program.solves[k].margin.filter(|_| self.wrench().contains(&true))
+    }
+
+    /// Components of the wrench that are read.
+    pub fn wrench(&self) -> [bool; 6] {
+        let g = &self.program.graph;
+        let mut read = [false; 6];
+        for node in self.names.keys() {
+            if let Node::Symbol(s) = g.nodes()[*node]
+                && let Symbol::Wrench(k) = g.symbol_of(s)
+            {
+                read[*k] = true;
+            }
+        }
+        read
     }
 
     fn name_inputs(

@@ -1,6 +1,6 @@
 //! Joint torques and deflections.
 
-use stiffarm_kernels::{Scalar, Unstable};
+use stiffarm_kernels::{Scalar, Unstable, margin};
 
 use super::{Arm, C, V, complementary_stiffness_of, fma};
 
@@ -56,13 +56,20 @@ pub(super) fn displacement_of<S: Scalar>(a: &Arm<S>, [t1, t2, t3, t4, t5, t6]: [
 #[inline(always)]
 pub fn deflection<S: Scalar>(q: &[S; 6], w: &[S; 6]) -> Result<[S; 6], Unstable> {
     let a = &Arm::at(q);
-    let turns = turns_of(&complementary_stiffness_of(a, w), &torques_of(a, w))?;
+    let turns = turns_of(&complementary_stiffness_of(a, w), &torques_of(a, w), w)?;
     Ok(displacement_of(a, turns))
 }
 
+/// Force and moment, N and N·m, below which the arm is surely stable.
+const MARGIN: [f64; 2] = [2.18e5, 1.35e5];
+
 /// Solves `(Kθ − K_C) t = τ`. Nothing depends on θ6, so the first five joints are a system of their own.
 #[inline(always)]
-pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<[S; 6], Unstable> {
+pub(super) fn turns_of<S: Scalar>(
+    k_c: &[[S; 6]; 6],
+    torque: &[S; 6],
+    w: &[S; 6],
+) -> Result<[S; 6], Unstable> {
     let [mut t1, mut t2, mut t3, mut t4, mut t5, t6] = *torque;
     let less = |x: S, a: S, b: S| fma(-a, b, x);
     let at = |row: usize, column: usize| {
@@ -104,7 +111,7 @@ pub(super) fn turns_of<S: Scalar>(k_c: &[[S; 6]; 6], torque: &[S; 6]) -> Result<
     let i4 = a44.recip();
     a54 = a54 * i4;
     (a55, t5) = (less(a55, a54, a45), less(t5, a54, t4));
-    if !definite(at) {
+    if !margin(w, MARGIN.map(S::lit)).is_positive() && !definite(at) {
         return Err(Unstable);
     }
     t5 = t5 * a55.recip();

@@ -4,7 +4,7 @@ use stiffarm_kernels::{Output, Part};
 
 use super::compliance::joint_compliances;
 use super::stiffness::{matrix, tool_load};
-use super::{Derivation, Derived, beam, weight};
+use super::{Derivation, Derived, beam, margin, weight};
 use crate::derive::chain::{
     Chain, Chord, Levers, Point, beam_mass, flatten, gravity, mass_beyond, power, twists, wrench,
 };
@@ -78,7 +78,8 @@ fn deflection(chain: &mut Chain, output: Output) -> Derived {
         sum.add(chain, twists[j], unknown);
     }
     links(chain, &mut sum, weights);
-    let solve = Solve { output, matrix: system, right: torques, unknowns };
+    let margin = margin::margin(chain.robot, weights);
+    let solve = Solve { output, matrix: system, right: torques, unknowns, margin };
     Derived { entries: sum.in_base(chain), solve: (!compliant.is_empty()).then_some(solve) }
 }
 

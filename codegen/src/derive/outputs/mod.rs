@@ -5,6 +5,7 @@ mod compliance;
 mod deflection;
 mod frames;
 mod jacobian;
+mod margin;
 mod parameters;
 mod stiffness;
 mod torque;

@@ -2,13 +2,13 @@
 
 use stiffarm_kernels::{Input, Output};
 
-use super::super::expression::Printer;
+use super::super::expression::{Printer, Style as _};
 use super::super::plan::{Plan, Target, WRENCH};
 use super::posture::Use;
 use super::solve::solve_name;
 use super::style::C;
 use crate::emit::lines::Lines;
-use crate::expr::{Binding, Node, Symbol};
+use crate::expr::Binding;
 
 /// A function to be printed: of one output, or of all of `Output::ALL`.
 pub(super) struct Function<'a> {
@@ -141,7 +141,7 @@ impl Function<'_> {
         for (name, field) in self.uses.iter().flat_map(|u| &u.reads) {
             out.code(&format!("const {real} {name} = posture->{field};"));
         }
-        let components = self.components();
+        let components = self.plan.wrench();
         for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
             out.code(&format!("const {real} {name} = wrench[{k}];"));
         }
@@ -151,20 +151,6 @@ impl Function<'_> {
         if self.wrench() && !components.contains(&true) {
             out.code("(void)wrench;");
         }
-    }
-
-    /// Components of the wrench that are read.
-    fn components(&self) -> [bool; 6] {
-        let g = &self.plan.program.graph;
-        let mut read = [false; 6];
-        for node in (0..g.nodes().len()).filter(|node| self.plan.name(*node).is_some()) {
-            if let Node::Symbol(s) = g.nodes()[node]
-                && let Symbol::Wrench(k) = g.symbol_of(s)
-            {
-                read[*k] = true;
-            }
-        }
-        read
     }
 
     fn local(&self, out: &mut Lines, node: usize) {
@@ -213,7 +199,14 @@ impl Function<'_> {
         array(out, &format!("load_{k}"), &solve.right);
         out.blank();
         let function = solve_name(n, solve.leading());
-        out.code(&format!("status = {function}(stiffness_{k}, load_{k});"));
+        let margin = match self.plan.margin(k) {
+            Some(most) => {
+                let [force, moment] = most.map(|most| self.language.number(most));
+                format!("load_margin(wrench, {force}, {moment})")
+            }
+            None => self.language.zero(),
+        };
+        out.code(&format!("status = {function}(stiffness_{k}, load_{k}, {margin});"));
         out.code(&format!("if (status == {}_OK)", module.to_uppercase()));
         out.code("{");
         out.indent();

@@ -8,6 +8,23 @@ pub(super) fn solve_name(n: usize, leading: usize) -> String {
     if leading < n { format!("solve_{n}_{leading}") } else { format!("solve_{n}") }
 }
 
+/// `static … load_margin(…)`: by how much the load is surely borne.
+pub(super) fn margin(out: &mut Lines, language: &C) {
+    let (real, suffix) = (language.real(), language.suffix());
+    out.verbatim(&format!(
+        "
+/* 1 - (|f| / force)^2 - (|m| / moment)^2: where it is positive, the arm surely bears the wrench. */
+static {real} load_margin(const {real} wrench[6], {real} force, {real} moment)
+{{
+    const {real} forces = wrench[0] * wrench[0] + wrench[1] * wrench[1] + wrench[2] * wrench[2];
+    const {real} moments = wrench[3] * wrench[3] + wrench[4] * wrench[4] + wrench[5] * wrench[5];
+
+    return 1.0{suffix} - forces * (1.0{suffix} / (force * force)) - moments * (1.0{suffix} / (moment * moment));
+}}
+"
+    ));
+}
+
 /// `static … definite_6(…)`: whether the arm bears the load.
 pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
@@ -65,10 +82,11 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
     out.verbatim(&format!(
         "
 /* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. Where
- * the symmetric part of a is positive definite, every pivot is positive.{more} */
-static {name}_status_t {function}({real} a[{size}], {real} b[{n}])
+ * the symmetric part of a is positive definite, every pivot is positive; a positive margin says that
+ * it is.{more} */
+static {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
 {{
-    {name}_status_t status = definite_{n}(a);
+    {name}_status_t status = (margin > 0.0{suffix}) ? {upper}_OK : definite_{n}(a);
     unsigned int k;
     unsigned int i;
     unsigned int column;
@@ -119,13 +137,14 @@ fn follow(n: usize, m: usize, name: &str, language: &C) -> (String, String) {
     {{
         const {real} pivot = a[(i * {n}U) + i];
 
-        if (!(pivot > 0.0{suffix}))
-        {{
-            status = {upper}_UNSTABLE;
-        }}
         for (column = 0U; column < {m}U; column++)
         {{
             b[i] = b[i] - a[(column * {n}U) + i] * b[column];
+        }}
+        /* The difference is zero but where the row is not finite. */
+        if (!((pivot + (b[i] - b[i])) > 0.0{suffix}))
+        {{
+            status = {upper}_UNSTABLE;
         }}
         b[i] = b[i] * (1.0{suffix} / pivot);
     }}

@@ -1,7 +1,7 @@
 //! The source file.
 
 use super::hash::Table;
-use super::solve::{definite, solve};
+use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
 use crate::emit::lines::Lines;
@@ -42,6 +42,9 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
         module.functions.iter().flat_map(|f| f.systems()).collect();
     sizes.sort_unstable();
     sizes.dedup();
+    if body.contains("load_margin(") {
+        margin(&mut out, module.language);
+    }
     for at in 0..sizes.len() {
         let n = sizes[at].0;
         if at == 0 || sizes[at - 1].0 != n {

@@ -137,7 +137,7 @@ impl<'a> Body<'a> {
 
     fn solve(&self, out: &mut Lines, function: &Function, k: usize) {
         let solve = &function.program.solves[k];
-        let n = solve.right.len();
+        let (n, leading) = (solve.right.len(), solve.leading());
         let print = |e: &Expr| self.printer.print(*e);
         out.code("let stiffness = [");
         out.indent();
@@ -149,8 +149,16 @@ impl<'a> Body<'a> {
         let right: Vec<String> = solve.right.iter().map(print).collect();
         out.code(&format!("let load = [{}];", right.join(", ")));
         let unknowns: Vec<usize> = solve.unknowns.iter().map(|u| u.node()).collect();
-        let (names, (solve, constants)) = (self.names(&unknowns), function.solve(k));
-        out.code(&format!("let [{names}] = {solve}{constants}(stiffness, load)?;"));
+        let margin = match self.plan.margin(k) {
+            Some(most) => {
+                let [force, moment] = most.map(|most| self.printer.style.number(most));
+                format!("margin(wrench, [{force}, {moment}])")
+            }
+            None => "zero".to_string(),
+        };
+        let (names, solve) = (self.names(&unknowns), function.solve());
+        let call = format!("{solve}::<S, {n}, {leading}>(stiffness, load, {margin})?");
+        out.code(&format!("let [{names}] = {call};"));
     }
 
     fn names(&self, nodes: &[usize]) -> String {

@@ -45,16 +45,9 @@ impl<'p> Function<'p> {
         self.outputs.iter().any(|o| o.is_fallible())
     }
 
-    /// The function of the runtime that solves system `k`, and its constants.
-    pub fn solve(&self, k: usize) -> (&'static str, String) {
-        let solve = &self.program.solves[k];
-        let (n, leading) = (solve.right.len(), solve.leading());
-        match (leading < n, self.style.fused) {
-            (false, false) => ("solve", String::new()),
-            (false, true) => ("solve_fused", String::new()),
-            (true, false) => ("solve_leading", format!("::<S, {n}, {leading}>")),
-            (true, true) => ("solve_leading_fused", format!("::<S, {n}, {leading}>")),
-        }
+    /// The function of the runtime that solves a system.
+    pub fn solve(&self) -> &'static str {
+        if self.style.fused { "solve_fused" } else { "solve" }
     }
 
     pub fn ty(&self) -> String {

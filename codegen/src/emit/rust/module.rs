@@ -144,11 +144,13 @@ impl Function<'_> {
         if self.fallible() {
             imports.push("Unstable");
         }
-        let mut solves: Vec<&str> =
-            (0..self.program.solves.len()).map(|k| self.solve(k).0).collect();
-        solves.sort_unstable();
-        solves.dedup();
-        imports.extend(solves);
+        let solves = 0..self.program.solves.len();
+        if solves.clone().any(|k| plan.margin(k).is_some()) {
+            imports.push("margin");
+        }
+        if !solves.is_empty() {
+            imports.push(self.solve());
+        }
         out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
         self.figures(out, body);
         if self.fused() {

@@ -17,12 +17,7 @@ pub(super) fn has_posture(plan: &Plan) -> bool {
 
 /// Whether the kernel reads the wrench.
 pub(super) fn uses_wrench(plan: &Plan) -> bool {
-    let g = &plan.program.graph;
-    let symbols = (0..g.nodes().len()).filter(|node| plan.name(*node).is_some());
-    symbols.into_iter().any(|node| match g.nodes()[node] {
-        Node::Symbol(s) => matches!(g.symbol_of(s), Symbol::Wrench(_)),
-        _ => false,
-    })
+    plan.wrench().contains(&true)
 }
 
 /// Whether an angle has a symbolic offset.
