@@ -90,6 +90,7 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
         poses,
         extra: Vec::new(),
         unused: Vec::new(),
+        skipped: Vec::new(),
         measured_in: [None; 6],
         wrench_in: [None; 6],
     }

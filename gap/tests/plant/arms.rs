@@ -106,6 +106,7 @@ pub fn rows(kind: Kind, rows: Vec<Row>) -> Measurements {
         sim_given: [false; 6],
         extra: Vec::new(),
         unused: Vec::new(),
+        skipped: Vec::new(),
         measured_in: [None; 6],
         wrench_in: [None; 6],
     }

@@ -58,6 +58,7 @@ impl Explanation {
             sim_given: [false; 6],
             extra: Vec::new(),
             unused: Vec::new(),
+            skipped: Vec::new(),
             measured_in: [None; 6],
             wrench_in: [None; 6],
         };

@@ -97,6 +97,7 @@ impl Design {
             poses: self.poses,
             extra: Vec::new(),
             unused: Vec::new(),
+            skipped: Vec::new(),
             measured_in: [None; 6],
             wrench_in: [None; 6],
         }
