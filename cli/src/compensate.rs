@@ -127,6 +127,9 @@ fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure
     // Without a column of joint values the reader is told of no joints.
     let layout = if starts { full } else { Layout { motions: Vec::new(), ..full } };
     let targets = data::from_bytes(path, &bytes, &layout)?;
+    if !targets.skipped.is_empty() {
+        return Err(data::refusal(&targets.file, &bytes, &targets.skipped, 0));
+    }
     let refused = |text: &str, help: &str| {
         Err(Failure::with_help(format!("{}: {text}", path.display()), help))
     };

@@ -105,8 +105,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
-    let data = data::read(&args.data, &layout)?;
-    let other = args.check.as_ref().map(|path| data::read(path, &layout)).transpose()?;
+    let data = data::read(&args.data, &layout, quiet)?;
+    let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
     let stages = Stages::new(quiet);
     interrupt::ends(&options.stop);
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))

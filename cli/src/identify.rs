@@ -91,7 +91,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
-    let data = data::read(&args.data, &data::layout(&source)?)?;
+    let data = data::read(&args.data, &data::layout(&source)?, quiet)?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);

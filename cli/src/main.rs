@@ -14,6 +14,7 @@ mod import;
 mod input;
 mod man;
 mod map;
+mod measurements;
 mod papers;
 mod plot;
 mod poses;
@@ -65,6 +66,7 @@ enum Command {
     Import(import::Args),
     Generate(generate::Args),
     Map(map::Args),
+    Measurements(measurements::Args),
     Poses(poses::Args),
     Identify(identify::Args),
     Diagnose(diagnose::Args),
@@ -95,6 +97,7 @@ fn main() -> ExitCode {
         Command::Import(args) => import::run(&args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),
         Command::Map(args) => map::run(&args, quiet),
+        Command::Measurements(args) => measurements::run(&args, quiet),
         Command::Poses(args) => poses::run(&args, quiet),
         Command::Identify(args) => identify::run(&args, quiet),
         Command::Diagnose(args) => diagnose::run(&args, quiet),

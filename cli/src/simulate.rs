@@ -127,7 +127,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
     let truths = args.truths(&arm)?;
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm)?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let noise = args.experiment.noise()?;
     let seed = args.experiment.seed;
     let mut plant = Plant::new(&arm, &truths).map_err(plain)?;
@@ -193,10 +193,11 @@ impl ExperimentArgs {
         file: Option<&PathBuf>,
         source: &Source,
         arm: &Arm,
+        quiet: bool,
     ) -> Result<Measurements, Failure> {
         let layout = data::layout(source)?;
         match file {
-            Some(path) => data::read(path, &layout),
+            Some(path) => data::read(path, &layout, quiet),
             None => Ok(self.design()?.rows(arm)),
         }
     }

@@ -81,7 +81,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     };
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm)?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),
         None => args.experiment.other_sessions(&arm)?,

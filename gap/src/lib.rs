@@ -2,7 +2,7 @@
 //! difference comes from, and how far it shrinks when that is put into the model.
 //!
 //! [`robot::arm`] makes a robot file's model into an arm that is simulated ([`simulate`]);
-//! [`measurement`] reads what was measured; [`gap`] is the difference; [`effects`] are what may
+//! [`measurement`] reads what was measured ([`readings`] makes it of what other programs write); [`gap`] is the difference; [`effects`] are what may
 //! explain it; [`mod@diagnose`] finds out which does, on poses that no fit has seen.
 //!
 //! [`mod@compensate`] finds the set-points with which a flexible arm stands where it should.
@@ -23,6 +23,7 @@ pub mod identify;
 pub mod measurement;
 pub mod plant;
 pub mod random;
+pub mod readings;
 pub mod robot;
 pub mod simulate;
 pub mod withhold;

@@ -2,12 +2,15 @@
 
 use std::path::Path;
 
-use stiffarm_gap::measurement::{Layout, Mistake};
+use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
 use stiffarm_gap::{Measurements, ReadError};
 
+use super::quantity::counted;
 use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
+use crate::terminal::note::note;
 use crate::terminal::snippet;
+use crate::terminal::text::listed;
 
 /// What the reader of a file must know of the robot.
 ///
@@ -18,13 +21,27 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
     layout.map_err(|error| Failure::new(error.to_string()))
 }
 
-/// Reads a file.
+/// Reads a file, and says which rows are left out unless `quiet`.
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
-pub fn read(path: &Path, layout: &Layout) -> Result<Measurements, Failure> {
+pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    from_bytes(path, &bytes, layout)
+    let data = from_bytes(path, &bytes, layout)?;
+    let mut lines: Vec<u64> = data.skipped.iter().map(|mistake| mistake.line).collect();
+    lines.dedup();
+    if !lines.is_empty() {
+        let rows = counted(lines.len(), "row");
+        let (all, first) = (lines.len() + data.rows.len(), &data.skipped[0]);
+        let lines: Vec<String> = lines.iter().map(u64::to_string).collect();
+        let text = format!(
+            "{}: {rows} of {all} left out for a cell that is empty or not a number: line {}; {first}",
+            data.file,
+            listed(&lines, MOST_MISTAKES)
+        );
+        note(&text, quiet);
+    }
+    Ok(data)
 }
 
 /// Reads the bytes of a file.
@@ -35,17 +52,20 @@ pub fn from_bytes(path: &Path, bytes: &[u8], layout: &Layout) -> Result<Measurem
     let file = path.display().to_string();
     Measurements::from_bytes(&file, bytes, layout).map_err(|error| match &error {
         ReadError::Open { .. } => Failure::new(error.to_string()),
-        ReadError::Mistakes { mistakes, more, .. } => {
-            let text = String::from_utf8(bytes.to_vec()).unwrap_or_default();
-            let mut remarks: Vec<Remark> =
-                mistakes.iter().map(|mistake| remark(mistake, &file, &text)).collect();
-            if *more > 0 {
-                let rest = format!("and {more} more mistakes");
-                remarks.push(Remark::error(rest, None, &file, "", None));
-            }
-            Failure::File(remarks)
-        }
+        ReadError::Mistakes { mistakes, more, .. } => refusal(&file, bytes, mistakes, *more),
     })
+}
+
+/// Mistakes, each at its cell, and how many more there are.
+pub fn refusal(file: &str, bytes: &[u8], mistakes: &[Mistake], more: usize) -> Failure {
+    let text = core::str::from_utf8(bytes).unwrap_or_default();
+    let mut remarks: Vec<Remark> =
+        mistakes.iter().map(|mistake| remark(mistake, file, text)).collect();
+    if more > 0 {
+        let rest = format!("and {more} more mistakes");
+        remarks.push(Remark::error(rest, None, file, "", None));
+    }
+    Failure::File(remarks)
 }
 
 fn remark(mistake: &Mistake, file: &str, text: &str) -> Remark {

@@ -1,18 +1,18 @@
 //! Numbers on the command line: SI, or with a unit right behind them (`30deg`, `3e-05m`).
 
-use stiffarm_gap::measurement::{Dimension, UNITS};
+use stiffarm_gap::measurement::{Dimension, Unit};
 
 use crate::terminal::failure::Failure;
 
 /// A finite number, in SI.
 pub fn read(text: &str, dimension: Option<Dimension>) -> Option<f64> {
     let text = text.trim();
-    let units = UNITS.iter().filter(|unit| Some(unit.dimension) == dimension);
-    let of_unit = units.filter_map(|unit| {
-        let number = text.strip_suffix(unit.name)?.trim_end();
-        Some(unit.to_si(plain(number)?))
-    });
-    plain(text).or_else(|| of_unit.into_iter().next()).filter(|x| x.is_finite())
+    let of_unit = || {
+        let number = text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.');
+        let unit = Unit::named(text[number.len()..].trim_start())?;
+        Some(unit.to_si(plain(number)?)).filter(|_| Some(unit.dimension) == dimension)
+    };
+    plain(text).or_else(of_unit).filter(|x| x.is_finite())
 }
 
 /// A number that has its unit: for options that are never in SI by default.

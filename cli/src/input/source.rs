@@ -31,6 +31,11 @@ pub struct Source {
 }
 
 impl RobotArgs {
+    /// The robot of that file or id, whose parameters have numbers.
+    pub fn named(robot: &str) -> RobotArgs {
+        RobotArgs { robot: robot.to_owned(), set: Vec::new() }
+    }
+
     /// Reads the robot and gives every symbolic parameter its number.
     ///
     /// # Errors

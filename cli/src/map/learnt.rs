@@ -62,7 +62,7 @@ impl Learnt {
             nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
             ..Options::default()
         };
-        let data = data::read(path, &data::layout(source)?)?;
+        let data = data::read(path, &data::layout(source)?, quiet)?;
         let stages = Stages::new(quiet);
         stages.say(format!("diagnosing {}", path.display()));
         let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;

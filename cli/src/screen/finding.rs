@@ -5,8 +5,10 @@ use stiffarm_kernels::Motion;
 
 use super::size::Size;
 use super::unit::{INCH, POUND};
-use super::{MOST, Screen, WIDTH, listed, percent};
-use crate::terminal::text::{bad, bold, decimals, dim, fixed, good, left_bar, table, wrapped};
+use super::{MOST, Screen, WIDTH, percent};
+use crate::terminal::text::{
+    bad, bold, decimals, dim, fixed, good, left_bar, listed, table, wrapped,
+};
 
 /// Findings that are shown with their numbers.
 const DETAILED: usize = 4;

@@ -207,15 +207,6 @@ fn words(identifier: &str) -> String {
     identifier.replace('_', " ")
 }
 
-/// The first entries of a list, and how many more there are.
-fn listed(entries: &[String], most: usize) -> String {
-    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
-    match entries.len().checked_sub(most) {
-        None | Some(0) => shown,
-        Some(rest) => format!("{shown} and {rest} more"),
-    }
-}
-
 fn percent(part: f64) -> String {
     format!("{} %", fixed(100.0 * part, 0))
 }

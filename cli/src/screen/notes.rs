@@ -2,9 +2,9 @@
 
 use stiffarm_gap::diagnose::{NuisanceReport, Share};
 
-use super::{MOST, Screen, WIDTH, listed, percent, words};
+use super::{MOST, Screen, WIDTH, percent, words};
 use crate::input::quantity::counted;
-use crate::terminal::text::{bold, short, wrapped};
+use crate::terminal::text::{bold, listed, short, wrapped};
 
 /// Lines of the whole screen: reasons for which something could not be seen are left out beyond.
 const HEIGHT: usize = 40;

@@ -121,6 +121,15 @@ pub fn left_bar(before: f64, after: f64, width: usize) -> String {
     format!("{}{}", "█".repeat(after), "░".repeat(before.saturating_sub(after)))
 }
 
+/// The first entries of a list, and how many more there are.
+pub fn listed(entries: &[String], most: usize) -> String {
+    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
+    match entries.len().checked_sub(most) {
+        None | Some(0) => shown,
+        Some(rest) => format!("{shown} and {rest} more"),
+    }
+}
+
 /// With thousands set apart.
 pub fn thousands(n: usize) -> String {
     let digits = n.to_string();

@@ -79,7 +79,7 @@ fn mistakes_of_a_measurement_file_are_shown_where_they_stand() {
         ("q1,q2,dx\n", "found no rows", "run.csv:1:1\n"),
         ("q1;q2;dx\n1;2;3\n", "found columns separated by semicolons", "run.csv:1:1\n"),
         ("", "run.csv: line 1: found nothing, expected a header row", "run.csv"),
-        ("q1,q2,dx\n0.1,0.2,1\n", "found 1 poses, expected at least 2", "run.csv"),
+        ("q1,q2,dx\n0.1,0.2,1\n", "found 1 pose, expected at least 2", "run.csv"),
         ("q1,q2,x,y,z,marker\n0.1,0.2,1,0,0,m\n", "found the unknown marker `m`", ":2:15\n"),
     ];
     for (content, message, place) in cases {

@@ -11,6 +11,7 @@ const MAP: [&str; 8] = ["map", "ur5", "--over", "q2,q3", "--of", "condition", "-
 const WITHHOLD: [&str; 6] = ["withhold", "lin_planar", "--cases", "2", "--poses", "6"];
 const SIMULATE: [&str; 4] = ["simulate", "ur5", "--poses", "2"];
 const POSES: [&str; 4] = ["poses", "ur10", "--count", "2"];
+const RAW: [&str; 2] = ["measurements", "docs/workbench/run.csv"];
 const URDF: [&str; 2] = ["import", "tests/data/urdf/panda.urdf"];
 const PAPER: [&str; 2] = ["papers", "tests/data/paper.toml"];
 const EVAL: [&str; 4] = ["eval", "ur5", "--q", "0,0,0,0,0,0"];
@@ -24,10 +25,11 @@ const COMPENSATE: [&str; 6] = [
 ];
 
 /// A command, and an option behind which a file is written.
-const WRITES: [(&[&str], &str); 18] = [
+const WRITES: [(&[&str], &str); 19] = [
     (&EVAL, "--json"),
     (&["robots"], "--json"),
     (&URDF, "--toml"),
+    (&RAW, "--csv"),
     (&MAP, "--csv"),
     (&MAP, "--svg"),
     (&POSES, "--csv"),

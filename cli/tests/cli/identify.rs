@@ -42,6 +42,22 @@ fn run(folder: &Folder, poses: usize, loads: &[[f64; 3]]) -> (String, String) {
     (folder.file("arm.toml", robot), folder.file("run.csv", rows))
 }
 
+#[test]
+fn a_row_with_a_hole_is_left_out_and_said() {
+    let folder = Folder::new();
+    let (robot, data) = run(&folder, 20, &LOADS);
+    let mut lines: Vec<String> = read(&data).lines().map(str::to_owned).collect();
+    let cut = lines[5].rfind(',').expect("cells");
+    lines[5].truncate(cut + 1);
+    let holed = folder.file("holed.csv", lines.join("\n") + "\n");
+    let run = stiffarm(&["identify", &robot, &holed]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.err.contains("1 row of 60 left out"), "{}", run.err);
+    assert!(run.err.contains("line 6, column 12 `dz[mm]`: found an empty cell"), "{}", run.err);
+    let quiet = stiffarm(&["--quiet", "identify", &robot, &holed]);
+    assert_eq!((quiet.status, quiet.err.as_str()), (0, ""));
+}
+
 const LOADS: [[f64; 3]; 3] = [[0.0, 0.0, -2.0], [1.5, -1.0, 0.0], [0.0, 1.5, 0.5]];
 
 fn json(arguments: &[&str]) -> Value {

@@ -80,6 +80,18 @@ fn mistakes_are_shown_where_they_stand() {
         (ARM.replace("</joint></robot>", "</joint>"), "this is no XML", "arm.urdf"),
         (ARM.replace(" velocity=\"1\"", ""), "this is no URDF", "arm.urdf"),
         (String::new(), "this is no XML", "arm.urdf"),
+        ("J1,J2\n0.1,0.2\n".to_owned(), "this is no XML", "arm.urdf"),
+        (
+            format!("<robot>{}{}</robot>", "<a>".repeat(1 << 18), "</a>".repeat(1 << 18)),
+            "found no links",
+            "arm.urdf",
+        ),
+        (
+            ARM.replace("<robot", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"")
+                .replace("</robot>", "<xacro:arm/></robot>"),
+            "macros are not expanded here",
+            "arm.urdf",
+        ),
         (
             ARM.replace("<robot name=\"a\">", "<robot name=\"a\"><link name=\"l2\"/>"),
             "two links are called `l2`",

@@ -12,6 +12,7 @@ mod generate_c;
 mod identify;
 mod import;
 mod map;
+mod measurements;
 mod others;
 mod papers;
 mod pinocchio;

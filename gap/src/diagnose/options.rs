@@ -87,8 +87,8 @@ pub enum DiagnoseError {
     #[error("{file}: found no rows, expected at least one measurement")]
     NoRows { file: String },
     #[error(
-        "{file}: found {found} poses, expected at least 2: one to fit and one to hold out; \
-         measure at more poses"
+        "{file}: found {found} pose{}, expected at least 2: one to fit and one to hold out; \
+         measure at more poses", if *found == 1 { "" } else { "s" }
     )]
     TooFewPoses { file: String, found: usize },
     #[error(

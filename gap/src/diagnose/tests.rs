@@ -397,7 +397,7 @@ fn what_stands_in_the_way_is_said() {
     one.poses = 1;
     assert_eq!(
         error(&one, &Options::default()),
-        "test.csv: found 1 poses, expected at least 2: one to fit and one to hold out; measure at \
+        "test.csv: found 1 pose, expected at least 2: one to fit and one to hold out; measure at \
          more poses"
     );
     let folds = Options { folds: Some(5), ..Options::default() };

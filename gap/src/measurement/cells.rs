@@ -5,7 +5,7 @@ use nalgebra::Vector6;
 
 use super::Row;
 use super::header::Head;
-use super::mistake::{Fault, Mistakes};
+use super::mistake::{Fault, Mistake};
 use super::role::{Layout, Role};
 use super::table::Record;
 use super::unit::{Unit, nearest};
@@ -39,32 +39,24 @@ fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {
     if si.is_finite() { Ok(si) } else { Err(Fault::TooLarge { found, expected }) }
 }
 
-/// Reads one row; `None` if it has a mistake. Its `group` is filled in later.
-pub(crate) fn row(
-    record: &Record,
-    heads: &[Head],
-    layout: &Layout,
-    mistakes: &mut Mistakes,
-) -> Option<Row> {
+/// Reads one row, or its mistakes. Its `group` is filled in later.
+pub(crate) fn row(record: &Record, heads: &[Head], layout: &Layout) -> Result<Row, Vec<Mistake>> {
     let (line, cells) = (record.line, &record.cells);
+    let whole = |fault| Err(vec![Mistake { line, column: None, fault }]);
     if cells.len() != heads.len() {
-        let fault = Fault::Ragged { found: cells.len(), expected: heads.len() };
-        mistakes.add(line, None, fault);
-        return None;
+        return whole(Fault::Ragged { found: cells.len(), expected: heads.len() });
     }
     if cells.iter().all(str::is_empty) {
-        mistakes.add(line, None, Fault::EmptyRow);
-        return None;
+        return whole(Fault::EmptyRow);
     }
     let mut row = Row::new(line, vec![0.0; layout.motions.len()]);
-    let mut good = true;
+    let mut mistakes = Vec::new();
     for (head, cell) in heads.iter().zip(cells) {
         if let Err(fault) = fill(&mut row, head, cell, layout) {
-            mistakes.add(line, Some(head.column.clone()), fault);
-            good = false;
+            mistakes.push(Mistake { line, column: Some(head.column.clone()), fault });
         }
     }
-    good.then_some(row)
+    if mistakes.is_empty() { Ok(row) } else { Err(mistakes) }
 }
 
 fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), Fault> {

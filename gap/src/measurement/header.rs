@@ -1,5 +1,7 @@
 //! The header row: what each column is, and whether the columns together make a measurement.
 
+use std::collections::HashMap;
+
 use super::Kind;
 use super::mistake::{Column, Fault, Mistakes};
 use super::role::{Family, Layout, Role, nearest_name};
@@ -23,6 +25,7 @@ pub(crate) struct Head {
 /// Reads the header row. What is wrong with it goes to `mistakes`.
 pub(crate) fn read(record: &Record, layout: &Layout, mistakes: &mut Mistakes) -> Vec<Head> {
     let mut heads: Vec<Head> = Vec::with_capacity(record.cells.len());
+    let mut numbers: HashMap<String, usize> = HashMap::with_capacity(record.cells.len());
     for (index, text) in record.cells.iter().enumerate() {
         let column = Column { number: index + 1, header: text.to_owned() };
         let mut wrong = |fault| mistakes.add(record.line, Some(column.clone()), fault);
@@ -36,8 +39,9 @@ pub(crate) fn read(record: &Record, layout: &Layout, mistakes: &mut Mistakes) ->
         let mut role = None;
         let mut unit = None;
         if !name.is_empty() {
-            if let Some(first) = heads.iter().find(|h| h.name == name) {
-                wrong(Fault::Repeated { name: name.clone(), first: first.column.number });
+            let first = *numbers.entry(name.clone()).or_insert(index + 1);
+            if first <= index {
+                wrong(Fault::Repeated { name: name.clone(), first });
             } else {
                 match Role::of(&name, layout) {
                     Ok(known) => role = Some(known),

@@ -79,10 +79,16 @@ pub(crate) struct Mistakes {
 
 impl Mistakes {
     pub(crate) fn add(&mut self, line: u64, column: Option<Column>, fault: Fault) {
-        if self.kept.len() < MOST_MISTAKES {
-            self.kept.push(Mistake { line, column, fault });
-        } else {
-            self.more += 1;
+        self.extend([Mistake { line, column, fault }]);
+    }
+
+    pub(crate) fn extend(&mut self, mistakes: impl IntoIterator<Item = Mistake>) {
+        for mistake in mistakes {
+            if self.kept.len() < MOST_MISTAKES {
+                self.kept.push(mistake);
+            } else {
+                self.more += 1;
+            }
         }
     }
 
@@ -230,6 +236,13 @@ pub enum Fault {
         known_markers(known), suggest(suggestion.as_deref())
     )]
     UnknownMarker { found: String, known: Vec<String>, suggestion: Option<String> },
+}
+
+impl Fault {
+    /// Whether a reading is missing, and nothing is wrong with the others.
+    pub(crate) fn is_hole(&self) -> bool {
+        matches!(self, Fault::EmptyCell { .. } | Fault::Nan { .. } | Fault::EmptyRow)
+    }
 }
 
 #[cfg(test)]

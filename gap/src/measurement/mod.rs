@@ -43,11 +43,18 @@ pub struct Measurements {
     pub extra: Vec<ExtraColumn>,
     /// Columns that are known but play no part: a simulated component that is not measured.
     pub unused: Vec<Column>,
+    /// Rows that were left out, and why: a cell of theirs is empty or not a number. Never more than
+    /// one row in [`ONE_IN`].
+    pub skipped: Vec<Mistake>,
     /// The unit in which the file has each measured component; `None` where it is not measured.
     pub measured_in: [Option<Unit>; 6],
     /// The unit in which the file has each component of the wrench; `None` where it has no column.
     pub wrench_in: [Option<Unit>; 6],
 }
+
+/// A file of which more than one row in so many has holes is refused: a campaign loses a reading now
+/// and then (a beam that was cut), not every tenth.
+pub const ONE_IN: usize = 10;
 
 /// What the file measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,6 +162,7 @@ impl Measurements {
             sim_given: [false; 6],
             extra: Vec::new(),
             unused: Vec::new(),
+            skipped: Vec::new(),
             measured_in: [None; 6],
             wrench_in: [None; 6],
         }
@@ -227,8 +235,22 @@ fn read_into(
     if body.is_empty() {
         mistakes.add(top.line, None, Fault::NoRows);
     }
-    let mut rows: Vec<Row> =
-        body.iter().filter_map(|r| cells::row(r, &heads, layout, mistakes)).collect();
+    let mut rows = Vec::with_capacity(body.len());
+    let mut whole = Vec::with_capacity(body.len());
+    let mut skipped = Vec::new();
+    for record in body {
+        match cells::row(record, &heads, layout) {
+            Ok(row) => {
+                rows.push(row);
+                whole.push(record);
+            }
+            Err(found) if found.iter().all(|m| m.fault.is_hole()) => skipped.push(found),
+            Err(found) => mistakes.extend(found),
+        }
+    }
+    if skipped.len() * ONE_IN > body.len() {
+        skipped.drain(..).for_each(|found| mistakes.extend(found));
+    }
     let (kind, sim_given) = kind.filter(|_| mistakes.is_empty())?;
     let poses = group::assign(&mut rows);
     let measured = kind.components();
@@ -243,7 +265,8 @@ fn read_into(
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
-        extra: extra(&heads, body, layout),
+        extra: extra(&heads, &whole, layout),
+        skipped: skipped.into_iter().flatten().collect(),
         rows,
         kind,
         sim_given,
@@ -262,7 +285,7 @@ fn no_header(top: &table::Record) -> Option<Fault> {
     Some(Fault::Separator { separator })
 }
 
-fn extra(heads: &[header::Head], body: &[table::Record], layout: &Layout) -> Vec<ExtraColumn> {
+fn extra(heads: &[header::Head], body: &[&table::Record], layout: &Layout) -> Vec<ExtraColumn> {
     let unknown = heads.iter().filter(|h| h.role == Some(Role::Extra));
     unknown
         .map(|head| {

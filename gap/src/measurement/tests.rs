@@ -77,6 +77,31 @@ fn unknown_columns_are_kept_and_reported() {
 }
 
 #[test]
+fn a_row_with_a_hole_is_left_out_and_told() {
+    let mut text = "q1,q2,q3,dz,note\n".to_owned();
+    (0..20).for_each(|k| text.push_str(&format!("0,0,0,{k},{k}\n")));
+    let holed = text.replace(",3,3\n", ",,3\n").replace(",5,5\n", ",nan,5\n");
+    let data = good(&holed);
+    assert_eq!((data.rows.len(), data.rows[3].line, data.extra[0].cells.len()), (18, 6, 18));
+    assert_eq!(data.extra[0].cells[3], "4");
+    let told: Vec<_> = data.skipped.iter().map(|m| (m.line, m.fault.to_string())).collect();
+    assert_eq!((told.len(), told[0].0, told[1].0), (2, 5, 7));
+    assert!(told[0].1.starts_with("found an empty cell"), "{told:?}");
+    // A third of 20 is more than one in ten; a word is no hole.
+    let more = holed.replace(",8,8\n", ",,8\n");
+    assert!(read(&more).unwrap_err().to_string().contains("line 10, column 4 `dz`"));
+    assert!(read(&text.replace(",3,3\n", ",three,3\n")).is_err());
+}
+
+#[test]
+fn a_hundred_thousand_columns_take_no_time_to_tell_apart() {
+    let names: Vec<String> = (0..100_000).map(|k| format!("c{k}")).collect();
+    let text = format!("q1,q2,q3,dz,{}\n", names.join(","));
+    let error = read(&format!("{text}0,0,0,1\n")).unwrap_err();
+    assert!(error.to_string().contains("expected 100004"), "{error}");
+}
+
+#[test]
 fn a_simulated_component_that_is_not_measured_is_reported() {
     let data = good("q1,q2,q3,dz,sim_dx,sim_dz\n0,0,0,1,2,3\n");
     assert_eq!(data.unused, [Column { number: 5, header: "sim_dx".to_owned() }]);

@@ -57,8 +57,17 @@ pub const UNITS: [Unit; 16] = [
 ];
 
 impl Unit {
-    /// The unit of that name; names are case-sensitive.
+    /// The unit of that name, or of its sign (`µm`, `°`, `N·m`); names are case-sensitive.
     pub fn named(name: &str) -> Option<Unit> {
+        let name = match name {
+            // The micro sign and the Greek letter.
+            "\u{b5}m" | "\u{3bc}m" => "um",
+            "°" => "deg",
+            "°C" => "degC",
+            "N·m" => "Nm",
+            "N·mm" => "Nmm",
+            name => name,
+        };
         UNITS.into_iter().find(|u| u.name == name)
     }
 
@@ -142,6 +151,15 @@ mod tests {
         assert_eq!(si("lbf", 1.0), Some(4.4482216152605));
         assert_eq!(si("K", 293.15), Some(20.0));
         assert_eq!(si("inch", 1.0), None);
+        for (sign, name) in
+            [("µm", "um"), ("μm", "um"), ("°", "deg"), ("°C", "degC"), ("N·m", "Nm")]
+        {
+            assert_eq!(
+                (si(sign, 3.0), Unit::named(sign).is_some()),
+                (si(name, 3.0), true),
+                "{sign}"
+            );
+        }
     }
 
     #[test]

@@ -86,6 +86,7 @@ pub fn rows(model: &Model, arm: &Arm, orientation: bool, loads: bool, seed: u64)
         poses: count,
         extra: Vec::new(),
         unused: Vec::new(),
+        skipped: Vec::new(),
         measured_in: [None; 6],
         wrench_in: [None; 6],
     }

@@ -37,6 +37,12 @@ pub fn read(text: &str, as_written: bool) -> Result<Urdf, Refusal> {
         let message = format!("found the element <{found}>, expected <robot>, the root of a URDF");
         return Err(Refusal::new(message, Place::Bytes(head(text, root))));
     }
+    if let Some(node) = root.descendants().find(|n| n.tag_name().namespace().is_some_and(is_xacro))
+    {
+        let message = "found a xacro element, expected a URDF: macros are not expanded here";
+        let help = "run `xacro FILE > arm.urdf` and import what it writes";
+        return Err(Refusal::new(message, Place::Bytes(head(text, node))).help(help));
+    }
     spelling(text, root)?;
     let robot = Element::new(root, text).elements()?;
     let mut urdf = Urdf { robot, rounded: Vec::new() };
@@ -44,6 +50,11 @@ pub fn read(text: &str, as_written: bool) -> Result<Urdf, Refusal> {
         urdf.round();
     }
     Ok(urdf)
+}
+
+/// Whether a namespace is that of ROS's macro language, of which there are several spellings.
+fn is_xacro(namespace: &str) -> bool {
+    namespace.contains("xacro")
 }
 
 impl Urdf {

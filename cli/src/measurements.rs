@@ -1,0 +1,80 @@
+//! `stiffarm measurements`: a measurement file from a table as another program wrote it.
+
+use std::path::PathBuf;
+
+use stiffarm_gap::readings::{Map, Sheet, import};
+
+use super::Verdict;
+use crate::input::data;
+use crate::input::source::RobotArgs;
+use crate::terminal::failure::Failure;
+use crate::terminal::note::note;
+use crate::terminal::output::Target;
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm measurements tracker.xlsx --csv run.csv
+  stiffarm measurements export.txt --map map.toml --robot arm.toml --csv run.csv
+
+A map says what is not found by name:
+
+  decimal = \",\"
+  orientation = \"abc\"        # abc, rpy, zyz, quaternion, rotation_vector
+
+  [columns]                  # ours = theirs
+  q1 = \"Axis 1\"
+  x = { column = \"Pos X\", unit = \"mm\" }
+  mass = { column = \"Load\", unit = \"kg\" }";
+
+/// A measurement file from a table as another program wrote it
+///
+/// Any separator, a decimal comma, xlsx and ods; columns by the names that controllers and trackers
+/// give them; angles of several conventions, quaternions, payloads in kg. What was done is said.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// The table: text, or a workbook
+    raw: PathBuf,
+    /// What is to be known of its columns (TOML)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// The sheet of a workbook [default: the first]
+    #[arg(long, value_name = "NAME")]
+    sheet: Option<String>,
+    /// Read the result as this robot's, and refuse what could not be diagnosed
+    #[arg(long, value_name = "ROBOT")]
+    robot: Option<String>,
+    /// Where the measurement file goes
+    #[arg(long, value_name = "OUT", default_value = "-")]
+    csv: Target,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the table, the map, or an output that cannot be written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let read =
+        |path: &PathBuf| std::fs::read(path).map_err(|error| Failure::io("read", path, &error));
+    let plain = |error: stiffarm_gap::readings::ImportError| Failure::new(error.to_string());
+    let mut map = match &args.map {
+        None => Map::default(),
+        Some(path) => {
+            let text = String::from_utf8_lossy(&read(path)?).into_owned();
+            Map::read(&path.display().to_string(), &text).map_err(plain)?
+        }
+    };
+    map.sheet = args.sheet.clone().or(map.sheet);
+    let sheet = Sheet::new(args.raw.display().to_string(), read(&args.raw)?);
+    let imported = import(&sheet, &map).map_err(plain)?;
+    if let Some(robot) = &args.robot {
+        let source = RobotArgs::named(robot).load(quiet)?;
+        let written = PathBuf::from("what was made of it");
+        data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
+    }
+    args.csv.write(&imported.csv)?;
+    for said in &imported.said {
+        note(said, quiet);
+    }
+    Ok(Verdict::Good)
+}

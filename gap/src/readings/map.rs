@@ -1,0 +1,134 @@
+//! What a user says of the columns.
+//!
+//! ```toml
+//! separator = ";"              # else found
+//! decimal = ","                # else found
+//! sheet = "Run 1"              # of a workbook; else the first
+//! header = 3                   # the line of the names; else found
+//! orientation = "abc"          # of three angles or four numbers; else by their names
+//! gravity = [0, 0, -9.80665]   # base axes, m/s²: which way a payload pulls
+//!
+//! [columns]                    # ours = theirs
+//! q1 = "A1"
+//! q2 = { column = "A2", unit = "deg", factor = -1, offset = 90 }   # factor · theirs + offset
+//! x = { column = "Pos X", unit = "mm" }
+//! mass = { column = "Last", unit = "kg" }
+//! ```
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::ImportError;
+
+/// What is said of a table.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Map {
+    /// The file as it was named, for messages.
+    #[serde(skip)]
+    pub file: String,
+    /// Between cells.
+    pub separator: Option<char>,
+    /// `.` or `,`.
+    pub decimal: Option<char>,
+    /// Of a workbook.
+    pub sheet: Option<String>,
+    /// The line of the names, from 1.
+    pub header: Option<u64>,
+    /// How three angles or four numbers are an orientation.
+    pub orientation: Option<Convention>,
+    /// Base axes, m/s²; −z where nothing is said.
+    pub gravity: Option<[f64; 3]>,
+    /// Ours, and what they call it.
+    pub columns: BTreeMap<String, Theirs>,
+}
+
+/// How an orientation is written; angles are about the tool's axes as they turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Convention {
+    /// A rotation vector.
+    RotationVector,
+    /// `Rz(a) Ry(b) Rx(c)` (KUKA's A, B, C), in the order a, b, c.
+    Abc,
+    /// `Rz(yaw) Ry(pitch) Rx(roll)`, in the order roll, pitch, yaw (URDF; FANUC's W, P, R).
+    Rpy,
+    /// `Rz(a) Ry(b) Rz(c)`, in the order a, b, c.
+    Zyz,
+    /// `qw qx qy qz`, of any length but zero.
+    Quaternion,
+}
+
+/// A column of theirs: a name, or more.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(from = "Written")]
+pub struct Theirs {
+    /// Its name, with or without the unit that stands in it.
+    pub column: String,
+    /// Its unit; else the one in its name, else the measurement file's.
+    pub unit: Option<String>,
+    /// Ours = factor · theirs + offset, in the unit.
+    pub factor: f64,
+    /// In the unit.
+    pub offset: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Name(String),
+    #[serde(rename_all = "snake_case")]
+    More {
+        column: String,
+        unit: Option<String>,
+        factor: Option<f64>,
+        offset: Option<f64>,
+    },
+}
+
+impl From<Written> for Theirs {
+    fn from(written: Written) -> Theirs {
+        match written {
+            Written::Name(column) => Theirs { column, unit: None, factor: 1.0, offset: 0.0 },
+            Written::More { column, unit, factor, offset } => Theirs {
+                column,
+                unit,
+                factor: factor.unwrap_or(1.0),
+                offset: offset.unwrap_or(0.0),
+            },
+        }
+    }
+}
+
+impl Map {
+    /// Reads a map; `file` is what messages call it.
+    ///
+    /// # Errors
+    /// [`ImportError::Map`]: what is no map, with the line and what was expected.
+    pub fn read(file: &str, text: &str) -> Result<Map, ImportError> {
+        let wrong = |message: String| ImportError::Map { map: file.to_owned(), message };
+        let map: Map = toml::from_str(text).map_err(|e| wrong(e.to_string()))?;
+        let one = |what: &str, c: char| {
+            wrong(format!("found `{what} = \"{c}\"`, expected \".\" or \",\""))
+        };
+        match map.decimal {
+            Some(c) if c != '.' && c != ',' => return Err(one("decimal", c)),
+            Some(c) if map.separator == Some(c) => {
+                return Err(wrong(format!("`{c}` cannot both separate cells and begin decimals")));
+            }
+            _ => {}
+        }
+        let finite = |x: &f64| x.is_finite();
+        if !map.columns.values().all(|t| finite(&t.factor) && t.factor != 0.0 && finite(&t.offset))
+        {
+            return Err(wrong(
+                "a factor is zero, or a number of a column is not finite".to_owned(),
+            ));
+        }
+        if !map.gravity.iter().flatten().all(finite) {
+            return Err(wrong("gravity is not finite".to_owned()));
+        }
+        Ok(Map { file: file.to_owned(), ..map })
+    }
+}

@@ -1,0 +1,154 @@
+//! What a column is by its name, and the unit that stands in it.
+
+use super::map::Convention;
+use crate::measurement::{DISPLACEMENT_NAMES, POSE_NAMES, Unit, WRENCH_NAMES};
+
+/// What a column is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// A column of the measurement file, by its name there.
+    Ours(String),
+    /// Joint `n` of a program that counts from 0.
+    FromZero(usize),
+    /// One number of an orientation that is no rotation vector.
+    Orientation(Convention, usize),
+    /// The mass of what hangs on the tool.
+    Mass,
+}
+
+/// What others call a joint's reading, before its number.
+const JOINTS: [&str; 10] =
+    ["q", "j", "a", "joint", "axis", "achse", "gelenk", "theta", "jointangle", "jointposition"];
+
+/// The same of a program that counts from 0 (UR's real-time data).
+const JOINTS_FROM_ZERO: [&str; 2] = ["actualq", "actualqpos"];
+
+/// What others write around the letter of an axis: `PosX`, `X_tcp`.
+const AROUND: [(&str, &str); 9] = [
+    ("", ""),
+    ("pos", ""),
+    ("position", ""),
+    ("tcp", ""),
+    ("", "pos"),
+    ("", "position"),
+    ("", "tcp"),
+    ("actual", ""),
+    ("measured", ""),
+];
+
+/// What others call the columns that have no number.
+const WORDS: [(&str, &[&str]); 4] = [
+    ("temperature", &["temp", "temperatur", "temperature", "tempc"]),
+    ("time", &["time", "timestamp", "zeit", "seconds"]),
+    ("pose", &["pose", "poseid", "posture", "config", "configuration", "konfiguration"]),
+    ("marker", &["marker", "target", "reflector", "smr", "reflektor"]),
+];
+
+/// Names of a mass on the tool.
+const MASSES: [&str; 7] = ["mass", "payload", "payloadmass", "masse", "last", "zuladung", "load"];
+
+/// Three angles or four numbers, by their names.
+const ORIENTATIONS: [(Convention, &[&str]); 6] = [
+    (Convention::Abc, &["a", "b", "c"]),
+    (Convention::Rpy, &["roll", "pitch", "yaw"]),
+    (Convention::Rpy, &["w", "p", "r"]),
+    (Convention::Quaternion, &["qw", "qx", "qy", "qz"]),
+    (Convention::Quaternion, &["quatw", "quatx", "quaty", "quatz"]),
+    (Convention::Quaternion, &["ow", "ox", "oy", "oz"]),
+];
+
+/// The name without its unit, and the unit as written: `X [mm]`, `X (mm)`, `X/mm`, `x_mm`.
+pub(super) fn split(header: &str) -> (&str, Option<&str>) {
+    let header = header.trim();
+    for (open, close) in [('[', ']'), ('(', ')'), ('{', '}')] {
+        if let Some((name, rest)) = header.split_once(open) {
+            return (name.trim(), Some(rest.trim_end().trim_end_matches(close).trim()));
+        }
+    }
+    let tail = header
+        .rsplit_once(['/', '_', ' '])
+        .filter(|(name, unit_)| !name.trim().is_empty() && unit(unit_).is_some());
+    match tail {
+        Some((name, unit)) => (name.trim(), Some(unit.trim())),
+        None => (header, None),
+    }
+}
+
+/// The unit that a text names, in brackets or not, whatever the case where it is clear.
+pub(super) fn unit(text: &str) -> Option<&'static str> {
+    let text = text.trim().trim_matches(['[', ']', '(', ')']);
+    let spelled = match text.to_lowercase().as_str() {
+        "degree" | "degrees" | "grad" => "deg",
+        "radian" | "radians" => "rad",
+        "meter" | "metre" | "meters" | "metres" => "m",
+        "inch" | "inches" => "in",
+        "sec" | "seconds" => "s",
+        "c" | "celsius" | "deg c" => "degC",
+        "mm" => "mm",
+        "deg" => "deg",
+        "rad" => "rad",
+        "kg" => return Some("kg"),
+        _ => text,
+    };
+    Unit::named(spelled).map(|unit| unit.name)
+}
+
+/// Letters and digits alone, in small letters.
+fn folded(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// What a column of this name is (without its unit); `None` if nothing is known of it.
+pub(super) fn meaning(name: &str) -> Option<Meaning> {
+    let folded = folded(name);
+    let ours = |name: &str| Some(Meaning::Ours(name.to_owned()));
+    if let Some(word) = WORDS.iter().find(|(_, theirs)| theirs.contains(&folded.as_str())) {
+        return ours(word.0);
+    }
+    if MASSES.contains(&folded.as_str()) {
+        return Some(Meaning::Mass);
+    }
+    let plain = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).chain(&WRENCH_NAMES);
+    if let Some(name) = plain.clone().find(|n| **n == folded) {
+        return ours(name);
+    }
+    for (convention, names) in ORIENTATIONS {
+        if let Some(k) = names.iter().position(|n| *n == folded) {
+            return Some(Meaning::Orientation(convention, k));
+        }
+    }
+    let numbered = |letters: &[&str]| {
+        let digits = folded.trim_start_matches(|c: char| !c.is_ascii_digit());
+        let before = &folded[..folded.len() - digits.len()];
+        letters.contains(&before).then(|| digits.parse::<usize>().ok()).flatten()
+    };
+    if let Some(index) = numbered(&JOINTS_FROM_ZERO) {
+        return Some(Meaning::FromZero(index));
+    }
+    if let Some(number) = numbered(&JOINTS) {
+        return if number == 0 { Some(Meaning::FromZero(0)) } else { ours(&format!("q{number}")) };
+    }
+    if let Some(number) = numbered(&["s", "direction", "approach"]).filter(|n| *n > 0) {
+        return ours(&format!("s{number}"));
+    }
+    let around = |axis: &str, word: &str| {
+        AROUND.iter().any(|(before, after)| folded == format!("{before}{word}{axis}{after}"))
+    };
+    let words = [["", "r", "rot"], ["f", "force", "kraft"], ["t", "torque", "moment"]];
+    for (letter, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let [poses, forces, moments] = words;
+        if around(axis, poses[0]) {
+            return ours(POSE_NAMES[letter]);
+        }
+        if poses[1..].iter().any(|word| around(axis, word)) {
+            return ours(POSE_NAMES[3 + letter]);
+        }
+        if forces.iter().any(|word| around(axis, word)) {
+            return ours(WRENCH_NAMES[letter]);
+        }
+        if moments.iter().any(|word| around(axis, word)) {
+            return ours(WRENCH_NAMES[3 + letter]);
+        }
+    }
+    None
+}

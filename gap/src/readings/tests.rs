@@ -1,0 +1,107 @@
+use nalgebra::{Rotation3, Vector3};
+use stiffarm_kernels::Motion;
+
+use super::*;
+use crate::measurement::{Kind, Layout, Measurements};
+
+fn import_with(text: &str, map: &str) -> Result<Imported, ImportError> {
+    let map = Map::read("map.toml", map)?;
+    import(&Sheet::new("raw.csv", text.as_bytes().to_vec()), &map)
+}
+
+/// The rows that the measurement reader finds in what is written.
+fn rows(text: &str, map: &str, joints: usize) -> Measurements {
+    let imported = import_with(text, map).unwrap_or_else(|e| panic!("{e}"));
+    let layout = Layout { motions: vec![Motion::Revolute; joints], markers: Vec::new() };
+    let read = Measurements::from_bytes("out.csv", imported.csv.as_bytes(), &layout);
+    read.unwrap_or_else(|e| panic!("{e}\n{}", imported.csv))
+}
+
+#[test]
+fn a_controllers_table_needs_no_map() {
+    let text = "Tracker export 7\n\nA1;A2;X (mm);Y_mm;Z/mm;A;B;C;Last [kg];Bediener\n\
+                10,5;-20;1200,25;0;850;90;0;0;25;Anna\n\
+                11;-21;1201;1;851;90;0;0;0;Anna\n";
+    let data = rows(text, "", 2);
+    let row = &data.rows[0];
+    assert!((row.q[0] - 10.5_f64.to_radians()).abs() < 1e-15 && row.q[1] < 0.0);
+    assert!((row.measured.fixed_rows::<3>(0) - Vector3::new(1.20025, 0.0, 0.85)).amax() < 1e-15);
+    let quarter = Vector3::new(0.0, 0.0, core::f64::consts::FRAC_PI_2);
+    assert!((row.measured.fixed_rows::<3>(3) - quarter).amax() < 1e-15);
+    assert!((row.wrench[2] + 25.0 * 9.80665).abs() < 1e-12);
+    assert_eq!(data.extra[0].name, "Bediener");
+}
+
+#[test]
+fn every_convention_is_the_product_of_its_turns() {
+    let about = |axis: Vector3<f64>, degrees: f64| Rotation3::new(axis * degrees.to_radians());
+    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let cases = [
+        ("A,B,C", "", about(z, 30.0) * about(y, -40.0) * about(x, 50.0)),
+        ("roll,pitch,yaw", "", about(z, 50.0) * about(y, -40.0) * about(x, 30.0)),
+        ("W,P,R", "", about(z, 50.0) * about(y, -40.0) * about(x, 30.0)),
+        ("A,B,C", "orientation = \"zyz\"", about(z, 30.0) * about(y, -40.0) * about(z, 50.0)),
+        ("Rx,Ry,Rz", "orientation = \"rpy\"", about(z, 50.0) * about(y, -40.0) * about(x, 30.0)),
+    ];
+    for (names, map, expected) in cases {
+        let data = rows(&format!("J1,X,Y,Z,{names}\n0.1,1,2,3,30,-40,50\n"), map, 1);
+        let found = data.rows[0].measured.fixed_rows::<3>(3).into_owned();
+        assert!((found - expected.scaled_axis()).amax() < 1e-14, "{names} {map}");
+    }
+    let half = Rotation3::new(Vector3::new(0.3, -0.2, 0.5));
+    let q = nalgebra::UnitQuaternion::from_rotation_matrix(&half);
+    let numbers = [q.w, q.i, q.j, q.k].map(|n| (2.0 * n).to_string()).join(",");
+    let data = rows(&format!("J1,X,Y,Z,qw,qx,qy,qz\n0.1,1,2,3,{numbers}\n"), "", 1);
+    let found = data.rows[0].measured.fixed_rows::<3>(3).into_owned();
+    assert!((found - half.scaled_axis()).amax() < 1e-14);
+}
+
+#[test]
+fn what_the_map_says_is_not_guessed() {
+    let map = "[columns]\nq1 = { column = \"Winkel\", unit = \"deg\", factor = -1, offset = 90 }\n\
+               x = \"A1\"\ny = \"A2\"\nz = \"A3\"\n";
+    let text = "Winkel\tA1\tA2\tA3\tq1\n30\t1\t2\t3\t7\n";
+    let data = rows(text, map, 1);
+    assert!((data.rows[0].q[0] - 60.0_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(data.kind, Kind::Pose { orientation: false });
+    // Their q1 is not ours, and not lost.
+    assert_eq!(
+        (data.extra[0].name.as_str(), data.extra[0].values.clone()),
+        ("raw_q1", Some(vec![7.0]))
+    );
+}
+
+#[test]
+fn joints_counted_from_zero_and_units_below_the_names() {
+    let text = "timestamp,actual_q_0,actual_q_1,X,Y,Z\ns,rad,rad,mm,mm,mm\n0,0.5,0.25,1,2,3\n";
+    let data = rows(text, "", 2);
+    let row = &data.rows[0];
+    assert_eq!((row.q.as_slice(), row.measured[2], row.time), (&[0.5, 0.25][..], 0.003, Some(0.0)));
+    let said = import_with("J1,X,Y,Z\n175,1200,3,4\n", "").unwrap();
+    assert!(said.csv.starts_with("q1[deg],x[mm],y[mm],z[mm]\n175,1200"), "{}", said.csv);
+    assert!(said.said.iter().any(|s| s.contains("taken for degrees")), "{:?}", said.said);
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    let good = "J1,X,Y,Z\n0.1,1,2,3\n";
+    let cases = [
+        ("J1,X,Y,Z\n0.1,one,2,3\n0.1,1,2,3\n", "", "raw.csv: line 2, column `X`: found `one`"),
+        ("X,Y,Z\n1,2,3\n", "", "found no joints"),
+        ("just words\n", "", "found no header"),
+        ("J1,A1,X,Y,Z\n1,1,2,3,4\n", "", "found both `J1` and `A1`"),
+        ("J1,X [kg],Y,Z\n1,1,2,3\n", "", "found the unit `kg` of `X [kg]`, expected one of m, mm"),
+        ("J1,X,Y,Z,A,B\n1,1,2,3,4,5\n", "", "found of an orientation A, B"),
+        (good, "[columns]\nq1 = \"J2\"\n", "found no column `J2` in raw.csv; did you mean `J1`?"),
+        (good, "[columns]\nfoo = \"J1\"\n", "found `foo` among the columns"),
+        (good, "seperator = \";\"", "unknown field `seperator`"),
+        (good, "decimal = \"x\"", "expected \".\" or \",\""),
+        (good, "header = 9", "line 9 has no header"),
+    ];
+    for (text, map, message) in cases {
+        let error = import_with(text, map).map(|i| i.csv).unwrap_err().to_string();
+        assert!(error.contains(message), "no `{message}` in `{error}`");
+    }
+    let error = import(&Sheet::new("a.xlsx", b"PK\x03\x04junk".to_vec()), &Map::default());
+    assert!(error.unwrap_err().to_string().contains("the workbook cannot be read"));
+}
