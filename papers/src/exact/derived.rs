@@ -3,8 +3,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::graph::Reading;
 use super::product::{Matrix, product};
-use super::rational::{Rational, Reading};
+use super::rational::Rational;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Angle;
 use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};

@@ -102,12 +102,7 @@ fn verdict(
     given: &HashMap<String, f64>,
 ) -> Result<(), String> {
     let words = |mistake: Mistake| mistake.message;
-    let symbols: Vec<(String, String)> = relation
-        .matrices
-        .iter()
-        .map(|(symbol, source)| (symbol.clone(), source.text.clone()))
-        .collect();
-    let sources = Sources::read(&symbols, setting, given)?;
+    let sources = Sources::read(&relation.matrices, setting, given)?;
     let mut printed = read(latex).map_err(words)?;
     let left = match &printed[..] {
         [(_, Tree::Symbol(name)), _, ..] => Some(name.counted(&HashMap::new())),

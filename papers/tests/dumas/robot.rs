@@ -3,6 +3,8 @@
 use nalgebra::Vector6;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_papers::dumas::Test;
+use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
 
 /// L of the paper, m.
 pub const LENGTH: f64 = 0.682;
@@ -33,4 +35,15 @@ pub fn with_tool() -> Arm {
     let mut arm = kr240();
     arm.tool = nalgebra::Isometry3::translation(0.0, 0.0, 0.15);
     arm
+}
+
+/// Tests of the paper's rig, carried out: how many of which plan, with which errors.
+pub fn carried_out(
+    arm: &Arm,
+    (count, plan): (usize, u64),
+    errors: Errors,
+    fit: PoseFit,
+) -> Vec<Test> {
+    let rig = Rig::dumas();
+    carry_out(arm, &rig, &rig.plan(arm, count, plan).unwrap(), errors, fit, 1).unwrap()
 }
