@@ -14,7 +14,7 @@ use source::{At, Sources};
 
 pub use source::single;
 
-use crate::exact::derived::Setting;
+use crate::exact::derived::{Setting, Shared};
 use crate::latex::formula::{Piece, sides};
 use crate::latex::lexer::{Lexeme, Token, lex};
 use crate::latex::mistake::Mistake;
@@ -79,16 +79,18 @@ struct Question<'r> {
     left: Option<String>,
 }
 
-/// Judges a printed relation.
+/// Judges a printed relation; `given` are values of the data file.
 pub(super) fn judge(
     entry: &mut Entry,
     latex: &str,
     relation: &Relation,
     setting: &Setting,
+    shared: Shared<'_>,
     given: &HashMap<String, f64>,
 ) {
     entry.source = relation.words();
-    if let Err(why) = verdict(entry, latex, relation, setting, given) {
+    let sources = Sources::read(&relation.matrices, setting, shared, given);
+    if let Err(why) = sources.and_then(|sources| verdict(entry, latex, relation, sources)) {
         entry.verdict = Verdict::NotJudged;
         entry.note = Some(why);
     }
@@ -98,11 +100,9 @@ fn verdict(
     entry: &mut Entry,
     latex: &str,
     relation: &Relation,
-    setting: &Setting,
-    given: &HashMap<String, f64>,
+    sources: Sources,
 ) -> Result<(), String> {
     let words = |mistake: Mistake| mistake.message;
-    let sources = Sources::read(&relation.matrices, setting, given)?;
     let mut printed = read(latex).map_err(words)?;
     let left = match &printed[..] {
         [(_, Tree::Symbol(name)), _, ..] => Some(name.counted(&HashMap::new())),

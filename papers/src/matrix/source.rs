@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::dense::{self, Dense};
 use super::evaluate::Symbols;
 use super::transform::transform;
-use crate::exact::derived::{Path, Setting};
+use crate::exact::derived::{Path, Setting, Shared};
 use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, Token};
 use crate::latex::notation::Notation;
@@ -61,9 +61,10 @@ impl Sources {
     pub fn read(
         symbols: &[(String, Piece)],
         setting: &Setting,
+        shared: Shared<'_>,
         given: &HashMap<String, f64>,
     ) -> Result<Self, String> {
-        let robot = setting.robot.as_ref().and_then(|name| setting.robots.get(name)).cloned();
+        let robot = setting.robot.as_ref().and_then(|name| shared.robots.get(name)).cloned();
         let mut out = Sources {
             known: HashMap::new(),
             robot,
@@ -84,7 +85,7 @@ impl Sources {
                 let formula = parse(formula, &Notation::MATRICES).map_err(|m| m.message)?;
                 out.formulas.insert(key, formula);
             } else {
-                let source = out.source(text.trim(), setting)?;
+                let source = out.source(text.trim(), setting, shared.notation)?;
                 out.known.insert(key, source);
             }
             out.printed.push(token);
@@ -92,7 +93,7 @@ impl Sources {
         Ok(out)
     }
 
-    fn source(&self, text: &str, setting: &Setting) -> Result<Source, String> {
+    fn source(&self, text: &str, setting: &Setting, notation: &Notation) -> Result<Source, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let size = |text: &str| text.parse::<usize>().ok().filter(|n| (1..=50).contains(n));
         let shape = |text: &str| match text.split_once('x') {
@@ -149,11 +150,11 @@ impl Sources {
             ["stiffness"] => Box::new(|at, _, _| at.stiffness()),
             ["wrench"] => Box::new(|at, _, _| Ok(Dense::from_column_slice(6, 1, &at.wrench()))),
             [part @ ("rotation" | "position" | "lever" | "transport")] => {
-                constant(transform(part, &setting.product, setting)?)
+                constant(transform(part, &setting.product, notation, &setting.defined)?)
             }
             ["transport", "of", elements @ ..] => {
                 let elements: Vec<String> = elements.iter().map(|e| (*e).to_owned()).collect();
-                constant(transform("transport", &elements, setting)?)
+                constant(transform("transport", &elements, notation, &setting.defined)?)
             }
             [path] => self.output(path).ok_or_else(unknown)?,
             _ => return Err(unknown()),
