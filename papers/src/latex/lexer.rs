@@ -77,8 +77,8 @@ const SILENT: [&str; 18] = [
     "text",
 ];
 
-impl Lexer<'_> {
-    fn rest(&self) -> &str {
+impl<'t> Lexer<'t> {
+    fn rest(&self) -> &'t str {
         &self.text[self.at..]
     }
 
