@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 /// The finding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Printed and derived are the same, exactly.
@@ -13,6 +13,7 @@ pub enum Verdict {
     /// They differ.
     Misprint,
     /// There is nothing that could be wrong.
+    #[default]
     Definition,
     /// The printed formula cannot be read, and no small change makes it readable and true.
     Unreadable,
@@ -66,17 +67,18 @@ pub struct Witness {
 }
 
 /// Equation or cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// A printed equation.
+    #[default]
     Equation,
     /// A cell of a printed table.
     Cell,
 }
 
 /// A line of the ledger.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Entry {
     /// Short name of the paper.
     pub paper: String,
@@ -109,12 +111,7 @@ impl Entry {
             number: number.to_owned(),
             kind,
             printed: printed.to_owned(),
-            verdict: Verdict::Definition,
-            correction: None,
-            change: None,
-            witness: None,
-            source: String::new(),
-            note: None,
+            ..Entry::default()
         }
     }
 }

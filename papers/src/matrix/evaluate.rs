@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use num_rational::Ratio;
 
-use super::dense::{Dense, blocks, inverse, is_scalar, plus, scalar, times};
+use super::dense::{Dense, blocks, inverse, is_scalar, product, scalar, shape, sum};
 use crate::exact::evaluate::{Arithmetic, NoValue, Real};
 use crate::latex::name::{Name, count};
 use crate::latex::tree::{Angle, Function, Tree};
@@ -46,11 +46,6 @@ pub enum Value {
 
 type Found<T> = Result<T, String>;
 
-/// A shape in words.
-fn shape(m: &Dense) -> String {
-    format!("{}×{}", m.nrows(), m.ncols())
-}
-
 impl Value {
     /// As one matrix; the derivatives of a vector by the joints are its columns.
     fn matrix(self) -> Found<Dense> {
@@ -67,20 +62,6 @@ impl Value {
         let wrong = || format!("{} stands where a number is expected", shape(&matrix));
         is_scalar(&matrix).then(|| matrix[(0, 0)]).ok_or_else(wrong)
     }
-}
-
-/// `a + factor · b`; a lone zero is a zero of any shape.
-fn sum(a: Value, b: Value, factor: f64) -> Found<Value> {
-    let (a, b) = (a.matrix()?, b.matrix()?);
-    if is_scalar(&a) && a[(0, 0)] == 0.0 {
-        return Ok(Value::One(b * factor));
-    }
-    let wrong = || format!("{} and {} are added", shape(&a), shape(&b));
-    plus(&a, &b, factor).map(Value::One).ok_or_else(wrong)
-}
-
-fn product(a: &Dense, b: &Dense) -> Found<Dense> {
-    times(a, b).ok_or_else(|| format!("{} and {} are multiplied", shape(a), shape(b)))
 }
 
 /// Columns as a matrix; `None` if they are no columns.
@@ -112,11 +93,11 @@ impl Arithmetic for Point<'_> {
     }
 
     fn add(&self, a: Value, b: Value) -> Found<Value> {
-        sum(a, b, 1.0)
+        sum(&a.matrix()?, &b.matrix()?, 1.0).map(Value::One)
     }
 
     fn sub(&self, a: Value, b: Value) -> Found<Value> {
-        sum(a, b, -1.0)
+        sum(&a.matrix()?, &b.matrix()?, -1.0).map(Value::One)
     }
 
     /// Derivatives by all joints times a vector are the columns of a matrix.
@@ -177,7 +158,10 @@ impl Arithmetic for Point<'_> {
                 scalar(matrix.trace())
             }
             Tree::Norm(a) => scalar(self.matrix(a)?.norm()),
-            Tree::Blocks(rows) => self.blocks(rows)?,
+            Tree::Blocks(rows) => {
+                let row = |row: &Vec<Tree>| row.iter().map(|cell| self.matrix(cell)).collect();
+                blocks(&rows.iter().map(row).collect::<Found<Vec<_>>>()?)?
+            }
             Tree::Over(over, body) => {
                 let bound = |text: &str| {
                     count(text, &self.counted).ok_or_else(|| format!("`{text}` does not count"))
@@ -224,10 +208,9 @@ impl Point<'_> {
                 moved.q[joint] += steps * STEP;
                 moved.matrix(body)
             };
-            let near = plus(&at(1.0)?, &at(-1.0)?, -1.0).ok_or("shapes that change")?;
-            let far = plus(&at(2.0)?, &at(-2.0)?, -1.0).ok_or("shapes that change")?;
-            let sum = plus(&(near * 8.0), &far, -1.0).ok_or("shapes that change")?;
-            Ok(sum * (1.0 / (12.0 * STEP)))
+            let near = sum(&at(1.0)?, &at(-1.0)?, -1.0)?;
+            let far = sum(&at(2.0)?, &at(-2.0)?, -1.0)?;
+            Ok(sum(&(near * 8.0), &far, -1.0)? * (1.0 / (12.0 * STEP)))
         };
         match joint {
             Some(joint) => {
@@ -236,33 +219,6 @@ impl Point<'_> {
             }
             None => (0..self.q.len()).map(slope).collect::<Found<_>>().map(Value::Stack),
         }
-    }
-
-    /// Blocks; a number among matrices is that multiple of the identity, or zeros.
-    fn blocks(&self, rows: &[Vec<Tree>]) -> Found<Dense> {
-        let values: Vec<Vec<Dense>> = rows
-            .iter()
-            .map(|row| row.iter().map(|cell| self.matrix(cell)).collect())
-            .collect::<Found<_>>()?;
-        let columns = values.first().map_or(0, Vec::len);
-        if values.iter().any(|row| row.len() != columns) {
-            return Err("rows of different lengths".into());
-        }
-        let height = |r: usize| values[r].iter().map(|b| b.nrows()).max().unwrap_or(1);
-        let width = |c: usize| values.iter().map(|row| row[c].ncols()).max().unwrap_or(1);
-        let block = |r: usize, c: usize| {
-            let (shape, value) = ((height(r), width(c)), &values[r][c]);
-            if !is_scalar(value) || shape == (1, 1) {
-                return Some(value.clone());
-            }
-            let number = value[(0, 0)];
-            let fits = number == 0.0 || shape.0 == shape.1;
-            let diagonal = |i: usize, j: usize| if i == j { number } else { 0.0 };
-            fits.then(|| Dense::from_fn(shape.0, shape.1, diagonal))
-        };
-        let whole: Option<Vec<Vec<Dense>>> =
-            (0..values.len()).map(|r| (0..columns).map(|c| block(r, c)).collect()).collect();
-        whole.and_then(|rows| blocks(&rows)).ok_or_else(|| "the blocks do not fit".into())
     }
 }
 

@@ -8,7 +8,7 @@ mod transform;
 
 use std::collections::HashMap;
 
-use dense::{Dense, is_scalar, plus};
+use dense::{Dense, is_scalar, sum};
 use evaluate::Point;
 use source::{At, Sources};
 
@@ -216,7 +216,7 @@ fn same(a: &Dense, b: &Dense) -> bool {
     if zero(a) || zero(b) {
         return a.amax().max(b.amax()) <= TOLERANCE * size;
     }
-    plus(a, b, -1.0).is_some_and(|difference| difference.amax() <= TOLERANCE * size)
+    sum(a, b, -1.0).is_ok_and(|difference| difference.amax() <= TOLERANCE * size)
 }
 
 #[cfg(test)]

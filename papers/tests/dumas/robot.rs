@@ -1,7 +1,6 @@
 //! The papers' arms from their robot files.
 
 use nalgebra::Vector6;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_papers::dumas::Test;
 use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
@@ -11,9 +10,7 @@ pub const LENGTH: f64 = 0.682;
 
 /// The KR 240-2 with the stiffnesses of Table 2.
 pub fn kr240() -> Arm {
-    let text = include_str!("../../../robots/arms/kuka_kr240.toml");
-    let robot = Robot::from_toml(text, "kuka_kr240.toml").unwrap().0;
-    stiffarm_gap::robot::arm(&robot).unwrap()
+    stiffarm_papers::arm("kuka_kr240").unwrap()
 }
 
 /// θ1 = 0 and a wrist of 45° (section 3.1); θ2 and θ3 are the map's.
