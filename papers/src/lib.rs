@@ -47,5 +47,5 @@ pub mod verdict;
 
 pub use file::{Paper, read};
 pub use ledger::{Ledger, built_in};
-pub use methods::column;
+pub use methods::{arm, column};
 pub use verdict::{Entry, Kind, Verdict, Witness};

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 /// The finding.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Printed and derived are the same, exactly.
@@ -13,6 +13,7 @@ pub enum Verdict {
     /// They differ.
     Misprint,
     /// There is nothing that could be wrong.
+    #[default]
     Definition,
     /// The printed formula cannot be read, and no small change makes it readable and true.
     Unreadable,
@@ -30,34 +31,23 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Every verdict.
-    pub const EACH: [Verdict; 10] = [
-        Verdict::Agrees,
-        Verdict::AgreesAtPoints,
-        Verdict::Misprint,
-        Verdict::Definition,
-        Verdict::Unreadable,
-        Verdict::NotJudged,
-        Verdict::Reproduced,
-        Verdict::Close,
-        Verdict::NotReproduced,
-        Verdict::Given,
+    /// Every verdict, and it in words.
+    pub const EACH: [(Verdict, &'static str); 10] = [
+        (Verdict::Agrees, "agrees"),
+        (Verdict::AgreesAtPoints, "agrees at random points"),
+        (Verdict::Misprint, "misprint"),
+        (Verdict::Definition, "definition"),
+        (Verdict::Unreadable, "cannot be read"),
+        (Verdict::NotJudged, "not judged"),
+        (Verdict::Reproduced, "reproduced"),
+        (Verdict::Close, "within one unit of the last digit"),
+        (Verdict::NotReproduced, "not reproducible"),
+        (Verdict::Given, "given"),
     ];
 
     /// In words.
-    pub fn words(&self) -> &'static str {
-        match self {
-            Verdict::Agrees => "agrees",
-            Verdict::AgreesAtPoints => "agrees at random points",
-            Verdict::Misprint => "misprint",
-            Verdict::Definition => "definition",
-            Verdict::Unreadable => "cannot be read",
-            Verdict::NotJudged => "not judged",
-            Verdict::Reproduced => "reproduced",
-            Verdict::Close => "within one unit of the last digit",
-            Verdict::NotReproduced => "not reproducible",
-            Verdict::Given => "given",
-        }
+    pub fn words(self) -> &'static str {
+        Self::EACH[self as usize].1
     }
 }
 
@@ -77,17 +67,18 @@ pub struct Witness {
 }
 
 /// Equation or cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// A printed equation.
+    #[default]
     Equation,
     /// A cell of a printed table.
     Cell,
 }
 
 /// A line of the ledger.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Entry {
     /// Short name of the paper.
     pub paper: String,
@@ -120,12 +111,7 @@ impl Entry {
             number: number.to_owned(),
             kind,
             printed: printed.to_owned(),
-            verdict: Verdict::Definition,
-            correction: None,
-            change: None,
-            witness: None,
-            source: String::new(),
-            note: None,
+            ..Entry::default()
         }
     }
 }
@@ -138,4 +124,16 @@ fn map<S: Serializer>(values: &[(String, f64)], to: S) -> Result<S::Ok, S::Error
 /// Text, or null where there is none.
 fn text<S: Serializer>(text: &str, to: S) -> Result<S::Ok, S::Error> {
     Some(text).filter(|text| !text.is_empty()).serialize(to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verdict_has_its_own_words() {
+        for (k, (verdict, _)) in Verdict::EACH.iter().enumerate() {
+            assert_eq!(*verdict as usize, k);
+        }
+    }
 }

@@ -191,8 +191,7 @@ fn the_turn_behind_the_published_difference() {
 /// a hundred times the gap.
 #[test]
 fn growth_in_space() {
-    let text = include_str!("../../robots/arms/ur5.toml");
-    let arm = stiffarm_gap::robot::arm(&Robot::from_toml(text, "ur5.toml").unwrap().0).unwrap();
+    let arm = stiffarm_papers::arm("ur5").unwrap();
     let error = Vector6::new(1e-4, -2e-4, 1e-4, 2e-4, -1e-4, 3e-4);
     let q = [0.3, -1.2, 0.9, 0.4, -0.8, 1.1];
     let gaps = |scale: f64| {

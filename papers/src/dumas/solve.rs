@@ -38,8 +38,8 @@ impl Identified {
     }
 }
 
-/// The compliances that make `|B x − c|²` least, by singular values of the columns brought to length
-/// 1. How sure they are, and which pull would show a joint that is refused, says
+/// The compliances that make `|B x − c|²` least, by singular values of the columns, each brought to
+/// length one. How sure they are, and which pull would show a joint that is refused, says
 /// [`measured`](stiffarm_gap::identify::measured).
 ///
 /// # Errors

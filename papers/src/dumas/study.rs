@@ -6,6 +6,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::rig::{Errors, PoseFit, Rig, carry_out};
 use super::{IdentifyError, Test, Weighting, identify};
+use stiffarm_gap::gap::percentile;
 use stiffarm_gap::random::uniform;
 
 /// Stiffnesses from many sets of equally many tests.
@@ -59,7 +60,7 @@ pub fn number_of_tests(
         let of_joint = |j: usize| {
             let mut values: Vec<f64> = solved.iter().map(|all| all[j]).collect();
             values.sort_by(f64::total_cmp);
-            [0.16, 0.5, 0.84].map(|part| quantile(&values, part))
+            [0.16, 0.5, 0.84].map(|part| percentile(&values, part))
         };
         let stiffness = (!solved.is_empty()).then(|| (0..arm.dof()).map(of_joint).collect());
         spreads.push(Spread { tests: count, solved: solved.len(), sets, stiffness });
@@ -75,14 +76,6 @@ fn subset(tests: &[Test], count: usize, random: &mut ChaCha8Rng) -> Vec<Test> {
         order.swap(k, pick);
     }
     order[..count].iter().map(|&k| tests[k].clone()).collect()
-}
-
-/// Linear between the sorted values.
-fn quantile(sorted: &[f64], part: f64) -> f64 {
-    let at = part * (sorted.len().saturating_sub(1)) as f64;
-    let low = at.floor() as usize;
-    let (Some(&here), next) = (sorted.get(low), sorted.get(low + 1)) else { return f64::NAN };
-    next.map_or(here, |next| here + (next - here) * (at - low as f64))
 }
 
 /// The error of one joint's stiffness over repeated experiments.

@@ -3,18 +3,26 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::graph::Reading;
 use super::product::{Matrix, product};
-use super::rational::{Rational, Reading};
+use super::rational::Rational;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Angle;
 use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};
 use stiffarm_codegen::robot::Robot;
 
+/// What the equations of a paper share.
+#[derive(Clone, Copy, Debug)]
+pub struct Shared<'p> {
+    /// The robots of the file.
+    pub robots: &'p BTreeMap<String, Robot>,
+    /// The paper's notation.
+    pub notation: &'p Notation,
+}
+
 /// What an equation's derivation may refer to.
 #[derive(Clone, Debug, Default)]
 pub struct Setting {
-    /// The robots of the file.
-    pub robots: BTreeMap<String, Robot>,
     /// The robot that the equation is about.
     pub robot: Option<String>,
     /// Angles of its joints; `theta1`, `theta2`, … where none are given.
@@ -27,8 +35,6 @@ pub struct Setting {
     pub defined: HashMap<String, Rational>,
     /// Symbols that grow without bounds: what they divide vanishes.
     pub infinite: Vec<String>,
-    /// The paper's notation.
-    pub notation: Notation,
 }
 
 /// A path such as `jacobian[3][2]`, `compliance[1][1] of joint 2`, `arm: pose[1][4]`.
@@ -90,17 +96,15 @@ fn index(text: &str) -> Result<usize, String> {
 ///
 /// # Errors
 /// Why it cannot be derived.
-pub fn derived(path: &str, setting: &Setting) -> Result<Matrix, String> {
+pub fn derived(path: &str, setting: &Setting, shared: Shared<'_>) -> Result<Matrix, String> {
     let path = Path::read(path)?;
-    let transport = || {
-        let product = product(&setting.product, &setting.notation, &setting.defined)?;
-        product.transport().map_err(|why| format!("{why:?}"))
-    };
+    let product = || product(&setting.product, shared.notation, &setting.defined);
+    let transport = || product()?.transport().map_err(|why| format!("{why:?}"));
     let whole = match path.name {
-        "product" => product(&setting.product, &setting.notation, &setting.defined)?,
+        "product" => product()?,
         "transport" => transport()?,
         "transport_transposed" => transport()?.transposed(),
-        name => return output(name, &path, setting),
+        name => return output(name, &path, setting, shared.robots),
     };
     Ok(match path.entry((whole.rows(), whole.columns))? {
         None => whole,
@@ -149,11 +153,16 @@ impl Derivation {
     }
 }
 
-fn output(name: &str, path: &Path<'_>, setting: &Setting) -> Result<Matrix, String> {
+fn output(
+    name: &str,
+    path: &Path<'_>,
+    setting: &Setting,
+    robots: &BTreeMap<String, Robot>,
+) -> Result<Matrix, String> {
     let derivation = Derivation::read(name)?;
     let which = path.robot.or(setting.robot.as_deref()).ok_or("no robot is named")?;
     let mut robot =
-        setting.robots.get(which).cloned().ok_or_else(|| format!("there is no robot `{which}`"))?;
+        robots.get(which).cloned().ok_or_else(|| format!("there is no robot `{which}`"))?;
     if let Some(joint) = path.joint {
         for (row, j) in robot.joints.iter_mut().enumerate() {
             j.beam = None;

@@ -3,6 +3,7 @@
 pub mod derived;
 pub mod evaluate;
 pub mod field;
+pub mod graph;
 pub mod polynomial;
 pub(crate) mod print;
 pub mod product;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::formulas::{definitions, exact, symbol, tree};
 use super::section::{Notes, Section, string};
 use super::{About, Equation};
+use crate::exact::derived::Setting;
 use crate::exact::rational::Rational;
 use crate::latex::formula::{Piece, formula};
 use crate::latex::lexer::lex;
@@ -51,11 +52,12 @@ pub(super) fn read(
     let path = section.string("of", notes).map(About::Path);
     let mut matrices = Vec::new();
     if let Some(symbols) = section.section("matrices", &[], notes) {
-        for (symbol, at, value) in symbols.entries() {
-            if matrix::single(&symbol).is_none() {
-                notes.wrong(at, format!("`{symbol}` is no symbol of a matrix"));
+        for (symbol, value) in symbols.entries() {
+            if matrix::single(&symbol.text).is_none() {
+                let message = format!("`{}` is no symbol of a matrix", symbol.text);
+                notes.wrong(symbol.place(), message);
             }
-            matrices.extend(string(value, notes).map(|source| (symbol, source)));
+            matrices.extend(string(value, notes).map(|source| (symbol.text, source)));
         }
     }
     let truth = section.string("truth", notes);
@@ -81,8 +83,8 @@ pub(super) fn read(
     let wrench = wrench.iter().filter_map(|w| exact(w, notation, &defined, notes)).collect();
     let mut lets = Vec::new();
     if let Some(names) = section.section("let", &[], notes) {
-        for (name, at, value) in names.entries() {
-            let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
+        for (name, value) in names.entries() {
+            let name = symbol(&name, notation, notes);
             if let (Some(name), Some(path)) = (name, string(value, notes)) {
                 lets.push((name, path));
             }
@@ -90,22 +92,21 @@ pub(super) fn read(
     }
     let infinite = section.strings("infinite", notes).unwrap_or_default();
     let infinite = infinite.iter().filter_map(|w| symbol(w, notation, notes)).collect();
+    let product = section.strings("product", notes).unwrap_or_default();
+    let setting = Setting {
+        robot: section.string("robot", notes).map(|w| w.text),
+        joints,
+        wrench,
+        product: product.into_iter().map(|w| w.text).collect(),
+        defined,
+        infinite,
+    };
     Some(Equation {
         number,
         latex,
         about: about.unwrap_or_default(),
-        robot: section.string("robot", notes).map(|w| w.text),
-        joints,
-        wrench,
-        product: section
-            .strings("product", notes)
-            .unwrap_or_default()
-            .into_iter()
-            .map(|w| w.text)
-            .collect(),
+        setting,
         lets,
-        defined,
-        infinite,
         group: section.string("group", notes).map(|w| w.text),
         note: section.string("note", notes).map(|w| w.text),
         printed: section.string("printed", notes).map(|w| w.text),
@@ -152,7 +153,7 @@ fn angle(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> Option<Angle>
     let tree = tree(w, notation, notes)?;
     let mut angle = Angle::default();
     if !collect(&tree, 1.into(), &mut angle) {
-        notes.wrong(w.at..w.at + w.text.len(), "this is no sum of angles");
+        notes.wrong(w.place(), "this is no sum of angles");
     }
     Some(angle)
 }

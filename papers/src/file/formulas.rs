@@ -13,7 +13,7 @@ use crate::latex::tree::Tree;
 
 /// The name of a single printed symbol.
 pub(super) fn symbol(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> Option<String> {
-    let at = w.at..w.at + w.text.len();
+    let at = w.place();
     match lex(&w.text, notation).as_deref() {
         Ok([token]) => {
             if let Lexeme::Name(name) = &token.is {
@@ -40,8 +40,7 @@ pub(super) fn exact(
 ) -> Option<Rational> {
     let tree = tree(w, notation, notes)?;
     let exact = Exact(defined).tree(&tree);
-    let at = w.at..w.at + w.text.len();
-    exact.map_err(|why| notes.wrong(at, format!("this has no exact form: {why:?}"))).ok()
+    exact.map_err(|why| notes.wrong(w.place(), format!("this has no exact form: {why:?}"))).ok()
 }
 
 /// The `where` of a table on top of what is defined already; a definition may use another.
@@ -54,8 +53,8 @@ pub(super) fn definitions(
     let mut defined = outer.clone();
     let Some(section) = section.section("where", &[], notes) else { return defined };
     let mut open = Vec::new();
-    for (name, at, value) in section.entries() {
-        let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
+    for (name, value) in section.entries() {
+        let name = symbol(&name, notation, notes);
         let (Some(name), Some(value)) = (name, string(value, notes)) else { continue };
         let Some(tree) = tree(&value, notation, notes) else { continue };
         open.push((name, value, tree));
@@ -75,8 +74,7 @@ pub(super) fn definitions(
         }
         if waiting.len() == before {
             for (_, value, _) in &waiting {
-                let at = value.at..value.at + value.text.len();
-                notes.wrong(at, "this definition goes round in a circle");
+                notes.wrong(value.place(), "this definition goes round in a circle");
             }
             break;
         }

@@ -57,10 +57,9 @@ use std::collections::{BTreeMap, HashMap};
 pub use read::read;
 pub use table::{Column, Table};
 
-use crate::exact::rational::Rational;
+use crate::exact::derived::{Setting, Shared};
 use crate::latex::formula::Piece;
 use crate::latex::notation::Notation;
-use crate::latex::tree::Angle;
 use crate::matrix::Relation;
 use stiffarm_codegen::robot::Robot;
 
@@ -90,6 +89,11 @@ pub struct Paper {
 }
 
 impl Paper {
+    /// What its equations share.
+    pub fn shared(&self) -> Shared<'_> {
+        Shared { robots: &self.robots, notation: &self.notation }
+    }
+
     /// Adds what another file says of the same paper.
     pub fn join(&mut self, other: Paper) {
         self.equations.extend(other.equations);
@@ -112,20 +116,10 @@ pub struct Equation {
     pub latex: Piece,
     /// What it is an equation of.
     pub about: About,
-    /// The robot.
-    pub robot: Option<String>,
-    /// Angles of the robot's joints.
-    pub joints: Option<Vec<Angle>>,
-    /// The wrench on its tool.
-    pub wrench: Vec<Rational>,
-    /// A product of transforms.
-    pub product: Vec<String>,
+    /// What its derivation refers to.
+    pub setting: Setting,
     /// Derived values of names in `truth`.
     pub lets: Vec<(String, Piece)>,
-    /// What names stand for.
-    pub defined: HashMap<String, Rational>,
-    /// Symbols that grow without bounds.
-    pub infinite: Vec<String>,
     /// Entries among which labels may be confused.
     pub group: Option<String>,
     /// A remark for the ledger.

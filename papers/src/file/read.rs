@@ -7,7 +7,6 @@ use ::toml::de::DeTable;
 use super::formulas::{definitions, symbol};
 use super::section::{Notes, Section, number, string};
 use super::{Paper, equation, table};
-use crate::latex::formula::Piece;
 use crate::latex::mistake::{Mistake, file_error};
 use crate::latex::notation::{Notation, Slash, squeezed};
 use crate::latex::tree::Function;
@@ -64,8 +63,8 @@ fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
         }
     }
     if let Some(values) = root.section("values", &[], notes) {
-        for (name, at, value) in values.entries() {
-            let name = symbol(&Piece { text: name, at: at.start + 1 }, &out.notation, notes);
+        for (name, value) in values.entries() {
+            let name = symbol(&name, &out.notation, notes);
             if let (Some(name), Some(value)) = (name, number(value, notes)) {
                 out.values.insert(name, value);
             }
@@ -90,9 +89,9 @@ fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
     let mut functions = Vec::new();
     for (key, function) in [("sine", Function::Sin), ("cosine", Function::Cos)] {
         let Some(letters) = section.section(key, &[], notes) else { continue };
-        for (letter, _, value) in letters.entries() {
+        for (letter, value) in letters.entries() {
             if let Some(angle) = string(value, notes) {
-                functions.push((squeezed(&letter), function, squeezed(&angle.text)));
+                functions.push((squeezed(&letter.text), function, squeezed(&angle.text)));
             }
         }
     }
@@ -100,7 +99,7 @@ fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
     let slash = match section.string("slash", notes) {
         Some(w) if w.text == "product" => Slash::Product,
         Some(w) if w.text != "factor" => {
-            notes.wrong(w.at..w.at + w.text.len(), "`slash` is \"product\" or \"factor\"");
+            notes.wrong(w.place(), "`slash` is \"product\" or \"factor\"");
             Slash::Factor
         }
         _ => Slash::Factor,

@@ -59,9 +59,14 @@ impl<'t, 'i> Section<'t, 'i> {
         self.table.get(key)
     }
 
-    /// All keys and values.
-    pub fn entries(&self) -> Vec<(String, Range<usize>, Value<'t, 'i>)> {
-        self.table.iter().map(|(k, v)| (k.get_ref().to_string(), k.span(), v)).collect()
+    /// All keys, of which the quotes are no part, and values.
+    pub fn entries(&self) -> Vec<(Piece, Value<'t, 'i>)> {
+        let key = |key: &Spanned<_>| {
+            let text = ToString::to_string(key.get_ref());
+            let quoted = usize::from(key.span().len() > text.len());
+            Piece { at: key.span().start + quoted, text }
+        };
+        self.table.iter().map(|(k, v)| (key(k), v)).collect()
     }
 
     /// A string.

@@ -72,8 +72,8 @@ pub(super) fn read(
         let formula = column.string("formula", notes);
         let mut equations = Vec::new();
         if let Some(names) = column.section("equations", &[], notes) {
-            for (name, at, value) in names.entries() {
-                let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
+            for (name, value) in names.entries() {
+                let name = symbol(&name, notation, notes);
                 let number = super::section::string(value, notes);
                 equations.extend(name.zip(number.map(|w| w.text)));
             }
@@ -96,14 +96,14 @@ pub(super) fn read(
         });
     }
     if let Some(values) = section.section("values", &[], notes) {
-        for (name, at, value) in values.entries() {
-            let name = symbol(&Piece { text: name, at: at.start + 1 }, notation, notes);
+        for (name, value) in values.entries() {
+            let name = symbol(&name, notation, notes);
             out.values.extend(name.zip(number(value, notes)));
         }
     }
     for row in &out.rows {
         if row.len() != out.columns.len() {
-            let at = row.first().map_or(section.at(), |w| w.at..w.at + w.text.len());
+            let at = row.first().map_or(section.at(), Piece::place);
             let message =
                 format!("this row has {} cells for {} columns", row.len(), out.columns.len());
             notes.wrong(at, message);

@@ -1,5 +1,7 @@
 //! A printed equation: its left side, its right sides, and the cells of a matrix.
 
+use core::ops::Range;
+
 /// A piece of text and where it begins in what it stands in: an equation, or a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Piece {
@@ -7,6 +9,13 @@ pub struct Piece {
     pub text: String,
     /// Byte at which it begins.
     pub at: usize,
+}
+
+impl Piece {
+    /// Where it stands.
+    pub fn place(&self) -> Range<usize> {
+        self.at..self.at + self.text.len()
+    }
 }
 
 /// One right side: a formula, or a matrix of formulas.

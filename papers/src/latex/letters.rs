@@ -21,38 +21,8 @@ pub(super) fn matched(text: &str, name: &str) -> Option<usize> {
 }
 
 /// Greek letters that papers use as symbols.
-const GREEK: [&str; 30] = [
-    "alpha",
-    "beta",
-    "gamma",
-    "delta",
-    "epsilon",
-    "varepsilon",
-    "zeta",
-    "eta",
-    "theta",
-    "iota",
-    "kappa",
-    "lambda",
-    "mu",
-    "nu",
-    "xi",
-    "pi",
-    "rho",
-    "sigma",
-    "tau",
-    "upsilon",
-    "phi",
-    "varphi",
-    "chi",
-    "psi",
-    "omega",
-    "Delta",
-    "Theta",
-    "Lambda",
-    "Gamma",
-    "Omega",
-];
+const GREEK: &str = "alpha beta gamma delta epsilon varepsilon zeta eta theta iota kappa lambda mu nu xi \
+                     pi rho sigma tau upsilon phi varphi chi psi omega Delta Theta Lambda Gamma Omega";
 
 /// Length of the single letter or Greek letter at the start.
 pub(super) fn letter(text: &str) -> Option<usize> {
@@ -62,7 +32,7 @@ pub(super) fn letter(text: &str) -> Option<usize> {
     }
     let command: String =
         text.strip_prefix('\\')?.chars().take_while(char::is_ascii_alphabetic).collect();
-    GREEK.contains(&command.as_str()).then_some(1 + command.len())
+    GREEK.split(' ').any(|letter| letter == command).then_some(1 + command.len())
 }
 
 #[cfg(test)]

@@ -56,29 +56,11 @@ const IGNORED: [&str; 12] = [
 ];
 
 /// Commands that only space or size.
-const SILENT: [&str; 18] = [
-    "quad",
-    "qquad",
-    "big",
-    "Big",
-    "bigg",
-    "Bigg",
-    "bigl",
-    "bigr",
-    "Bigl",
-    "Bigr",
-    "displaystyle",
-    "mathrm",
-    "mathbf",
-    "boldsymbol",
-    "mathit",
-    "limits",
-    "nonumber",
-    "text",
-];
+const SILENT: &str = "quad qquad big Big bigg Bigg bigl bigr Bigl Bigr displaystyle mathrm mathbf boldsymbol \
+                      mathit limits nonumber text";
 
-impl Lexer<'_> {
-    fn rest(&self) -> &str {
+impl<'t> Lexer<'t> {
+    fn rest(&self) -> &'t str {
         &self.text[self.at..]
     }
 
@@ -113,7 +95,7 @@ impl Lexer<'_> {
         if c == '\\' {
             let command: String = rest[1..].chars().take_while(char::is_ascii_alphabetic).collect();
             let dots = self.matrices && ["dots", "ldots", "cdots"].contains(&command.as_str());
-            if dots || SILENT.contains(&command.as_str()) {
+            if dots || SILENT.split(' ').any(|silent| silent == command) {
                 self.at += 1 + command.len();
                 return self.next();
             }

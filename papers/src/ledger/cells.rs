@@ -191,7 +191,7 @@ mod tests {
             _ => None,
         };
         let found = cells(&paper, &methods);
-        let verdicts: Vec<_> = found.iter().map(|e| e.verdict.clone()).collect();
+        let verdicts: Vec<_> = found.iter().map(|e| e.verdict).collect();
         use Verdict::{NotJudged, NotReproduced, Reproduced};
         assert_eq!(
             verdicts,

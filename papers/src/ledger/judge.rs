@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::labels::{Member, shifted};
 use super::reader::Reader;
 use super::witness::witness;
-use crate::exact::derived::{Setting, derived, limited};
+use crate::exact::derived::{derived, limited};
 use crate::exact::evaluate::Arithmetic;
 use crate::exact::product::Matrix;
 use crate::exact::rational::{Exact, Rational};
@@ -16,27 +16,11 @@ use crate::latex::parser::{parse, parse_tokens};
 use crate::mend::{Inventory, Search, mend, written};
 use crate::verdict::{Entry, Kind, Verdict};
 
-fn setting(paper: &Paper, equation: &Equation) -> Setting {
-    Setting {
-        robots: paper.robots.clone(),
-        robot: equation.robot.clone(),
-        joints: equation.joints.clone(),
-        wrench: equation.wrench.clone(),
-        product: equation.product.clone(),
-        defined: equation.defined.clone(),
-        infinite: equation.infinite.clone(),
-        notation: paper.notation.clone(),
-    }
-}
-
 /// What names stand for in an equation, derived values among them.
-fn definitions(
-    equation: &Equation,
-    setting: &Setting,
-) -> Result<HashMap<String, Rational>, String> {
-    let mut defined = equation.defined.clone();
+fn definitions(paper: &Paper, equation: &Equation) -> Result<HashMap<String, Rational>, String> {
+    let mut defined = equation.setting.defined.clone();
     for (name, path) in &equation.lets {
-        let value = derived(&path.text, setting)?;
+        let value = derived(&path.text, &equation.setting, paper.shared())?;
         let value = value.get(0, 0).cloned().ok_or("a name stands for a single entry")?;
         defined.insert(name.clone(), value);
     }
@@ -48,22 +32,22 @@ fn definitions(
 /// # Errors
 /// Why that cannot be derived.
 pub fn truth(paper: &Paper, equation: &Equation) -> Result<Matrix, String> {
-    let setting = setting(paper, equation);
+    let setting = &equation.setting;
     let written = match &equation.about {
-        About::Path(path) => return derived(&path.text, &setting),
+        About::Path(path) => return derived(&path.text, setting, paper.shared()),
         About::Formula(written) => written,
         About::Definition(_) | About::Relation(_) | About::Nothing => {
             return Err("there is nothing to derive".into());
         }
     };
-    let defined = definitions(equation, &setting)?;
+    let defined = definitions(paper, equation)?;
     let side = formula(&written.text).sides.into_iter().next().ok_or("the truth is empty")?;
     let columns = side.rows.first().map_or(0, Vec::len);
     let mut entries = Vec::new();
     for cell in side.rows.iter().flatten() {
         let tree = parse(&cell.text, &paper.notation).map_err(|m| m.message)?;
         let exact = Exact(&defined).tree(&tree).map_err(|why| format!("{why:?}"))?;
-        entries.push(limited(exact, &equation.infinite)?);
+        entries.push(limited(exact, &setting.infinite)?);
     }
     Ok(Matrix { columns, entries })
 }
@@ -95,7 +79,7 @@ pub fn equations(paper: &Paper) -> Vec<Entry> {
                 if nothing { Vec::new() } else { printed.sides.iter().map(cells).collect() };
             tokens.iter().flatten().for_each(|cell| inventory.add(cell));
             let truth = if nothing { Err(String::new()) } else { truth(paper, equation) };
-            let defined = definitions(equation, &setting(paper, equation)).unwrap_or_default();
+            let defined = definitions(paper, equation).unwrap_or_default();
             Ready { equation, printed, tokens, truth, defined }
         })
         .collect();
@@ -113,8 +97,8 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
         About::Nothing => String::new(),
         About::Relation(relation) => relation.words(),
         About::Definition(why) => why.clone(),
-        About::Path(path) => match (&equation.robot, equation.product.is_empty()) {
-            (_, false) => format!("{} of {}", path.text, equation.product.join(" ")),
+        About::Path(path) => match (&equation.setting.robot, equation.setting.product.is_empty()) {
+            (_, false) => format!("{} of {}", path.text, equation.setting.product.join(" ")),
             (Some(robot), _) => format!("{} of {robot}", path.text),
             (None, _) => path.text.clone(),
         },
@@ -128,8 +112,9 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
     let truth = match (&equation.about, &this.truth) {
         (About::Definition(_) | About::Nothing, _) => return entry,
         (About::Relation(relation), _) => {
-            let (latex, setting) = (&equation.latex.text, setting(paper, equation));
-            crate::matrix::judge(&mut entry, latex, relation, &setting, &paper.values);
+            let (setting, shared) = (&equation.setting, paper.shared());
+            let latex = &equation.latex.text;
+            crate::matrix::judge(&mut entry, latex, relation, setting, shared, &paper.values);
             return entry;
         }
         (_, Err(why)) => {

@@ -67,11 +67,11 @@ impl Ledger {
     /// How often each verdict was given to a kind of entry of a paper, in the order of
     /// [`Verdict::EACH`], the ones that occur.
     pub fn counts(&self, id: &str, kind: Kind) -> Vec<(Verdict, usize)> {
-        let count = |verdict: &Verdict| {
-            self.paper(id).filter(|e| e.kind == kind && e.verdict == *verdict).count()
+        let count = |verdict: Verdict| {
+            self.paper(id).filter(|e| e.kind == kind && e.verdict == verdict).count()
         };
-        let all = Verdict::EACH.into_iter().map(|v| (count(&v), v));
-        all.filter(|(n, _)| *n > 0).map(|(n, v)| (v, n)).collect()
+        let all = Verdict::EACH.into_iter().map(|(verdict, _)| (verdict, count(verdict)));
+        all.filter(|(_, n)| *n > 0).collect()
     }
 
     /// The counts of a paper in words: `32 agree, …`.

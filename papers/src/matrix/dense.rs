@@ -18,17 +18,33 @@ pub fn is_scalar(m: &Dense) -> bool {
     m.shape() == (1, 1)
 }
 
-/// `a + factor · b`; `None` if the shapes differ.
-pub fn plus(a: &Dense, b: &Dense, factor: f64) -> Option<Dense> {
-    (a.shape() == b.shape()).then(|| a + b * factor)
+/// A shape in words.
+pub fn shape(m: &Dense) -> String {
+    format!("{}×{}", m.nrows(), m.ncols())
 }
 
-/// The product; a 1×1 factor is a number. `None` if the shapes do not fit.
-pub fn times(a: &Dense, b: &Dense) -> Option<Dense> {
+/// `a + factor · b`; a lone zero is a zero of any shape.
+///
+/// # Errors
+/// Shapes that differ.
+pub fn sum(a: &Dense, b: &Dense, factor: f64) -> Result<Dense, String> {
+    match (a.shape() == b.shape(), is_scalar(a) && a[(0, 0)] == 0.0) {
+        (true, _) => Ok(a + b * factor),
+        (_, true) => Ok(b * factor),
+        _ => Err(format!("{} and {} are added", shape(a), shape(b))),
+    }
+}
+
+/// The product; a 1×1 factor is a number.
+///
+/// # Errors
+/// Shapes that do not fit.
+pub fn product(a: &Dense, b: &Dense) -> Result<Dense, String> {
     match (is_scalar(a), is_scalar(b)) {
-        (true, _) => Some(b * a[(0, 0)]),
-        (_, true) => Some(a * b[(0, 0)]),
-        _ => (a.ncols() == b.nrows()).then(|| a * b),
+        (true, _) => Ok(b * a[(0, 0)]),
+        (_, true) => Ok(a * b[(0, 0)]),
+        _ if a.ncols() == b.nrows() => Ok(a * b),
+        _ => Err(format!("{} and {} are multiplied", shape(a), shape(b))),
     }
 }
 
@@ -44,25 +60,37 @@ pub fn pseudo_inverse(m: &Dense) -> Option<Dense> {
     m.clone().pseudo_inverse(SINGULAR * m.amax()).ok()
 }
 
-/// Blocks side by side and one below the other; `None` if they do not fit.
-pub fn blocks(rows: &[Vec<Dense>]) -> Option<Dense> {
-    let columns = rows.first()?.iter().map(|block| block.ncols()).sum();
-    let heights = rows.iter().map(|row| row.first().map_or(0, |block| block.nrows()));
-    let mut whole = Dense::zeros(heights.clone().sum(), columns);
-    let mut top = 0;
-    for (row, height) in rows.iter().zip(heights) {
-        let width: usize = row.iter().map(|block| block.ncols()).sum();
-        if width != columns || row.iter().any(|block| block.nrows() != height) {
-            return None;
-        }
-        let mut left = 0;
-        for block in row {
-            whole.view_mut((top, left), block.shape()).copy_from(block);
-            left += block.ncols();
-        }
-        top += height;
+/// Blocks side by side and one below the other; a number among matrices is that multiple of the
+/// identity, or zeros.
+///
+/// # Errors
+/// Blocks that do not fit.
+pub fn blocks(rows: &[Vec<Dense>]) -> Result<Dense, String> {
+    let columns = rows.first().map_or(0, Vec::len);
+    if rows.iter().any(|row| row.len() != columns) {
+        return Err("rows of different lengths".into());
     }
-    Some(whole)
+    let most = |sizes: &mut dyn Iterator<Item = usize>| sizes.max().unwrap_or(1);
+    let height = |row: &Vec<Dense>| most(&mut row.iter().map(|block| block.nrows()));
+    let heights: Vec<usize> = rows.iter().map(height).collect();
+    let width = |c: usize| most(&mut rows.iter().map(|row| row[c].ncols()));
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut whole = Dense::zeros(heights.iter().sum(), widths.iter().sum());
+    for (r, row) in rows.iter().enumerate() {
+        for (c, block) in row.iter().enumerate() {
+            let (at, size) =
+                ((heights[..r].iter().sum(), widths[..c].iter().sum()), (heights[r], widths[c]));
+            let mut place = whole.view_mut(at, size);
+            match block.shape() == size {
+                true => place.copy_from(block),
+                false if is_scalar(block) && (block[(0, 0)] == 0.0 || size.0 == size.1) => {
+                    place.fill_diagonal(block[(0, 0)]);
+                }
+                false => return Err("the blocks do not fit".into()),
+            }
+        }
+    }
+    Ok(whole)
 }
 
 #[cfg(test)]
@@ -90,11 +118,13 @@ mod tests {
     #[test]
     fn shapes_must_fit() {
         let (a, b) = (sample(2, 3), sample(3, 3));
-        assert_eq!(times(&a, &b).unwrap().shape(), (2, 3));
-        assert_eq!((times(&b, &a), plus(&a, &b, 1.0)), (None, None));
-        assert_eq!(times(&scalar(2.0), &a).unwrap()[(1, 2)], 2.0 * a[(1, 2)]);
-        let whole = blocks(&[vec![a.clone(), a.clone()], vec![b.clone(), b]]).unwrap();
-        assert_eq!((whole.shape(), whole[(1, 3)]), ((5, 6), a[(1, 0)]));
-        assert_eq!(blocks(&[vec![a.clone()], vec![sample(2, 2)]]), None);
+        assert_eq!(product(&a, &b).unwrap().shape(), (2, 3));
+        assert!(product(&b, &a).is_err() && sum(&a, &b, 1.0).is_err());
+        assert_eq!(product(&scalar(2.0), &a).unwrap()[(1, 2)], 2.0 * a[(1, 2)]);
+        let rows = [vec![a.clone(), a.clone()], vec![b.clone(), scalar(4.0)]];
+        let whole = blocks(&rows).unwrap();
+        assert_eq!((whole.shape(), whole[(1, 3)], whole[(4, 5)]), ((5, 6), a[(1, 0)], 4.0));
+        assert!(blocks(&[vec![a.clone()], vec![sample(2, 2)]]).is_err());
+        assert!(blocks(&[vec![a.clone()], vec![a.clone(), a]]).is_err());
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use num_rational::Ratio;
 
-use super::dense::{Dense, blocks, inverse, is_scalar, plus, scalar, times};
+use super::dense::{Dense, blocks, inverse, is_scalar, product, scalar, shape, sum};
 use crate::exact::evaluate::{Arithmetic, NoValue, Real};
 use crate::latex::name::{Name, count};
 use crate::latex::tree::{Angle, Function, Tree};
@@ -46,11 +46,6 @@ pub enum Value {
 
 type Found<T> = Result<T, String>;
 
-/// A shape in words.
-fn shape(m: &Dense) -> String {
-    format!("{}×{}", m.nrows(), m.ncols())
-}
-
 impl Value {
     /// As one matrix; the derivatives of a vector by the joints are its columns.
     fn matrix(self) -> Found<Dense> {
@@ -67,20 +62,6 @@ impl Value {
         let wrong = || format!("{} stands where a number is expected", shape(&matrix));
         is_scalar(&matrix).then(|| matrix[(0, 0)]).ok_or_else(wrong)
     }
-}
-
-/// `a + factor · b`; a lone zero is a zero of any shape.
-fn sum(a: Value, b: Value, factor: f64) -> Found<Value> {
-    let (a, b) = (a.matrix()?, b.matrix()?);
-    if is_scalar(&a) && a[(0, 0)] == 0.0 {
-        return Ok(Value::One(b * factor));
-    }
-    let wrong = || format!("{} and {} are added", shape(&a), shape(&b));
-    plus(&a, &b, factor).map(Value::One).ok_or_else(wrong)
-}
-
-fn product(a: &Dense, b: &Dense) -> Found<Dense> {
-    times(a, b).ok_or_else(|| format!("{} and {} are multiplied", shape(a), shape(b)))
 }
 
 /// Columns as a matrix; `None` if they are no columns.
@@ -112,11 +93,11 @@ impl Arithmetic for Point<'_> {
     }
 
     fn add(&self, a: Value, b: Value) -> Found<Value> {
-        sum(a, b, 1.0)
+        sum(&a.matrix()?, &b.matrix()?, 1.0).map(Value::One)
     }
 
     fn sub(&self, a: Value, b: Value) -> Found<Value> {
-        sum(a, b, -1.0)
+        sum(&a.matrix()?, &b.matrix()?, -1.0).map(Value::One)
     }
 
     /// Derivatives by all joints times a vector are the columns of a matrix.
@@ -177,7 +158,10 @@ impl Arithmetic for Point<'_> {
                 scalar(matrix.trace())
             }
             Tree::Norm(a) => scalar(self.matrix(a)?.norm()),
-            Tree::Blocks(rows) => self.blocks(rows)?,
+            Tree::Blocks(rows) => {
+                let row = |row: &Vec<Tree>| row.iter().map(|cell| self.matrix(cell)).collect();
+                blocks(&rows.iter().map(row).collect::<Found<Vec<_>>>()?)?
+            }
             Tree::Over(over, body) => {
                 let bound = |text: &str| {
                     count(text, &self.counted).ok_or_else(|| format!("`{text}` does not count"))
@@ -224,10 +208,9 @@ impl Point<'_> {
                 moved.q[joint] += steps * STEP;
                 moved.matrix(body)
             };
-            let near = plus(&at(1.0)?, &at(-1.0)?, -1.0).ok_or("shapes that change")?;
-            let far = plus(&at(2.0)?, &at(-2.0)?, -1.0).ok_or("shapes that change")?;
-            let sum = plus(&(near * 8.0), &far, -1.0).ok_or("shapes that change")?;
-            Ok(sum * (1.0 / (12.0 * STEP)))
+            let near = sum(&at(1.0)?, &at(-1.0)?, -1.0)?;
+            let far = sum(&at(2.0)?, &at(-2.0)?, -1.0)?;
+            Ok(sum(&(near * 8.0), &far, -1.0)? * (1.0 / (12.0 * STEP)))
         };
         match joint {
             Some(joint) => {
@@ -237,97 +220,7 @@ impl Point<'_> {
             None => (0..self.q.len()).map(slope).collect::<Found<_>>().map(Value::Stack),
         }
     }
-
-    /// Blocks; a number among matrices is that multiple of the identity, or zeros.
-    fn blocks(&self, rows: &[Vec<Tree>]) -> Found<Dense> {
-        let values: Vec<Vec<Dense>> = rows
-            .iter()
-            .map(|row| row.iter().map(|cell| self.matrix(cell)).collect())
-            .collect::<Found<_>>()?;
-        let columns = values.first().map_or(0, Vec::len);
-        if values.iter().any(|row| row.len() != columns) {
-            return Err("rows of different lengths".into());
-        }
-        let height = |r: usize| values[r].iter().map(|b| b.nrows()).max().unwrap_or(1);
-        let width = |c: usize| values.iter().map(|row| row[c].ncols()).max().unwrap_or(1);
-        let block = |r: usize, c: usize| {
-            let (shape, value) = ((height(r), width(c)), &values[r][c]);
-            if !is_scalar(value) || shape == (1, 1) {
-                return Some(value.clone());
-            }
-            let number = value[(0, 0)];
-            let fits = number == 0.0 || shape.0 == shape.1;
-            let diagonal = |i: usize, j: usize| if i == j { number } else { 0.0 };
-            fits.then(|| Dense::from_fn(shape.0, shape.1, diagonal))
-        };
-        let whole: Option<Vec<Vec<Dense>>> =
-            (0..values.len()).map(|r| (0..columns).map(|c| block(r, c)).collect()).collect();
-        whole.and_then(|rows| blocks(&rows)).ok_or_else(|| "the blocks do not fit".into())
-    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::latex::notation::Notation;
-    use crate::latex::parser::parse;
-
-    /// A(q) = [[q1², q1 q2], [sin q1, 3]], v = (2, −1), n = 3.
-    struct Sample;
-
-    impl Symbols for Sample {
-        fn value(&self, key: &str, q: &[f64]) -> Result<Option<Dense>, String> {
-            let [x, y] = [q[0], q[1]];
-            let a = [[x * x, x * y], [x.sin(), 3.0]];
-            Ok(match key {
-                "A" => Some(Dense::from_fn(2, 2, |r, c| a[r][c])),
-                "v" => Some(Dense::from_fn(2, 1, |r, _| 2.0 - 3.0 * r as f64)),
-                "B_1" | "B_2" => Some(scalar(if key == "B_1" { 5.0 } else { 7.0 })),
-                _ => None,
-            })
-        }
-    }
-
-    fn of(latex: &str) -> Result<Dense, String> {
-        let point = Point {
-            symbols: &Sample,
-            q: vec![0.3, 0.8],
-            counted: HashMap::from([("n".into(), 2)]),
-            formulas: HashMap::new(),
-        };
-        point.matrix(&parse(latex, &Notation::MATRICES).unwrap())
-    }
-
-    #[test]
-    fn derivatives_by_joints_are_columns() {
-        let d = of("\\frac{\\partial A}{\\partial \\theta} v").unwrap();
-        let expected = [[2.0 * 2.0 * 0.3 - 0.8, -0.3], [2.0 * 0.3f64.cos(), 0.0]];
-        for (r, row) in expected.iter().enumerate() {
-            for (c, want) in row.iter().enumerate() {
-                assert!((d[(r, c)] - want).abs() < 1e-11, "{d:?}");
-            }
-        }
-        let one = of("\\frac{\\partial A}{\\partial q_2} v").unwrap();
-        assert!((one[(0, 0)] - d[(0, 1)]).abs() < 1e-12);
-        let gradient = of("\\frac{\\partial (A v)}{\\partial q}").unwrap();
-        assert!((gradient - &d).amax() < 1e-11);
-    }
-
-    #[test]
-    fn products_over_an_index_and_blocks() {
-        assert_eq!(of("\\prod_{j=1}^{n} B_j").unwrap()[(0, 0)], 35.0);
-        assert_eq!(of("\\prod_{j=1}^{n-1} B_{j+1}").unwrap()[(0, 0)], 7.0);
-        assert!((of("A^2 - A A").unwrap()).amax() < 1e-15);
-        let blocks = of("\\begin{bmatrix} A & 0 \\\\ v^T & 1 \\end{bmatrix}").unwrap();
-        assert_eq!((blocks.shape(), blocks[(0, 2)], blocks[(2, 2)]), ((3, 3), 0.0, 1.0));
-    }
-
-    #[test]
-    fn what_does_not_fit_is_said() {
-        assert_eq!(of("A + v").unwrap_err(), "2×2 and 2×1 are added");
-        assert_eq!(of("v A").unwrap_err(), "2×1 and 2×2 are multiplied");
-        assert_eq!(of("(v v^T)^{-1}").unwrap_err(), "a matrix that has no inverse is inverted");
-        assert_eq!(of("\\frac{1}{v}").unwrap_err(), "2×1 stands where a number is expected");
-        assert_eq!(of("C_{j,x}").unwrap_err(), "`C_{j,x}` has no value");
-    }
-}
+mod tests;

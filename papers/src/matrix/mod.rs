@@ -8,13 +8,13 @@ mod transform;
 
 use std::collections::HashMap;
 
-use dense::{Dense, is_scalar, plus};
+use dense::{Dense, is_scalar, sum};
 use evaluate::Point;
 use source::{At, Sources};
 
 pub use source::single;
 
-use crate::exact::derived::Setting;
+use crate::exact::derived::{Setting, Shared};
 use crate::latex::formula::{Piece, sides};
 use crate::latex::lexer::{Lexeme, Token, lex};
 use crate::latex::mistake::Mistake;
@@ -79,16 +79,18 @@ struct Question<'r> {
     left: Option<String>,
 }
 
-/// Judges a printed relation.
+/// Judges a printed relation; `given` are values of the data file.
 pub(super) fn judge(
     entry: &mut Entry,
     latex: &str,
     relation: &Relation,
     setting: &Setting,
+    shared: Shared<'_>,
     given: &HashMap<String, f64>,
 ) {
     entry.source = relation.words();
-    if let Err(why) = verdict(entry, latex, relation, setting, given) {
+    let sources = Sources::read(&relation.matrices, setting, shared, given);
+    if let Err(why) = sources.and_then(|sources| verdict(entry, latex, relation, sources)) {
         entry.verdict = Verdict::NotJudged;
         entry.note = Some(why);
     }
@@ -98,16 +100,9 @@ fn verdict(
     entry: &mut Entry,
     latex: &str,
     relation: &Relation,
-    setting: &Setting,
-    given: &HashMap<String, f64>,
+    sources: Sources,
 ) -> Result<(), String> {
     let words = |mistake: Mistake| mistake.message;
-    let symbols: Vec<(String, String)> = relation
-        .matrices
-        .iter()
-        .map(|(symbol, source)| (symbol.clone(), source.text.clone()))
-        .collect();
-    let sources = Sources::read(&symbols, setting, given)?;
     let mut printed = read(latex).map_err(words)?;
     let left = match &printed[..] {
         [(_, Tree::Symbol(name)), _, ..] => Some(name.counted(&HashMap::new())),
@@ -221,7 +216,7 @@ fn same(a: &Dense, b: &Dense) -> bool {
     if zero(a) || zero(b) {
         return a.amax().max(b.amax()) <= TOLERANCE * size;
     }
-    plus(a, b, -1.0).is_some_and(|difference| difference.amax() <= TOLERANCE * size)
+    sum(a, b, -1.0).is_ok_and(|difference| difference.amax() <= TOLERANCE * size)
 }
 
 #[cfg(test)]

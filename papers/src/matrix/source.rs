@@ -6,46 +6,20 @@ use std::collections::HashMap;
 use super::dense::{self, Dense};
 use super::evaluate::Symbols;
 use super::transform::transform;
-use crate::exact::derived::{Path, Setting};
+use crate::exact::derived::{Path, Setting, Shared};
+use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, Token};
 use crate::latex::notation::Notation;
 use crate::latex::parser::parse;
 use crate::latex::tree::Tree;
-use stiffarm_codegen::derive::{Output, Program, derive_in};
+use stiffarm_codegen::derive::{Output, derive_in};
 use stiffarm_codegen::robot::{Robot, Value};
 
 /// Postures of relations without a robot.
 const JOINTS: usize = 3;
 
-/// What a symbol stands for.
-enum Source {
-    /// Random, with a shape; the second flag makes it depend on the posture.
-    Random {
-        shape: (usize, usize),
-        moves: bool,
-    },
-    /// Random and symmetric positive.
-    Symmetric(usize),
-    /// Random on the diagonal.
-    Diagonal(usize),
-    Identity(usize),
-    /// A column of ones.
-    Ones(usize),
-    /// An output of the robot, whole or an entry of it.
-    Output {
-        program: Box<Program>,
-        shape: (usize, usize),
-        entry: Option<(usize, usize)>,
-    },
-    /// The joints' stiffnesses on a diagonal.
-    Stiffness,
-    /// The wrench.
-    Wrench,
-    /// A part of the equation's product of transforms.
-    Constant(Dense),
-    /// The pseudo-inverse of another symbol.
-    PseudoInverse(String),
-}
+/// What a symbol stands for: its value at a point by its key and the posture.
+type Source = Box<dyn Fn(&At<'_>, &str, &[f64]) -> Result<Dense, String>>;
 
 /// The token of a text that is a single symbol of matrices.
 pub fn single(latex: &str) -> Option<Token> {
@@ -85,11 +59,12 @@ impl Sources {
     /// # Errors
     /// What is no source, and why.
     pub fn read(
-        symbols: &[(String, String)],
+        symbols: &[(String, Piece)],
         setting: &Setting,
+        shared: Shared<'_>,
         given: &HashMap<String, f64>,
     ) -> Result<Self, String> {
-        let robot = setting.robot.as_ref().and_then(|name| setting.robots.get(name)).cloned();
+        let robot = setting.robot.as_ref().and_then(|name| shared.robots.get(name)).cloned();
         let mut out = Sources {
             known: HashMap::new(),
             robot,
@@ -98,7 +73,7 @@ impl Sources {
             printed: Vec::new(),
             given: given.clone(),
         };
-        for (symbol, text) in symbols {
+        for (symbol, Piece { text, .. }) in symbols {
             let token = single(symbol).ok_or_else(|| format!("`{symbol}` is no symbol"))?;
             let key = key(&token);
             if let Some(number) = text.strip_prefix("index ") {
@@ -110,7 +85,7 @@ impl Sources {
                 let formula = parse(formula, &Notation::MATRICES).map_err(|m| m.message)?;
                 out.formulas.insert(key, formula);
             } else {
-                let source = out.source(text.trim(), setting)?;
+                let source = out.source(text.trim(), setting, shared.notation)?;
                 out.known.insert(key, source);
             }
             out.printed.push(token);
@@ -118,7 +93,7 @@ impl Sources {
         Ok(out)
     }
 
-    fn source(&self, text: &str, setting: &Setting) -> Result<Source, String> {
+    fn source(&self, text: &str, setting: &Setting, notation: &Notation) -> Result<Source, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let size = |text: &str| text.parse::<usize>().ok().filter(|n| (1..=50).contains(n));
         let shape = |text: &str| match text.split_once('x') {
@@ -134,42 +109,77 @@ impl Sources {
                  the robot"
             )
         };
-        let found = match words.as_slice() {
-            ["random", size] => shape(size).map(|shape| Source::Random { shape, moves: false }),
-            ["random", size, "of", "q"] => {
-                shape(size).map(|shape| Source::Random { shape, moves: true })
+        let shape = |text: &str| shape(text).ok_or_else(unknown);
+        let size = |text: &str| size(text).ok_or_else(unknown);
+        let constant = |matrix: Dense| -> Source { Box::new(move |_, _, _| Ok(matrix.clone())) };
+        Ok(match words.as_slice() {
+            ["random", text] => {
+                let (rows, columns) = shape(text)?;
+                Box::new(move |at, key, _| {
+                    Ok(Dense::from_fn(rows, columns, |r, c| at.random(key, r * columns + c)))
+                })
             }
-            ["symmetric", n] => size(n).map(Source::Symmetric),
-            ["diagonal", n] => size(n).map(Source::Diagonal),
-            ["identity", n] => size(n).map(Source::Identity),
-            ["ones", n] => size(n).map(Source::Ones),
+            ["random", text, "of", "q"] => {
+                let (rows, columns) = shape(text)?;
+                Box::new(move |at, key, q| {
+                    let entry = |r, c| at.moving(key, r * columns + c, q);
+                    Ok(Dense::from_fn(rows, columns, entry))
+                })
+            }
+            ["symmetric", n] => {
+                let n = size(n)?;
+                Box::new(move |at, key, _| {
+                    let of = |r: usize, c: usize| at.random(key, r.min(c) * n + r.max(c));
+                    Ok(Dense::from_fn(n, n, of) + Dense::identity(n, n) * n as f64)
+                })
+            }
+            ["diagonal", n] => {
+                let n = size(n)?;
+                Box::new(move |at, key, _| Ok(diagonal(n, |k| 1.5 + at.random(key, k))))
+            }
+            ["identity", n] => constant(Dense::identity(size(n)?, size(n)?)),
+            ["ones", n] => constant(Dense::from_element(size(n)?, 1, 1.0)),
             ["pseudo-inverse", "of", other] => {
-                Some(Source::PseudoInverse(key(&single(other).ok_or_else(unknown)?)))
+                let other = key(&single(other).ok_or_else(unknown)?);
+                Box::new(move |at, _, q| {
+                    let matrix = at.value(&other, q)?;
+                    let matrix = matrix.ok_or_else(|| format!("`{other}` is unknown"))?;
+                    dense::pseudo_inverse(&matrix).ok_or_else(|| "no pseudo-inverse".into())
+                })
             }
-            ["stiffness"] => Some(Source::Stiffness),
-            ["wrench"] => Some(Source::Wrench),
+            ["stiffness"] => Box::new(|at, _, _| at.stiffness()),
+            ["wrench"] => Box::new(|at, _, _| Ok(Dense::from_column_slice(6, 1, &at.wrench()))),
             [part @ ("rotation" | "position" | "lever" | "transport")] => {
-                Some(Source::Constant(transform(part, &setting.product, setting)?))
+                constant(transform(part, &setting.product, notation, &setting.defined)?)
             }
             ["transport", "of", elements @ ..] => {
                 let elements: Vec<String> = elements.iter().map(|e| (*e).to_owned()).collect();
-                Some(Source::Constant(transform("transport", &elements, setting)?))
+                constant(transform("transport", &elements, notation, &setting.defined)?)
             }
-            [path] => return self.output(path).ok_or_else(unknown),
-            _ => None,
-        };
-        found.ok_or_else(unknown)
+            [path] => self.output(path).ok_or_else(unknown)?,
+            _ => return Err(unknown()),
+        })
     }
 
-    /// `jacobian`, `pose[1][4]`.
+    /// An output of the robot, whole or an entry of it: `jacobian`, `pose[1][4]`.
     fn output(&self, path: &str) -> Option<Source> {
         let robot = self.robot.as_ref()?;
         let path = Path::read(path).ok()?;
         let output = Output::EACH.into_iter().find(|output| output.name() == path.name)?;
-        let shape = output.shape(robot.dof());
-        let entry = path.entry(shape).ok()?;
-        Some(Source::Output { program: Box::new(derive_in(robot, &[output], 0)), shape, entry })
+        let (rows, columns) = output.shape(robot.dof());
+        let entry = path.entry((rows, columns)).ok()?;
+        let program = derive_in(robot, &[output], 0);
+        Some(Box::new(move |at, _, q| {
+            let found = program.evaluate(q, &at.wrench(), |name: &str| at.positive(name));
+            let found = found.map_err(|error| error.to_string())?;
+            let whole = Dense::from_column_slice(rows, columns, &found[0][..rows * columns]);
+            Ok(entry.map_or(whole.clone(), |place| dense::scalar(whole[place])))
+        }))
     }
+}
+
+fn diagonal(n: usize, of: impl Fn(usize) -> f64) -> Dense {
+    Dense::from_fn(n, n, |r, c| if r == c { of(r) } else { 0.0 })
 }
 
 impl At<'_> {
@@ -196,62 +206,29 @@ impl At<'_> {
         self.0.given.get(name).copied().unwrap_or_else(|| 1.5 + 0.9 * self.random(name, 0))
     }
 
-    fn of_source(&self, key: &str, source: &Source, q: &[f64]) -> Result<Dense, String> {
-        let square = |n: usize, of: &dyn Fn(usize, usize) -> f64| Dense::from_fn(n, n, of);
-        let unit = |r: usize, c: usize| f64::from(u8::from(r == c));
-        Ok(match source {
-            Source::Random { shape: (rows, columns), moves } => {
-                // A member of a family moves with its own joint.
-                let own = key.split(['_', ',']).find_map(|index| index.parse::<usize>().ok());
-                let q = match own {
-                    Some(own) => q.get(own.wrapping_sub(1)).map_or(&q[..0], core::slice::from_ref),
-                    None => q,
-                };
-                let moved = |k: usize| match moves {
-                    true => {
-                        q.iter().map(|q| (q * (1.0 + 0.5 * self.random(key, k + 997))).sin()).sum()
-                    }
-                    false => 0.0,
-                };
-                Dense::from_fn(*rows, *columns, |r, c| {
-                    let k = r * columns + c;
-                    self.random(key, k) + moved(k)
-                })
-            }
-            Source::Symmetric(n) => square(*n, &|r, c| {
-                self.random(key, r.min(c) * n + r.max(c)) + *n as f64 * unit(r, c)
-            }),
-            Source::Diagonal(n) => square(*n, &|r, c| (1.5 + self.random(key, r)) * unit(r, c)),
-            Source::Identity(n) => Dense::identity(*n, *n),
-            Source::Ones(n) => Dense::from_fn(*n, 1, |_, _| 1.0),
-            Source::Output { program, shape: (rows, columns), entry } => {
-                let parameter = |name: &str| self.positive(name);
-                let found = program
-                    .evaluate(q, &self.wrench(), parameter)
-                    .map_err(|error| error.to_string())?;
-                let whole = Dense::from_fn(*rows, *columns, |r, c| found[0][c * rows + r]);
-                entry.map_or(whole.clone(), |(r, c)| dense::scalar(whole[(r, c)]))
-            }
-            Source::Stiffness => {
-                let joints = self.0.robot.as_ref().map_or(&[][..], |robot| &robot.joints);
-                let each: Vec<f64> = joints
-                    .iter()
-                    .map(|joint| match &joint.stiffness {
-                        Some(Value::Number(k)) => Ok(k.to_f64()),
-                        Some(Value::Symbol(name)) => Ok(self.positive(name)),
-                        None => Err(format!("{} has no stiffness", joint.name)),
-                    })
-                    .collect::<Result<_, _>>()?;
-                square(each.len(), &|r, c| each[r] * unit(r, c))
-            }
-            Source::Wrench => Dense::from_fn(6, 1, |r, _| self.wrench()[r]),
-            Source::Constant(matrix) => matrix.clone(),
-            Source::PseudoInverse(other) => {
-                let matrix =
-                    self.value(other, q)?.ok_or_else(|| format!("`{other}` is unknown"))?;
-                dense::pseudo_inverse(&matrix).ok_or("no pseudo-inverse")?
-            }
-        })
+    /// A random number that moves with the posture; a member of a family moves with its own joint.
+    fn moving(&self, key: &str, k: usize, q: &[f64]) -> f64 {
+        let own = key.split(['_', ',']).find_map(|index| index.parse::<usize>().ok());
+        let q = match own {
+            Some(own) => q.get(own.wrapping_sub(1)).map_or(&q[..0], core::slice::from_ref),
+            None => q,
+        };
+        let rate = 1.0 + 0.5 * self.random(key, k + 997);
+        self.random(key, k) + q.iter().map(|q| (q * rate).sin()).sum::<f64>()
+    }
+
+    /// The joints' stiffnesses on a diagonal.
+    fn stiffness(&self) -> Result<Dense, String> {
+        let joints = self.0.robot.as_ref().map_or(&[][..], |robot| &robot.joints);
+        let each: Vec<f64> = joints
+            .iter()
+            .map(|joint| match &joint.stiffness {
+                Some(Value::Number(k)) => Ok(k.to_f64()),
+                Some(Value::Symbol(name)) => Ok(self.positive(name)),
+                None => Err(format!("{} has no stiffness", joint.name)),
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(diagonal(each.len(), |k| each[k]))
     }
 
     fn wrench(&self) -> [f64; 6] {
@@ -276,6 +253,6 @@ impl Symbols for At<'_> {
             None => key.to_owned(),
         };
         let source = self.0.known.get(key).or_else(|| self.0.known.get(&family));
-        source.map(|source| self.of_source(key, source, q)).transpose()
+        source.map(|source| source(self, key, q)).transpose()
     }
 }

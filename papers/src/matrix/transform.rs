@@ -1,9 +1,14 @@
 //! Numbers of a product of elementary transforms.
 
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
+
 use super::dense::Dense;
-use crate::exact::derived::Setting;
 use crate::exact::evaluate::{Arithmetic, NoValue, Real};
 use crate::exact::product::{Matrix, product};
+use crate::exact::rational::Rational;
+use crate::latex::notation::Notation;
 
 /// A part of a product of elementary transforms: its rotation, its position, the matrix of the
 /// cross product with the position, or the transport of a wrench through it. Its symbols have
@@ -11,9 +16,10 @@ use crate::exact::product::{Matrix, product};
 pub(super) fn transform(
     part: &str,
     elements: &[String],
-    setting: &Setting,
+    notation: &Notation,
+    defined: &HashMap<String, Rational>,
 ) -> Result<Dense, String> {
-    let whole = product(elements, &setting.notation, &setting.defined)?;
+    let whole = product(elements, notation, defined)?;
     let value = |name: &str| {
         let sum =
             name.bytes().fold(7u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
@@ -30,11 +36,10 @@ pub(super) fn transform(
         return Ok(numbers(&transport)?);
     }
     let whole = numbers(&whole)?;
-    let p: [f64; 3] = core::array::from_fn(|k| whole[(k, 3)]);
-    let cross = [[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]];
+    let p = Vector3::from_fn(|k, _| whole[(k, 3)]);
     Ok(match part {
         "rotation" => Dense::from_fn(3, 3, |r, c| whole[(r, c)]),
-        "position" => Dense::from_fn(3, 1, |r, _| p[r]),
-        _ => Dense::from_fn(3, 3, |r, c| cross[r][c]),
+        "position" => Dense::from_column_slice(3, 1, p.as_slice()),
+        _ => Dense::from_column_slice(3, 3, p.cross_matrix().as_slice()),
     })
 }

@@ -64,13 +64,11 @@ pub fn moved_brackets(tokens: &[Token]) -> Vec<Edit> {
             Some(before) => ends(&tokens[before].is),
             None => opens && begins(&tokens[k].is),
         };
-        for k in 0..tokens.len() {
-            if k != i && k != i + 1 && fits(k) {
-                let what = format!("`{}` belongs before `{}`", t.text, tokens[k].text);
-                let mut parts = vec![(i..i + 1, Vec::new()), (k..k, vec![t.clone()])];
-                parts.sort_by_key(|(at, _)| at.start);
-                edits.push(Edit { slip: Slip::Bracket, what, parts });
-            }
+        for k in (0..tokens.len()).filter(|&k| k != i && k != i + 1 && fits(k)) {
+            let what = format!("`{}` belongs before `{}`", t.text, tokens[k].text);
+            let mut parts = vec![(i..i + 1, Vec::new()), (k..k, vec![t.clone()])];
+            parts.sort_by_key(|(at, _)| at.start);
+            edits.push(Edit { slip: Slip::Bracket, what, parts });
         }
     }
     edits

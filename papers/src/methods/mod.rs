@@ -25,8 +25,11 @@ pub fn column(name: &str) -> Option<Column> {
     Some(values.map(|values| values.into_iter().map(Some).collect()))
 }
 
-/// One of the papers' arms.
-pub(crate) fn arm(id: &str) -> Result<Arm, String> {
+/// One of the arms that are built in, by its name.
+///
+/// # Errors
+/// That there is none of this name; never of one that there is.
+pub fn arm(id: &str) -> Result<Arm, String> {
     let known = stiffarm_robots::ARMS.iter().find(|arm| arm.id == id);
     let toml = known.ok_or_else(|| format!("there is no arm `{id}`"))?.toml;
     let (robot, _) = Robot::from_toml(toml, id).map_err(|error| error.to_string())?;

@@ -1,7 +1,6 @@
 //! The paper's arms from their robot files.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_papers::bicchi::{Loaded, Task};
 
@@ -13,12 +12,7 @@ pub const HALF: f64 = 205e9 * std::f64::consts::PI * 1e-8 / 8.0;
 
 /// The arm of `n` = 3 or 5 joints with the bending stiffness `ej` in both planes, N·m².
 pub fn arm(n: usize, ej: f64) -> Arm {
-    let text = match n {
-        3 => include_str!("../../../robots/arms/bicchi_3r.toml"),
-        _ => include_str!("../../../robots/arms/bicchi_5r.toml"),
-    };
-    let robot = Robot::from_toml(text, "bicchi.toml").unwrap().0;
-    let mut arm = stiffarm_gap::robot::arm(&robot).unwrap();
+    let mut arm = stiffarm_papers::arm(&format!("bicchi_{n}r")).unwrap();
     assert_eq!(arm.dof(), n);
     for joint in &mut arm.joints {
         let beam = joint.beam.as_mut().unwrap();

@@ -2,12 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
+use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig};
 use stiffarm_papers::dumas::{
     IdentifyError, System, Test, Weighting, identify, normal_equations, validate,
 };
 
-use crate::robot::{near, with_tool};
+use crate::robot::{carried_out, near, with_tool};
 
 /// Tests whose displacements are eq. 17 exactly.
 fn linear(arm: &Arm, count: usize) -> Vec<Test> {
@@ -110,9 +110,7 @@ fn the_system_is_the_printed_one() {
 #[test]
 fn the_printed_normal_equations_are_well_enough_conditioned() {
     let arm = with_tool();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 23, 2).unwrap();
-    let tests = carry_out(&arm, &rig, &plan, Errors::quoted(), PoseFit::GramSchmidt, 3).unwrap();
+    let tests = carried_out(&arm, (23, 2), Errors::quoted(), PoseFit::GramSchmidt);
     let found = identify(&arm, &tests, &Weighting::SI).unwrap();
     assert!((8.0..35.0).contains(&found.condition), "{}", found.condition);
     assert!((1.2..3.0).contains(&found.scaled_condition), "{}", found.scaled_condition);
@@ -127,9 +125,7 @@ fn the_printed_normal_equations_are_well_enough_conditioned() {
 #[test]
 fn leaving_k_c_out_is_negligible() {
     let arm = with_tool();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 23, 2).unwrap();
-    let tests = carry_out(&arm, &rig, &plan, Errors::NONE, PoseFit::GramSchmidt, 0).unwrap();
+    let tests = carried_out(&arm, (23, 2), Errors::NONE, PoseFit::GramSchmidt);
     let found = identify(&arm, &tests, &Weighting::triangle(3e-5, 0.25)).unwrap();
     let each = found.compliances.iter().zip(&arm.joints);
     let biases: Vec<f64> = each.map(|(c, joint)| joint.compliance / c - 1.0).collect();
@@ -142,11 +138,9 @@ fn leaving_k_c_out_is_negligible() {
 #[test]
 fn tests_that_were_not_used_are_predicted() {
     let arm = with_tool();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 23, 8).unwrap();
     let weighting = Weighting::triangle(3e-5, 0.25);
     let [exact, noisy] = [Errors::NONE, Errors::quoted()].map(|errors| {
-        let tests = carry_out(&arm, &rig, &plan, errors, PoseFit::Kabsch, 1).unwrap();
+        let tests = carried_out(&arm, (23, 8), errors, PoseFit::Kabsch);
         let found = identify(&arm, &tests[..10], &weighting).unwrap();
         validate(&found.applied_to(&arm), &tests[10..]).unwrap()
     });
@@ -164,10 +158,8 @@ fn tests_that_were_not_used_are_predicted() {
 #[test]
 fn weights_by_points_are_the_points_themselves() {
     let arm = with_tool();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 5, 4).unwrap();
-    let tests = carry_out(&arm, &rig, &plan, Errors::quoted(), PoseFit::Kabsch, 1).unwrap();
-    let points = rig.reflectors();
+    let tests = carried_out(&arm, (5, 4), Errors::quoted(), PoseFit::Kabsch);
+    let points = Rig::dumas().reflectors();
     let mut b = DMatrix::zeros(9 * tests.len(), 6);
     let mut c = DVector::zeros(9 * tests.len());
     for (k, test) in tests.iter().enumerate() {

@@ -3,10 +3,10 @@
 use nalgebra::{Matrix2, Vector6};
 use stiffarm_kernels::generic::{Arm, Beam};
 use stiffarm_papers::dumas::links::shares;
-use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
+use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig};
 use stiffarm_papers::dumas::{Weighting, identify, validate};
 
-use crate::robot::{near, with_tool};
+use crate::robot::{carried_out, near, with_tool};
 
 /// EI of links 2 and 3, N·m², with which 300 tests have largest shares of 21 % and 4.8 %.
 const EI: [f64; 2] = [3.317e7, 4.428e7];
@@ -89,11 +89,9 @@ fn the_shares_of_links_2_and_3() {
 #[test]
 fn joints_alone_come_out_too_soft() {
     let arm = bending();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 83, 12).unwrap();
-    let tests = carry_out(&arm, &rig, &plan, Errors::NONE, PoseFit::Kabsch, 0).unwrap();
+    let tests = carried_out(&arm, (83, 12), Errors::NONE, PoseFit::Kabsch);
     let (used, held_out) = tests.split_at(23);
-    let weighting = Weighting::triangle(1e-5, rig.side);
+    let weighting = Weighting::triangle(1e-5, Rig::dumas().side);
     let joints_only = without_beams(&arm);
     let found = identify(&joints_only, used, &weighting).unwrap();
     let each = found.compliances.iter().zip(&arm.joints);

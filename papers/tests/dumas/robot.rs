@@ -1,17 +1,16 @@
 //! The papers' arms from their robot files.
 
 use nalgebra::Vector6;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_papers::dumas::Test;
+use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
 
 /// L of the paper, m.
 pub const LENGTH: f64 = 0.682;
 
 /// The KR 240-2 with the stiffnesses of Table 2.
 pub fn kr240() -> Arm {
-    let text = include_str!("../../../robots/arms/kuka_kr240.toml");
-    let robot = Robot::from_toml(text, "kuka_kr240.toml").unwrap().0;
-    stiffarm_gap::robot::arm(&robot).unwrap()
+    stiffarm_papers::arm("kuka_kr240").unwrap()
 }
 
 /// θ1 = 0 and a wrist of 45° (section 3.1); θ2 and θ3 are the map's.
@@ -33,4 +32,15 @@ pub fn with_tool() -> Arm {
     let mut arm = kr240();
     arm.tool = nalgebra::Isometry3::translation(0.0, 0.0, 0.15);
     arm
+}
+
+/// Tests of the paper's rig, carried out: how many of which plan, with which errors.
+pub fn carried_out(
+    arm: &Arm,
+    (count, plan): (usize, u64),
+    errors: Errors,
+    fit: PoseFit,
+) -> Vec<Test> {
+    let rig = Rig::dumas();
+    carry_out(arm, &rig, &rig.plan(arm, count, plan).unwrap(), errors, fit, 1).unwrap()
 }

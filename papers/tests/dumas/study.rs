@@ -1,10 +1,10 @@
 //! Fig. 7 and Table 2 on an assumed set-up: orders of magnitude, not digits.
 
-use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
+use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig};
 use stiffarm_papers::dumas::study::{Repeat, StiffnessError, measurement_errors, number_of_tests};
 use stiffarm_papers::dumas::{IdentifyError, Weighting};
 
-use crate::robot::with_tool;
+use crate::robot::{carried_out, with_tool};
 
 const DRAWS: usize = 30;
 
@@ -72,9 +72,7 @@ fn the_tracker_makes_the_errors() {
 #[test]
 fn more_tests_give_closer_stiffnesses() {
     let arm = with_tool();
-    let rig = Rig::dumas();
-    let plan = rig.plan(&arm, 23, 11).unwrap();
-    let tests = carry_out(&arm, &rig, &plan, Errors::quoted(), PoseFit::GramSchmidt, 2).unwrap();
+    let tests = carried_out(&arm, (23, 11), Errors::quoted(), PoseFit::GramSchmidt);
     let counts = [1, 3, 6, 10, 20, 23, 99];
     let all = number_of_tests(&arm, &tests, &Weighting::SI, &counts, 60, 9).unwrap();
     assert_eq!(all.iter().map(|s| s.tests).collect::<Vec<_>>(), [1, 3, 6, 10, 20, 23, 23]);

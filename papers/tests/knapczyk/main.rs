@@ -6,7 +6,6 @@ mod example;
 #[path = "../support/printed.rs"]
 mod printed;
 
-use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 /// PUMA 560 as quoted from Kim & Streit (1995), N·m/rad.
@@ -17,9 +16,7 @@ const PRINTED: [f64; 6] = [-84.91, 65.0, -12.31, 0.0, 9.64, 0.0];
 
 /// Tab. 1 with springs on the first joints.
 fn fanuc(stiffness: &[f64]) -> Arm {
-    let text = include_str!("../../../robots/arms/fanuc_s420f.toml");
-    let robot = Robot::from_toml(text, "fanuc_s420f.toml").unwrap().0;
-    let mut arm = stiffarm_gap::robot::arm(&robot).unwrap();
+    let mut arm = stiffarm_papers::arm("fanuc_s420f").unwrap();
     for (joint, k) in arm.joints.iter_mut().zip(stiffness) {
         joint.compliance = 1.0 / k;
     }

@@ -131,6 +131,11 @@ fn every_format_has_every_entry() {
     let entries = ledger.entries.len();
     assert_eq!(ledger.to_json().matches("\"verdict\":").count(), entries);
     assert_eq!(ledger.to_html().matches("<tr class=\"entry\">").count(), entries);
+    // Every correction of a formula is set.
+    for correction in WHOLE.to_html().split("<div>correct: ").skip(1) {
+        let shown = correction.split('<').nth(1).unwrap_or_default();
+        assert!(shown.starts_with("math "), "{shown}");
+    }
     let rows = ledger.to_markdown().lines().filter(|line| line.starts_with("| ")).count();
     let tables: usize = ledger.titles.len() * 2;
     assert!(rows >= entries && rows <= entries + tables);

@@ -7,14 +7,14 @@ const ARM: &str = "name = \"x\"\nconvention = \"standard\"\n\
     [[joint]]\ntype = \"revolute\"\na = \"L1\"\nstiffness = \"k1\"\n\
     [[joint]]\ntype = \"revolute\"\na = \"L2\"\nstiffness = \"k2\"\n";
 
-fn setting() -> Setting {
-    let robot = Robot::from_toml(ARM, "x").unwrap().0;
-    Setting {
-        robots: BTreeMap::from([("arm".to_owned(), robot)]),
+fn of(path: &str) -> Result<Matrix, String> {
+    let robots = BTreeMap::from([("arm".to_owned(), Robot::from_toml(ARM, "x").unwrap().0)]);
+    let setting = Setting {
         robot: Some("arm".into()),
         product: vec!["Rz(\\theta_1)".into(), "Tx(L_1)".into()],
         ..Setting::default()
-    }
+    };
+    derived(path, &setting, Shared { robots: &robots, notation: &Notation::default() })
 }
 
 fn exact(text: &str) -> Rational {
@@ -24,19 +24,19 @@ fn exact(text: &str) -> Rational {
 
 #[test]
 fn paths_name_entries() {
-    let of = |path: &str| derived(path, &setting()).unwrap().entries.remove(0);
-    assert_eq!(of("jacobian[1][2]"), exact("-L_2\\sin(\\theta_1+\\theta_2)"));
+    let entry = |path: &str| of(path).unwrap().entries.remove(0);
+    assert_eq!(entry("jacobian[1][2]"), exact("-L_2\\sin(\\theta_1+\\theta_2)"));
     assert_eq!(
-        of("arm: compliance[1][1] of joint 2"),
+        entry("arm: compliance[1][1] of joint 2"),
         exact("\\frac{L_2^2\\sin(\\theta_1+\\theta_2)^2}{k_2}")
     );
-    assert_eq!(of("product[2][4]"), exact("L_1\\sin\\theta_1"));
-    assert_eq!(derived("pose", &setting()).unwrap().rows(), 3);
+    assert_eq!(entry("product[2][4]"), exact("L_1\\sin\\theta_1"));
+    assert_eq!(of("pose").unwrap().rows(), 3);
 }
 
 #[test]
 fn what_cannot_be_derived_says_why() {
-    let why = |path: &str| derived(path, &setting()).unwrap_err();
+    let why = |path: &str| of(path).unwrap_err();
     assert!(why("jacobain[1][1]").contains("is none of"));
     assert!(why("jacobian[7][1]").contains("outside of 6×2"));
     assert!(why("jacobian[0][1]").contains("counted from 1"));

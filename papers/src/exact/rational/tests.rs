@@ -31,16 +31,3 @@ fn what_has_no_exact_form_says_why() {
     assert_eq!(inexact("\\frac{1}{a-a}"), Inexact::Zero);
     assert_eq!(inexact("\\int_{0}^{1}(\\frac{1}{x+1})dx"), Inexact::Integral);
 }
-
-#[test]
-fn the_graph_and_the_formula_meet() {
-    let mut g = Graph::new();
-    let (x, y) = (g.symbol(Symbol::Joint(0)), g.symbol(Symbol::Joint(1)));
-    let d = g.symbol(Symbol::Parameter("d2".into()));
-    let sum = g.add(x, y);
-    let s = g.sin(sum);
-    let e = g.mul(d, s);
-    let joints = vec![Angle::single("theta1"), Angle::single("theta2")];
-    let reading = Reading { joints, ..Reading::default() };
-    assert_eq!(reading.of(&g, -e).unwrap(), read("-d_2\\sin(\\theta_1+\\theta_2)"));
-}

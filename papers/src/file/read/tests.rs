@@ -8,7 +8,7 @@ const GOOD: &str = "paper = \"x\"\n[notation]\nsine = { s = '\\theta' }\nslash =
 fn definitions_may_use_each_other() {
     let paper = read(GOOD, "x.toml").unwrap();
     let equation = &paper.equations[0];
-    assert_eq!(equation.defined["b1"].above.terms().len(), 1);
+    assert_eq!(equation.setting.defined["b1"].above.terms().len(), 1);
     assert_eq!(&GOOD[equation.latex.at..][..1], "y");
     assert_eq!(paper.notation.slash, Slash::Product);
 }

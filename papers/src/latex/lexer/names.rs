@@ -75,8 +75,12 @@ impl Lexer<'_> {
     /// What stands in braces, or a single letter, without spaces and typefaces; `mark` is the place
     /// of what it belongs to.
     fn group(&mut self, mark: usize) -> Result<String, Mistake> {
-        let start = self.skip(self.at);
-        let rest = &self.text[start..];
+        self.at = self.skip(self.at);
+        if FACES.iter().any(|face| self.eat(face)) {
+            return self.group(mark);
+        }
+        let start = self.at;
+        let rest = self.rest();
         if let Some(inner) = rest.strip_prefix('{') {
             let Some(end) = inner.find('}') else {
                 return Err(Mistake::new(start..start + 1, "this subscript is never closed"));

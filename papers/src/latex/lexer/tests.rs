@@ -43,6 +43,7 @@ fn matrices_may_have_a_typeface_an_accent_and_an_index_before_them() {
     };
     assert_eq!(key("\\mathbf{K}_\\theta"), "K_theta");
     assert_eq!(key("{}^B\\dot w_d"), "^Bdotw_d");
+    assert_eq!(key("K_\\mathbf{J}"), "K_J");
     assert_eq!(key("\\mathbf{I}_{3 \\times 3}"), "I_3times3");
     assert_eq!(key("\\overline{\\boldsymbol{\\Gamma}}"), "overlineGamma");
     let text = "\\text{tr}(A_\\otimes^{-T} \\ldots)\\prod_{j = 1}^n \\begin{bmatrix} a & b \\\\ c";
