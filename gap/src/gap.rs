@@ -22,18 +22,10 @@ pub fn predicted(data: &Measurements, row: &Row, simulated: &Reading) -> Reading
 /// The rotation is the rotation vector of `R_measured R_predictedᵀ` in base axes. Where only some
 /// components of a rotation are measured, it is the difference of those.
 pub fn row_gap(data: &Measurements, row: &Row, predicted: &Reading) -> Vector6<f64> {
-    difference(&row.measured, predicted, data.kind.components())
-}
-
-/// The same of what was measured in some components.
-pub fn difference(
-    measured: &Vector6<f64>,
-    predicted: &Reading,
-    components: [bool; 6],
-) -> Vector6<f64> {
-    let mut gap = measured - predicted.vector();
+    let components = data.kind.components();
+    let mut gap = row.measured - predicted.vector();
     if components[3..] == [true; 3] {
-        let measured = Reading::from_vector(measured);
+        let measured = Reading::from_vector(&row.measured);
         let turn = (measured.rotation * predicted.rotation.inverse()).scaled_axis();
         gap.fixed_rows_mut::<3>(3).copy_from(&turn);
     }
