@@ -6,34 +6,15 @@ use serde::Serialize;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::Reading;
 
-/// The simulated reading of a row, with the user's own simulator in place of the arm's where the
-/// file has its columns.
-pub fn predicted(data: &Measurements, row: &Row, simulated: &Reading) -> Reading {
-    let Some(own) = row.sim else { return *simulated };
-    let mut vector = simulated.vector();
-    for k in (0..6).filter(|&k| data.sim_given[k]) {
-        vector[k] = own[k];
-    }
-    Reading::from_vector(&vector)
-}
-
 /// Measured minus predicted, m and rad; 0 where nothing is measured.
 ///
 /// The rotation is the rotation vector of `R_measured R_predictedᵀ` in base axes. Where only some
 /// components of a rotation are measured, it is the difference of those.
 pub fn row_gap(data: &Measurements, row: &Row, predicted: &Reading) -> Vector6<f64> {
-    difference(&row.measured, predicted, data.kind.components())
-}
-
-/// The same of what was measured in some components.
-pub fn difference(
-    measured: &Vector6<f64>,
-    predicted: &Reading,
-    components: [bool; 6],
-) -> Vector6<f64> {
-    let mut gap = measured - predicted.vector();
+    let components = data.kind.components();
+    let mut gap = row.measured - predicted.vector();
     if components[3..] == [true; 3] {
-        let measured = Reading::from_vector(measured);
+        let measured = Reading::from_vector(&row.measured);
         let turn = (measured.rotation * predicted.rotation.inverse()).scaled_axis();
         gap.fixed_rows_mut::<3>(3).copy_from(&turn);
     }
@@ -134,16 +115,5 @@ mod tests {
         let predicted = Reading::from_vector(&Vector6::new(9.0, -1.0, 9.0, 0.1, 0.2, 0.1));
         let gap = row_gap(&data, &data.rows[0], &predicted);
         assert!((gap - Vector6::new(0.0, -2.0, 0.0, 0.0, 0.05, 0.0)).norm() < 1e-12, "{gap}");
-    }
-
-    #[test]
-    fn the_users_own_simulator_comes_first_where_it_is_given() {
-        let mut r = row(&[0.0], Vector6::zeros());
-        r.sim = Some(Vector6::new(0.0, 7.0, 0.0, 0.0, 0.0, 0.0));
-        let mut data = table(vec![r], Kind::Pose { orientation: false });
-        data.sim_given[1] = true;
-        let arm = Reading::from_vector(&Vector6::new(1.0, 2.0, 3.0, 0.0, 0.0, 0.0));
-        let reading = predicted(&data, &data.rows[0], &arm);
-        assert_eq!(reading.position, nalgebra::Vector3::new(1.0, 7.0, 3.0));
     }
 }

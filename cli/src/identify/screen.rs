@@ -3,7 +3,6 @@
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{Answer, Unknown};
-use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 
 use super::words;
 use crate::input::quantity::counted;
@@ -39,12 +38,7 @@ pub fn text(
 }
 
 fn head(source: &Source, data: &Measurements, answer: &Answer) -> String {
-    let names = match data.kind {
-        Kind::Pose { .. } => POSE_NAMES,
-        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-    };
-    let measured = names.iter().zip(data.kind.components()).filter(|(_, is)| *is);
-    let measured: Vec<&str> = measured.map(|(name, _)| *name).collect();
+    let measured = data.kind.measured();
     let facts = format!(
         "{}: {} of {} at {}, held out in {}",
         data.file,

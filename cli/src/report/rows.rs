@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use serde::Serialize;
 use serde_json::Value;
-use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES, Row};
+use stiffarm_gap::measurement::Row;
 use stiffarm_kernels::Motion;
 
 use super::experiment::Experiment;
@@ -140,18 +140,10 @@ fn circumstances(rows: &[Row], columns: &mut Columns) -> Vec<Against> {
     against
 }
 
-/// The names of the six components.
-fn names(experiment: &Experiment<'_>) -> [&'static str; 6] {
-    match experiment.data.kind {
-        Kind::Pose { .. } => POSE_NAMES,
-        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-    }
-}
-
 /// Where the translation stands, or the rotation without one.
 fn vectors(experiment: &Experiment<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
     let first = if experiment.has_positions() { 0 } else { 3 };
-    let names = &names(experiment)[first..first + 3];
+    let names = &experiment.data.kind.names()[first..first + 3];
     let find = |k: usize| components.iter().find(|c| c.name == names[k]);
     [
         std::array::from_fn(|k| find(k).map(|c| c.before)),
@@ -161,7 +153,7 @@ fn vectors(experiment: &Experiment<'_>, components: &[Component]) -> [[Option<us
 
 /// The measured components of the gap and their norms, the one that is judged first.
 fn gaps(experiment: &Experiment<'_>, columns: &mut Columns) -> Vec<Component> {
-    let names = names(experiment);
+    let names = experiment.data.kind.names();
     let measured = experiment.data.kind.components();
     let mut components = Vec::new();
     let mut add = |name: String, head: &str, is_turn: bool, of: &dyn Fn(&Vector6<f64>) -> f64| {

@@ -14,7 +14,6 @@ pub use size::Size;
 use stiffarm_gap::diagnose::Rival;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
-use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Kind, POSE_NAMES};
 use stiffarm_gap::{Diagnosis, Measurements};
 use stiffarm_kernels::generic::Arm;
 
@@ -77,12 +76,7 @@ impl Screen<'_> {
 
     fn head(&self) -> String {
         let (found, data) = (self.found, self.data);
-        let names = match data.kind {
-            Kind::Pose { .. } => POSE_NAMES,
-            Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-        };
-        let measured = names.iter().zip(data.kind.components()).filter(|(_, is)| *is);
-        let measured: Vec<&str> = measured.map(|(name, _)| *name).collect();
+        let measured = data.kind.measured();
         let held_out = if found.held_out.folds == data.poses {
             "each pose held out in turn".to_owned()
         } else {

@@ -94,6 +94,10 @@ pub trait Effect: Sync {
 
     /// Why data that excites it may still not show it beside all of the arm's geometry.
     fn hidden(&self) -> &'static str {
+        if self.depends() == Depends::Direction {
+            return "always approached from one side, or so unevenly that the zero of the joint does \
+                    the same";
+        }
         "lengths, twists, zeros and frames of the arm do the same on this data"
     }
 

@@ -72,6 +72,20 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The names of the six components.
+    pub fn names(self) -> [&'static str; 6] {
+        match self {
+            Kind::Pose { .. } => POSE_NAMES,
+            Kind::Displacement { .. } => DISPLACEMENT_NAMES,
+        }
+    }
+
+    /// The names of those that are measured.
+    pub fn measured(self) -> Vec<&'static str> {
+        let named = self.names().into_iter().zip(self.components());
+        named.filter_map(|(name, is)| is.then_some(name)).collect()
+    }
+
     /// Which of the six components are measured, translations first.
     pub fn components(self) -> [bool; 6] {
         match self {

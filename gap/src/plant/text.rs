@@ -5,9 +5,7 @@ use core::fmt::Write as _;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::measurement::{
-    DISPLACEMENT_NAMES, Kind, Measurements, POSE_NAMES, Row, SIM_PREFIX, WRENCH_NAMES,
-};
+use crate::measurement::{Measurements, Row, SIM_PREFIX, WRENCH_NAMES};
 
 /// One column: its header, and its cell of a row.
 struct Column {
@@ -69,10 +67,7 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
             add(format!("{name}[{unit}]"), Box::new(move |r| number(r.wrench[k])));
         }
     }
-    let names = match data.kind {
-        Kind::Pose { .. } => POSE_NAMES,
-        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-    };
+    let names = data.kind.names();
     let measured = data.kind.components();
     for k in (0..6).filter(|k| measured[*k]) {
         let unit = if k < 3 { "m" } else { "rad" };

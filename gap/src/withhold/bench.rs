@@ -1,6 +1,6 @@
 //! The plant on its design: how large an effect's gap is, in multiples of the noise.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
 
 use super::draw::resized;
 use super::exact;
@@ -9,10 +9,8 @@ use crate::diagnose::Nuisance;
 use crate::diagnose::fit::Basis;
 use crate::dice::Dice;
 use crate::effects::{Draw, Effect, Place};
-use crate::gap::difference;
 use crate::measurement::Measurements;
 use crate::plant::{PlantError, Truth};
-use crate::simulate::Reading;
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -120,7 +118,7 @@ impl<'a> Bench<'a> {
         let mut gap = Vec::new();
         for (row, nominal) in exact.rows.iter().zip(&self.nominal.rows) {
             let predicted = row.sim.as_ref().unwrap_or(&nominal.measured);
-            let off = difference(&row.measured, &Reading::from_vector(predicted), components);
+            let off = difference(&row.measured, predicted, components);
             for k in (0..6).filter(|k| components[*k]) {
                 gap.push(off[k] / if k < 3 { noise.position } else { noise.rotation });
             }
@@ -143,4 +141,19 @@ impl<'a> Bench<'a> {
         let basis = Basis::new(&columns.tr_mul(&columns));
         Ok((columns, basis))
     }
+}
+
+/// Measured less predicted; of whole rotations the rotation vector between them.
+pub(super) fn difference(
+    measured: &Vector6<f64>,
+    predicted: &Vector6<f64>,
+    components: [bool; 6],
+) -> Vector6<f64> {
+    let mut off = measured - predicted;
+    if components[3..] == [true; 3] {
+        let turn = |v: &Vector6<f64>| Rotation3::from_scaled_axis(Vector3::new(v[3], v[4], v[5]));
+        let between = (turn(measured) * turn(predicted).inverse()).scaled_axis();
+        off.fixed_rows_mut::<3>(3).copy_from(&between);
+    }
+    off
 }

@@ -3,13 +3,12 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
+use super::bench::difference;
 use super::exact;
 use crate::diagnose::Diagnosis;
 use crate::effects::Catalogue;
-use crate::gap::difference;
 use crate::measurement::Measurements;
 use crate::plant::Truth;
-use crate::simulate::Reading;
 
 /// What the arm with a diagnosis' findings is predicted to read in each row of a design; `None`
 /// where the findings do not say. Only position and orientation as a file has them.
@@ -48,8 +47,8 @@ pub(super) fn squares(
     let components = measured.kind.components();
     let range = if components[..3].contains(&true) { 0..3 } else { 3..6 };
     let square = |row: &Vector6<f64>, expected: &Vector6<f64>| -> f64 {
-        let off = difference(row, &Reading::from_vector(expected), components);
-        range.clone().map(|k| off[k] * off[k]).sum()
+        let off = difference(row, expected, components);
+        range.clone().filter(|k| components[*k]).map(|k| off[k] * off[k]).sum()
     };
     let rows = || measured.rows.iter().map(|row| &row.measured);
     let before = rows().zip(&nominal.rows).map(|(row, n)| square(row, &n.measured)).sum();

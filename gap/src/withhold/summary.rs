@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use statrs::statistics::{Data, Median, Statistics};
+use statrs::statistics::{Data, Median};
 use stiffarm_kernels::generic::{Arm, Convention};
 
 use super::report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
@@ -21,7 +21,6 @@ pub(super) fn report(
     let of = |kind: Kind| cases.iter().filter(move |case| case.kind == kind);
     let known = || of(Kind::Single).chain(of(Kind::Pair));
     let open = |case: &&Case| is_unexplained(case) || !case.after.is_some_and(|x| x <= CLOSED);
-    let sizes = of(Kind::Single).filter_map(|c| sets(c).first()).map(|set| set.len() as f64);
     Report {
         stiffarm: plan.options.version.clone(),
         robot: plan.arm.name.clone(),
@@ -37,7 +36,7 @@ pub(super) fn report(
         single: Single {
             first_named: Rate::of(of(Kind::Single).map(|case| first(case) == case.labels.first())),
             in_set: Rate::of(of(Kind::Single).map(in_first_set)),
-            mean_set_size: Some(sizes.mean()).filter(|mean| !mean.is_nan()),
+            mean_set_size: mean(of(Kind::Single).filter_map(|c| sets(c).first()).map(Vec::len)),
             more_than_one: Rate::of(of(Kind::Single).map(|case| sets(case).len() > 1)),
         },
         pairs: Pairs { both_in_sets: Rate::of(of(Kind::Pair).map(both_in_sets)) },
@@ -148,6 +147,11 @@ fn confusion<'a>(plan: &Plan<'_>, cases: impl Iterator<Item = &'a Case>) -> Vec<
         .collect();
     rows.sort_by_key(|row| core::cmp::Reverse(row.cases));
     rows
+}
+
+fn mean(sizes: impl Iterator<Item = usize>) -> Option<f64> {
+    let (sum, count) = sizes.fold((0, 0), |(sum, count), size| (sum + size, count + 1));
+    (count > 0).then(|| sum as f64 / f64::from(count))
 }
 
 fn median(values: Vec<f64>) -> Option<f64> {

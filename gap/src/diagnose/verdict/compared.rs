@@ -6,9 +6,7 @@ use super::bootstrap::{excludes_zero, mean_interval};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report;
 use crate::gap::{rms, row_gap};
-use crate::measurement::{
-    DISPLACEMENT_NAMES, Dimension, ExtraColumn, Kind, Measurements, POSE_NAMES, Unit,
-};
+use crate::measurement::{Dimension, ExtraColumn, Measurements, Unit};
 use crate::simulate::Reading;
 
 /// A rival's gap.
@@ -25,7 +23,7 @@ pub(crate) struct Rival {
 impl Rival {
     /// Finds the columns `name_…` that predict what is measured.
     pub(crate) fn read(data: &Measurements, name: &str) -> Result<Rival, DiagnoseError> {
-        let names = component_names(data);
+        let names = data.kind.names();
         let measured = data.kind.components();
         let mut predictions = vec![Vector6::zeros(); data.rows.len()];
         let mut given = [false; 6];
@@ -81,13 +79,6 @@ impl Rival {
     }
 }
 
-fn component_names(data: &Measurements) -> [&'static str; 6] {
-    match data.kind {
-        Kind::Pose { .. } => POSE_NAMES,
-        Kind::Displacement { .. } => DISPLACEMENT_NAMES,
-    }
-}
-
 fn column_si(
     data: &Measurements,
     column: &ExtraColumn,
@@ -126,7 +117,7 @@ fn column_si(
 }
 
 fn missing(data: &Measurements, rival: &str) -> DiagnoseError {
-    let names = component_names(data);
+    let names = data.kind.names();
     let measured = data.kind.components();
     let expected = (0..6).filter(|&k| measured[k]).map(|k| format!("`{rival}_{}`", names[k]));
     let mut known: Vec<String> = Vec::new();

@@ -49,10 +49,6 @@ impl Effect for Backlash {
         "no direction of approach is given for the joint"
     }
 
-    fn hidden(&self) -> &'static str {
-        "always approached from one side, or so unevenly that the zero of the joint does the same"
-    }
-
     fn group(&self) -> Option<Group> {
         Some(Group::Direction)
     }

@@ -55,10 +55,6 @@ impl Effect for FrictionHysteresis {
         "no direction of approach is given for the joint, or no load reaches it"
     }
 
-    fn hidden(&self) -> &'static str {
-        "always approached from one side, or so unevenly that the zero of the joint does the same"
-    }
-
     fn group(&self) -> Option<Group> {
         Some(Group::Direction)
     }

@@ -22,7 +22,6 @@ pub use fit::identify_measured;
 pub use springs::Unknown;
 
 use nalgebra::Vector6;
-use stiffarm_kernels::generic::Arm;
 
 use super::pull::Pull;
 use crate::diagnose::{DiagnoseError, Options};
@@ -165,25 +164,6 @@ impl Answer {
     /// One parameter's value.
     pub fn value(&self, unknown: Unknown) -> Option<f64> {
         self.parameters.iter().find(|p| p.unknown == unknown).map(|p| p.value)
-    }
-
-    /// The arm with what was found; a compliance or flexibility that is not positive stays the
-    /// arm's own. The base is no part of an arm.
-    pub fn applied_to(&self, arm: &Arm) -> Arm {
-        let mut found = arm.clone();
-        for parameter in self.parameters.iter().filter(|p| p.usable()) {
-            match parameter.unknown {
-                Unknown::Joint(j) => found.joints[j - 1].compliance = parameter.value,
-                Unknown::Link(row) => {
-                    if let Some(beam) = &mut found.joints[row - 1].beam {
-                        beam.youngs_modulus /= parameter.value;
-                        beam.shear_modulus /= parameter.value;
-                    }
-                }
-                Unknown::Base(_) => {}
-            }
-        }
-        found
     }
 }
 
