@@ -22,7 +22,8 @@ Examples:
   stiffarm generate ur5 --emit rust --fused --out src/ur5_fused.rs
   stiffarm generate ur5 --emit c --precision f32 --out firmware/
   stiffarm generate ur5 --emit c --precision f32 --check firmware/
-  stiffarm generate arm.toml --emit latex --output jacobian --output deflection > arm.tex
+  stiffarm generate arm.toml --emit latex --outputs jacobian,deflection > arm.tex
+  stiffarm generate ur5 --emit rust --outputs pose,jacobian --out src/ur5.rs
   stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
   stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
@@ -39,8 +40,10 @@ pub struct Args {
     /// What to write
     #[arg(long, value_enum)]
     emit: Emit,
-    /// An output to write, may be repeated [default: all of them as LaTeX, the Jacobian as dot]
-    #[arg(long = "output", value_name = "NAME", value_parser = outputs())]
+    /// What to write: outputs, separated by commas [default: what the robot file says, else all of them; of
+    /// dot the Jacobian]
+    #[arg(long, alias = "output", value_name = "LIST", value_delimiter = ',')]
+    #[arg(value_parser = outputs())]
     outputs: Vec<String>,
     /// The pose with displacements in the chain instead, exact and in both approximations: a list
     /// of dx, dy, dz (m), dpsi, dbeta, dphi (rad, about x, y, z), of every link, or of one place
@@ -114,7 +117,11 @@ fn outputs() -> Vec<&'static str> {
 /// [`Failure`]: the robot, options that do not go together, a file that cannot be read or written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
-    let source = source::open(&args.robot, quiet)?;
+    let mut source = source::open(&args.robot, quiet)?;
+    if !args.outputs.is_empty() {
+        let asked = |output: &Output| args.outputs.iter().any(|name| name == output.name());
+        source.robot.outputs = Output::EACH.into_iter().filter(asked).collect();
+    }
     let mut verdict = Verdict::Good;
     for (name, text) in args.files(&source)? {
         // One text is the file that was named, several are in the folder that was named.
@@ -145,9 +152,6 @@ impl Args {
             other if other != Emit::C && of_c => {
                 Err(Failure::new("--precision, --sines and --name are for c"))
             }
-            Emit::Rust | Emit::C if !self.outputs.is_empty() => Err(Failure::new(
-                "--output is for latex and dot: the Rust module and the C files have every output",
-            )),
             other if !matches!(other, Emit::Rust | Emit::Latex) && self.flexible.is_some() => {
                 Err(Failure::new("--flexible is for rust and latex"))
             }
@@ -170,16 +174,14 @@ impl Args {
     /// What is to be written; C has two files, with names of their own.
     fn files(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
         let robot = &source.robot;
-        let asked = Output::EACH.into_iter();
-        let asked = asked.filter(|o| self.outputs.iter().any(|name| name == o.name()));
-        let asked: Vec<Output> = asked.collect();
-        let or =
-            |default: &[Output]| if asked.is_empty() { default.to_vec() } else { asked.clone() };
         let text = match (self.emit, &self.flexible) {
             (Emit::C, _) => return self.c(source),
             (_, Some(list)) => self.flexible(list, source)?,
-            (Emit::Latex, None) => latex(robot, &or(&Output::EACH)),
-            (Emit::Dot, None) => dot(robot, &or(&[Output::Jacobian])),
+            (Emit::Latex, None) => latex(robot, &robot.generated()),
+            (Emit::Dot, None) => match robot.outputs.as_slice() {
+                [] => dot(robot, &[Output::Jacobian]),
+                outputs => dot(robot, outputs),
+            },
             (Emit::Rust, None) => rust(robot, &self.options()),
         };
         let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };

@@ -28,13 +28,16 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
         Source::Table(robot) => Ok((*robot, None)),
         Source::File(name) => read(&name, root).map(|(robot, watched)| (robot, Some(watched))),
     };
-    let (robot, watched) = match robot {
+    let (mut robot, watched) = match robot {
         Ok(read) => read,
         Err(Unread { errors, watched, outline }) => {
             let stub = stub((attrs, vis, module), &kernels, &outline);
             return quote! { #errors #watched #stub };
         }
     };
+    if !invocation.outputs.is_empty() {
+        robot.outputs = invocation.outputs;
+    }
     let options = RustOptions { kernels: path_text(&kernels), fused: invocation.fused };
     let text = rust(&robot, &options);
     match text.parse::<TokenStream>() {

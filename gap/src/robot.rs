@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Angle, Robot, Value};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
+use stiffarm_kernels::generic::{Arm, Beam, Joint};
 
 use crate::measurement::{Layout, Marker};
 
@@ -87,10 +87,7 @@ pub fn arm(robot: &Robot) -> Result<Arm, RobotError> {
     refuse_symbols(robot, read)?;
     let arm = Arm {
         name: robot.name.clone(),
-        convention: match robot.convention {
-            robot::Convention::Standard => Convention::Standard,
-            robot::Convention::Modified => Convention::Modified,
-        },
+        convention: robot.convention,
         joints,
         tool: Isometry3::from_parts(
             Translation3::from(translation),
@@ -226,6 +223,7 @@ mod tests {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),
             }],
+            outputs: Vec::new(),
         }
     }
 

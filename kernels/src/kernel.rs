@@ -64,6 +64,15 @@ pub enum Motion {
     Prismatic,
 }
 
+/// How one row of the table becomes a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: Denavit and Hartenberg as in Paul and in Lin et al.
+    Standard,
+    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
+    Modified,
+}
+
 /// One row of the Denavit-Hartenberg table as it was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DhRow {

@@ -9,6 +9,7 @@ extern crate alloc;
 #[cfg_attr(feature = "parity", macro_use)]
 extern crate std;
 
+mod arm;
 #[cfg(feature = "batch")]
 pub mod batch;
 #[cfg(feature = "generic")]
@@ -24,10 +25,11 @@ mod scalar;
 mod sin_cos;
 mod solve;
 
+pub use arm::{Arm, Numeric, Row};
 #[doc(hidden)]
 pub use kernel::fill;
-pub use kernel::{DhRow, Error, Kernels, Motion, Ops, Pose};
-pub use output::{Form, Input, Output, Part, Side};
+pub use kernel::{Convention, DhRow, Error, Kernels, Motion, Ops, Pose};
+pub use output::{Form, Input, Output, Part, Side, has};
 pub use scalar::Scalar;
 pub use solve::Unstable;
 #[doc(hidden)]

@@ -54,7 +54,7 @@ macro_rules! output {
             let (q8, w8) = (by_eight(poses), by_eight(&wrenches));
             let (x4, x8) = ((&q4[..], &w4[..]), (&q8[..], &w8[..]));
             let postures: Vec<_> =
-                poses.iter().map(arms::$arm::plain::$function::Posture::new).collect();
+                poses.iter().map(arms::$arm::plain::Posture::new).collect();
             let given = (&postures[..], &wrenches[..]);
             let robot = &arms::$arm::plain::Robot;
             let (q_flat, w_flat) = (poses.as_flattened(), wrenches.as_flattened());

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Robot, Value};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Convention, Joint};
+use stiffarm_kernels::generic::{Arm, Joint};
 
 macro_rules! arm {
     ($name:ident) => {
@@ -61,10 +61,7 @@ pub fn textbook(id: &str) -> Arm {
     };
     Arm {
         name: robot.name.clone(),
-        convention: match robot.convention {
-            robot::Convention::Standard => Convention::Standard,
-            robot::Convention::Modified => Convention::Modified,
-        },
+        convention: robot.convention,
         joints: robot.joints.iter().map(joint).collect(),
         tool: Isometry3::from_parts(
             Vector3::from(robot.tool.translation.each_ref().map(number)).into(),

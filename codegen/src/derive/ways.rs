@@ -24,8 +24,9 @@ pub fn derive_with(robot: &Robot, outputs: &[Output], passes: Passes) -> Program
 }
 
 /// Derives each of several sets of outputs in the way in which it costs least.
-pub fn derive_each(robot: &Robot, sets: &[&[Output]]) -> Vec<Program> {
-    let ways = best_ways(robot, sets, Passes::ALL);
+pub fn derive_each(robot: &Robot, sets: &[Vec<Output>]) -> Vec<Program> {
+    let slices: Vec<&[Output]> = sets.iter().map(Vec::as_slice).collect();
+    let ways = best_ways(robot, &slices, Passes::ALL);
     sets.iter().zip(ways).map(|(outputs, way)| derive_by(robot, outputs, way)).collect()
 }
 

@@ -10,9 +10,19 @@ mod latex;
 mod lines;
 mod literal;
 mod plan;
+mod posture;
 mod rust;
 
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
+
+use crate::derive::Output;
+
+/// What the functions of a module compute: each of `outputs` by itself, and `all` what can be had together.
+fn sets(outputs: &[Output]) -> Vec<Vec<Output>> {
+    let together: Vec<Output> = outputs.iter().copied().filter(|o| o.is_fused()).collect();
+    let singles = outputs.iter().map(|output| vec![*output]);
+    singles.chain((together.len() > 1).then_some(together)).collect()
+}

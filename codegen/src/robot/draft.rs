@@ -1,7 +1,7 @@
 //! A table as read: every cell with its place, so that the one validator can point at it.
 
 use super::dimension::Dimension;
-use super::model::{Angle, Convention, Motion, Value};
+use super::model::{Angle, Convention, Motion, Output, Value};
 use super::symbols::Symbolic;
 
 /// What a cell holds, and where. A cell that could not be read has no value and has already been
@@ -27,6 +27,7 @@ pub(crate) struct Draft<L> {
     pub translation: Option<Vector<Value, L>>,
     pub rotation: Option<Vector<Angle, L>>,
     pub markers: Vec<DraftMarker<L>>,
+    pub outputs: Vec<Output>,
 }
 
 /// One row.

@@ -31,7 +31,9 @@ mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+pub use model::{
+    Angle, Beam, Convention, Joint, Marker, Motion, Output, Robot, Section, Tool, Value,
+};
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;

@@ -1,7 +1,7 @@
 //! What a robot file or an inline table says: one model for both, in SI units.
 
 use num_rational::Ratio;
-pub use stiffarm_kernels::Motion;
+pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use crate::number::Number;
 
@@ -20,15 +20,8 @@ pub struct Robot {
     pub tool: Tool,
     /// Measured points other than the tool origin.
     pub markers: Vec<Marker>,
-}
-
-/// How one row of the table becomes a transform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convention {
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
-    Standard,
-    /// Khalil and Craig: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
-    Modified,
+    /// The outputs that are generated of it; every one if there are none.
+    pub outputs: Vec<Output>,
 }
 
 /// One row of the table, with what hangs on it.
@@ -179,5 +172,11 @@ impl Robot {
     /// Number of joints.
     pub fn dof(&self) -> usize {
         self.joints.len()
+    }
+
+    /// What is generated: the outputs that are asked for, each once, in the order of [`Output::EACH`].
+    pub fn generated(&self) -> Vec<Output> {
+        let asked = |output: &Output| self.outputs.is_empty() || self.outputs.contains(output);
+        Output::EACH.into_iter().filter(asked).collect()
     }
 }

@@ -43,6 +43,7 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
                 translation: m.translation.as_ref().map(vector),
             })
             .collect(),
+        outputs: draft.outputs.clone(),
     }
 }
 

@@ -31,6 +31,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         joints: joints.collect(),
         tool: Default::default(),
         markers: Vec::new(),
+        outputs: Vec::new(),
     }
 }
 

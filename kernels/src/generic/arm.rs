@@ -5,16 +5,8 @@ use std::vec::Vec;
 
 use nalgebra::{Isometry3, Vector3};
 
+pub use crate::Convention;
 use crate::Motion;
-
-/// How one row of the table becomes a transform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convention {
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: Denavit and Hartenberg as in Paul and in Lin et al.
-    Standard,
-    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
-    Modified,
-}
 
 /// A serial arm: its Denavit-Hartenberg table and what hangs on it.
 #[derive(Clone, Debug, PartialEq)]

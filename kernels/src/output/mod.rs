@@ -3,9 +3,10 @@
 
 mod side;
 mod table;
+mod traits;
 
 pub use side::{Form, Side};
-pub use table::Output;
+pub use table::{Output, has};
 
 /// What a function is given besides the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

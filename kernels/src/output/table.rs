@@ -1,13 +1,14 @@
 //! The table of outputs: one row each. Whatever prints, documents, evaluates or checks an output reads
 //! it here.
 
+use super::traits::{has, value};
 use super::{Input, Part, Side};
 
 /// The enum and its descriptions from the rows of the table.
 macro_rules! outputs {
     ($(
         $output:ident {
-            name: $name:literal,
+            name: $name:ident,
             sentence: $sentence:literal,
             formula: $formula:literal,
             source: $source:literal,
@@ -16,7 +17,7 @@ macro_rules! outputs {
             columns: $columns:ident,
             inputs: [$($input:ident),*],
             parts: [$($part:ident),*],
-            fallible: $fallible:literal,
+            fallible: $fallible:tt,
             fused: $fused:literal,
         }
     )+) => {
@@ -40,7 +41,7 @@ macro_rules! outputs {
 
             /// The function's name in a generated module.
             pub const fn name(self) -> &'static str {
-                match self { $(Output::$output => $name,)+ }
+                match self { $(Output::$output => stringify!($name),)+ }
             }
 
             /// What it is, with the axes and the point that it is given in: one sentence.
@@ -98,12 +99,21 @@ macro_rules! outputs {
                 match self { $(Output::$output => $fused,)+ }
             }
         }
+
+        /// A trait for each output, implemented by the arms whose modules were generated with it: what asks for an
+        /// output that an arm does not have does not compile.
+        pub mod has {
+            use super::{has, value};
+            use crate::{Arm, Scalar, Unstable};
+
+            $(has!($sentence $output $name [$($input)*] [$rows $columns] $fallible);)+
+        }
     };
 }
 
 outputs! {
     Pose {
-        name: "pose",
+        name: pose,
         sentence: "Pose of the tool in base axes.",
         formula: "T = A_1 A_2 … A_n T_tool",
         source: "",
@@ -116,7 +126,7 @@ outputs! {
         fused: true,
     }
     Frames {
-        name: "frames",
+        name: frames,
         sentence: "Poses of frames 1 to n in base axes.",
         formula: "T_i = A_1 A_2 … A_i",
         source: "",
@@ -129,7 +139,7 @@ outputs! {
         fused: false,
     }
     Jacobian {
-        name: "jacobian",
+        name: jacobian,
         sentence: "Geometric Jacobian, base axes, at the tool origin.",
         formula: "J_j = [z_j × (p − p_j); z_j] of a revolute joint, [z_j; 0] of a prismatic one",
         source: "Dumas et al. 2011, eq. 1",
@@ -142,7 +152,7 @@ outputs! {
         fused: true,
     }
     JacobianTool {
-        name: "jacobian_tool",
+        name: jacobian_tool,
         sentence: "Geometric Jacobian, tool axes, at the tool origin: Paul's differential Jacobian.",
         formula: "blockdiag(Rᵀ, Rᵀ) J with R the tool's rotation",
         source: "Lin et al. 1991, eqs. 37 to 41",
@@ -155,7 +165,7 @@ outputs! {
         fused: false,
     }
     ComplementaryStiffness {
-        name: "complementary_stiffness",
+        name: complementary_stiffness,
         sentence: "K_C: how the joint torques of a wrench that is constant in base axes change with the \
                    posture.",
         formula: "(K_C)_ji = ∂(J_j)ᵀ/∂q_i · w; unsymmetric under a moment",
@@ -169,7 +179,7 @@ outputs! {
         fused: true,
     }
     JointTorque {
-        name: "joint_torque",
+        name: joint_torque,
         sentence: "Joint torques of the wrench.",
         formula: "τ = Jᵀ w",
         source: "Dumas et al. 2011, eq. 3",
@@ -182,7 +192,7 @@ outputs! {
         fused: true,
     }
     WeightTorque {
-        name: "weight_torque",
+        name: weight_torque,
         sentence: "Joint torques of the links' weights, positive like Jᵀ w: what the weights do to the \
                    joints, −g(q) of the equations of motion. The motors hold the opposite, g(q).",
         formula: "τ_g,j = Σ_k m_k g · (z_j × (c_k − p_j)) over the masses beyond joint j",
@@ -196,7 +206,7 @@ outputs! {
         fused: false,
     }
     WeightStiffness {
-        name: "weight_stiffness",
+        name: weight_stiffness,
         sentence: "K_G: how the torques of the links' weights change with the posture, the weights' part \
                    of K_C.",
         formula: "(K_G)_ji = ∂τ_g,j/∂q_i",
@@ -210,7 +220,7 @@ outputs! {
         fused: false,
     }
     Compliance {
-        name: "compliance",
+        name: compliance,
         sentence: "Compliance of the tool, base axes, at the tool origin; links as Euler-Bernoulli beams.",
         formula: "C = Σ_j J_j J_jᵀ/k_j + Σ links",
         source: "Knapczyk & Ryska, eq. 4",
@@ -223,7 +233,7 @@ outputs! {
         fused: true,
     }
     DeflectionFirstOrder {
-        name: "deflection_first_order",
+        name: deflection_first_order,
         sentence: "Displacement of the tool under the wrench, base axes, at the tool origin, to first \
                    order in the load.",
         formula: "δd = J K_θ⁻¹ Jᵀ w + the links as beams",
@@ -237,7 +247,7 @@ outputs! {
         fused: false,
     }
     Deflection {
-        name: "deflection",
+        name: deflection,
         sentence: "Displacement of the tool under the wrench, base axes, at the tool origin, with the \
                    stiffness of the loaded geometry.",
         formula: "δd = J (K_θ − K_C)⁻¹ Jᵀ w + the links as beams",
@@ -251,7 +261,7 @@ outputs! {
         fused: true,
     }
     DeflectionWithGravity {
-        name: "deflection_with_gravity",
+        name: deflection_with_gravity,
         sentence: "Displacement of the tool under the wrench and the links' weights, base axes, at the \
                    tool origin.",
         formula: "δd = J (K_θ − K_C − K_G)⁻¹ (Jᵀ w + τ_g) + the links under tip load and own weight",
@@ -265,7 +275,7 @@ outputs! {
         fused: false,
     }
     ParameterJacobian {
-        name: "parameter_jacobian",
+        name: parameter_jacobian,
         sentence: "Twist of the tool per unit of each entry of the table, base axes, at the tool origin.",
         formula: "J_p,k = ∂T/∂(entry k), as a twist",
         source: "",
@@ -278,7 +288,7 @@ outputs! {
         fused: false,
     }
     ComplianceRegressor {
-        name: "compliance_regressor",
+        name: compliance_regressor,
         sentence: "Displacement of the tool per unit of each joint's compliance under the wrench, base \
                    axes, at the tool origin: the regressor of joint springs.",
         formula: "B_j = ∂δd/∂(1/k_j) = J_j J_jᵀ w",

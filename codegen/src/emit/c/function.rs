@@ -4,7 +4,8 @@ use stiffarm_kernels::{Input, Output};
 
 use super::super::expression::{Printer, Style as _};
 use super::super::plan::{Plan, Target, WRENCH};
-use super::posture::Use;
+use super::super::posture::Needs;
+use super::posture::statements;
 use super::solve::solve_name;
 use super::style::C;
 use crate::emit::lines::Lines;
@@ -14,7 +15,7 @@ use crate::expr::Binding;
 pub(super) struct Function<'a> {
     pub plan: &'a Plan<'a>,
     pub outputs: &'a [Output],
-    pub uses: &'a [Use],
+    pub needs: &'a Needs,
     pub language: &'a C,
 }
 
@@ -85,13 +86,13 @@ impl Function<'_> {
         out.code(&self.by_joints(module));
         out.braces(|out| {
             out.code(&format!("{module}_posture_t own = {{0}};"));
-            if self.uses.is_empty() {
+            if self.needs.reads.is_empty() {
                 out.blank();
                 out.code("(void)q;");
             } else {
                 out.code(&format!("{module}_posture_t *const posture = &own;"));
                 out.blank();
-                self.uses.iter().for_each(|u| out.code(&u.made));
+                statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
             let returned = if self.fallible() { "return " } else { "" };
             let wrench = if self.wrench() { ", wrench" } else { "" };
@@ -138,14 +139,14 @@ impl Function<'_> {
     /// Whatever is read of the posture and the wrench, as locals.
     fn inputs(&self, out: &mut Lines) {
         let real = self.language.real();
-        for (name, field) in self.uses.iter().flat_map(|u| &u.reads) {
+        for (name, field) in &self.needs.reads {
             out.code(&format!("const {real} {name} = posture->{field};"));
         }
         let components = self.plan.wrench();
         for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
             out.code(&format!("const {real} {name} = wrench[{k}];"));
         }
-        if self.uses.is_empty() {
+        if self.needs.reads.is_empty() {
             out.code("(void)posture;");
         }
         if self.wrench() && !components.contains(&true) {

@@ -3,6 +3,7 @@
 use super::comment::{harmless, plain};
 use super::function::Function;
 use super::hash::{Table, fnv1a};
+use super::posture::declaration;
 use super::source::posture_head;
 use super::{Module, Precision, Sines};
 use crate::emit::docs::docs;
@@ -130,7 +131,7 @@ fn types(module: &Module, out: &mut Lines) {
     out.code(&format!("    {} = 1", module.constant("UNSTABLE")));
     out.code(&format!("}} {name}_status_t;"));
     out.blank();
-    module.posture.declaration(out, name, real);
+    declaration(&module.posture, out, name, real);
     for function in module.functions.iter().filter(|f| f.outputs.len() > 1) {
         out.blank();
         out.comment(&[format!("Everything that {name}_all computes.")]);

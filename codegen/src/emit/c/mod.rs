@@ -20,10 +20,11 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
-use self::posture::Posture;
 use super::constants::Constants;
 use super::plan::Plan;
-use crate::derive::{Output, derive_each};
+use super::posture::{Needs, Posture};
+use super::sets;
+use crate::derive::derive_each;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -93,20 +94,18 @@ pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
     if !symbols.is_empty() {
         return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
     }
-    let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
-    let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
+    let sets = sets(&robot.generated());
     let programs = derive_each(robot, &sets);
     let plans = programs.iter().map(|program| Plan::new(program, &mut Constants::default()));
     let plans: Vec<Plan> = plans.collect();
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
-    let fields: Vec<Vec<posture::Use>> =
-        plans.iter().map(|plan| posture.admit(plan, &language)).collect();
+    let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
     let functions: Vec<Function> = plans
         .iter()
         .zip(&sets)
-        .zip(&fields)
-        .map(|((plan, outputs), uses)| Function { plan, outputs, uses, language: &language })
+        .zip(&needs)
+        .map(|((plan, outputs), needs)| Function { plan, outputs, needs, language: &language })
         .collect();
     let module = Module { robot, options, language: &language, posture, functions };
     let table = hash::table(robot);

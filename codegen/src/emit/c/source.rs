@@ -1,6 +1,7 @@
 //! The source file.
 
 use super::hash::Table;
+use super::posture::statements;
 use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
@@ -69,7 +70,7 @@ fn functions(module: &Module, out: &mut Lines) {
         out.blank();
         out.code(&posture_head(module));
         out.braces(|out| {
-            module.posture.statements().iter().for_each(|line| out.code(line));
+            statements(&module.posture).for_each(|line| out.code(&line));
         });
     }
 }

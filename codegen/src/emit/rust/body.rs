@@ -4,7 +4,7 @@ use super::super::expression::Printer;
 use super::super::plan::{Plan, Target};
 use super::function::Function;
 use super::inputs::{open_inputs, open_solve_inputs};
-use super::posture::{INLINE, has_posture, uses_wrench};
+use super::posture::INLINE;
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Block, Expr};
 
@@ -16,19 +16,22 @@ const BLOCKS: usize = 7;
 /// The kernel itself, cut into scopes that the compiler can digest.
 pub(super) struct Body<'a> {
     plan: &'a Plan<'a>,
+    function: &'a Function<'a>,
     printer: Printer<'a>,
     /// Sign changes that cost an operation of their own.
     pub negations: u32,
 }
 
 impl<'a> Body<'a> {
-    pub fn new(function: &'a Function, plan: &'a Plan<'a>) -> Self {
-        let printer = Printer { plan, style: function.style() };
-        let negations = function.program.roots().iter().map(|e| printer.negations(*e)).sum();
-        Body { plan, printer, negations }
+    pub fn new(function: &'a Function<'a>) -> Self {
+        let plan = function.plan;
+        let printer = Printer { plan, style: function.style };
+        let negations = plan.program.roots().iter().map(|e| printer.negations(*e)).sum();
+        Body { plan, function, printer, negations }
     }
 
-    pub fn text(&self, out: &mut Lines, function: &Function) {
+    pub fn text(&self, out: &mut Lines) {
+        let function = self.function;
         let schedule = &self.plan.schedule;
         let everything = 0..schedule.steps.len();
         let solves = |item: usize| matches!(self.plan.targets[item], Target::Solve(_));
@@ -36,8 +39,8 @@ impl<'a> Body<'a> {
         let small = schedule.lets() <= BLOCK;
         let parts = if small { Vec::new() } else { self.parts(&blocks) };
 
-        function.kernel_docs(out, self.plan);
-        if function.fallible() && function.program.solves.is_empty() {
+        function.kernel_docs(out);
+        if function.fallible() && self.plan.program.solves.is_empty() {
             out.code("#[allow(clippy::unnecessary_wraps)]");
         }
         if small {
@@ -45,32 +48,32 @@ impl<'a> Body<'a> {
         }
         out.code(&format!(
             "pub fn given<S: Scalar>({}) -> {} {{",
-            self.signature(function).join(", "),
+            function.parameters().join(", "),
             function.returned(true)
         ));
         out.indent();
         if small || parts.len() <= 1 {
-            open_inputs(out, self.plan, everything.clone());
+            open_inputs(out, self.function, everything.clone());
         } else {
-            open_solve_inputs(out, self.plan);
+            open_solve_inputs(out, self.function);
         }
         out.code("let zero = S::lit(0.0);");
         let mutable =
-            if function.program.roots().iter().any(|e| !e.is_zero()) { "mut " } else { "" };
+            if self.plan.program.roots().iter().any(|e| !e.is_zero()) { "mut " } else { "" };
         out.code(&format!("let {mutable}out = {};", function.zero()));
         if small {
-            self.steps(out, function, everything);
+            self.steps(out, everything);
         } else if parts.len() <= 1 {
-            blocks.iter().for_each(|block| self.block(out, function, block));
+            blocks.iter().for_each(|block| self.block(out, block));
         } else {
-            self.calls(out, function, &parts);
+            self.calls(out, &parts);
         }
         out.code(if function.fallible() { "Ok(out)" } else { "out" });
         out.dedent();
         out.code("}");
         if parts.len() > 1 {
             let computing = parts.iter().enumerate().filter(|(_, p)| !self.is_solve(&p.blocks[0]));
-            computing.for_each(|(k, part)| self.part(out, function, k, part));
+            computing.for_each(|(k, part)| self.part(out, k, part));
         }
     }
 
@@ -102,21 +105,7 @@ impl<'a> Body<'a> {
         matches!(first, Binding::Item(item) if matches!(self.plan.targets[item], Target::Solve(_)))
     }
 
-    fn signature(&self, function: &Function) -> Vec<String> {
-        let mut parameters = Vec::new();
-        if !self.plan.constants.is_empty() {
-            parameters.push("constants: &super::Constants<S>".to_string());
-        }
-        if has_posture(self.plan) {
-            parameters.push("posture: &Posture<S>".to_string());
-        }
-        if function.wrench() && uses_wrench(self.plan) {
-            parameters.push("wrench: &[S; 6]".to_string());
-        }
-        parameters
-    }
-
-    fn steps(&self, out: &mut Lines, function: &Function, steps: core::ops::Range<usize>) {
+    fn steps(&self, out: &mut Lines, steps: core::ops::Range<usize>) {
         for step in &self.plan.schedule.steps[steps] {
             match step {
                 Binding::Let(node) => {
@@ -124,10 +113,10 @@ impl<'a> Body<'a> {
                     out.code(&format!("let {name} = {};", self.printer.definition(*node)));
                 }
                 Binding::Item(item) => match self.plan.targets[*item] {
-                    Target::Solve(k) => self.solve(out, function, k),
+                    Target::Solve(k) => self.solve(out, k),
                     Target::Entry { block, entry } => {
-                        let e = function.program.blocks[block].entries[entry];
-                        let place = function.place(block, entry);
+                        let e = self.plan.program.blocks[block].entries[entry];
+                        let place = self.function.place(block, entry);
                         out.code(&format!("{place} = {};", self.printer.print(e)));
                     }
                 },
@@ -135,8 +124,8 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn solve(&self, out: &mut Lines, function: &Function, k: usize) {
-        let solve = &function.program.solves[k];
+    fn solve(&self, out: &mut Lines, k: usize) {
+        let solve = &self.plan.program.solves[k];
         let (n, leading) = (solve.right.len(), solve.leading());
         let print = |e: &Expr| self.printer.print(*e);
         out.code("let stiffness = [");
@@ -156,7 +145,7 @@ impl<'a> Body<'a> {
             }
             None => "zero".to_string(),
         };
-        let (names, solve) = (self.names(&unknowns), function.solve());
+        let (names, solve) = (self.names(&unknowns), self.function.solve());
         let call = format!("{solve}::<S, {n}, {leading}>(stiffness, load, {margin})?");
         out.code(&format!("let [{names}] = {call};"));
     }
@@ -167,15 +156,15 @@ impl<'a> Body<'a> {
     }
 
     /// A scope of its own that hands on what is still needed.
-    fn block(&self, out: &mut Lines, function: &Function, block: &Block) {
+    fn block(&self, out: &mut Lines, block: &Block) {
         if self.is_solve(block) {
-            return self.steps(out, function, block.steps.clone());
+            return self.steps(out, block.steps.clone());
         }
         let live = self.names(&block.live_out);
         let open = if live.is_empty() { "{".to_string() } else { format!("let [{live}] = {{") };
         out.code(&open);
         out.indent();
-        self.steps(out, function, block.steps.clone());
+        self.steps(out, block.steps.clone());
         if !live.is_empty() {
             out.code(&format!("[{live}]"));
         }
@@ -183,34 +172,26 @@ impl<'a> Body<'a> {
         out.code(if live.is_empty() { "}" } else { "};" });
     }
 
-    fn calls(&self, out: &mut Lines, function: &Function, parts: &[Part]) {
+    fn calls(&self, out: &mut Lines, parts: &[Part]) {
         for (k, part) in parts.iter().enumerate() {
             if self.is_solve(&part.blocks[0]) {
-                self.steps(out, function, part.blocks[0].steps.clone());
+                self.steps(out, part.blocks[0].steps.clone());
                 continue;
             }
-            let names = self.arguments(function);
             let (live_in, live_out) =
                 (self.names(&part.whole.live_in), self.names(&part.whole.live_out));
             let binding =
                 if live_out.is_empty() { String::new() } else { format!("let [{live_out}] = ") };
-            let arguments: Vec<String> =
-                names.into_iter().chain([format!("[{live_in}]"), "&mut out".to_string()]).collect();
-            out.code(&format!("{binding}part_{}({});", k + 1, arguments.join(", ")));
+            let given = self.function.arguments("posture");
+            out.code(&format!("{binding}part_{}({given}, [{live_in}], &mut out);", k + 1));
         }
     }
 
-    fn arguments(&self, function: &Function) -> Vec<String> {
-        let names = self.signature(function);
-        let bare = names.iter().filter_map(|p| p.split(':').next());
-        bare.map(str::to_string).collect()
-    }
-
-    fn part(&self, out: &mut Lines, function: &Function, k: usize, part: &Part) {
+    fn part(&self, out: &mut Lines, k: usize, part: &Part) {
         let (ins, outs) = (part.whole.live_in.len(), part.whole.live_out.len());
-        let mut parameters = self.signature(function);
+        let mut parameters = self.function.parameters();
         parameters.push(format!("live: [S; {ins}]"));
-        parameters.push(format!("out: &mut {}", function.ty()));
+        parameters.push(format!("out: &mut {}", self.function.ty()));
         let returned = if outs == 0 { String::new() } else { format!(" -> [S; {outs}]") };
         out.blank();
         // Which of the inputs a part reads depends on where the text was cut.
@@ -218,9 +199,9 @@ impl<'a> Body<'a> {
         let head = format!("fn part_{}<S: Scalar>({}){returned} {{", k + 1, parameters.join(", "));
         out.code(&head);
         out.indent();
-        open_inputs(out, self.plan, part.whole.steps.clone());
+        open_inputs(out, self.function, part.whole.steps.clone());
         out.code(&format!("let [{}] = live;", self.names(&part.whole.live_in)));
-        part.blocks.iter().for_each(|block| self.block(out, function, block));
+        part.blocks.iter().for_each(|block| self.block(out, block));
         if outs > 0 {
             out.code(&format!("[{}]", self.names(&part.whole.live_out)));
         }

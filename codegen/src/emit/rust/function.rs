@@ -2,34 +2,53 @@
 
 use stiffarm_kernels::{Input, Output};
 
+use super::super::plan::Plan;
+use super::super::posture::{Needs, Posture};
 use super::shapes;
 use super::style::Rust;
 use crate::derive::Program;
 
-/// A function to be printed.
+/// A function to be printed: of one output, or of those of `all`.
 pub(super) struct Function<'p> {
-    pub program: &'p Program,
-    pub name: &'static str,
-    pub outputs: Vec<Output>,
+    pub plan: &'p Plan<'p>,
+    pub outputs: &'p [Output],
+    pub needs: &'p Needs,
+    /// The posture of the whole module.
+    pub posture: &'p Posture,
     /// Whether it takes the constants of a table with symbolic parameters.
     pub symbolic: bool,
-    style: Rust,
+    /// How its text is spelt.
+    pub style: &'p Rust,
 }
 
 impl<'p> Function<'p> {
-    /// The function of `outputs`: one, or those of `all`; `fused` fuses products into sums.
-    pub fn new(program: &'p Program, outputs: &[Output], symbolic: bool, fused: bool) -> Self {
-        let name = match outputs {
+    /// The output's name, or `all`.
+    pub fn name(&self) -> &'static str {
+        match self.outputs {
             [output] => output.name(),
             _ => "all",
-        };
-        let style = Rust { fused, constants: "constants" };
-        Function { program, name, outputs: outputs.to_vec(), symbolic, style }
+        }
     }
 
-    /// How its text is spelt.
-    pub fn style(&self) -> &Rust {
-        &self.style
+    pub fn program(&self) -> &'p Program {
+        self.plan.program
+    }
+
+    /// The kernel's parameters; those that it does not read begin with `_`.
+    pub fn parameters(&self) -> Vec<String> {
+        let unread = |read: bool| if read { "" } else { "_" };
+        let constants = unread(!self.plan.constants.is_empty());
+        let constants = format!("{constants}constants: &super::Constants<S>");
+        let posture = format!("{}posture: &Posture<S>", unread(!self.needs.reads.is_empty()));
+        let wrench = format!("{}wrench: &[S; 6]", unread(self.plan.wrench().contains(&true)));
+        let first = self.symbolic.then_some(constants).into_iter().chain([posture]);
+        first.chain(self.wrench().then_some(wrench)).collect()
+    }
+
+    /// What the kernel is called with, where the inputs are called so.
+    pub fn arguments(&self, posture: &str) -> String {
+        let first = self.symbolic.then_some("constants").into_iter().chain([posture]);
+        first.chain(self.wrench().then_some("wrench")).collect::<Vec<_>>().join(", ")
     }
 
     /// Whether it is `all`.
@@ -53,7 +72,7 @@ impl<'p> Function<'p> {
     pub fn ty(&self) -> String {
         match self.fused() {
             true => "All<S>".to_string(),
-            false => shapes::ty(self.outputs[0], self.program.dof),
+            false => shapes::ty(self.outputs[0], self.program().dof),
         }
     }
 
@@ -63,7 +82,7 @@ impl<'p> Function<'p> {
     }
 
     pub fn zero(&self) -> String {
-        let n = self.program.dof;
+        let n = self.program().dof;
         if !self.fused() {
             return shapes::zero(self.outputs[0], n);
         }
@@ -72,8 +91,8 @@ impl<'p> Function<'p> {
     }
 
     pub fn place(&self, block: usize, entry: usize) -> String {
-        let output = self.program.blocks[block].output;
-        let place = shapes::place(output, self.program.dof, entry);
+        let output = self.program().blocks[block].output;
+        let place = shapes::place(output, self.program().dof, entry);
         if self.fused() { format!("out.{}{place}", output.name()) } else { format!("out{place}") }
     }
 }

@@ -4,12 +4,13 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::super::plan::{Plan, Target, WRENCH};
-use super::posture::field_names;
+use super::function::Function;
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Expr, Node, Symbol};
 
 /// Everything that a range of steps reads.
-pub(super) fn open_inputs(out: &mut Lines, plan: &Plan, steps: Range<usize>) {
+pub(super) fn open_inputs(out: &mut Lines, function: &Function, steps: Range<usize>) {
+    let plan = function.plan;
     let mut nodes = Vec::new();
     for step in &plan.schedule.steps[steps] {
         match step {
@@ -20,14 +21,15 @@ pub(super) fn open_inputs(out: &mut Lines, plan: &Plan, steps: Range<usize>) {
             Binding::Item(item) => nodes.extend(item_inputs(plan, *item)),
         }
     }
-    open(out, plan, nodes);
+    open(out, function, nodes);
 }
 
 /// What the linear systems read.
-pub(super) fn open_solve_inputs(out: &mut Lines, plan: &Plan) {
+pub(super) fn open_solve_inputs(out: &mut Lines, function: &Function) {
+    let plan = function.plan;
     let items = 0..plan.targets.len();
     let solves = items.filter(|i| matches!(plan.targets[*i], Target::Solve(_)));
-    open(out, plan, solves.flat_map(|i| item_inputs(plan, i)).collect());
+    open(out, function, solves.flat_map(|i| item_inputs(plan, i)).collect());
 }
 
 fn item_inputs(plan: &Plan, item: usize) -> Vec<usize> {
@@ -43,31 +45,26 @@ fn item_inputs(plan: &Plan, item: usize) -> Vec<usize> {
 }
 
 /// `let Posture { s1, c1, .. } = *posture;` and the wrench, whatever of them is read.
-fn open(out: &mut Lines, plan: &Plan, mut nodes: Vec<usize>) {
+fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
+    let plan = function.plan;
     nodes.retain(|node| !plan.schedule.bound[*node]);
     let inputs: HashSet<usize> = plan.inputs_of(nodes);
     let g = &plan.program.graph;
-    let mut fields: Vec<(usize, String)> = Vec::new();
+    let mut names = HashSet::new();
     let mut wrench = [false; 6];
     for node in &inputs {
-        let name = plan.name(*node).unwrap_or_default().to_string();
         match g.nodes()[*node] {
-            _ if name.starts_with("constants.") => {}
-            Node::Sin(_) | Node::Cos(_) => fields.push((*node, name)),
-            Node::Symbol(s) => match g.symbol_of(s) {
-                Symbol::Joint(_) => fields.push((*node, name)),
-                Symbol::Wrench(k) => wrench[*k] = true,
-                _ => {}
-            },
-            _ => {}
+            Node::Symbol(s) if let Symbol::Wrench(k) = g.symbol_of(s) => wrench[*k] = true,
+            _ => names.extend(plan.name(*node)),
         }
     }
-    let order = field_names(plan);
-    fields.sort_by_key(|(_, name)| order.iter().position(|f| f == name));
+    let read = function.needs.reads.iter().filter(|(name, _)| names.contains(name.as_str()));
+    let fields: Vec<String> = read
+        .map(|(name, field)| if name == field { name.clone() } else { format!("{field}: {name}") })
+        .collect();
     if !fields.is_empty() {
-        let names: Vec<String> = fields.iter().map(|(_, name)| name.clone()).collect();
-        let rest = if names.len() < order.len() { ", .." } else { "" };
-        out.code(&format!("let Posture {{ {}{rest} }} = *posture;", names.join(", ")));
+        let rest = if fields.len() < function.posture.fields().len() { ", .." } else { "" };
+        out.code(&format!("let Posture {{ {}{rest} }} = *posture;", fields.join(", ")));
     }
     if wrench.contains(&true) {
         let names: Vec<&str> =

@@ -1,13 +1,30 @@
-//! The implementation of `Kernels`: a generated robot behind a pointer.
+//! A generated robot as a value: `Kernels`, behind a pointer, and `Arm`, for what is written against an arm.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::{Input, Output, Side};
 
-use super::shapes::flat;
+use super::posture::{INLINE, needs_constants};
+use super::shapes::{flat, ty};
+use super::table::numeric;
 use crate::emit::lines::Lines;
+use crate::emit::posture::Posture;
+use crate::robot::Robot;
 
-/// The struct `Robot` and its `Kernels`.
-pub(super) fn interface(symbolic: bool) -> String {
+/// The struct `Robot` and its traits.
+pub(super) fn interface(robot: &Robot, posture: &Posture, outputs: &[Output]) -> String {
     let mut out = Lines::at(0);
+    let symbolic = !robot.symbols().is_empty();
+    definition(&mut out, symbolic);
+    let target = if symbolic { "Robot<S>" } else { "Robot" };
+    kernels(&mut out, target, symbolic, outputs);
+    arm(&mut out, target, robot, posture);
+    if !symbolic {
+        numeric(&mut out, robot);
+    }
+    outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
+    out.finish()
+}
+
+fn definition(out: &mut Lines, symbolic: bool) {
     out.blank();
     if symbolic {
         out.doc("This arm with numbers for its parameters, as `Kernels`.");
@@ -34,17 +51,20 @@ pub(super) fn interface(symbolic: bool) -> String {
         out.code("#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]");
         out.code("pub struct Robot;");
     }
+}
+
+fn kernels(out: &mut Lines, target: &str, symbolic: bool, outputs: &[Output]) {
     out.blank();
-    let target = if symbolic { "Robot<S>" } else { "Robot" };
     out.code(&format!("impl<S: Scalar> Kernels<S> for {target} {{"));
     out.indent();
-    method(&mut out, "fn name(&self) -> &'static str {", "NAME");
-    method(&mut out, "fn dof(&self) -> usize {", "N");
+    method(out, "fn name(&self) -> &'static str {", "NAME");
+    method(out, "fn dof(&self) -> usize {", "N");
     out.code("fn evaluate(");
     out.code("    &self,");
     out.code("    output: Output,");
     out.code("    q: &[S],");
-    out.code("    wrench: &[S; 6],");
+    let wrench = outputs.iter().any(|output| output.takes(Input::Wrench));
+    out.code(if wrench { "    wrench: &[S; 6]," } else { "    _wrench: &[S; 6]," });
     out.code("    out: &mut [S],");
     out.code(") -> Result<(), Error> {");
     out.indent();
@@ -54,12 +74,12 @@ pub(super) fn interface(symbolic: bool) -> String {
     }
     out.code("match output {");
     out.indent();
-    for output in Output::EACH {
+    for output in outputs {
         let first = if symbolic { "constants, q" } else { "q" };
         let last = if output.takes(Input::Wrench) { ", wrench" } else { "" };
         let question = if output.is_fallible() { "?" } else { "" };
         let call = format!("{}({first}{last}){question}", output.name());
-        let flat = flat(output, &call);
+        let flat = flat(*output, &call);
         out.code(&format!("Output::{output:?} => fill(out, {flat}),"));
     }
     out.code("_ => Err(Error::Absent),");
@@ -67,7 +87,51 @@ pub(super) fn interface(symbolic: bool) -> String {
         out.dedent();
         out.code("}");
     }
-    out.finish()
+}
+
+fn arm(out: &mut Lines, target: &str, robot: &Robot, posture: &Posture) {
+    out.blank();
+    out.code(&format!("impl<S: Scalar> Arm<N, S> for {target} {{"));
+    out.indent();
+    out.code("const NAME: &'static str = NAME;");
+    out.code("const DH: [DhRow; N] = DH;");
+    let limits = robot.joints.iter().map(|joint| format!("{:?}", joint.limits));
+    let limits = limits.collect::<Vec<_>>().join(", ");
+    out.code(&format!("const LIMITS: [Option<[f64; 2]>; N] = [{limits}];"));
+    out.code("type Posture = Posture<S>;");
+    let constants = if needs_constants(posture) { "&self.constants, " } else { "" };
+    out.code(INLINE);
+    method(
+        out,
+        "fn posture(&self, q: &[S; N]) -> Posture<S> {",
+        &format!("Posture::new({constants}q)"),
+    );
+    out.dedent();
+    out.code("}");
+}
+
+fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bool) {
+    out.blank();
+    out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
+    out.indent();
+    let (name, mut ty) = (output.name(), ty(output, n));
+    if output.columns() == Side::Entries {
+        out.code(&format!("type Columns = {ty};"));
+        ty = "Self::Columns".to_string();
+    }
+    if output.is_fallible() {
+        ty = format!("Result<{ty}, Unstable>");
+    }
+    let constants = if symbolic { "&self.constants, " } else { "" };
+    let (parameter, argument) = match output.takes(Input::Wrench) {
+        true => (", wrench: &[S; 6]", ", wrench"),
+        false => ("", ""),
+    };
+    out.code(INLINE);
+    let head = format!("fn {name}(&self, posture: &Posture<S>{parameter}) -> {ty} {{");
+    method(out, &head, &format!("{name}::given({constants}posture{argument})"));
+    out.dedent();
+    out.code("}");
 }
 
 fn method(out: &mut Lines, signature: &str, body: &str) {

@@ -17,8 +17,13 @@ mod table;
 
 pub use flexible::flexible_rust;
 
+use self::function::Function;
+use self::style::Rust;
 use super::constants::Constants;
-use crate::derive::{Output, derive_each};
+use super::plan::Plan;
+use super::posture::{Needs, Posture};
+use super::sets;
+use crate::derive::derive_each;
 use crate::robot::Robot;
 
 /// What is a matter of the text and not of the robot.
@@ -52,19 +57,28 @@ pub const FILE_HEAD: &str = "\
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
-    let mut functions = String::new();
-    let singles: Vec<&[Output]> = Output::EACH.iter().map(core::slice::from_ref).collect();
-    let sets: Vec<&[Output]> = singles.into_iter().chain([&Output::ALL[..]]).collect();
-    for (outputs, program) in sets.iter().zip(derive_each(robot, &sets)) {
-        let function = function::Function::new(&program, outputs, symbolic, options.fused);
-        functions.push_str(&function.text(robot, options, &mut constants));
+    let outputs = robot.generated();
+    let sets = sets(&outputs);
+    let programs = derive_each(robot, &sets);
+    let plans: Vec<Plan> = programs.iter().map(|p| Plan::new(p, &mut constants)).collect();
+    let style = Rust { fused: options.fused, constants: "constants" };
+    let mut posture = Posture::default();
+    let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
+    if posture.fields().is_empty() {
+        // Of an arm that no joint value enters: a struct of numbers has to hold one.
+        posture.admit_displacement(0);
     }
 
     let mut text = table::header(robot, options);
     if symbolic {
         text.push_str(&table::parameters(robot, &constants));
     }
-    text.push_str(&functions);
-    text.push_str(&interface::interface(symbolic));
+    text.push_str(&posture::module(&posture, &needs, robot.dof()));
+    for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
+        let function =
+            Function { plan, outputs, needs, posture: &posture, symbolic, style: &style };
+        text.push_str(&function.text(robot, options));
+    }
+    text.push_str(&interface::interface(robot, &posture, &outputs));
     text
 }

@@ -2,12 +2,10 @@
 
 use stiffarm_kernels::{Form, Input, Output};
 
-use super::super::constants::Constants;
-use super::super::plan::Plan;
 use super::RustOptions;
 use super::body::Body;
 use super::function::Function;
-use super::posture::{has_posture, needs_constants, posture, uses_wrench};
+use super::posture::{INLINE, needs_constants, values};
 use super::shapes;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
@@ -15,54 +13,57 @@ use crate::robot::Robot;
 
 impl Function<'_> {
     /// The function and its module.
-    pub fn text(&self, robot: &Robot, options: &RustOptions, constants: &mut Constants) -> String {
-        let plan = Plan::new(self.program, constants);
-        let body = Body::new(self, &plan);
+    pub fn text(&self, robot: &Robot, options: &RustOptions) -> String {
+        let body = Body::new(self);
         let mut out = Lines::at(0);
         out.blank();
-        self.entry(&mut out, &plan, robot);
+        self.entry(&mut out, robot);
         out.blank();
-        self.module(&mut out, &plan, &body, options);
+        self.module(&mut out, &body, options);
         out.finish()
     }
 
-    /// The public function: posture from `q`, then the kernel.
-    fn entry(&self, out: &mut Lines, plan: &Plan, robot: &Robot) {
-        self.docs(out, plan, robot);
-        let n = self.program.dof;
+    /// The public function: what it needs of the posture from `q`, then the kernel.
+    fn entry(&self, out: &mut Lines, robot: &Robot) {
+        self.docs(out, robot);
+        let needed = &self.needs.posture;
+        let all = needed.fields().len() == self.posture.fields().len();
+        let offsets = needs_constants(if all { self.posture } else { needed });
         let mut parameters = Vec::new();
         if self.symbolic {
-            let used = !plan.constants.is_empty() || needs_constants(plan);
-            parameters.push(format!("{}constants: &Constants<S>", if used { "" } else { "_" }));
+            parameters.push("constants: &Constants<S>".to_string());
         }
-        let by_posture = has_posture(plan);
-        parameters.push(format!("{}q: &[S; {n}]", if by_posture { "" } else { "_" }));
+        parameters.push(format!("q: &[S; {}]", self.program().dof));
         if self.wrench() {
-            let used = uses_wrench(plan);
-            parameters.push(format!("{}wrench: &[S; 6]", if used { "" } else { "_" }));
+            parameters.push("wrench: &[S; 6]".to_string());
         }
-        let (name, returned) = (self.name, self.returned(false));
+        let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
-        let mut arguments = Vec::new();
-        if self.symbolic && !plan.constants.is_empty() {
-            arguments.push("constants".to_string());
-        }
-        if by_posture {
-            let offset = if needs_constants(plan) { "constants, " } else { "" };
-            arguments.push(format!("&{name}::Posture::new({offset}q)"));
-        }
-        if self.wrench() && uses_wrench(plan) {
-            arguments.push("wrench".to_string());
-        }
         out.indent();
-        out.code(&format!("{name}::given({})", arguments.join(", ")));
+        let posture = if all {
+            format!("Posture::new({}q)", if offsets { "constants, " } else { "" })
+        } else {
+            let constants = if offsets { "constants: &Constants<S>, " } else { "" };
+            let q = if self.needs.reads.is_empty() { "_q" } else { "q" };
+            let q = format!("{q}: &[S; {}]", self.program().dof);
+            out.code(INLINE);
+            out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
+            out.indent();
+            values(out, needed);
+            let fields = needed.fields().into_iter().chain(["..Posture::unused()".to_string()]);
+            out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
+            out.dedent();
+            out.code("}");
+            format!("posture({}q)", if offsets { "constants, " } else { "" })
+        };
+        out.code(&format!("{name}::given({})", self.arguments(&format!("&{posture}"))));
         out.dedent();
         out.code("}");
     }
 
     /// What the function returns: of an output its sentence, its shape with units, its formula.
     fn output(&self, out: &mut Lines) {
-        let [sentence, rest @ ..] = docs(self.outputs[0], self.program.dof, shapes::ORDER);
+        let [sentence, rest @ ..] = docs(self.outputs[0], self.program().dof, shapes::ORDER);
         out.doc(&sentence);
         for paragraph in rest {
             out.doc("");
@@ -77,7 +78,7 @@ impl Function<'_> {
     }
 
     /// The documentation of the kernel itself.
-    pub fn kernel_docs(&self, out: &mut Lines, plan: &Plan) {
+    pub fn kernel_docs(&self, out: &mut Lines) {
         if self.fused() {
             out.doc("The kernel: everything that [`All`] holds.");
         } else {
@@ -85,8 +86,8 @@ impl Function<'_> {
         }
         let mut read = self.inputs();
         read.retain(|input| match input {
-            Input::Joints => has_posture(plan),
-            _ => uses_wrench(plan),
+            Input::Joints => !self.needs.reads.is_empty(),
+            _ => self.plan.wrench().contains(&true),
         });
         if !read.is_empty() {
             out.doc("");
@@ -105,8 +106,8 @@ impl Function<'_> {
         }
     }
 
-    fn docs(&self, out: &mut Lines, plan: &Plan, robot: &Robot) {
-        let ops = self.program.ops();
+    fn docs(&self, out: &mut Lines, robot: &Robot) {
+        let ops = self.program().ops();
         if self.fused() {
             let names: Vec<&str> = self.outputs.iter().map(|o| o.name()).collect();
             out.doc(&format!("{} of {}, worked out together.", names.join(", "), robot.name));
@@ -116,7 +117,8 @@ impl Function<'_> {
         out.doc("");
         out.doc(&inputs(&self.inputs(), false));
         out.doc("");
-        let angles: Vec<String> = plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
+        let angles: Vec<String> =
+            self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
         let division = if ops.div > 0 { format!(", {} divisions", ops.div) } else { String::new() };
         let trigonometry = match angles.is_empty() {
             true => "no sines or cosines".to_string(),
@@ -126,14 +128,14 @@ impl Function<'_> {
             "{} additions, {} multiplications{division}, {trigonometry}; worked out in {}.",
             ops.add,
             ops.mul,
-            self.program.frame()
+            self.program().frame()
         ));
         self.errors(out);
     }
 
-    fn module(&self, out: &mut Lines, plan: &Plan, body: &Body, options: &RustOptions) {
-        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.name));
-        out.code(&format!("pub mod {} {{", self.name));
+    fn module(&self, out: &mut Lines, body: &Body, options: &RustOptions) {
+        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.name()));
+        out.code(&format!("pub mod {} {{", self.name()));
         out.indent();
         let mut imports = vec!["Ops"];
         let pose = |o: &Output| matches!(o.form(), Form::Pose | Form::Poses);
@@ -144,29 +146,27 @@ impl Function<'_> {
         if self.fallible() {
             imports.push("Unstable");
         }
-        let solves = 0..self.program.solves.len();
-        if solves.clone().any(|k| plan.margin(k).is_some()) {
+        let solves = 0..self.program().solves.len();
+        if solves.clone().any(|k| self.plan.margin(k).is_some()) {
             imports.push("margin");
         }
         if !solves.is_empty() {
             imports.push(self.solve());
         }
         out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
+        out.code("use super::Posture;");
         self.figures(out, body);
         if self.fused() {
             self.all_struct(out);
         }
-        if has_posture(plan) {
-            posture(out, plan, self.program.dof);
-        }
         out.blank();
-        body.text(out, self);
+        body.text(out);
         out.dedent();
         out.code("}");
     }
 
     fn figures(&self, out: &mut Lines, body: &Body) {
-        let ops = self.program.ops();
+        let ops = self.program().ops();
         out.blank();
         out.doc("Operations beyond the sines and cosines.");
         out.code(&format!(
@@ -176,12 +176,12 @@ impl Function<'_> {
         if self.fused() {
             return;
         }
-        let (rows, columns) = self.outputs[0].shape(self.program.dof);
+        let (rows, columns) = self.outputs[0].shape(self.program().dof);
         out.blank();
         out.doc("Entries that are not structurally zero; `[column][row]`.");
         out.code(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["));
         out.indent();
-        for column in self.program.blocks[0].entries.chunks(rows) {
+        for column in self.program().blocks[0].entries.chunks(rows) {
             let flags: Vec<String> = column.iter().map(|e| (!e.is_zero()).to_string()).collect();
             out.code(&format!("[{}],", flags.join(", ")));
         }
@@ -195,12 +195,16 @@ impl Function<'_> {
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
         out.code("pub struct All<S> {");
         out.indent();
-        for output in &self.outputs {
-            let [sentence, shape, _] = docs(*output, self.program.dof, shapes::ORDER);
+        for output in self.outputs {
+            let [sentence, shape, _] = docs(*output, self.program().dof, shapes::ORDER);
             out.doc(&sentence);
             out.doc("");
             out.doc(&shape);
-            out.code(&format!("pub {}: {},", output.name(), shapes::ty(*output, self.program.dof)));
+            out.code(&format!(
+                "pub {}: {},",
+                output.name(),
+                shapes::ty(*output, self.program().dof)
+            ));
         }
         out.dedent();
         out.code("}");

@@ -1,5 +1,7 @@
 //! The head of a generated module: the table as constants, and its symbolic parameters.
 
+use stiffarm_kernels::Form;
+
 use super::super::constants::Constants;
 use super::RustOptions;
 use crate::emit::lines::Lines;
@@ -15,13 +17,38 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
         robot.name
     ));
     let fused = if options.fused { " --fused" } else { "" };
+    let asked = match robot.outputs.as_slice() {
+        [] => String::new(),
+        _ => format!(
+            " --outputs {}",
+            robot.generated().iter().map(|o| o.name()).collect::<Vec<_>>().join(",")
+        ),
+    };
     out.code(&format!(
-        "// Not to be edited: `stiffarm generate ROBOT{fused} --check FILE` compares it with the table."
+        "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
     ));
-    out.code(&format!(
-        "use {}::{{DhRow, Error, Kernels, Motion, Output, Pose, Scalar, Unstable, fill}};",
-        options.kernels
-    ));
+    let outputs = robot.generated();
+    let used = |name: &'static str, used: bool| used.then_some(name);
+    let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
+    let numeric = robot.symbols().is_empty();
+    let imports = [
+        Some("Arm"),
+        used("Convention", numeric),
+        Some("DhRow"),
+        Some("Error"),
+        Some("Kernels"),
+        Some("Motion"),
+        used("Numeric", numeric),
+        Some("Output"),
+        used("Pose", poses),
+        used("Row", numeric),
+        Some("Scalar"),
+        used("Unstable", outputs.iter().any(|o| o.is_fallible())),
+        Some("fill"),
+        Some("has"),
+    ];
+    let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    out.code(&format!("use {}::{{{imports}}};", options.kernels));
     out.blank();
     out.doc("The arm's name.");
     out.code(&format!("pub const NAME: &str = {:?};", robot.name));
@@ -126,6 +153,37 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
     out.dedent();
     out.code("}");
     out.finish()
+}
+
+/// The table in numbers.
+pub(super) fn numeric(out: &mut Lines, robot: &Robot) {
+    let number = |value: &Value| format!("{:?}", value.number().map_or(0.0, Number::to_f64));
+    let three = |values: &[Value; 3]| format!("[{}]", values.each_ref().map(number).join(", "));
+    let radians = |angle: &Angle| format!("{:?}", angle.radians().unwrap_or_default());
+    out.blank();
+    out.code("impl Numeric<N> for Robot {");
+    out.indent();
+    out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
+    out.code(&format!("const GRAVITY: [f64; 3] = {};", three(&robot.gravity)));
+    out.code("const ROWS: [Row; N] = [");
+    out.indent();
+    for joint in &robot.joints {
+        let stiffness = joint.stiffness.as_ref();
+        let stiffness = stiffness.map_or("None".to_string(), |k| format!("Some({})", number(k)));
+        out.code(&format!(
+            "Row {{ theta: {}, d: {}, a: {}, alpha: {}, stiffness: {stiffness}, mass: {}, com: {} }},",
+            radians(&joint.theta),
+            number(&joint.d),
+            number(&joint.a),
+            radians(&joint.alpha),
+            joint.mass.as_ref().map_or("0.0".to_string(), number),
+            three(&joint.com),
+        ));
+    }
+    out.dedent();
+    out.code("];");
+    out.dedent();
+    out.code("}");
 }
 
 /// A cell as text.

@@ -7,13 +7,14 @@ use syn::{Ident, LitStr, Path};
 
 use super::super::dimension::Dimension;
 use super::super::draft::{Cell, Draft, DraftJoint, DraftMarker, Vector};
-use super::super::model::{Angle, Convention, Value};
+use super::super::model::{Angle, Convention, Output, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::{advice, closest};
-use super::cells::{Raw, known_lengths, rotation, values};
+use super::cells::{Raw, known_lengths, rotation, split, values};
 use super::spot::{Spot, is_sign, is_word};
 
-const KEYS: [&str; 7] = ["name", "convention", "gravity", "tool", "marker", "products", "crate"];
+const KEYS: [&str; 8] =
+    ["name", "convention", "gravity", "tool", "marker", "outputs", "products", "crate"];
 
 const CONVENTIONS: [(&str, Convention); 4] = [
     ("standard_dh", Convention::Standard),
@@ -32,6 +33,8 @@ pub(super) struct Settings {
     translation: Option<Vector<Value, Spot>>,
     rotation: Option<Vector<Angle, Spot>>,
     markers: Vec<DraftMarker<Spot>>,
+    /// What is to be generated; every output if there are none.
+    pub outputs: Vec<Output>,
     /// Whether products are fused into sums.
     pub fused: bool,
     /// Where the generated code finds the kernels.
@@ -114,6 +117,7 @@ impl Settings {
             "gravity" => self.gravity = Some(values(&cell, Dimension::Acceleration, report)),
             "tool" => self.tool(&cell, report),
             "marker" => self.markers.extend(marker(&cell, report)),
+            "outputs" => self.outputs = outputs(&cell, report),
             "products" => self.fused = fused(&cell, report),
             _ => self.kernels = path(&cell, report),
         }
@@ -159,10 +163,10 @@ impl Settings {
 
     /// A file says everything about its robot itself.
     pub fn refuse_for_a_file(&self, report: &mut Report<Spot>) {
-        let of_the_text = |key: &str| matches!(key, "crate" | "products");
+        let of_the_text = |key: &str| matches!(key, "crate" | "outputs" | "products");
         for (key, at) in self.seen.iter().filter(|(key, _)| !of_the_text(key)) {
             let message = format!("`{key}` belongs into the robot file");
-            let help = "beside a file only `crate` and `products` can be set";
+            let help = "beside a file only `crate`, `outputs` and `products` can be set";
             report.error(Problem::new(*at, message).help(help));
         }
     }
@@ -188,6 +192,7 @@ impl Settings {
             translation: self.translation,
             rotation: self.rotation,
             markers: self.markers,
+            outputs: self.outputs,
         }
     }
 }
@@ -234,6 +239,27 @@ fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
         _ => Some(known_lengths(&Raw::new(rest.to_vec(), cell.at), report)),
     };
     Some(DraftMarker { name, translation })
+}
+
+/// `pose, jacobian`: one or more.
+fn outputs(cell: &Raw, report: &mut Report<Spot>) -> Vec<Output> {
+    let names = Output::EACH.map(Output::name);
+    let mut outputs = Vec::new();
+    for name in split(&cell.tokens, ',', cell.at) {
+        let word: String = name.tokens.iter().map(ToString::to_string).collect();
+        match Output::EACH.into_iter().find(|output| output.name() == word) {
+            Some(output) => outputs.push(output),
+            None if word.is_empty() => {
+                let problem = Problem::new(name.at, "the name of an output is expected here");
+                report.error(problem.help(format!("known here: {}", names.join(", "))));
+            }
+            None => {
+                let problem = Problem::new(name.at, format!("`{word}` is no output"));
+                report.error(problem.help(advice(&word, &names)));
+            }
+        }
+    }
+    outputs
 }
 
 /// `fused`, or `separate`, which is what they are otherwise.

@@ -8,6 +8,7 @@
 //! gravity: [0, 0, -9.80665];            // optional
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
+//! outputs: pose, jacobian;              // optional: what is generated, every output if absent
 //! products: fused;                      // optional: into sums, or separate
 //! crate: ::stiffarm_kernels;            // optional: where the generated code finds the kernels
 //! joint | theta  | d      | a      | alpha  | stiffness     | mass | com            | limits
@@ -40,7 +41,7 @@ use proc_macro2::TokenStream;
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Ident, LitStr, Path, Token, Visibility};
 
-use super::model::Robot;
+use super::model::{Output, Robot};
 use super::problem::{Problem, Report};
 use super::validate::validate;
 pub use outline::Outline;
@@ -57,6 +58,8 @@ pub struct Invocation {
     pub module: Ident,
     /// Where the generated code finds the kernels; `None` leaves it to the macro.
     pub kernels: Option<Path>,
+    /// What is to be generated of a robot file, instead of what it says itself; that if there are none.
+    pub outputs: Vec<Output>,
     /// Whether products are fused into sums.
     pub fused: bool,
     /// The robot itself, or where to read it.
@@ -110,21 +113,21 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
     let rest = report.keep(parsed.map_err(Problem::from));
     let source = match (&head.module, rest) {
         (Some(module), Some(rest)) => {
-            let said = (&mut head.kernels, &mut head.fused, &mut outline);
-            body(said, module, head.file.take(), rest, &mut report)
+            let file = head.file.take();
+            body(&mut head.said, &mut outline, (module, file), rest, &mut report)
         }
         _ => None,
     };
     // A macro cannot warn on stable Rust.
     report.errors.append(&mut report.warnings);
     match (source, head) {
-        (
-            Some(source),
-            Head { attrs, vis: Some(vis), module: Some(module), kernels, fused, .. },
-        ) if report.errors.is_empty() => {
-            Ok(Invocation { attrs, vis, module, kernels, fused, source })
+        (Some(source), Head { attrs, vis: Some(vis), module: Some(module), said, .. })
+            if report.errors.is_empty() =>
+        {
+            let Said { kernels, outputs, fused } = said;
+            Ok(Invocation { attrs, vis, module, kernels, outputs, fused, source })
         }
-        (source, Head { attrs, vis, module, kernels, .. }) => {
+        (source, Head { attrs, vis, module, said: Said { kernels, .. }, .. }) => {
             let file = match source {
                 Some(Source::File(file)) => Some(file),
                 _ => None,
@@ -143,7 +146,14 @@ struct Head {
     vis: Option<Visibility>,
     module: Option<Ident>,
     file: Option<LitStr>,
+    said: Said,
+}
+
+/// What the settings say about the text, whatever the robot is.
+#[derive(Default)]
+struct Said {
     kernels: Option<Path>,
+    outputs: Vec<Output>,
     fused: bool,
 }
 
@@ -172,17 +182,17 @@ impl Head {
 }
 
 fn body(
-    (kernels, fused, outline): (&mut Option<Path>, &mut bool, &mut Outline),
-    module: &Ident,
-    file: Option<LitStr>,
+    said: &mut Said,
+    outline: &mut Outline,
+    (module, file): (&Ident, Option<LitStr>),
     rest: TokenStream,
     report: &mut Report<Spot>,
 ) -> Option<Source> {
     let tokens = flatten(rest);
     let at = Spot::new(module.span());
     let (mut settings, table) = header::read(&tokens, report);
-    *kernels = settings.kernels.take();
-    *fused = settings.fused;
+    let outputs = settings.outputs.clone();
+    *said = Said { kernels: settings.kernels.take(), outputs, fused: settings.fused };
     if let Some(file) = file {
         settings.refuse_for_a_file(report);
         if !table.is_empty() {

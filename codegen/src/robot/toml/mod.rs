@@ -21,7 +21,7 @@ use super::validate::validate;
 use fields::Fields;
 use reader::Reader;
 
-const KEYS: &[&str] = &["name", "convention", "gravity", "joint", "tool", "marker"];
+const KEYS: &[&str] = &["name", "convention", "gravity", "joint", "tool", "marker", "outputs"];
 
 impl Robot {
     /// Reads a robot file. `path` is only used in messages.
@@ -93,6 +93,7 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
         translation,
         rotation,
         markers: fields.get("marker").map(|v| markers(reader, v)).unwrap_or_default(),
+        outputs: fields.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default(),
     }
 }
 

@@ -8,7 +8,7 @@ use ::toml::de::{DeArray, DeValue};
 use super::super::dimension::Dimension;
 use super::super::draft::{Cell, Vector, broken};
 use super::super::lexeme::{Lexeme, lex};
-use super::super::model::{Angle, Motion, Value};
+use super::super::model::{Angle, Motion, Output, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::advice;
 use super::super::symbols::Symbolic;
@@ -218,6 +218,19 @@ impl<'a> Reader<'a> {
             [Some(lower), Some(upper)] => Cell::new([lower, upper], at),
             _ => Cell::broken(at),
         }
+    }
+
+    /// Names of outputs, one or more.
+    pub fn outputs(&mut self, value: &Node<'_>) -> Vec<Output> {
+        let names = match value.get_ref() {
+            DeValue::Array(names) if !names.is_empty() => names,
+            _ => {
+                self.expected(value, "an array of outputs, such as [\"pose\", \"jacobian\"],");
+                return Vec::new();
+            }
+        };
+        let known = Output::EACH.map(|output| (output.name(), output));
+        names.iter().filter_map(|name| self.choice(name, &known).value).collect()
     }
 
     /// The tables of an array of tables; an error if it is something else.

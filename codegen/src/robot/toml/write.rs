@@ -25,6 +25,10 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
     writeln!(text, "name = {}", quoted(&robot.name))?;
     writeln!(text, "convention = \"{convention}\"")?;
     writeln!(text, "gravity = {}", list(robot.gravity.iter().map(value)))?;
+    if !robot.outputs.is_empty() {
+        let names = robot.generated().into_iter().map(|output| quoted(output.name()));
+        writeln!(text, "outputs = {}", list(names))?;
+    }
     for (i, joint) in robot.joints.iter().enumerate() {
         write_joint(text, i, joint)?;
     }

@@ -20,6 +20,7 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         joints,
         tool: Tool { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
         markers: Vec::new(),
+        outputs: Vec::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 use stiffarm::kernels::{Pose, Unstable};
 
 use crate::Real;
-use crate::robots::{iiwa14, kuka_kr240, ur5_springs, ur10};
+use crate::robots::{iiwa14, kuka_kr240, ur5_lean, ur5_springs, ur10};
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
 /// A function of joint values and a wrench that writes its result.
@@ -18,14 +18,11 @@ pub trait Counter<S> {
 /// Pose of the tool and Jacobian.
 pub type PoseAndJacobian<S, const N: usize> = (Pose<S>, [[S; 6]; N]);
 
-/// Pose and Jacobian by the sines and cosines that the pose needs; the Jacobian needs the named
-/// ones.
+/// Pose and Jacobian by the same sines and cosines.
 macro_rules! pose_and_jacobian {
-    ($arm:ident, $q:ident, [$($shared:ident),*]) => {{
-        let posture = $arm::pose::Posture::new($q);
-        let $arm::pose::Posture { $($shared,)* .. } = posture;
-        let jacobian = $arm::jacobian::given(&$arm::jacobian::Posture { $($shared),* });
-        ($arm::pose::given(&posture), jacobian)
+    ($arm:ident, $q:ident) => {{
+        let posture = $arm::Posture::new($q);
+        ($arm::pose::given(&posture), $arm::jacobian::given(&posture))
     }};
 }
 
@@ -48,10 +45,10 @@ macro_rules! kernels {
 }
 
 kernels! {
-    /// Sines and cosines of the six angles of [`pose`].
-    sines(q: 6, _) -> ur5_springs::pose::Posture<S> {
-        ur5_springs::pose::Posture::new(q)
-    } from ur5_springs::pose::Posture::new(&[S::of(0); 6]);
+    /// Sines and cosines that [`pose`] and [`jacobian`] need.
+    sines(q: 6, _) -> ur5_lean::Posture<S> {
+        ur5_lean::Posture::new(q)
+    } from ur5_lean::Posture::new(&[S::of(0); 6]);
     /// Pose of the UR5-like arm.
     pose(q: 6, _) -> Pose<S> {
         ur5_springs::pose(q)
@@ -62,20 +59,13 @@ kernels! {
     } from [[S::of(0); 6]; 6];
     /// Both, by the same sines and cosines.
     pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur5_springs, q, [s1, c1, s2, c2, s23, c23, s234, c234, s5, c5])
+        pose_and_jacobian!(ur5_springs, q)
     } from (ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Both and the compliance.
     with_compliance(q: 6, _) -> (PoseAndJacobian<S, 6>, [[S; 6]; 6]) {
-        use ur5_springs::{compliance, jacobian, pose};
-        let posture = pose::Posture::new(q);
-        let pose::Posture { s1, c1, s2, c2, s23, c23, s234, c234, s5, c5, .. } = posture;
-        let jacobian = jacobian::given(&jacobian::Posture {
-            s1, c1, s2, c2, s23, c23, s234, c234, s5, c5
-        });
-        let compliance = compliance::given(&compliance::Posture {
-            s1, c1, s2, c2, s23, c23, s234, c234, s5, c5
-        });
-        ((pose::given(&posture), jacobian), compliance)
+        let posture = ur5_springs::Posture::new(q);
+        let compliance = ur5_springs::compliance::given(&posture);
+        (pose_and_jacobian!(ur5_springs, q), compliance)
     } from ((ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]), [[S::of(0); 6]; 6]);
     /// Joint torques of the UR5-like arm.
     joint_torque(q: 6, w) -> [S; 6] {
@@ -99,11 +89,11 @@ kernels! {
     } from Err(Refusal::NotFinite);
     /// Pose and Jacobian of the UR10.
     ur10_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur10, q, [s1, c1, s2, c2, s23, c23, s234, c234, s5, c5])
+        pose_and_jacobian!(ur10, q)
     } from (ur10::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Pose and Jacobian of the KR 240-2.
     kuka_kr240_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(kuka_kr240, q, [s1, c1, s2, c2, s23, c23, s4, c4, s5, c5])
+        pose_and_jacobian!(kuka_kr240, q)
     } from (kuka_kr240::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Deflection of the KR 240-2 with K_C, and its 6x6 solve.
     kuka_kr240_deflection(q: 6, w) -> Result<[S; 6], Unstable> {
@@ -111,6 +101,6 @@ kernels! {
     } from Err(Unstable);
     /// Pose and Jacobian of the iiwa 14.
     iiwa14_pose_and_jacobian(q: 7, _) -> PoseAndJacobian<S, 7> {
-        pose_and_jacobian!(iiwa14, q, [s1, c1, s2, c2, s3, c3, s4, c4, s5, c5, s6, c6])
+        pose_and_jacobian!(iiwa14, q)
     } from (iiwa14::pose(&[S::of(0); 7]), [[S::of(0); 6]; 7]);
 }

@@ -19,6 +19,11 @@ robot! {
     pub mod ur5_springs from "ur5_springs.toml";
 }
 robot! {
+    /// The same with no more than pose and Jacobian, in whose posture nothing else is.
+    pub mod ur5_lean from "ur5_springs.toml";
+    outputs: pose, jacobian;
+}
+robot! {
     /// Something of everything: a joint that slides, beams, weights, oblique twists, a turned tool.
     pub mod various from "../../c/arm.toml";
 }
