@@ -11,7 +11,8 @@ use stiffarm_gap::{Options, diagnose_with};
 use super::draw::{Drawn, lasts};
 
 /// Findings of ordinary calibration; every other is physical.
-pub const GEOMETRY: [&str; 4] = ["joint_offset", "link_geometry", "base_frame", "tool_frame"];
+pub const GEOMETRY: [&str; 5] =
+    ["geometry", "joint_offset", "link_geometry", "base_frame", "tool_frame"];
 
 /// An effect at a place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -4,8 +4,9 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
-use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
+use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::progress::Stop;
+use crate::effects::Effect;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Moment, Reading, moments, simulate};
 
@@ -24,6 +25,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) measured: Vec<usize>,
     /// Frames that are unknown.
     pub(crate) nuisances: Vec<Nuisance>,
+    /// The arm's geometry, where it is fitted along.
+    pub(crate) along: Option<&'static dyn Effect>,
+    /// To what makers hold lengths and angles, m and rad.
+    pub(crate) tolerance: [f64; 2],
     /// Names of the markers whose place on the tool is unknown.
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
@@ -88,6 +93,8 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             nuisances: options.nuisances.clone(),
+            along: options.along().filter(|e| e.excluded(data).is_none()),
+            tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
             nominal: own.then_some(readings),

@@ -136,7 +136,7 @@ pub(crate) fn normal_equations(
 }
 
 /// What it costs that values are beyond what is usual.
-fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
+pub(crate) fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
     let values = model.values(problem);
     model.held(problem).iter().zip(values).map(|(held, value)| (held * value).powi(2)).sum()
 }

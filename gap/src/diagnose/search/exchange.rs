@@ -1,10 +1,10 @@
 //! What came later may make an effect superfluous, or another better: after additions every effect
 //! is held against all that could stand in its place.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Basis, Fit, Model, squares};
+use crate::diagnose::fit::{Basis, Fit, Model, principal, squares, strain};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::Kept;
 
@@ -25,14 +25,14 @@ impl Search<'_, '_> {
                 break;
             }
             let Some(next) = self.changed(&mut now)? else { break };
-            now = self.weigh(next);
+            now = self.settled(next, now.weights)?;
         }
         Ok(now)
     }
 
     fn changed(&self, now: &mut Explained) -> Result<Option<Fit>, DiagnoseError> {
         let scale = self.scale(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = self.left(now);
         let fitted = now.fit.model.parameters(self.problem);
         let variance = scale.variance(left, fitted);
         if let Some(index) = self.superfluous(now, variance)
@@ -46,7 +46,7 @@ impl Search<'_, '_> {
             }
             let found = &now.fit.model.found[index];
             let fine = found.effect.forms_are().is_fine(found.spot.form);
-            if fine || found.lead > SURE {
+            if fine || found.effect.is_tolerated() || found.lead > SURE {
                 continue;
             }
             let without = [index];
@@ -72,7 +72,10 @@ impl Search<'_, '_> {
             let refined = self.refined(now, &without, best, &screen);
             let refined = refined.into_iter().collect();
             if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
-                && squares(&fit.predicted.gaps, &now.weights) / variance + its < own
+                && (squares(&fit.predicted.gaps, &now.weights) + strain(self.problem, &fit.model))
+                    / variance
+                    + its
+                    < own
             {
                 return Ok(Some(fit));
             }
@@ -90,10 +93,22 @@ impl Search<'_, '_> {
             let size = found.values.len();
             let own = basis.t.rows(at, size);
             at += size;
+            if index < Model::along(self.problem) {
+                continue;
+            }
             // Without it the squares rise by its values in the metric of their covariance.
             let values = DVector::from_column_slice(&found.values);
-            let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
-            let excess = self.cost_of(&scale, found) - rise / variance;
+            let covariance = own * own.transpose();
+            let rise = Basis::new(&covariance).t.tr_mul(&values).norm_squared();
+            let cost = match found.effect.is_tolerated() {
+                // By how much the data narrow its numbers.
+                true => {
+                    let held = DMatrix::from_diagonal(&DVector::from_column_slice(&found.held));
+                    -principal(&held * covariance * &held).0.map(f64::ln).sum()
+                }
+                false => self.cost_of(&scale, found),
+            };
+            let excess = cost - rise / variance;
             if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
                 worst = Some((excess, index));
             }

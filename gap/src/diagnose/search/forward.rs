@@ -3,7 +3,7 @@
 
 use super::evidence::{Flips, Scale};
 use crate::diagnose::data::{Folds, Noise, Problem};
-use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares};
+use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares, strain};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
@@ -34,6 +34,12 @@ const IMPOSSIBLE: f64 = 100.0;
 
 /// At least this many measured numbers for each parameter.
 const NUMBERS_EACH: usize = 3;
+
+/// Rounds in which weights and fit settle.
+const MOST_WEIGHED: usize = 6;
+
+/// Weights that change by less than this part have settled: far less than any noise is known.
+const SETTLED: f64 = 1e-3;
 
 /// Everything that a search works with.
 #[derive(Clone, Copy)]
@@ -84,6 +90,30 @@ pub(crate) struct Ranked {
 }
 
 impl Search<'_, '_> {
+    /// Weighted squares that a fit leaves, and what it costs to hold its values.
+    pub(crate) fn left(&self, now: &Explained) -> f64 {
+        squares(&now.fit.predicted.gaps, &now.weights) + strain(self.problem, &now.fit.model)
+    }
+
+    /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
+    pub(crate) fn settled(
+        &self,
+        fit: Fit,
+        mut before: Vector6<f64>,
+    ) -> Result<Explained, DiagnoseError> {
+        let mut now = self.weigh(fit);
+        for _ in 0..MOST_WEIGHED {
+            let moved = |(now, before): (&f64, &f64)| (now - before).abs() > SETTLED * before;
+            if !now.weights.iter().zip(before.iter()).any(moved) {
+                break;
+            }
+            before = now.weights;
+            let Explained { fit, weights, .. } = now;
+            now = self.weigh(refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?);
+        }
+        Ok(now)
+    }
+
     pub(super) fn weigh(&self, fit: Fit) -> Explained {
         let parameters = fit.model.parameters(self.problem);
         let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
@@ -93,18 +123,8 @@ impl Search<'_, '_> {
 
     /// Fits the frames alone.
     pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
-        let first = Fit { predicted: Arc::new(model.predict(self.problem, None)?), model };
-        let mut now = self.weigh(first);
-        // Weights that come from the remainder are those of the fit after two rounds.
-        for _ in 0..3 {
-            let Explained { fit, weights, .. } = now;
-            let fit = refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?;
-            now = self.weigh(fit);
-            if self.problem.nuisances.is_empty() && self.problem.markers.is_empty() {
-                break;
-            }
-        }
-        Ok(now)
+        let predicted = Arc::new(model.predict(self.problem, None)?);
+        self.settled(Fit { predicted, model }, Vector6::zeros())
     }
 
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
@@ -116,7 +136,7 @@ impl Search<'_, '_> {
             }
             (self.progress)(Stage::Search(now.fit.model.found.len()));
             let Some(next) = self.added(&now)? else { break };
-            now = self.weigh(next);
+            now = self.settled(next, now.weights)?;
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
             if count <= SMALL || count.is_multiple_of(SMALL) {
@@ -145,23 +165,33 @@ impl Search<'_, '_> {
         let (left, fitted) = (screen.left(), screen.basis.rank());
         let room = (self.problem.numbers() / NUMBERS_EACH).saturating_sub(fitted);
         let scale = self.scale(now);
-        let scored = (0..screen.candidates.len()).map(|c| (c, screen.score(c)));
+        let tolerated =
+            |c: usize| screen.tolerated(c, |left, own| scale.variance(left, fitted + own));
+        let scored =
+            (0..screen.candidates.len()).map(|c| match screen.candidates[c].is_tolerated() {
+                true => {
+                    let (score, cost) = tolerated(c);
+                    (c, score, cost)
+                }
+                false => {
+                    let (score, it) = (screen.score(c), &screen.candidates[c]);
+                    let cost = scale.cost(score.rank, it.forms, score.values.iter().zip(&it.usual));
+                    (c, score, cost)
+                }
+            });
         let can = |candidate: usize, score: &Score| {
             let usual = &screen.candidates[candidate].usual;
             let mut values = score.values.iter().zip(usual);
             let possible = values.all(|(value, usual)| value.abs() <= IMPOSSIBLE * usual);
             score.rank > 0 && score.own > OWN && score.rank <= room && possible
         };
-        let kept: Vec<_> = scored.filter(|(c, s)| can(*c, s) && s.drop > 0.0).collect();
-        let best = kept.iter().map(|(_, s)| s.drop).fold(0.0, f64::max);
+        let kept: Vec<_> = scored.filter(|(c, s, _)| can(*c, s) && s.drop > 0.0).collect();
+        let best = kept.iter().map(|(_, s, _)| s.drop).fold(0.0, f64::max);
         let variance = scale.variance((left - best).max(0.0), fitted);
         let mut ranked: Vec<Ranked> = kept
             .into_iter()
-            .map(|(candidate, score)| {
-                let it = &screen.candidates[candidate];
-                let values = score.values.iter().zip(&it.usual);
-                let cost =
-                    (left - score.drop) / variance + scale.cost(score.rank, it.forms, values);
+            .map(|(candidate, score, cost)| {
+                let cost = (left - score.drop) / variance + cost;
                 Ranked { candidate, score, cost, gain: left / variance - cost }
             })
             .collect();
@@ -269,6 +299,6 @@ impl Search<'_, '_> {
             model.found.remove(index);
         }
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
-        Ok(self.weigh(fit))
+        self.settled(fit, weights)
     }
 }

@@ -2,7 +2,6 @@
 //! others.
 
 use super::outcome::Group;
-use crate::diagnose::fit::squares;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::Alternative;
 use crate::diagnose::search::{Explained, Flips, Ranked, Search};
@@ -36,7 +35,7 @@ impl Search<'_, '_> {
     ) -> Result<Rivals, DiagnoseError> {
         let screen = self.screen(now, Kept { without: group, ..Kept::default() });
         let scale = self.scale(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = self.left(now);
         let variance = scale.variance(left, now.fit.model.parameters(self.problem));
         let found: Vec<_> = group.iter().map(|index| &now.fit.model.found[*index]).collect();
         let cost = found.iter().map(|f| self.cost_of(&scale, f));
