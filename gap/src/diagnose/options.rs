@@ -77,6 +77,8 @@ pub struct Options {
     /// Standard deviations to which makers hold lengths and angles, m and rad; by default
     /// [`TOLERANCE`].
     pub tolerance: Option<[f64; 2]>,
+    /// Whether rows that do not fit are fitted and counted all the same.
+    pub keep_all: bool,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,

@@ -15,6 +15,7 @@ use crate::simulate::{Moment, Reading, moments, simulate};
 pub(crate) const LARGEST: f64 = 1e50;
 
 /// An arm and its measurements.
+#[derive(Clone)]
 pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
@@ -33,6 +34,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
     pub(crate) marker_of: Vec<Option<usize>>,
+    /// Whether a row is fitted and counted; the gaps of others are 0.
+    pub(crate) fits: Vec<bool>,
     /// What the arm of the robot file reads in its own base frame; where the file has the user's
     /// own simulator only.
     pub(crate) nominal: Option<Vec<Reading>>,
@@ -97,15 +100,27 @@ impl<'a> Problem<'a> {
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
+            fits: vec![true; data.rows.len()],
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
         })
     }
 
-    /// Numbers that are measured.
+    /// What there is one of for each row, of the rows that are counted.
+    pub(crate) fn kept<T: Clone>(&self, of_rows: &[T]) -> Vec<T> {
+        let each = of_rows.iter().zip(&self.fits).filter(|(_, fits)| **fits);
+        each.map(|(one, _)| one.clone()).collect()
+    }
+
+    /// The rows that are counted.
+    pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
+        self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
+    }
+
+    /// Numbers that are measured and counted.
     pub(crate) fn numbers(&self) -> usize {
-        self.data.rows.len() * self.measured.len()
+        self.kept_rows().count() * self.measured.len()
     }
 
     /// Whether positions are measured; else only rotations are.

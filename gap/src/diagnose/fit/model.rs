@@ -48,7 +48,7 @@ pub(crate) struct Model {
 #[derive(Clone)]
 pub(crate) struct Predicted {
     pub(crate) sims: Vec<Sim>,
-    /// Measured minus predicted, one per row.
+    /// Measured minus predicted, one per row; 0 of rows that are left out.
     pub(crate) gaps: Vec<Vector6<f64>>,
 }
 
@@ -114,6 +114,7 @@ impl Model {
             let sim = sim.map_err(|_| unstable())?;
             let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
             let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
+            let gap = if problem.fits[row] { gap } else { Vector6::zeros() };
             if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
         });
         let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;

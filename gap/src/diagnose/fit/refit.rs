@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
 use super::basis::RANK;
@@ -147,8 +147,11 @@ pub(crate) fn block(
     fit: &Fit,
     row: usize,
     weights: &Vector6<f64>,
-) -> nalgebra::Matrix6xX<f64> {
+) -> Matrix6xX<f64> {
     let (model, sims) = (&fit.model, &fit.predicted.sims);
+    if !problem.fits[row] {
+        return Matrix6xX::zeros(model.parameters(problem));
+    }
     let mut block = model.change(problem, sims, row, |s| model.block(problem, row, s));
     for mut column in block.column_iter_mut() {
         column.component_mul_assign(weights);

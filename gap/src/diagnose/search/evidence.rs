@@ -94,7 +94,7 @@ pub(crate) struct Flips {
     highest: Vec<f64>,
     variance: f64,
     /// Whether all sign patterns were taken.
-    pub(crate) exhaustive: bool,
+    exhaustive: bool,
 }
 
 impl Flips {

@@ -1,10 +1,10 @@
 //! What came later may make an effect superfluous, or another better: after additions every effect
 //! is held against all that could stand in its place.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Basis, Fit, Model, principal, squares, strain};
+use crate::diagnose::fit::{Basis, Fit, Model, squares, strain};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::Kept;
 
@@ -40,19 +40,19 @@ impl Search<'_, '_> {
         {
             return Ok(Some(fit));
         }
-        for index in 0..now.fit.model.found.len() {
+        for index in Model::along(self.problem)..now.fit.model.found.len() {
             if self.stopped() {
                 break;
             }
             let found = &now.fit.model.found[index];
             let fine = found.effect.forms_are().is_fine(found.spot.form);
-            if fine || found.effect.is_tolerated() || found.lead > SURE {
+            if fine || found.lead > SURE {
                 continue;
             }
             let without = [index];
             let kept = Kept { without: &without, whole: true, ..Kept::default() };
             let screen = self.screen(now, kept);
-            let own = left / variance + self.cost_of(&scale, found);
+            let own = left / variance + self.cost_of(now, &scale, index);
             let ranked = self.ranked(&screen, now);
             let is_it = |r: &&Ranked| {
                 self.candidates[r.candidate].effect().is_some_and(|(effect, spot)| {
@@ -61,9 +61,7 @@ impl Search<'_, '_> {
                 })
             };
             let Some(best) = ranked.iter().find(|r| !is_it(r)) else { continue };
-            let candidate = &self.candidates[best.candidate];
-            let values = best.score.values.iter().zip(&candidate.usual);
-            let its = scale.cost(best.score.rank, candidate.forms, values);
+            let its = best.cost;
             let lead = (screen.left() - best.score.drop) / variance + its - own;
             if lead + EXCHANGE >= 0.0 {
                 now.fit.model.found[index].lead = lead;
@@ -98,17 +96,8 @@ impl Search<'_, '_> {
             }
             // Without it the squares rise by its values in the metric of their covariance.
             let values = DVector::from_column_slice(&found.values);
-            let covariance = own * own.transpose();
-            let rise = Basis::new(&covariance).t.tr_mul(&values).norm_squared();
-            let cost = match found.effect.is_tolerated() {
-                // By how much the data narrow its numbers.
-                true => {
-                    let held = DMatrix::from_diagonal(&DVector::from_column_slice(&found.held));
-                    -principal(&held * covariance * &held).0.map(f64::ln).sum()
-                }
-                false => self.cost_of(&scale, found),
-            };
-            let excess = cost - rise / variance;
+            let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
+            let excess = self.cost_of(now, &scale, index) - rise / variance;
             if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
                 worst = Some((excess, index));
             }

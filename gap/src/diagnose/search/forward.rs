@@ -3,11 +3,13 @@
 
 use super::evidence::{Flips, Scale};
 use crate::diagnose::data::{Folds, Noise, Problem};
-use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares, strain};
+use crate::diagnose::fit::{
+    Basis, Fit, Fitted, Model, Predicted, principal, refit, squares, strain,
+};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
-use nalgebra::Vector6;
+use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
 
 /// A finding's largest p value.
@@ -79,13 +81,13 @@ impl Explained {
     }
 }
 
-/// A candidate beside a model; less `cost` is better.
+/// A candidate beside a model; more `gain` is better.
 pub(crate) struct Ranked {
     pub(crate) candidate: usize,
     pub(crate) score: Score,
-    /// Squares left in units of the noise, and what the parameters cost.
+    /// What the parameters cost.
     pub(crate) cost: f64,
-    /// By how much that is less than without it.
+    /// By how much more the squares fall, in units of the noise.
     pub(crate) gain: f64,
 }
 
@@ -155,9 +157,22 @@ impl Search<'_, '_> {
         Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
     }
 
-    /// Cost of the parameters of an effect that was found.
-    pub(crate) fn cost_of(&self, scale: &Scale, found: &Fitted) -> f64 {
-        scale.cost(found.values.len(), found.forms, found.values.iter().zip(&found.usual))
+    /// Cost of the parameters of an effect that was found; of many that are held to tolerances, by
+    /// how much the data narrow them.
+    pub(crate) fn cost_of(&self, now: &Explained, scale: &Scale, index: usize) -> f64 {
+        let found = &now.fit.model.found[index];
+        if !found.effect.is_tolerated() {
+            return scale.cost(
+                found.values.len(),
+                found.forms,
+                found.values.iter().zip(&found.usual),
+            );
+        }
+        let before = now.fit.model.found[..index].iter().map(|f| f.values.len()).sum::<usize>();
+        let basis = Basis::new(&self.normal(now));
+        let own = basis.t.rows(Model::nuisances(self.problem) + before, found.values.len());
+        let held = DMatrix::from_diagonal(&DVector::from_column_slice(&found.held)) * own;
+        -principal(&held * held.transpose()).0.map(f64::ln).sum()
     }
 
     /// The candidates beside the model, best first.
@@ -191,11 +206,11 @@ impl Search<'_, '_> {
         let mut ranked: Vec<Ranked> = kept
             .into_iter()
             .map(|(candidate, score, cost)| {
-                let cost = (left - score.drop) / variance + cost;
-                Ranked { candidate, score, cost, gain: left / variance - cost }
+                let gain = score.drop / variance - cost;
+                Ranked { candidate, score, cost, gain }
             })
             .collect();
-        ranked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        ranked.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         ranked
     }
 
