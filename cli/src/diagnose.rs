@@ -60,6 +60,9 @@ pub struct Args {
     /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else estimated]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
+    /// Fit and count rows that do not fit all the same
+    #[arg(long)]
+    keep_all: bool,
     /// Try only these effects
     #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
     effects: Option<Vec<String>>,
@@ -198,6 +201,7 @@ impl Args {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             folds: self.folds,
             seed: self.seed,
+            keep_all: self.keep_all,
             noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
             noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
             effects: self.effects.clone(),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use nalgebra::Vector6;
-use stiffarm_gap::diagnose::{Expected, Explanation, Nuisance};
+use stiffarm_gap::diagnose::{Expected, Explanation};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;

@@ -25,8 +25,8 @@ pub(crate) struct Fitted {
     pub(crate) usual: Vec<f64>,
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
-    /// Forms that the effect has at its place.
-    pub(crate) forms: usize,
+    /// Forms and places that the effect has.
+    pub(crate) chances: usize,
     /// By how much more evidence it had than any other when last compared; 0 before.
     pub(crate) lead: f64,
 }

@@ -164,7 +164,7 @@ impl Search<'_, '_> {
         if !found.effect.is_tolerated() {
             return scale.cost(
                 found.values.len(),
-                found.forms,
+                found.chances,
                 found.values.iter().zip(&found.usual),
             );
         }
@@ -190,7 +190,8 @@ impl Search<'_, '_> {
                 }
                 false => {
                     let (score, it) = (screen.score(c), &screen.candidates[c]);
-                    let cost = scale.cost(score.rank, it.forms, score.values.iter().zip(&it.usual));
+                    let cost =
+                        scale.cost(score.rank, it.chances, score.values.iter().zip(&it.usual));
                     (c, score, cost)
                 }
             });

@@ -23,8 +23,8 @@ pub(crate) struct Candidate {
     pub(crate) usual: Vec<f64>,
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
-    /// Forms that the effect has at this place: each more is one more chance to fit noise.
-    pub(crate) forms: usize,
+    /// Forms and places that the effect has: each more is one more chance to fit noise.
+    pub(crate) chances: usize,
 }
 
 /// Where a candidate's block comes from.
@@ -104,7 +104,7 @@ impl Candidate {
             least: parameters.iter().map(|p| p.least).collect(),
             usual: parameters.iter().map(|p| p.usual).collect(),
             source: Source::Effect { effect, spot },
-            forms,
+            chances: forms * effect.places(problem.arm).len(),
         }
     }
 
@@ -112,14 +112,14 @@ impl Candidate {
     pub(crate) fn fitted(&self, spot: Spot, values: Vec<f64>) -> Option<Fitted> {
         let (effect, _) = self.effect()?;
         let (least, usual, held) = (self.least.clone(), self.usual.clone(), self.held.clone());
-        Some(Fitted { effect, spot, least, values, usual, held, lead: 0.0, forms: self.forms })
+        Some(Fitted { effect, spot, least, values, usual, held, lead: 0.0, chances: self.chances })
     }
 
     pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
         let least = vec![f64::NEG_INFINITY; size];
         let usual = vec![f64::INFINITY; size];
         let held = vec![0.0; size];
-        Candidate { source: Source::Probe(probe), size, least, usual, held, forms: 1 }
+        Candidate { source: Source::Probe(probe), size, least, usual, held, chances: 1 }
     }
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {

@@ -77,8 +77,11 @@ impl Search<'_, '_> {
             let it = &screen.candidates[candidate];
             let values = score.values.iter().zip(&it.usual);
             let seen = score.own > OWN;
-            let cost =
-                if seen { scale.cost(score.rank, it.forms, values) - score.drop } else { f64::MAX };
+            let cost = if seen {
+                scale.cost(score.rank, it.chances, values) - score.drop
+            } else {
+                f64::MAX
+            };
             (candidate, cost)
         };
         contenders.iter().map(cost).collect()
