@@ -6,7 +6,7 @@ mod corrected;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Nuisance, Stage, Stop};
+use stiffarm_gap::diagnose::{Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
 
@@ -47,15 +47,22 @@ pub struct Args {
     robot: RobotArgs,
     /// The measurement file (CSV)
     data: PathBuf,
-    /// Frames known to be unknown, fitted along and never findings: base_frame, tool_frame
+    /// What is known to be unknown, fitted along and never a finding: base_frame, tool_frame,
+    /// geometry (zeros, lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]
     nuisance: Vec<String>,
+    /// How well the maker holds lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
+    tolerance: Option<String>,
     /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
     /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else estimated]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
+    /// Fit and count rows that do not fit all the same
+    #[arg(long)]
+    keep_all: bool,
     /// Try only these effects
     #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
     effects: Option<Vec<String>>,
@@ -182,18 +189,28 @@ impl Args {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
-        let nuisances = self.nuisance.iter().map(|name| Nuisance::parse(name));
-        Ok(Options {
+        let tolerance = self.tolerance.as_ref().map(|text| {
+            let (length, angle) = text.split_once(',').ok_or_else(|| {
+                let help = "write both, as --tolerance 0.3mm,0.5mrad";
+                Failure::with_help(format!("--tolerance: found `{text}`, expected two"), help)
+            })?;
+            let one = |text, dimension| quantity::with_unit("--tolerance", text, dimension);
+            Ok([one(length, Dimension::Length)?, one(angle, Dimension::Angle)?])
+        });
+        let mut options = Options {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             folds: self.folds,
             seed: self.seed,
+            keep_all: self.keep_all,
             noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
             noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
             effects: self.effects.clone(),
-            nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
+            tolerance: tolerance.transpose()?,
             rivals: self.rivals.clone(),
             stop: Stop::default(),
             ..Options::default()
-        })
+        };
+        options.fit_along(&self.nuisance).map_err(plain)?;
+        Ok(options)
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use nalgebra::Vector6;
-use stiffarm_gap::diagnose::{Expected, Explanation, Nuisance};
+use stiffarm_gap::diagnose::{Expected, Explanation};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
@@ -56,12 +56,8 @@ impl Learnt {
         };
         let noise = args.noise_position.as_ref();
         let noise = noise.map(|t| quantity::with_unit("--noise-position", t, Dimension::Length));
-        let nuisances = args.nuisance.iter().map(|name| Nuisance::parse(name));
-        let options = Options {
-            noise_position: noise.transpose()?,
-            nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
-            ..Options::default()
-        };
+        let mut options = Options { noise_position: noise.transpose()?, ..Options::default() };
+        options.fit_along(&args.nuisance).map_err(plain)?;
         let data = data::read(path, &data::layout(source)?, quiet)?;
         let stages = Stages::new(quiet);
         stages.say(format!("diagnosing {}", path.display()));

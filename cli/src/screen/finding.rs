@@ -13,6 +13,9 @@ use crate::terminal::text::{
 /// Findings that are shown with their numbers.
 const DETAILED: usize = 4;
 
+/// Numbers of a finding that are shown; a calibration has dozens.
+const MOST_NUMBERS: usize = 8;
+
 /// Where the details of a finding begin.
 const MARGIN: usize = 5;
 
@@ -59,12 +62,12 @@ impl Screen<'_> {
 
     /// All numbers with their intervals, the joint's spring as a whole behind them.
     pub(super) fn numbers(&self, finding: &Finding) -> Vec<String> {
-        let each = finding.parameters.iter().map(|p| self.parameter(finding, p));
-        each.chain(self.stiffness(finding)).collect()
+        let all = finding.parameters.iter().map(|p| self.parameter(finding, p));
+        all.chain(self.stiffness(finding)).collect()
     }
 
     fn details(&self, finding: &Finding) -> String {
-        let mut text = paragraph(&self.numbers(finding).join("; "));
+        let mut text = paragraph(&listed(&self.numbers(finding), MOST_NUMBERS));
         let (p, again) = (chance(finding.p_value), percent(finding.stability));
         let mut evidence = format!("{p}, found again on {again} of halves");
         let (same, other): (Vec<_>, Vec<_>) =

@@ -1,6 +1,6 @@
 //! Where the gap lies, what a diagnosis leaves open, what could not be seen, what was not read.
 
-use stiffarm_gap::diagnose::{NuisanceReport, Share};
+use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
 
 use super::{MOST, Screen, WIDTH, percent, words};
 use crate::input::quantity::counted;
@@ -37,6 +37,7 @@ impl Screen<'_> {
             note("Where", &places),
             note("Goes with", &listed(&parts, MOST + 2)),
             note("Fitted along", &self.frames()),
+            note("Left out", &self.left_out()),
             note("Check", &self.checked()),
             note("Unexplained", &self.unexplained()),
         ]
@@ -65,6 +66,26 @@ impl Screen<'_> {
         };
         let frames: Vec<String> = self.found.nuisances.iter().map(frame).collect();
         listed(&frames, MOST)
+    }
+
+    /// The rows that do not fit, the worst first.
+    fn left_out(&self) -> String {
+        let mut rows: Vec<&LeftOut> = self.found.left_out.iter().collect();
+        if rows.is_empty() {
+            return String::new();
+        }
+        let positions = self.measures(0..3);
+        let size = |row: &LeftOut| if positions { row.position } else { row.rotation };
+        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let far = |row: &&LeftOut| {
+            let size = size(row);
+            let shown = if positions { self.length(size, size) } else { self.angle(size, size) };
+            format!("line {} ({})", row.line, shown.with_unit(size))
+        };
+        let each: Vec<String> = rows.iter().map(far).collect();
+        let (out, all) = (each.len(), self.found.measurements);
+        let verb = if out == 1 { "does" } else { "do" };
+        format!("{out} of {all} rows {verb} not fit: {} (--keep-all)", listed(&each, MOST))
     }
 
     fn checked(&self) -> String {

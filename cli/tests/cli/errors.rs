@@ -151,7 +151,10 @@ fn options_of_diagnose_that_do_not_fit() {
         let lin = ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv"];
         refused(&[&lin[..], extra].concat(), expected);
     };
-    with(&["--nuisance", "base_fram"], &["expected base_frame or tool_frame; did you mean"]);
+    with(
+        &["--nuisance", "base_fram"],
+        &["expected base_frame, tool_frame or geometry; did you mean"],
+    );
     let both = ["--json", "-", "--report", "-"];
     with(&both, &["--json and --report cannot both go to standard output"]);
     with(&["--rival", "foo"], &["expected `foo_dy`", "the file has predictions of `ycd`, `ytd`"]);

@@ -20,6 +20,7 @@
 
 pub(crate) mod data;
 pub(crate) mod fit;
+mod look;
 mod options;
 mod progress;
 mod promise;
@@ -34,12 +35,12 @@ mod verdict;
 use stiffarm_kernels::generic::Arm;
 
 pub use crate::effects::ParameterReport;
-pub use options::{DiagnoseError, Nuisance, Options};
+pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, FoundEffect, Prediction};
 pub use report::{
-    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, NoiseReport,
-    NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
+    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, LeftOut,
+    NoiseReport, NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
 };
 
 use crate::gap::Statistics;
@@ -49,8 +50,8 @@ use fit::Model;
 use search::Search;
 use sums::Candidate;
 
-/// A gap below this, relative to the arm's reach, is rounding error.
-const ROUNDING: f64 = 1e-12;
+/// Rounds of explaining and of leaving out what does not fit: after two of them hardly a row changes.
+const MOST_ROUNDS: usize = 4;
 
 /// A diagnosis, and the models before and after it.
 pub struct Diagnosed {
@@ -85,7 +86,7 @@ pub fn diagnose_with(
     options.check()?;
     progress(Stage::Align);
     let effects = options.effects()?;
-    let problem = Problem::new(arm, data, options)?;
+    let mut problem = Problem::new(arm, data, options)?;
     let folds = Folds::deal(data, options)?;
     enough_rows(&problem, &folds)?;
     let compared: Vec<_> = options
@@ -95,44 +96,45 @@ pub fn diagnose_with(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let model = fit::aligned(&problem)?;
-    let first = Search { problem: &problem, folds: &folds, candidates: &[], options, progress };
-    let begun = first.begin(model)?;
-    let before = begun.fit.predicted.gaps.clone();
-    let size = Statistics::of(&before);
-    let is_there =
-        size.position_max > ROUNDING * (1.0 + problem.reach) || size.rotation_rms > ROUNDING;
-    let search = Search { candidates: &candidates, ..first };
-    let seen = search.first(&begun);
-    let cannot_see = search.cannot_see(&effects, &begun, &seen);
-    let gauge = search.gauges(&seen);
-    let shares = if is_there { search.shares(&begun, &seen) } else { Vec::new() };
-    if is_there {
-        search.begin_with(&begun, seen);
-    }
-    let parts = if is_there { search.parts(&begun) } else { Vec::new() };
-    if !is_there {
+    let (mut known, mut left_out) = (None, Vec::new());
+    let looked = loop {
+        let search =
+            Search { problem: &problem, folds: &folds, candidates: &candidates, options, progress };
+        let looked = search.look(&effects, &model, known)?;
+        let (fits, out) = search.fitting(&looked.explained)?;
+        let settled = fits == problem.fits || left_out.len() == MOST_ROUNDS;
+        if settled || options.keep_all || search.stopped() {
+            break looked;
+        }
+        known = Some(looked.explained.fit.model);
+        problem.fits = fits;
+        left_out.push(out);
+    };
+    if !looked.is_there {
         candidates.clear();
     }
-    let search = Search { candidates: &candidates, ..first };
-    let nominal = begun.fit.model.clone();
-    let start = begun.without_states();
-    let explained = search.explain(begun)?;
-    let (explained, judged) = search.judged(&start, explained, &before, is_there)?;
+    let search =
+        Search { problem: &problem, folds: &folds, candidates: &candidates, options, progress };
+    let (before, nominal) = (looked.before, looked.start.fit.model.clone());
+    let (explained, judged) =
+        search.judged(&looked.start, looked.explained, &before, looked.is_there)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
-    let statistics = Statistics::of(&after);
-    let compared = compared.iter().map(|r| r.compare(data, &after, options.seed)).collect();
+    let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(&problem.kept(gaps)));
+    let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
+    let compared = compared.iter().map(compare).collect();
     let diagnosis = Diagnosis {
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
         measurements: data.rows.len(),
         held_out: HeldOut { folds: folds.count, grouped_by: "pose" },
         gap: GapReport { before: size, after: statistics, noise: explained.noise.report() },
-        places: shares,
+        places: looked.places,
         findings,
-        cannot_see,
+        cannot_see: looked.cannot_see,
         unexplained,
-        gauge,
-        parts,
+        gauge: looked.gauge,
+        left_out: left_out.pop().unwrap_or_default(),
+        parts: looked.parts,
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
         covers: verdict::cover(&problem),

@@ -1,7 +1,7 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
 use super::progress::Stop;
-use crate::effects::{BaseFrame, Catalogue, Effect, ToolFrame};
+use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, ToolFrame};
 use crate::measurement::nearest;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
@@ -49,6 +49,9 @@ impl Nuisance {
     }
 }
 
+/// To what makers of arms hold lengths and angles, m and rad, if nothing else is known.
+pub const TOLERANCE: [f64; 2] = [0.3e-3, 0.5e-3];
+
 /// Choices of a diagnosis. The same choices on the same data give the same bytes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
@@ -68,6 +71,14 @@ pub struct Options {
     pub effects: Option<Vec<String>>,
     /// Frames that are known to be unknown.
     pub nuisances: Vec<Nuisance>,
+    /// Whether every zero, length and twist of the table is fitted along, held to `tolerance`: what
+    /// is found then is beyond ordinary calibration.
+    pub geometry: bool,
+    /// Standard deviations to which makers hold lengths and angles, m and rad; by default
+    /// [`TOLERANCE`].
+    pub tolerance: Option<[f64; 2]>,
+    /// Whether rows that do not fit are fitted and counted all the same.
+    pub keep_all: bool,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,
@@ -110,7 +121,7 @@ pub enum DiagnoseError {
     )]
     TooLarge { file: String, line: u64 },
     #[error(
-        "found the unknown nuisance `{found}`, expected base_frame or tool_frame{}",
+        "found the unknown nuisance `{found}`, expected base_frame, tool_frame or geometry{}",
         suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
     UnknownNuisance { found: String, suggestion: Option<&'static str> },
@@ -124,8 +135,8 @@ pub enum DiagnoseError {
         suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
     UnknownEffect { found: String, known: String, suggestion: Option<&'static str> },
-    #[error("found {what} noise {found}, expected a number from 1e-30 to 1e30")]
-    Noise { what: &'static str, found: f64 },
+    #[error("found the {what} {found}, expected a number from 1e-30 to 1e30")]
+    Scale { what: &'static str, found: f64 },
     #[error(
         "{file}: found no column that predicts what is measured for the rival `{rival}`, expected \
          {expected}{}",
@@ -154,7 +165,9 @@ impl Options {
     /// [`DiagnoseError::UnknownEffect`] for a name that is not in the catalogue.
     pub(crate) fn effects(&self) -> Result<Vec<&'static dyn Effect>, DiagnoseError> {
         // A frame that is fitted along is no finding.
-        let fitted = |e: &&dyn Effect| self.nuisances.iter().any(|n| n.effect() == *e);
+        let fitted = |e: &&dyn Effect| {
+            self.nuisances.iter().any(|n| n.effect() == *e) || self.along().is_some_and(|a| a == *e)
+        };
         let all = self.catalogue.iter().filter(|e| !fitted(e));
         let Some(names) = &self.effects else { return Ok(all.collect()) };
         if let Some(found) = names.iter().find(|name| self.catalogue.named(name).is_none()) {
@@ -168,12 +181,38 @@ impl Options {
         Ok(all.filter(|e| names.iter().any(|n| n == e.identifier())).collect())
     }
 
+    /// What is fitted along beside frames.
+    pub(crate) fn along(&self) -> Option<&'static dyn Effect> {
+        self.geometry.then_some(&Geometry)
+    }
+
+    /// Fits these along, by the identifiers of their effects: the frames, and the geometry.
+    ///
+    /// # Errors
+    /// [`DiagnoseError::UnknownNuisance`].
+    pub fn fit_along(&mut self, names: &[String]) -> Result<(), DiagnoseError> {
+        for name in names {
+            if name.trim() == Geometry.identifier() {
+                self.geometry = true;
+            } else {
+                self.nuisances.push(Nuisance::parse(name)?);
+            }
+        }
+        Ok(())
+    }
+
     /// Checks what can be checked without data.
     pub(crate) fn check(&self) -> Result<(), DiagnoseError> {
-        let noises = [("position", self.noise_position), ("rotation", self.noise_rotation)];
-        for (what, noise) in noises {
-            if let Some(found) = noise.filter(|n| !(1e-30..=1e30).contains(n)) {
-                return Err(DiagnoseError::Noise { what, found });
+        let tolerance = |k: usize| self.tolerance.map(|both| both[k]);
+        let scales = [
+            ("position noise", self.noise_position),
+            ("rotation noise", self.noise_rotation),
+            ("tolerance of lengths", tolerance(0)),
+            ("tolerance of angles", tolerance(1)),
+        ];
+        for (what, scale) in scales {
+            if let Some(found) = scale.filter(|n| !(1e-30..=1e30).contains(n)) {
+                return Err(DiagnoseError::Scale { what, found });
             }
         }
         Ok(())
@@ -202,7 +241,7 @@ mod tests {
     fn noise_is_a_positive_number() {
         for wrong in [0.0, -1.0, 1e-300, f64::NAN, f64::INFINITY] {
             let options = Options { noise_rotation: Some(wrong), ..Options::default() };
-            assert!(matches!(options.check(), Err(DiagnoseError::Noise { .. })), "{wrong}");
+            assert!(matches!(options.check(), Err(DiagnoseError::Scale { .. })), "{wrong}");
         }
     }
 }

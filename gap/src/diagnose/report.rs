@@ -30,6 +30,9 @@ pub struct Diagnosis {
     /// Numbers of the geometry that this data sees only together with others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gauge: Vec<Gauge>,
+    /// Rows that do not fit: neither fitted nor counted.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<LeftOut>,
     /// The gap taken apart by what it goes with; empty where the data are too few.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Part>,
@@ -56,6 +59,17 @@ pub struct Gauge {
     pub parameter: String,
     /// `d of link 2`, …
     pub same_as: Vec<String>,
+}
+
+/// A row that does not fit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// Its line in the file.
+    pub line: u64,
+    /// How far it is from what the model with the findings predicts, m.
+    pub position: f64,
+    /// The same of its rotation, rad.
+    pub rotation: f64,
 }
 
 /// A part of the gap.

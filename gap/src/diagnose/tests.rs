@@ -415,7 +415,7 @@ fn what_stands_in_the_way_is_said() {
     let noise = Options { noise_position: Some(-1.0), ..Options::default() };
     assert_eq!(
         error(&good, &noise),
-        "found position noise -1, expected a number from 1e-30 to 1e30"
+        "found the position noise -1, expected a number from 1e-30 to 1e30"
     );
 }
 

@@ -87,6 +87,11 @@ pub trait Effect: Sync {
         false
     }
 
+    /// Whether each of its numbers is held to what makers tolerate.
+    fn is_tolerated(&self) -> bool {
+        false
+    }
+
     /// Why it cannot be there at all with this data; `None` if it can.
     fn excluded(&self, _: &Measurements) -> Option<&'static str> {
         None

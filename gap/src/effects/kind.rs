@@ -53,7 +53,7 @@ impl Forms {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     /// The same at every load, moment and direction.
-    Geometry,
+    Constant,
     /// In proportion to the load.
     Elastic,
     /// With the load, and not in proportion.
@@ -67,12 +67,12 @@ pub enum Group {
 impl Group {
     /// All of them.
     pub const ALL: [Group; 5] =
-        [Group::Geometry, Group::Elastic, Group::Nonlinear, Group::Direction, Group::Time];
+        [Group::Constant, Group::Elastic, Group::Nonlinear, Group::Direction, Group::Time];
 
     /// As a diagnosis calls its part of the gap.
     pub fn name(self) -> &'static str {
         match self {
-            Group::Geometry => "constant with load",
+            Group::Constant => "constant with load",
             Group::Elastic => "linear in load",
             Group::Nonlinear => "nonlinear in load",
             Group::Direction => "direction-dependent",

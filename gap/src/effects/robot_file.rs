@@ -59,6 +59,11 @@ impl<'a> RobotFile<'a> {
         RobotFile { robot: robot.clone(), arm, tool: None }
     }
 
+    /// The arm that was diagnosed.
+    pub fn arm(&self) -> &'a generic::Arm {
+        self.arm
+    }
+
     /// Puts each number into an entry of the row at a place: `put` names the entry that it took, or
     /// why none could.
     pub fn at_row(

@@ -19,6 +19,8 @@ pub type Law = Box<dyn Fn(&Vector6<f64>) -> Vector6<f64> + Send + Sync>;
 /// An effect changes what it acts on: the table, the load, a displacement of a site that does not
 /// depend on the load, a law by which one gives, or the instrument.
 pub struct Actual<'a> {
+    /// As it is without effects.
+    pub nominal: &'a Arm,
     /// Table, springs, beams, masses. Its tool is the real one.
     pub arm: Cow<'a, Arm>,
     /// Joint values before the springs give, n, rad (m if prismatic).
@@ -57,6 +59,7 @@ impl<'a> Actual<'a> {
             base: Isometry3::identity(),
             metre: 1.0,
             loaded_geometry: 0.0,
+            nominal: arm,
             arm: Cow::Borrowed(arm),
         }
     }

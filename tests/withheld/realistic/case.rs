@@ -11,7 +11,8 @@ use stiffarm_gap::{Options, diagnose_with};
 use super::draw::{Drawn, lasts};
 
 /// Findings of ordinary calibration; every other is physical.
-pub const GEOMETRY: [&str; 4] = ["joint_offset", "link_geometry", "base_frame", "tool_frame"];
+pub const GEOMETRY: [&str; 5] =
+    ["geometry", "joint_offset", "link_geometry", "base_frame", "tool_frame"];
 
 /// An effect at a place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -67,14 +68,16 @@ pub struct Case {
     pub orientation: bool,
     pub loads: bool,
     pub rows: usize,
+    /// Rows that the diagnosis leaves out.
+    pub left_out: usize,
     pub truths: Vec<Truth>,
     pub found: Vec<Found>,
     /// Whether the first physical finding is a truth; `None` where there is none to be found.
     pub first: Option<bool>,
     /// Physical findings that are no truth.
     pub spurious: usize,
-    /// Position rms, m: of the robot file, held out with the findings, and of the noise as it was
-    /// drawn.
+    /// Position rms over the rows that are not left out, m: of the robot file, held out with the
+    /// findings, and of the noise as it was drawn.
     pub before: f64,
     pub after: f64,
     pub floor: f64,
@@ -113,7 +116,7 @@ pub fn run(drawn: &Drawn) -> Case {
     let start = Instant::now();
     let outcome = diagnose_with(&drawn.arm, &drawn.data, &options, &|_| {});
     let seconds = start.elapsed().as_secs_f64();
-    let floor = drawn.floor();
+    let floor = drawn.floor(&[]);
     let truths = drawn.planted.iter().map(|planted| Truth {
         what: Named::new(planted.truth.effect.identifier(), &planted.truth.place.to_string()),
         text: planted.truth.to_string(),
@@ -129,6 +132,7 @@ pub fn run(drawn: &Drawn) -> Case {
         orientation: drawn.orientation,
         loads: drawn.loads,
         rows: drawn.data.rows.len(),
+        left_out: 0,
         first: (!drawn.planted.is_empty()).then_some(false),
         truths: truths.collect(),
         found: Vec::new(),
@@ -168,6 +172,10 @@ impl Case {
         let physical = || self.found.iter().filter(|f| f.physical);
         self.first = self.first.map(|_| physical().next().is_some_and(|f| is_true(&f)));
         self.spurious = physical().filter(|f| !is_true(f)).count();
+        let left_out: Vec<u64> = found.left_out.iter().map(|row| row.line).collect();
+        let floor = drawn.floor(&left_out);
+        (self.floor, self.floor_rotation) = (floor.position_rms, floor.rotation_rms);
+        self.left_out = left_out.len();
         self.before = found.gap.before.position_rms;
         self.after = found.gap.after.position_rms;
         self.after_rotation = found.gap.after.rotation_rms;
@@ -224,14 +232,17 @@ fn promised(found: &Diagnosis) -> Option<[f64; 3]> {
     (!found.findings.is_empty()).then_some(interval)
 }
 
-/// How far it shrinks over all later sessions.
+/// How far it shrinks over all later sessions, where the instrument was not just wrong.
 fn realised(drawn: &Drawn, diagnosed: &Diagnosed) -> Option<f64> {
     let (mut before, mut after) = (Vec::new(), Vec::new());
     let size = |gap: &Vector6<f64>| gap.fixed_rows::<3>(0).norm();
-    for fresh in &drawn.fresh {
+    for (fresh, wrong) in &drawn.fresh {
         let prediction = diagnosed.explanation.predict(fresh).ok()?;
-        before.extend(prediction.before.iter().map(size));
-        after.extend(prediction.after.iter().map(size));
+        let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> {
+            gaps.iter().zip(wrong).filter(|(_, wrong)| !**wrong).map(|(gap, _)| size(gap)).collect()
+        };
+        before.extend(sizes(&prediction.before));
+        after.extend(sizes(&prediction.after));
     }
     Some(1.0 - rms(&after) / rms(&before))
 }

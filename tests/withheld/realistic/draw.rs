@@ -10,6 +10,7 @@ use stiffarm_gap::withhold::resized;
 use stiffarm_kernels::generic::Arm;
 
 use super::case::GEOMETRY;
+use super::floor::errors;
 use super::models::MODELS;
 use super::session;
 use super::size::{Bench, ordinary};
@@ -65,8 +66,9 @@ pub struct Drawn {
     pub data: Measurements,
     /// Without instrument and scatter.
     pub exact: Measurements,
-    /// Later sessions: what slipped or drifted in the first is put right.
-    pub fresh: Vec<Measurements>,
+    /// Later sessions: what slipped or drifted in the first is put right. With each the rows in which
+    /// the instrument was just wrong.
+    pub fresh: Vec<(Measurements, Vec<bool>)>,
 }
 
 /// The arm of a seed. Every fifth has no physical effect; every other block of five is measured in
@@ -100,7 +102,10 @@ pub fn draw(seed: u64) -> Drawn {
     let fresh = (1..=FRESH as u64).map(|session| {
         let seed = seed + 1_000_000 * session;
         let design = session::rows(model, &arm, orientation, loads, seed);
-        as_read(&arm, &measure(&lasting, &design, seed).measured, "another.csv").0
+        let campaign = measure(&lasting, &design, seed);
+        let data = as_read(&arm, &campaign.measured, "another.csv").0;
+        let wrong = wrong(&errors(&data, &campaign.exact));
+        (data, wrong)
     });
     Drawn {
         seed,
@@ -116,6 +121,17 @@ pub fn draw(seed: u64) -> Drawn {
         data,
         exact: campaign.exact,
     }
+}
+
+/// The rows whose error in position no normal error of the middle row's size would have in a hundred
+/// such sessions: of a chi-squared number of three degrees of freedom the median is 2.366, and one in
+/// twenty thousand is beyond 22.5.
+fn wrong(errors: &[Vector6<f64>]) -> Vec<bool> {
+    let sizes: Vec<f64> = errors.iter().map(|e| e.fixed_rows::<3>(0).norm_squared()).collect();
+    let mut ascending = sizes.clone();
+    ascending.sort_by(f64::total_cmp);
+    let limit = 22.5 / 2.366 * ascending[ascending.len() / 2];
+    sizes.into_iter().map(|size| size > limit).collect()
 }
 
 /// Whether the arm still has it in another session.

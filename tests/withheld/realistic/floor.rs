@@ -11,15 +11,12 @@ use stiffarm_kernels::generic::Arm;
 use super::draw::Drawn;
 
 impl Drawn {
-    /// Of the plant: measured less what the arm shows at these readings without noise.
-    pub fn floor(&self) -> Statistics {
-        let gaps = self.data.rows.iter().zip(&self.exact.rows);
-        let gap = |(row, exact): (&Row, _)| self.less(row, exact);
-        Statistics::of(&gaps.map(gap).collect::<Vec<_>>())
-    }
-
-    fn less(&self, row: &Row, exact: &Row) -> Vector6<f64> {
-        row_gap(&self.data, row, &Reading::from_vector(&exact.measured))
+    /// Of the plant: measured less what the arm shows at these readings without noise; without the
+    /// rows of some lines.
+    pub fn floor(&self, left_out: &[u64]) -> Statistics {
+        let rows = self.data.rows.iter().zip(errors(&self.data, &self.exact));
+        let kept = rows.filter(|(row, _)| !left_out.contains(&row.line)).map(|(_, error)| error);
+        Statistics::of(&kept.collect::<Vec<_>>())
     }
 
     /// The same by the diagnosis' own simulator and its own laws of the effects.
@@ -45,6 +42,13 @@ impl Drawn {
         };
         Statistics::of(&self.data.rows.iter().enumerate().map(gap).collect::<Vec<_>>())
     }
+}
+
+/// Measured less what the arm shows without noise.
+pub fn errors(data: &Measurements, exact: &Measurements) -> Vec<Vector6<f64>> {
+    let error =
+        |(row, exact): (&Row, &Row)| row_gap(data, row, &Reading::from_vector(&exact.measured));
+    data.rows.iter().zip(&exact.rows).map(error).collect()
 }
 
 type Known = (&'static dyn Effect, Spot, Vec<f64>);

@@ -124,7 +124,7 @@ fn sizes_are_right(drawn: &Drawn) {
 /// The floor of the plant is that of the diagnosis' own simulator with the true values, and no
 /// better than the instrument.
 fn floor_is_right(drawn: &Drawn) {
-    let (plant, simulator) = (drawn.floor(), drawn.floor_of_the_simulator());
+    let (plant, simulator) = (drawn.floor(&[]), drawn.floor_of_the_simulator());
     // Numbers that were rounded to 0.1 µm and 0.01 µrad: a part in a thousand of the noise.
     assert!(
         (plant.position_rms / simulator.position_rms - 1.0).abs() < 2e-3,

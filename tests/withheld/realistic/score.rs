@@ -114,7 +114,8 @@ impl fmt::Display for Case {
         let sight = if self.orientation { "6D" } else { "3D" };
         let loads = if self.loads { "loads" } else { "none" };
         write!(f, "{:>4} {:<10} {sight} {loads:<5}", self.seed, self.robot)?;
-        write!(f, " {:>5.2} of the floor {:>6.1} s ", self.over_floor(), self.seconds)?;
+        let (over, out) = (self.over_floor(), self.left_out);
+        write!(f, " {over:>5.2} of the floor {out:>3} out {:>6.1} s ", self.seconds)?;
         for truth in &self.truths {
             let mark = match (truth.named, truth.in_set) {
                 (true, _) => '+',

@@ -281,7 +281,10 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         let err = stiffarm(&all).refused();
         assert!(err.contains(expected), "{err}");
     };
-    refused(&["--nuisance", "base_fram"], "expected base_frame or tool_frame; did you mean");
+    refused(
+        &["--nuisance", "base_fram"],
+        "expected base_frame, tool_frame or geometry; did you mean",
+    );
     refused(&["--effects", "backlosh"], "did you mean `backlash`?");
     refused(&["--effects", "x"], "expected one of joint_offset, joint_compliance, backlash");
     refused(&["--check", "no.csv"], "cannot read no.csv: no such file");

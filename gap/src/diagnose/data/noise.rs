@@ -38,7 +38,7 @@ pub(crate) struct Level {
     pub(crate) sd: f64,
     pub(crate) source: Source,
     /// Measured components of this kind in a row.
-    components: usize,
+    pub(crate) components: usize,
     /// The first of the three components of a twist.
     first: usize,
 }
@@ -65,6 +65,7 @@ impl Noise {
             if let Some(sd) = given {
                 return with(sd, Source::Option);
             }
+            let residual = &problem.kept(residual);
             if let Some((sd, freedom)) = repeats(problem, residual, first, components) {
                 return with(sd, Source::Repeats(freedom));
             }
@@ -106,10 +107,14 @@ impl Noise {
         }
     }
 
+    /// The levels of what is measured.
+    pub(crate) fn kinds(&self) -> impl Iterator<Item = &Level> {
+        [&self.position, &self.rotation].into_iter().filter(|level| level.components > 0)
+    }
+
     /// Whether the noise is known apart from what is left.
     pub(crate) fn is_known(&self) -> bool {
-        let kinds = [&self.position, &self.rotation];
-        kinds.iter().filter(|l| l.components > 0).all(|l| l.source != Source::Residual)
+        self.kinds().all(Level::is_known)
     }
 
     /// Whether `residual`, with `parameters` fitted to it, is more than this noise: surely, and by
@@ -133,6 +138,16 @@ impl Noise {
 }
 
 impl Level {
+    /// Whether it is known apart from what is left.
+    pub(crate) fn is_known(&self) -> bool {
+        self.source != Source::Residual
+    }
+
+    /// The squared norm of this kind's part of a gap.
+    pub(crate) fn square(&self, gap: &Vector6<f64>) -> f64 {
+        gap.fixed_rows::<3>(self.first).norm_squared()
+    }
+
     /// Root mean square of the norm over the measured components.
     pub(crate) fn rms(&self) -> f64 {
         self.sd * (self.components as f64).sqrt()
@@ -168,7 +183,7 @@ fn repeats(
 ) -> Option<(f64, f64)> {
     let mut sets: HashMap<_, usize> = HashMap::new();
     let mut members: Vec<Vec<Vector6<f64>>> = Vec::new();
-    for (row, gap) in problem.data.rows.iter().zip(residual) {
+    for (row, gap) in problem.kept_rows().zip(residual) {
         let load: Vec<u64> = row.wrench.iter().map(|f| (f + 0.0).to_bits()).collect();
         let key = (row.group, load, row.marker.as_deref(), row.direction.as_deref());
         let set = *sets.entry(key).or_insert(members.len());
@@ -183,7 +198,7 @@ fn repeats(
         let apart: Vec<_> = set.iter().map(|g| g - mean).collect();
         sum += squares(&apart, first);
     }
-    let beyond = problem.data.rows.len() - members.len();
+    let beyond = residual.len() - members.len();
     let freedom = (beyond * components) as f64;
     (beyond >= LEAST_REPEATS && freedom > 0.0 && sum > 0.0)
         .then(|| ((sum / freedom).sqrt(), freedom))

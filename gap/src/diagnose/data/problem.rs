@@ -4,8 +4,9 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
-use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
+use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::progress::Stop;
+use crate::effects::Effect;
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Moment, Reading, moments, simulate};
 
@@ -14,6 +15,7 @@ use crate::simulate::{Moment, Reading, moments, simulate};
 pub(crate) const LARGEST: f64 = 1e50;
 
 /// An arm and its measurements.
+#[derive(Clone)]
 pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
@@ -24,6 +26,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) measured: Vec<usize>,
     /// Frames that are unknown.
     pub(crate) nuisances: Vec<Nuisance>,
+    /// The arm's geometry, where it is fitted along.
+    pub(crate) along: Option<&'static dyn Effect>,
+    /// To what makers hold lengths and angles, m and rad.
+    pub(crate) tolerance: [f64; 2],
     /// Names of the markers whose place on the tool is unknown.
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
@@ -31,6 +37,8 @@ pub(crate) struct Problem<'a> {
     /// Rows that have an unknown constant of their own, so that only what sets them apart counts;
     /// all rows stand in one of these sets, or there are none.
     pub(crate) constants: Vec<Vec<usize>>,
+    /// Whether a row is fitted and counted; the gaps of others are 0.
+    pub(crate) fits: Vec<bool>,
     /// What the arm of the robot file reads in its own base frame; where the file has the user's
     /// own simulator only.
     pub(crate) nominal: Option<Vec<Reading>>,
@@ -91,21 +99,35 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             nuisances: options.nuisances.clone(),
+            along: options.along().filter(|e| e.excluded(data).is_none()),
+            tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
             constants: Vec::new(),
+            fits: vec![true; data.rows.len()],
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
         })
     }
 
-    /// Rows beyond one for each constant.
-    pub(crate) fn free_rows(&self) -> usize {
-        self.data.rows.len() - self.constants.len()
+    /// What there is one of for each row, of the rows that are counted.
+    pub(crate) fn kept<T: Clone>(&self, of_rows: &[T]) -> Vec<T> {
+        let each = of_rows.iter().zip(&self.fits).filter(|(_, fits)| **fits);
+        each.map(|(one, _)| one.clone()).collect()
     }
 
-    /// Numbers that are measured, beyond those that constants take.
+    /// The rows that are counted.
+    pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
+        self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
+    }
+
+    /// Rows that are counted, beyond one for each constant.
+    pub(crate) fn free_rows(&self) -> usize {
+        self.kept_rows().count() - self.constants.len()
+    }
+
+    /// Numbers that are measured and counted, beyond those that constants take.
     pub(crate) fn numbers(&self) -> usize {
         self.free_rows() * self.measured.len()
     }

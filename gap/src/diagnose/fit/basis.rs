@@ -1,7 +1,7 @@
 //! Least squares with directions that the data do not decide: found by rank, and left where they
 //! are.
 
-use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
@@ -32,11 +32,11 @@ impl Basis {
             if size > 0.0 { 1.0 / size } else { 0.0 }
         });
         let scaled = DMatrix::from_fn(k, k, |r, c| normal[(r, c)] * scale[r] * scale[c]);
-        let eigen = eigen(scaled);
-        let kept: Vec<usize> = (0..k).filter(|&i| eigen.eigenvalues[i] > least).collect();
+        let (values, vectors) = principal(scaled);
+        let kept: Vec<usize> = (0..k).filter(|&i| values[i] > least).collect();
         let t = DMatrix::from_fn(k, kept.len(), |r, c| {
             let i = kept[c];
-            scale[r] * eigen.eigenvectors[(r, i)] / eigen.eigenvalues[i].sqrt()
+            scale[r] * vectors[(r, i)] / values[i].sqrt()
         });
         Self { t }
     }
@@ -59,13 +59,14 @@ impl Basis {
 /// Sweeps after which a decomposition is given up.
 const MOST_SWEEPS: usize = 10_000;
 
-/// Eigenvalues and vectors of a symmetric matrix; of one that resists, no direction is decided.
-fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
+/// Eigenvalues, none below 0, and vectors of a symmetric matrix that has none; of one that resists,
+/// no direction is decided.
+pub(crate) fn principal(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
     let n = matrix.nrows();
-    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS).unwrap_or_else(|| SymmetricEigen {
-        eigenvectors: DMatrix::identity(n, n),
-        eigenvalues: DVector::zeros(n),
-    })
+    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS).map_or_else(
+        || (DVector::zeros(n), DMatrix::identity(n, n)),
+        |eigen| (eigen.eigenvalues.map(|value| value.max(0.0)), eigen.eigenvectors),
+    )
 }
 
 #[cfg(test)]

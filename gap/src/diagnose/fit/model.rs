@@ -7,13 +7,11 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::data::{LARGEST, Problem};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
-use crate::effects::{Effect, Scene, Spot};
+use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
 use crate::simulate::{Actual, Sim, Site, State};
-
-/// How loosely a value is held to what is usual.
-const LOOSE: f64 = 3.0;
 
 /// An effect with its values.
 #[derive(Clone)]
@@ -23,11 +21,12 @@ pub(crate) struct Fitted {
     /// Least physical values.
     pub(crate) least: Vec<f64>,
     pub(crate) values: Vec<f64>,
-    /// What is usual of them: a value is held to it as loosely as by a measurement of that size, so
-    /// that what the data hardly decide stays small.
+    /// What is usual of them.
     pub(crate) usual: Vec<f64>,
-    /// Forms that the effect has at its place.
-    pub(crate) forms: usize,
+    /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
+    pub(crate) held: Vec<f64>,
+    /// Forms and places that the effect has.
+    pub(crate) chances: usize,
     /// By how much more evidence it had than any other when last compared; 0 before.
     pub(crate) lead: f64,
 }
@@ -49,19 +48,30 @@ pub(crate) struct Model {
 #[derive(Clone)]
 pub(crate) struct Predicted {
     pub(crate) sims: Vec<Sim>,
-    /// Measured minus predicted, one per row; less the mean of the rows that share a constant.
+    /// Measured minus predicted, one per row, less the mean of the rows that share a constant; 0 of
+    /// rows that are left out.
     pub(crate) gaps: Vec<Vector6<f64>>,
 }
 
 impl Model {
-    /// The robot file as it is.
+    /// The robot file as it is, with the geometry to be fitted along if that is unknown.
     pub(crate) fn nominal(problem: &Problem<'_>) -> Self {
+        let along = problem.along.and_then(|effect| {
+            let spot = Spot { place: Place::Arm, form: 0 };
+            let candidate = Candidate::of(problem, effect, spot, 1);
+            candidate.fitted(spot, vec![0.0; candidate.size])
+        });
         Self {
             arm: problem.arm.clone(),
             instrument: Isometry3::identity(),
             markers: vec![Vector3::zeros(); problem.markers.len()],
-            found: Vec::new(),
+            found: along.into_iter().collect(),
         }
+    }
+
+    /// How many of the effects, from the first, are fitted along and never findings.
+    pub(crate) fn along(problem: &Problem<'_>) -> usize {
+        usize::from(problem.along.is_some())
     }
 
     /// The arm in one row, loaded or not.
@@ -105,6 +115,7 @@ impl Model {
             let sim = sim.map_err(|_| unstable())?;
             let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
             let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
+            let gap = if problem.fits[row] { gap } else { Vector6::zeros() };
             if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
         });
         let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;
@@ -189,10 +200,11 @@ impl Model {
         block
     }
 
-    /// Inverse of each parameter's loose scale; 0 where any value is as good.
+    /// Inverse of the standard deviation to which each parameter is held; 0 where any value is as
+    /// good.
     pub(crate) fn held(&self, problem: &Problem<'_>) -> Vec<f64> {
         let mut held = vec![0.0; Self::nuisances(problem)];
-        held.extend(self.found.iter().flat_map(|f| &f.usual).map(|usual| 1.0 / (LOOSE * usual)));
+        held.extend(self.found.iter().flat_map(|f| &f.held));
         held
     }
 

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
 use super::basis::RANK;
@@ -142,7 +142,7 @@ pub(crate) fn normal_equations(
 }
 
 /// What it costs that values are beyond what is usual.
-fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
+pub(crate) fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
     let values = model.values(problem);
     model.held(problem).iter().zip(values).map(|(held, value)| (held * value).powi(2)).sum()
 }
@@ -153,8 +153,11 @@ pub(crate) fn block(
     fit: &Fit,
     row: usize,
     weights: &Vector6<f64>,
-) -> nalgebra::Matrix6xX<f64> {
+) -> Matrix6xX<f64> {
     let (model, sims) = (&fit.model, &fit.predicted.sims);
+    if !problem.fits[row] {
+        return Matrix6xX::zeros(model.parameters(problem));
+    }
     let mut block = model.change(problem, sims, row, |s| model.block(problem, row, s));
     for mut column in block.column_iter_mut() {
         column.component_mul_assign(weights);

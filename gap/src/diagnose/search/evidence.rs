@@ -46,16 +46,16 @@ impl Scale {
     }
 
     /// Cost of parameters: the logarithm of the numbers for each (Schwarz), the chances that other
-    /// forms of the effect had, and how far the values are beyond what is usual (a Cauchy prior).
+    /// forms and places of the effect had (each as likely as the others beforehand), and how far the values are beyond what is usual (a Cauchy prior).
     pub(crate) fn cost<'v>(
         &self,
         rank: usize,
-        forms: usize,
+        chances: usize,
         values: impl IntoIterator<Item = (&'v f64, &'v f64)>,
     ) -> f64 {
         let each = (self.numbers.max(2) as f64).ln();
         let unusual = values.into_iter().map(|(value, usual)| (value / usual).powi(2).ln_1p());
-        rank as f64 * each + 2.0 * (forms.max(1) as f64).ln() + 2.0 * unusual.sum::<f64>()
+        rank as f64 * each + 2.0 * (chances.max(1) as f64).ln() + 2.0 * unusual.sum::<f64>()
     }
 
     /// The chance that noise makes a fall as large with so many parameters, `tried` candidates
@@ -94,7 +94,7 @@ pub(crate) struct Flips {
     highest: Vec<f64>,
     variance: f64,
     /// Whether all sign patterns were taken.
-    pub(crate) exhaustive: bool,
+    exhaustive: bool,
 }
 
 impl Flips {

@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Basis, Fit, Model, squares};
+use crate::diagnose::fit::{Basis, Fit, Model, squares, strain};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::Kept;
 
@@ -25,14 +25,14 @@ impl Search<'_, '_> {
                 break;
             }
             let Some(next) = self.changed(&mut now)? else { break };
-            now = self.weigh(next);
+            now = self.settled(next, now.weights)?;
         }
         Ok(now)
     }
 
     fn changed(&self, now: &mut Explained) -> Result<Option<Fit>, DiagnoseError> {
         let scale = self.scale(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = self.left(now);
         let fitted = now.fit.model.parameters(self.problem);
         let variance = scale.variance(left, fitted);
         if let Some(index) = self.superfluous(now, variance)
@@ -40,7 +40,7 @@ impl Search<'_, '_> {
         {
             return Ok(Some(fit));
         }
-        for index in 0..now.fit.model.found.len() {
+        for index in Model::along(self.problem)..now.fit.model.found.len() {
             if self.stopped() {
                 break;
             }
@@ -52,7 +52,7 @@ impl Search<'_, '_> {
             let without = [index];
             let kept = Kept { without: &without, whole: true, ..Kept::default() };
             let screen = self.screen(now, kept);
-            let own = left / variance + self.cost_of(&scale, found);
+            let own = left / variance + self.cost_of(now, &scale, index);
             let ranked = self.ranked(&screen, now);
             let is_it = |r: &&Ranked| {
                 self.candidates[r.candidate].effect().is_some_and(|(effect, spot)| {
@@ -61,9 +61,7 @@ impl Search<'_, '_> {
                 })
             };
             let Some(best) = ranked.iter().find(|r| !is_it(r)) else { continue };
-            let candidate = &self.candidates[best.candidate];
-            let values = best.score.values.iter().zip(&candidate.usual);
-            let its = scale.cost(best.score.rank, candidate.forms, values);
+            let its = best.cost;
             let lead = (screen.left() - best.score.drop) / variance + its - own;
             if lead + EXCHANGE >= 0.0 {
                 now.fit.model.found[index].lead = lead;
@@ -72,7 +70,10 @@ impl Search<'_, '_> {
             let refined = self.refined(now, &without, best, &screen);
             let refined = refined.into_iter().collect();
             if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
-                && squares(&fit.predicted.gaps, &now.weights) / variance + its < own
+                && (squares(&fit.predicted.gaps, &now.weights) + strain(self.problem, &fit.model))
+                    / variance
+                    + its
+                    < own
             {
                 return Ok(Some(fit));
             }
@@ -90,10 +91,13 @@ impl Search<'_, '_> {
             let size = found.values.len();
             let own = basis.t.rows(at, size);
             at += size;
+            if index < Model::along(self.problem) {
+                continue;
+            }
             // Without it the squares rise by its values in the metric of their covariance.
             let values = DVector::from_column_slice(&found.values);
             let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
-            let excess = self.cost_of(&scale, found) - rise / variance;
+            let excess = self.cost_of(now, &scale, index) - rise / variance;
             if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
                 worst = Some((excess, index));
             }

@@ -19,7 +19,7 @@ impl Search<'_, '_> {
     /// Gathers what the data show before anything is found.
     pub(crate) fn first(&self, now: &Explained) -> First {
         let geometry: Vec<Candidate> =
-            self.candidates.iter().filter(|c| is_geometry(c)).cloned().collect();
+            self.candidates.iter().filter(|c| is_one(c)).cloned().collect();
         let mut candidates = self.candidates.to_vec();
         candidates.extend(Candidate::probes(self.problem));
         let gathered = self.gather(now, &geometry, &candidates);
@@ -27,7 +27,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Whether it is one of the numbers of the arm's table.
-fn is_geometry(candidate: &Candidate) -> bool {
-    candidate.effect().is_some_and(|(effect, _)| effect.is_geometry())
+/// Whether it is a zero or a row of the arm's table, or a frame.
+fn is_one(candidate: &Candidate) -> bool {
+    !candidate.is_tolerated() && candidate.effect().is_some_and(|(effect, _)| effect.is_geometry())
 }

@@ -3,11 +3,13 @@
 
 use super::evidence::{Flips, Scale};
 use crate::diagnose::data::{Folds, Noise, Problem};
-use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, squares};
+use crate::diagnose::fit::{
+    Basis, Fit, Fitted, Model, Predicted, principal, refit, squares, strain,
+};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
-use nalgebra::Vector6;
+use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
 
 /// A finding's largest p value.
@@ -34,6 +36,12 @@ const IMPOSSIBLE: f64 = 100.0;
 
 /// At least this many measured numbers for each parameter.
 const NUMBERS_EACH: usize = 3;
+
+/// Rounds in which weights and fit settle.
+const MOST_WEIGHED: usize = 6;
+
+/// Weights that change by less than this part have settled: far less than any noise is known.
+const SETTLED: f64 = 1e-3;
 
 /// Everything that a search works with.
 #[derive(Clone, Copy)]
@@ -73,17 +81,41 @@ impl Explained {
     }
 }
 
-/// A candidate beside a model; less `cost` is better.
+/// A candidate beside a model; more `gain` is better.
 pub(crate) struct Ranked {
     pub(crate) candidate: usize,
     pub(crate) score: Score,
-    /// Squares left in units of the noise, and what the parameters cost.
+    /// What the parameters cost.
     pub(crate) cost: f64,
-    /// By how much that is less than without it.
+    /// By how much more the squares fall, in units of the noise.
     pub(crate) gain: f64,
 }
 
 impl Search<'_, '_> {
+    /// Weighted squares that a fit leaves, and what it costs to hold its values.
+    pub(crate) fn left(&self, now: &Explained) -> f64 {
+        squares(&now.fit.predicted.gaps, &now.weights) + strain(self.problem, &now.fit.model)
+    }
+
+    /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
+    pub(crate) fn settled(
+        &self,
+        fit: Fit,
+        mut before: Vector6<f64>,
+    ) -> Result<Explained, DiagnoseError> {
+        let mut now = self.weigh(fit);
+        for _ in 0..MOST_WEIGHED {
+            let moved = |(now, before): (&f64, &f64)| (now - before).abs() > SETTLED * before;
+            if !now.weights.iter().zip(before.iter()).any(moved) {
+                break;
+            }
+            before = now.weights;
+            let Explained { fit, weights, .. } = now;
+            now = self.weigh(refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?);
+        }
+        Ok(now)
+    }
+
     pub(crate) fn weigh(&self, fit: Fit) -> Explained {
         let parameters = fit.model.parameters(self.problem);
         let noise = Noise::of(self.problem, self.options, &fit.predicted.gaps, parameters);
@@ -93,18 +125,8 @@ impl Search<'_, '_> {
 
     /// Fits the frames, and the effects that the model has.
     pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
-        let first = Fit { predicted: Arc::new(model.predict(self.problem, None)?), model };
-        let mut now = self.weigh(first);
-        // Weights that come from the remainder are those of the fit after two rounds.
-        for _ in 0..3 {
-            let Explained { fit, weights, .. } = now;
-            let fit = refit(self.problem, fit.model, Some(&fit.predicted.sims), &weights)?;
-            now = self.weigh(fit);
-            if now.fit.model.parameters(self.problem) == 0 {
-                break;
-            }
-        }
-        Ok(now)
+        let predicted = Arc::new(model.predict(self.problem, None)?);
+        self.settled(Fit { predicted, model }, Vector6::zeros())
     }
 
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
@@ -116,7 +138,7 @@ impl Search<'_, '_> {
             }
             (self.progress)(Stage::Search(now.fit.model.found.len()));
             let Some(next) = self.added(&now)? else { break };
-            now = self.weigh(next);
+            now = self.settled(next, now.weights)?;
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
             if count <= SMALL || count.is_multiple_of(SMALL) {
@@ -135,9 +157,22 @@ impl Search<'_, '_> {
         Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
     }
 
-    /// Cost of the parameters of an effect that was found.
-    pub(crate) fn cost_of(&self, scale: &Scale, found: &Fitted) -> f64 {
-        scale.cost(found.values.len(), found.forms, found.values.iter().zip(&found.usual))
+    /// Cost of the parameters of an effect that was found; of many that are held to tolerances, by
+    /// how much the data narrow them.
+    pub(crate) fn cost_of(&self, now: &Explained, scale: &Scale, index: usize) -> f64 {
+        let found = &now.fit.model.found[index];
+        if !found.effect.is_tolerated() {
+            return scale.cost(
+                found.values.len(),
+                found.chances,
+                found.values.iter().zip(&found.usual),
+            );
+        }
+        let before = now.fit.model.found[..index].iter().map(|f| f.values.len()).sum::<usize>();
+        let basis = Basis::new(&self.normal(now));
+        let own = basis.t.rows(Model::nuisances(self.problem) + before, found.values.len());
+        let held = DMatrix::from_diagonal(&DVector::from_column_slice(&found.held)) * own;
+        -principal(&held * held.transpose()).0.map(f64::ln).sum()
     }
 
     /// The candidates beside the model, best first.
@@ -145,27 +180,38 @@ impl Search<'_, '_> {
         let (left, fitted) = (screen.left(), screen.basis.rank());
         let room = (self.problem.numbers() / NUMBERS_EACH).saturating_sub(fitted);
         let scale = self.scale(now);
-        let scored = (0..screen.candidates.len()).map(|c| (c, screen.score(c)));
+        let tolerated =
+            |c: usize| screen.tolerated(c, |left, own| scale.variance(left, fitted + own));
+        let scored =
+            (0..screen.candidates.len()).map(|c| match screen.candidates[c].is_tolerated() {
+                true => {
+                    let (score, cost) = tolerated(c);
+                    (c, score, cost)
+                }
+                false => {
+                    let (score, it) = (screen.score(c), &screen.candidates[c]);
+                    let cost =
+                        scale.cost(score.rank, it.chances, score.values.iter().zip(&it.usual));
+                    (c, score, cost)
+                }
+            });
         let can = |candidate: usize, score: &Score| {
             let usual = &screen.candidates[candidate].usual;
             let mut values = score.values.iter().zip(usual);
             let possible = values.all(|(value, usual)| value.abs() <= IMPOSSIBLE * usual);
             score.rank > 0 && score.own > OWN && score.rank <= room && possible
         };
-        let kept: Vec<_> = scored.filter(|(c, s)| can(*c, s) && s.drop > 0.0).collect();
-        let best = kept.iter().map(|(_, s)| s.drop).fold(0.0, f64::max);
+        let kept: Vec<_> = scored.filter(|(c, s, _)| can(*c, s) && s.drop > 0.0).collect();
+        let best = kept.iter().map(|(_, s, _)| s.drop).fold(0.0, f64::max);
         let variance = scale.variance((left - best).max(0.0), fitted);
         let mut ranked: Vec<Ranked> = kept
             .into_iter()
-            .map(|(candidate, score)| {
-                let it = &screen.candidates[candidate];
-                let values = score.values.iter().zip(&it.usual);
-                let cost =
-                    (left - score.drop) / variance + scale.cost(score.rank, it.forms, values);
-                Ranked { candidate, score, cost, gain: left / variance - cost }
+            .map(|(candidate, score, cost)| {
+                let gain = score.drop / variance - cost;
+                Ranked { candidate, score, cost, gain }
             })
             .collect();
-        ranked.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        ranked.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         ranked
     }
 
@@ -269,6 +315,6 @@ impl Search<'_, '_> {
             model.found.remove(index);
         }
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
-        Ok(self.weigh(fit))
+        self.settled(fit, weights)
     }
 }

@@ -19,17 +19,11 @@ impl Search<'_, '_> {
     ) -> Option<Fitted> {
         let candidate = &screen.candidates[one.candidate];
         let (effect, spot) = candidate.effect()?;
-        let fitted = |spot: Spot, score: &Score| Fitted {
-            effect,
-            spot,
-            least: candidate.least.clone(),
-            values: score.values.iter().copied().collect(),
-            usual: candidate.usual.clone(),
-            lead: 0.0,
-            forms: candidate.forms,
+        let fitted = |spot: Spot, score: &Score| {
+            candidate.fitted(spot, score.values.iter().copied().collect())
         };
         if effect.forms_are() != Forms::Rows {
-            return Some(fitted(spot, &one.score));
+            return fitted(spot, &one.score);
         }
         let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);
         let at = forms.iter().position(|f| *f == spot.form).unwrap_or(0);
@@ -49,7 +43,7 @@ impl Search<'_, '_> {
             let (at, score) =
                 best.and_then(|(c, score)| near[c].effect().map(|(_, at)| (at, score)))?;
             if every == 1 {
-                return Some(fitted(at, &score));
+                return fitted(at, &score);
             }
             (from, to) = (from.max(at.form.saturating_sub(every - 1)), to.min(at.form + every));
         }

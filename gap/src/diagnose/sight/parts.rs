@@ -5,6 +5,7 @@ use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::{Candidate, Kept};
 use crate::effects::Group;
 use crate::gap::rms;
+use crate::measurement::Row;
 use nalgebra::Vector6;
 
 /// At least this many measured numbers for each column.
@@ -54,9 +55,10 @@ impl Search<'_, '_> {
     pub(crate) fn slices(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Vec<Slice> {
         let first = if self.problem.measures_position() { 0 } else { 3 };
         let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
+        let [before, after] = [before, after].map(|gaps| self.problem.kept(gaps));
         let (before, after): (Vec<f64>, Vec<f64>) =
             (before.iter().map(size).collect(), after.iter().map(size).collect());
-        let rows = &self.problem.data.rows;
+        let rows: Vec<&Row> = self.problem.kept_rows().collect();
         let mut slices = Vec::new();
         let mut add = |of: String, values: Vec<f64>| {
             slices.extend(cut(&of, &values, &before, &after));
@@ -64,7 +66,7 @@ impl Search<'_, '_> {
         for joint in 0..self.problem.arm.dof() {
             add(format!("q{}", joint + 1), rows.iter().map(|r| r.q[joint]).collect());
         }
-        let force = |r: &crate::measurement::Row| r.wrench.fixed_rows::<3>(0).norm();
+        let force = |r: &&Row| r.wrench.fixed_rows::<3>(0).norm();
         add("load".to_owned(), rows.iter().map(force).collect());
         for joint in 0..self.problem.arm.dof() {
             let directions: Option<Vec<f64>> =
@@ -73,7 +75,8 @@ impl Search<'_, '_> {
                 add(format!("s{}", joint + 1), directions);
             }
         }
-        add("time".to_owned(), self.problem.moments.iter().map(|m| m.clock).collect());
+        let clocks: Vec<f64> = self.problem.moments.iter().map(|m| m.clock).collect();
+        add("time".to_owned(), self.problem.kept(&clocks));
         slices
     }
 }

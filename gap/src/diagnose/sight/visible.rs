@@ -33,7 +33,8 @@ impl Search<'_, '_> {
         // many times the usual size would do.
         let geometry_shows = matches!(self.problem.data.kind, Kind::Pose { .. });
         let mut unseen = Vec::new();
-        for &effect in effects {
+        // Of the table as a whole its rows and zeros tell.
+        for &effect in effects.iter().filter(|e| !e.is_tolerated()) {
             let places = effect.places(self.problem.arm);
             if let Some(because) = effect.excluded(self.problem.data) {
                 unseen.extend(places.iter().map(|p| entry(effect, *p, 0.0, because)));

@@ -4,7 +4,12 @@ use nalgebra::Matrix6xX;
 
 use super::probe::{About, Probe};
 use crate::diagnose::data::Problem;
-use crate::effects::{Carrier, Effect, Forms, Place, Scene, Spot};
+use crate::diagnose::fit::Fitted;
+use crate::effects::{Carrier, Effect, Forms, Parameter, Place, Quantity, Scene, Spot};
+
+/// How loosely a value is held to what is usual: as by a measurement of so many times that size, so
+/// that what the data hardly decide stays small.
+const LOOSE: f64 = 3.0;
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]
@@ -16,8 +21,10 @@ pub(crate) struct Candidate {
     pub(crate) least: Vec<f64>,
     /// What is usual of them.
     pub(crate) usual: Vec<f64>,
-    /// Forms that the effect has at this place: each more is one more chance to fit noise.
-    pub(crate) forms: usize,
+    /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
+    pub(crate) held: Vec<f64>,
+    /// Forms and places that the effect has: each more is one more chance to fit noise.
+    pub(crate) chances: usize,
 }
 
 /// Where a candidate's block comes from.
@@ -86,19 +93,33 @@ impl Candidate {
         forms: usize,
     ) -> Candidate {
         let parameters = effect.parameters(problem.arm, spot);
+        let held = |p: &Parameter| match (effect.is_tolerated(), p.quantity) {
+            (false, _) => 1.0 / (LOOSE * p.usual),
+            (true, Quantity::Angle) => 1.0 / problem.tolerance[1],
+            (true, _) => 1.0 / problem.tolerance[0],
+        };
         Candidate {
+            held: parameters.iter().map(held).collect(),
             size: parameters.len(),
             least: parameters.iter().map(|p| p.least).collect(),
             usual: parameters.iter().map(|p| p.usual).collect(),
             source: Source::Effect { effect, spot },
-            forms,
+            chances: forms * effect.places(problem.arm).len(),
         }
+    }
+
+    /// As a part of a model, with such values; `None` of a probe.
+    pub(crate) fn fitted(&self, spot: Spot, values: Vec<f64>) -> Option<Fitted> {
+        let (effect, _) = self.effect()?;
+        let (least, usual, held) = (self.least.clone(), self.usual.clone(), self.held.clone());
+        Some(Fitted { effect, spot, least, values, usual, held, lead: 0.0, chances: self.chances })
     }
 
     pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
         let least = vec![f64::NEG_INFINITY; size];
         let usual = vec![f64::INFINITY; size];
-        Candidate { source: Source::Probe(probe), size, least, usual, forms: 1 }
+        let held = vec![0.0; size];
+        Candidate { source: Source::Probe(probe), size, least, usual, held, chances: 1 }
     }
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {
@@ -129,6 +150,11 @@ impl Candidate {
             Source::Effect { effect, spot, .. } => Some((*effect, *spot)),
             Source::Probe(_) => None,
         }
+    }
+
+    /// Whether it is held to what makers tolerate.
+    pub(crate) fn is_tolerated(&self) -> bool {
+        self.effect().is_some_and(|(effect, _)| effect.is_tolerated())
     }
 
     /// Whether its forms are the orders of a periodic error.

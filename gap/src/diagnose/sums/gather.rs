@@ -123,7 +123,7 @@ impl Wanted<'_> {
         let sim = &self.fit.predicted.sims[row];
         let fitted = model.parameters(problem);
         let mut motions = Vec::with_capacity(layout.motions);
-        let twists = sim.change(|state, loaded| {
+        let mut twists = sim.change(|state, loaded| {
             let actual = model.actual(problem, row, loaded);
             let scene = model.scene(problem, row, sim, state, &actual);
             let mut twists = Matrix6xX::zeros(layout.carriers + k + layout.owned);
@@ -139,6 +139,9 @@ impl Wanted<'_> {
             layout.fill(self.candidates, &scene, &mut twists, &mut motions);
             twists
         });
+        if !problem.fits[row] {
+            twists.fill(0.0);
+        }
         Seen { twists, motions, gap: self.fit.predicted.gaps[row] }
     }
 }

@@ -4,11 +4,15 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::products::Products;
 use super::screen::Screen;
-use crate::diagnose::fit::{Basis, Squares};
+use crate::diagnose::fit::{Basis, Squares, principal};
 
 /// A direction of a candidate whose part left beside the model is smaller than this is not its own:
 /// the square of a ratio of sizes of 1e-4.
 const OWN: f64 = 1e-8;
+
+/// Rounds in which a variance and what is left at it settle: each is nearer by the part of the
+/// numbers that are hardly decided.
+const ROUNDS: usize = 6;
 
 /// Kept in a fold's normal matrix where the rows that are left do not decide a direction.
 const RIDGE: f64 = 1e-9;
@@ -66,16 +70,49 @@ fn solve(
 }
 
 impl Screen<'_> {
-    /// A candidate fitted to all rows.
-    pub(crate) fn score(&self, candidate: usize) -> Score {
-        let range = self.range(candidate);
-        let t = &self.total;
-        let own = Own {
+    fn own(&self, candidate: usize) -> Own {
+        let (range, t) = (self.range(candidate), &self.total);
+        Own {
             zx: t.zx.columns_range(range.clone()).into_owned(),
             xr: t.xr.rows_range(range).into_owned(),
             xx: t.xx[candidate].clone(),
-        };
-        own.score(&t.zr, &self.candidates[candidate].least)
+        }
+    }
+
+    /// A candidate fitted to all rows.
+    pub(crate) fn score(&self, candidate: usize) -> Score {
+        self.own(candidate).score(&self.total.zr, &self.candidates[candidate].least)
+    }
+
+    /// A candidate of many numbers, each held to its tolerance, fitted to all rows at the variance
+    /// of what it leaves, which `variance` makes of squares and a number of parameters; and its cost:
+    /// how far its numbers are from 0, and by how much the data narrow them (the evidence of a linear
+    /// model with a normal prior, MacKay 1992).
+    pub(crate) fn tolerated(
+        &self,
+        candidate: usize,
+        variance: impl Fn(f64, usize) -> f64,
+    ) -> (Score, f64) {
+        let own = self.own(candidate);
+        let held = DVector::from_column_slice(&self.candidates[candidate].held);
+        let scaled = |m: DMatrix<f64>| m.map_with_location(|r, c, x| x / (held[r] * held[c]));
+        let size = held.len();
+        let data = scaled(&own.xx - own.zx.tr_mul(&own.zx)) - DMatrix::identity(size, size);
+        let (seen, turn) = principal(data);
+        let right = turn.tr_mul(&(&own.xr - own.zx.tr_mul(&self.total.zr)).component_div(&held));
+        let mut unit = variance(self.left(), 0);
+        let (mut drop, mut decided) = (0.0, 0.0);
+        let mut values = DVector::zeros(size);
+        for _ in 0..ROUNDS {
+            values = right.zip_map(&seen, |u, seen| u / (seen + unit));
+            drop = 2.0 * values.dot(&right) - values.dot(&values.component_mul(&seen));
+            decided = seen.map(|seen| seen / (seen + unit)).sum();
+            unit = variance((self.left() - drop).max(0.0), decided.round() as usize);
+        }
+        let narrowed: f64 = seen.map(|seen| (seen / unit).ln_1p()).sum();
+        let cost = values.norm_squared() + narrowed;
+        let values = (turn * values).component_div(&held);
+        (Score { drop, values, rank: decided.round() as usize, own: 1.0 }, cost)
     }
 
     /// Each block's part in the fall of the squares: `Σ_b` over these, flipped in sign or not, is

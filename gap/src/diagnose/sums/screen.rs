@@ -1,6 +1,8 @@
 //! The candidates against a fitted model: some of the gathered columns are the model's, in
 //! coordinates in which its normal matrix is the identity, some are the candidates'.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -17,8 +19,11 @@ pub(crate) struct Screen<'c> {
     /// First number of each candidate.
     pub(crate) at: Vec<usize>,
     pub(crate) basis: Basis,
-    /// Of all rows, `z` in the coordinates of `basis`.
+    /// Of all rows, and of what the model's parameters and each candidate's numbers are held to; `z`
+    /// in the coordinates of `basis`.
     pub(crate) total: Products,
+    /// The part of `total` that is what the parameters are held to, a measurement of each.
+    pub(crate) prior: Products,
     /// The same of each block of poses; none where they were not wanted.
     pub(crate) blocks: Vec<Products>,
     /// The same of each fold.
@@ -75,9 +80,12 @@ impl<'c> Screen<'c> {
     ) -> Self {
         let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let choice = kept.choice(problem, model, candidates);
+        let mut prior = held(problem, model, &choice, candidates);
         let mut total = gathered.total.chosen(&choice);
+        total.add(&prior);
         let basis = Basis::new(&total.zz);
         total.turned(&basis.t);
+        prior.turned(&basis.t);
         let turned = |of: &[Products]| -> Vec<Products> {
             let each = of.par_iter().map(|products| {
                 let mut chosen = products.chosen(&choice);
@@ -96,7 +104,7 @@ impl<'c> Screen<'c> {
             }
         }
         let at = starts(&sizes);
-        Self { candidates, at, basis, total, blocks, folds: of_folds, plain }
+        Self { candidates, at, basis, total, prior, blocks, folds: of_folds, plain }
     }
 
     /// Columns of a candidate in the products.
@@ -105,8 +113,35 @@ impl<'c> Screen<'c> {
         from..from + self.candidates[candidate].size
     }
 
-    /// Sum of squares left without any candidate.
+    /// Sum of squares left without any candidate, and what it costs to hold the parameters.
     pub(crate) fn left(&self) -> f64 {
         self.total.rr - self.total.zr.norm_squared()
     }
+}
+
+/// The products of a measurement of each parameter that stays, as 0 with the standard deviation to
+/// which it is held, and the same of the candidates' numbers.
+fn held(
+    problem: &Problem<'_>,
+    model: &Model,
+    choice: &Choice,
+    candidates: &[Candidate],
+) -> Products {
+    let (held, values) = (model.held(problem), model.values(problem));
+    let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
+    let mut products = Products::zeros(choice.kept.len(), &sizes);
+    // Columns gathered along are free.
+    for (at, &column) in choice.kept.iter().enumerate().filter(|(_, c)| **c < held.len()) {
+        let weight = held[column].powi(2);
+        products.zz[(at, at)] = weight;
+        products.zr[at] = -weight * values[column];
+        products.rr += weight * values[column].powi(2);
+    }
+    for (own, candidate) in Arc::make_mut(&mut products.xx).iter_mut().zip(candidates) {
+        own.set_diagonal(&DVector::from_iterator(
+            candidate.size,
+            candidate.held.iter().map(|held| held * held),
+        ));
+    }
+    products
 }

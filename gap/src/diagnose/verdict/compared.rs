@@ -50,20 +50,24 @@ impl Rival {
         Ok(Rival { name: name.to_owned(), compared, gaps })
     }
 
-    /// Against our held-out gaps, pose by pose.
+    /// Against our held-out gaps, pose by pose, of the rows that fit.
     pub(crate) fn compare(
         &self,
         data: &Measurements,
+        fits: &[bool],
         ours: &[Vector6<f64>],
         seed: u64,
     ) -> report::Rival {
         let size =
             |gap: &Vector6<f64>| self.compared.iter().map(|&k| gap[k] * gap[k]).sum::<f64>().sqrt();
-        let theirs: Vec<f64> = self.gaps.iter().map(size).collect();
-        let ours: Vec<f64> = ours.iter().map(size).collect();
+        let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> {
+            gaps.iter().zip(fits).filter(|(_, fits)| **fits).map(|(gap, _)| size(gap)).collect()
+        };
+        let (theirs, ours) = (sizes(&self.gaps), sizes(ours));
         let mut differences = vec![0.0; data.poses];
         let mut rows = vec![0.0; data.poses];
-        for ((row, theirs), ours) in data.rows.iter().zip(&theirs).zip(&ours) {
+        let fitting = data.rows.iter().zip(fits).filter(|(_, fits)| **fits).map(|(row, _)| row);
+        for ((row, theirs), ours) in fitting.zip(&theirs).zip(&ours) {
             differences[row.group] += theirs * theirs - ours * ours;
             rows[row.group] += 1.0;
         }
@@ -72,7 +76,7 @@ impl Rival {
             name: self.name.clone(),
             rms: rms(&theirs),
             held_out_rms: rms(&ours),
-            mean_square_gain: differences.iter().sum::<f64>() / data.rows.len() as f64,
+            mean_square_gain: differences.iter().sum::<f64>() / ours.len() as f64,
             ci95,
             significant: excludes_zero(ci95),
         }
@@ -150,7 +154,7 @@ mod tests {
         let data = data("q1,dx[mm],dy[mm],alt_dy[um]\n0.1,5,2,1000\n0.2,5,4,5000\n");
         let rival = Rival::read(&data, "alt").unwrap();
         let ours = vec![Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0); 2];
-        let report = rival.compare(&data, &ours, 0);
+        let report = rival.compare(&data, &[true; 2], &ours, 0);
         assert!((report.rms - 1e-3).abs() < 1e-15);
         assert_eq!(report.held_out_rms, 0.0);
         assert!((report.mean_square_gain - 1e-6).abs() < 1e-15);

@@ -39,7 +39,7 @@ impl Search<'_, '_> {
                 Some(last) => last.clone(),
                 None => before.to_vec(),
             };
-            let size = Statistics::of(&after);
+            let size = Statistics::of(&self.problem.kept(&after));
             let positions = self.problem.measures_position();
             let main = if positions { size.position_rms } else { size.rotation_rms };
             let unexplained =

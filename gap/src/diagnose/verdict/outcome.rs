@@ -20,7 +20,7 @@ pub(crate) struct Held<'h> {
     /// Weighted, all effects given back.
     of_fold: Vec<Normal>,
     total: Normal,
-    /// Which parameters belong to which effect; the nuisances to none.
+    /// Which parameters belong to which effect; what is fitted along to none.
     owner: Vec<Option<usize>>,
 }
 
@@ -51,7 +51,8 @@ impl<'h> Held<'h> {
         let (problem, folds, fit) = (search.problem, search.folds, &now.fit);
         let mut owner = vec![None; Model::nuisances(problem)];
         for (index, found) in fit.model.found.iter().enumerate() {
-            owner.extend(std::iter::repeat_n(Some(index), found.values.len()));
+            let own = (index >= Model::along(problem)).then_some(index);
+            owner.extend(std::iter::repeat_n(own, found.values.len()));
         }
         let values = DVector::from_vec(fit.model.values(problem));
         let mut of_fold = vec![Normal::zeros(owner.len()); folds.count];
@@ -70,8 +71,10 @@ impl<'h> Held<'h> {
             .filter(|&c| self.owner[c].is_none_or(|o| groups.iter().any(|g| g.contains(&o))))
             .collect();
         let mut values = DMatrix::zeros(self.owner.len(), self.of_fold.len());
+        let held = DVector::from_vec(self.fit.model.held(self.problem)).map(|held| held * held);
+        let total = &self.total.matrix + DMatrix::from_diagonal(&held);
         for (fold, own) in self.of_fold.iter().enumerate() {
-            let others = (&self.total.matrix - &own.matrix).select_rows(&kept);
+            let others = (&total - &own.matrix).select_rows(&kept);
             let right = (&self.total.right - &own.right).select_rows(&kept);
             let found = Basis::new(&others.select_columns(&kept)).solve(&right);
             for (at, value) in kept.iter().zip(found.iter()) {
@@ -136,7 +139,7 @@ impl Search<'_, '_> {
         mut now: Explained,
     ) -> Result<(Explained, Vec<Group>, Vec<Vec<Vector6<f64>>>), DiagnoseError> {
         loop {
-            let (done, gaps) = Held::new(self, &now).ordered(groups(&now.fit.model));
+            let (done, gaps) = Held::new(self, &now).ordered(groups(self.problem, &now.fit.model));
             let size = |k: usize| squares(&gaps[k], &now.weights);
             let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
             let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, done, gaps)) };
@@ -147,10 +150,10 @@ impl Search<'_, '_> {
     }
 }
 
-/// All forms of one effect at one place are one finding.
-pub(crate) fn groups(model: &Model) -> Vec<Group> {
+/// All forms of one effect at one place are one finding; what is fitted along is none.
+pub(crate) fn groups(problem: &Problem<'_>, model: &Model) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for (index, found) in model.found.iter().enumerate() {
+    for (index, found) in model.found.iter().enumerate().skip(Model::along(problem)) {
         let same = |group: &&mut Group| {
             let first = &model.found[group[0]];
             first.effect.identifier() == found.effect.identifier()

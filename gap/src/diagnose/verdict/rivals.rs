@@ -2,7 +2,6 @@
 //! others.
 
 use super::outcome::Group;
-use crate::diagnose::fit::squares;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::Alternative;
 use crate::diagnose::search::{Explained, Flips, Ranked, Search};
@@ -36,10 +35,10 @@ impl Search<'_, '_> {
     ) -> Result<Rivals, DiagnoseError> {
         let screen = self.screen(now, Kept { without: group, ..Kept::default() });
         let scale = self.scale(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = self.left(now);
         let variance = scale.variance(left, now.fit.model.parameters(self.problem));
         let found: Vec<_> = group.iter().map(|index| &now.fit.model.found[*index]).collect();
-        let cost = found.iter().map(|f| self.cost_of(&scale, f));
+        let cost = group.iter().map(|index| self.cost_of(now, &scale, *index));
         let own = left / variance + cost.sum::<f64>();
         let own_blocks = self.per_block(now);
         let ranked = self.ranked(&screen, now);
@@ -50,7 +49,7 @@ impl Search<'_, '_> {
                     && spot.place == found[0].spot.place
             })
         };
-        let rows = self.problem.data.rows.len() as f64;
+        let rows = self.problem.kept_rows().count() as f64;
         let mut alternatives: Vec<Alternative> = Vec::new();
         let mut seen: Vec<usize> = Vec::new();
         let mut nearest = None;
@@ -62,13 +61,7 @@ impl Search<'_, '_> {
                 continue;
             }
             seen.push(one.candidate);
-            let evidence = (screen.left() - one.score.drop) / variance
-                + scale.cost(
-                    one.score.rank,
-                    candidate.forms,
-                    one.score.values.iter().zip(&candidate.usual),
-                )
-                - own;
+            let evidence = (screen.left() - one.score.drop) / variance + one.cost - own;
             let weak = evidence <= WEAK || !at_noise;
             let apart =
                 evidence > EVEN && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
@@ -143,9 +136,6 @@ impl Search<'_, '_> {
         let scale = self.scale(now);
         let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
         let flips = Flips::new(screen, tried, &scale, self.options.seed);
-        let (all, flips) = (flips.exhaustive, flips.chance(finding));
-        // Drawn patterns tell no chance below one in their number.
-        let least = 1.0 / 1000.0;
-        if !all && flips <= least { chance.min(least) } else { chance.max(flips) }
+        chance.max(flips.chance(finding))
     }
 }

@@ -54,7 +54,7 @@ impl Search<'_, '_> {
         now: &Explained,
     ) -> Vec<(usize, f64)> {
         let k = screen.basis.rank();
-        let (mut zz, mut zr) = (DMatrix::zeros(k, k), DVector::zeros(k));
+        let (mut zz, mut zr) = (screen.prior.zz.clone(), screen.prior.zr.clone());
         for block in half {
             zz += &block.zz;
             zr += &block.zr;
@@ -65,8 +65,8 @@ impl Search<'_, '_> {
         let cost = |&candidate: &usize| {
             let range = screen.range(candidate);
             let p = range.len();
-            let mut own =
-                Own { zx: DMatrix::zeros(k, p), xr: DVector::zeros(p), xx: DMatrix::zeros(p, p) };
+            let xx = screen.prior.xx[candidate].clone();
+            let mut own = Own { zx: DMatrix::zeros(k, p), xr: DVector::zeros(p), xx };
             for block in half {
                 own.zx += block.zx.columns_range(range.clone());
                 own.xr += block.xr.rows_range(range.clone());
@@ -77,8 +77,11 @@ impl Search<'_, '_> {
             let it = &screen.candidates[candidate];
             let values = score.values.iter().zip(&it.usual);
             let seen = score.own > OWN;
-            let cost =
-                if seen { scale.cost(score.rank, it.forms, values) - score.drop } else { f64::MAX };
+            let cost = if seen {
+                scale.cost(score.rank, it.chances, values) - score.drop
+            } else {
+                f64::MAX
+            };
             (candidate, cost)
         };
         contenders.iter().map(cost).collect()

@@ -51,6 +51,7 @@ impl Search<'_, '_> {
         let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
         let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> { gaps.iter().map(size).collect() };
         let (before, after) = (sizes(before), sizes(after));
+        let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes));
         let blocks = |sizes: &[f64]| self.folds.per_block(self.problem.data, sizes);
         let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
         Shrink {
@@ -119,13 +120,13 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
 
 /// Where the data has been.
 pub(crate) fn cover(problem: &Problem<'_>) -> Cover {
-    let rows = &problem.data.rows;
     let joint = |j: usize| {
-        let values = rows.iter().map(|r| r.q[j]);
-        [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
+        let values = problem.kept_rows().map(|r| r.q[j]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], q| [low.min(q), high.max(q)])
     };
     let largest = |from: usize| {
-        rows.iter().map(|r| r.wrench.fixed_rows::<3>(from).norm()).fold(0.0, f64::max)
+        let loads = problem.kept_rows().map(|r| r.wrench.fixed_rows::<3>(from).norm());
+        loads.fold(0.0, f64::max)
     };
     Cover {
         joints: (0..problem.arm.dof()).map(joint).collect(),

@@ -1,15 +1,20 @@
 //! The foundation gives under load.
 //!
 //! Rocking about x and y by the moment about the base's origin, and a shift by the force. Its turn
-//! about z is joint 1's compliance and is left to that. Confused with the tilt of joint 1's bearing
+//! about z is joint 1's compliance and is left to that. Under loads that hardly change only the
+//! rocking shows, which is a form of its own. Confused with the tilt of joint 1's bearing
 //! unless the joint turns under one load: then the tilt turns along and the rocking does not.
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
-use crate::measurement::Row;
+use crate::effects::{Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
+
+/// The forms: rocking and shift, rocking alone.
+const WHOLE: usize = 0;
+const ROCKING: usize = 1;
 
 /// Rocking about the base's x and y per moment, and shift per force.
 #[derive(Clone, Copy, Debug)]
@@ -24,26 +29,33 @@ impl Effect for BaseCompliance {
         vec![Place::Base]
     }
 
-    fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
-        vec![
+    fn parameters(&self, _: &Arm, spot: Spot) -> Vec<Parameter> {
+        let mut all = vec![
             Parameter::at_least("rock_x", Quantity::AnglePerMoment, 0.0),
             Parameter::at_least("rock_y", Quantity::AnglePerMoment, 0.0),
             Parameter::at_least("give", Quantity::LengthPerForce, 0.0),
-        ]
+        ];
+        all.truncate(if spot.form == ROCKING { 2 } else { 3 });
+        all
+    }
+
+    fn forms(&self, _: &Arm, _: Place, _: &Measurements) -> Vec<usize> {
+        vec![WHOLE, ROCKING]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
-        let (x, y, give) = (v[0], v[1], v[2]);
+        let (x, y, give) = (v[0], v[1], v.get(2).copied().unwrap_or(0.0));
         let law = move |w: &Vector6<f64>| {
             Vector6::new(give * w[0], give * w[1], give * w[2], x * w[3], y * w[4], 0.0)
         };
         actual.laws.push((Site::Base, Box::new(law)));
     }
 
-    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+    fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
         let w = scene.state.load(Site::Base);
         let shift = Vector6::new(w[0], w[1], w[2], 0.0, 0.0, 0.0);
-        scene.carried(Site::Base, &[Vector6::ith(3, w[3]), Vector6::ith(4, w[4]), shift])
+        let all = [Vector6::ith(3, w[3]), Vector6::ith(4, w[4]), shift];
+        scene.carried(Site::Base, &all[..if spot.form == ROCKING { 2 } else { 3 }])
     }
 
     fn idle(&self) -> &'static str {
@@ -52,6 +64,12 @@ impl Effect for BaseCompliance {
 
     fn group(&self) -> Option<Group> {
         Some(Group::Elastic)
+    }
+
+    /// All of it: no foundation rocks alone.
+    fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
+        let whole = self.parameters(from.arm, Spot { place: from.place, form: WHOLE });
+        from.sizes(&whole, 1.0)
     }
 
     fn sentence(&self, _: &Told<'_>) -> String {

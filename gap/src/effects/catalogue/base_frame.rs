@@ -51,7 +51,7 @@ impl Effect for BaseFrame {
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Geometry)
+        Some(Group::Constant)
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -55,7 +55,7 @@ impl Effect for JointOffset {
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Geometry)
+        Some(Group::Constant)
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -47,7 +47,7 @@ impl Effect for JointRatio {
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Geometry)
+        Some(Group::Constant)
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -114,7 +114,7 @@ impl Effect for LinkGeometry {
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Geometry)
+        Some(Group::Constant)
     }
 
     /// Lengths and angles that are told from zero; all of them if none is.

@@ -7,6 +7,7 @@ mod bearing_compliance;
 mod drift;
 mod friction_hysteresis;
 mod geometric_stiffness;
+mod geometry;
 mod instrument_scale;
 mod joint_compliance;
 mod joint_coupling;
@@ -33,6 +34,7 @@ pub use bearing_compliance::BearingCompliance;
 pub use drift::Drift;
 pub use friction_hysteresis::FrictionHysteresis;
 pub use geometric_stiffness::GeometricStiffness;
+pub use geometry::Geometry;
 pub use instrument_scale::InstrumentScale;
 pub use joint_compliance::JointCompliance;
 pub use joint_coupling::JointCoupling;
@@ -51,7 +53,7 @@ pub use transmission_error::TransmissionError;
 pub use wrench_scale::WrenchScale;
 
 /// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 23] = [
+pub const CATALOGUE: [&dyn Effect; 24] = [
     &JointOffset,
     &JointCompliance,
     &Backlash,
@@ -70,6 +72,7 @@ pub const CATALOGUE: [&dyn Effect; 23] = [
     &ThermalGrowth,
     &InstrumentScale,
     &LinkGeometry,
+    &Geometry,
     &BaseFrame,
     &ToolFrame,
     &Slip,

@@ -53,7 +53,7 @@ impl Effect for ToolFrame {
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Geometry)
+        Some(Group::Constant)
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -57,7 +57,8 @@ impl Unknown {
             effect.parameters(arm, spot).iter().map(number).collect()
         };
         let (least, usual) = (of(|p| p.least), of(|p| p.usual));
-        Fitted { effect, spot, least, values: vec![value], usual, forms: 1, lead: 0.0 }
+        let (values, held) = (vec![value], vec![0.0]);
+        Fitted { effect, spot, least, values, usual, held, chances: 1, lead: 0.0 }
     }
 }
 

@@ -1,0 +1,110 @@
+//! Every zero, length and twist of the table is a little off: what ordinary calibration takes up.
+//!
+//! No arm is made to the last digit, so that these go together, each held to what makers tolerate.
+//! A number that is off by far more stands out of its row (`joint_offset`, `link_geometry`). Where
+//! the data see only a sum, of the `d` of parallel axes or of a zero and a frame, its parts share it.
+
+use nalgebra::{Matrix6xX, Vector6};
+use stiffarm_kernels::generic::Arm;
+
+use super::{JointOffset, LinkGeometry};
+use crate::effects::{
+    Effect, Fate, Parameter, ParameterReport, Place, RobotFile, Scene, Spot, Told, joints, links,
+};
+use crate::measurement::{Kind, Measurements, Row};
+use crate::simulate::{Actual, Moment};
+
+/// All offsets and rows of the table at once.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry;
+
+/// The offsets, then the rows.
+fn parts(arm: &Arm) -> impl Iterator<Item = (&'static dyn Effect, Spot)> {
+    let at = |place| Spot { place, form: 0 };
+    let offsets = joints(arm).into_iter().map(move |p| (&JointOffset as &dyn Effect, at(p)));
+    offsets.chain(links(arm).into_iter().map(move |p| (&LinkGeometry as &dyn Effect, at(p))))
+}
+
+impl Effect for Geometry {
+    fn identifier(&self) -> &'static str {
+        "geometry"
+    }
+
+    fn places(&self, _: &Arm) -> Vec<Place> {
+        vec![Place::Arm]
+    }
+
+    /// Those of every offset and of every row, `d of link 3`.
+    fn parameters(&self, arm: &Arm, _: Spot) -> Vec<Parameter> {
+        let each = parts(arm).flat_map(|(effect, spot)| {
+            let named = move |p: Parameter| {
+                let name = format!("{} of {}", p.name, spot.place);
+                Parameter { usual: f64::INFINITY, ..p.named(name) }
+            };
+            effect.parameters(arm, spot).into_iter().map(named)
+        });
+        each.collect()
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment, _: Spot, v: &[f64]) {
+        let nominal = actual.nominal;
+        let mut rest = v;
+        for (effect, spot) in parts(nominal) {
+            let (own, others) = rest.split_at(effect.parameters(nominal, spot).len());
+            effect.alter(actual, row, when, spot, own);
+            rest = others;
+        }
+    }
+
+    fn block(&self, scene: &Scene<'_>, _: Spot) -> Matrix6xX<f64> {
+        let blocks = parts(scene.nominal).map(|(effect, spot)| effect.block(scene, spot));
+        let columns: Vec<Vector6<f64>> =
+            blocks.flat_map(|b| b.column_iter().map(Into::into).collect::<Vec<_>>()).collect();
+        Matrix6xX::from_columns(&columns)
+    }
+
+    fn idle(&self) -> &'static str {
+        "no length, twist or zero moves what was measured"
+    }
+
+    fn is_geometry(&self) -> bool {
+        true
+    }
+
+    fn is_tolerated(&self) -> bool {
+        true
+    }
+
+    fn excluded(&self, data: &Measurements) -> Option<&'static str> {
+        let is_difference = matches!(data.kind, Kind::Displacement { .. });
+        is_difference.then_some("between two readings of one pose lengths and angles cancel")
+    }
+
+    fn sentence(&self, told: &Told<'_>) -> String {
+        let most = |unit: &'static str| {
+            let sizes = told.numbers.iter().filter(|p| p.unit == unit).map(|p| p.value.abs());
+            let most = sizes.fold(0.0, f64::max);
+            (most > 0.0).then(|| (told.write)(unit, most, most))
+        };
+        let most: Vec<String> = ["m", "rad"].into_iter().filter_map(most).collect();
+        format!("the table's lengths, twists and zeros are off by up to {}", most.join(" and "))
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
+        let arm = file.arm();
+        let mut rest = numbers;
+        let mut fates = Vec::new();
+        for (effect, spot) in parts(arm) {
+            let parameters = effect.parameters(arm, spot);
+            let (own, others) = rest.split_at(parameters.len().min(rest.len()));
+            let named = |(own, p): (&ParameterReport, Parameter)| ParameterReport {
+                name: p.name.into_owned(),
+                ..own.clone()
+            };
+            let own: Vec<ParameterReport> = own.iter().zip(parameters).map(named).collect();
+            fates.extend(effect.write(file, spot.place, &own));
+            rest = others;
+        }
+        fates
+    }
+}
