@@ -58,7 +58,8 @@ pub fn step(
 ) -> Option<DVector<f64>> {
     let descent = descent(g, p, e);
     let limit = limit.unwrap_or(f64::INFINITY);
-    let direction = descent.map(|element| element.clamp(-limit, limit));
+    let limited = |e: f64| if e.abs() > limit { limit * e.signum() } else { e };
+    let direction = descent.map(limited);
     let change = g * &direction;
     let gain =
         descent.dot(&direction) / (2.0 * value(p, &Vector6::from_column_slice(change.as_slice())));

@@ -78,7 +78,7 @@ pub struct Outcome {
 /// details.
 ///
 /// # Errors
-/// Those of [`Loaded::new`]; [`ForceError::NotFinite`] where a step leads to no finite joint values.
+/// Those of [`Loaded::new`]: a step may lead to joint values that are not finite.
 pub fn compensate(
     task: &Task<'_>,
     start: &[f64],

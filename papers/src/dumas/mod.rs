@@ -83,7 +83,7 @@ pub enum IdentifyError {
         expected: &'static str,
     },
     /// Joints that the tests leave open, from 1.
-    #[error("the tests do not determine joint {}: load them in other directions", .0.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))]
+    #[error("the tests do not determine joint {}: load them in other directions", listing(.0))]
     Open(Vec<usize>),
     /// Three points that span no frame.
     #[error("the three points lie on a line: they give no orientation")]
@@ -91,6 +91,10 @@ pub enum IdentifyError {
     /// A load too large for the arm.
     #[error(transparent)]
     Unstable(#[from] Unstable),
+}
+
+fn listing(joints: &[usize]) -> String {
+    joints.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
 fn check(arm: &Arm, tests: &[Test]) -> Result<(), IdentifyError> {

@@ -21,8 +21,9 @@ pub(super) fn matched(text: &str, name: &str) -> Option<usize> {
 }
 
 /// Greek letters that papers use as symbols.
-const GREEK: &str = "alpha beta gamma delta epsilon varepsilon zeta eta theta iota kappa lambda mu nu xi \
-                     pi rho sigma tau upsilon phi varphi chi psi omega Delta Theta Lambda Gamma Omega";
+const GREEK: &str = "alpha beta gamma delta epsilon varepsilon zeta eta theta iota kappa lambda \
+                     mu nu xi pi rho sigma tau upsilon phi varphi chi psi omega Delta Theta \
+                     Lambda Gamma Omega";
 
 /// Length of the single letter or Greek letter at the start.
 pub(super) fn letter(text: &str) -> Option<usize> {

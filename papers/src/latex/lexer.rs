@@ -39,7 +39,7 @@ struct Lexer<'t> {
     ends: bool,
 }
 
-/// Marks that only lay the formula out; of these the first two part cells where letters are matrices.
+/// Marks that only lay the formula out; where letters are matrices, the first two part cells.
 const IGNORED: [&str; 12] = [
     "\\\\",
     "&",
@@ -56,8 +56,8 @@ const IGNORED: [&str; 12] = [
 ];
 
 /// Commands that only space or size.
-const SILENT: &str = "quad qquad big Big bigg Bigg bigl bigr Bigl Bigr displaystyle mathrm mathbf boldsymbol \
-                      mathit limits nonumber text";
+const SILENT: &str = "quad qquad big Big bigg Bigg bigl bigr Bigl Bigr displaystyle mathrm mathbf \
+                      boldsymbol mathit limits nonumber text";
 
 impl<'t> Lexer<'t> {
     fn rest(&self) -> &'t str {
