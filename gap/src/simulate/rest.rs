@@ -8,7 +8,7 @@
 //! it is stable: [`Tangent::is_stable`], which steps that contract show under any load but a moment. The work is bounded, whatever the load: one that buckles the arm finds
 //! no rest.
 
-use nalgebra::{DVector, Matrix6, UnitQuaternion, Vector6};
+use nalgebra::{DVector, UnitQuaternion, Vector6};
 use stiffarm_kernels::Unstable;
 
 use super::actual::{Actual, axis};
@@ -50,9 +50,6 @@ const CONVERGED: f64 = 1e-15;
 
 /// A change that no longer shrinks is rounding error if it is below this.
 const ROUNDING: f64 = 1e-11;
-
-/// By which loads are differentiated, m and rad.
-const STEP: f64 = 1e-5;
 
 /// A displacement beyond this is no displacement, m and rad.
 const LARGEST: f64 = 1e3;
@@ -274,24 +271,9 @@ pub fn beyond_first_order(actual: &Actual<'_>, state: &State) -> Vector6<f64> {
 /// displacement itself cancels.
 pub(super) fn follow_loads(actual: &Actual<'_>, state: &mut State) {
     let walk = Walk::new(actual);
-    let gives = |at: &[Vector6<f64>]| -> Vec<Vector6<f64>> {
-        let frames = walk.frames(at);
-        let loads = walk.loads(&frames);
-        (0..walk.sites).map(|k| walk.give(k, &frames[k], &loads[k])).collect()
-    };
-    let at_rest = gives(&state.displacements);
-    let column = |site: usize, component: usize| -> Vector6<f64> {
-        let mut moved = state.displacements.clone();
-        moved[site][component] += STEP;
-        let change = gives(&moved);
-        let answers = change.iter().zip(&at_rest).enumerate();
-        let answered: Vector6<f64> =
-            answers.map(|(k, (c, a))| state.carry_rigid(k, &((c - a) / STEP))).sum();
-        state.carry_rigid(site, &Vector6::ith(component, 1.0)) + answered
-    };
-    let carriers = (0..walk.sites)
-        .map(|site| Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(|k| column(site, k))));
-    state.carriers = Some(carriers.collect());
+    let frames = walk.frames(&state.displacements);
+    let tangent = Tangent::new(&walk, &state.displacements, &frames, &state.loads);
+    state.carriers = Some(tangent.carriers());
 }
 
 #[cfg(test)]

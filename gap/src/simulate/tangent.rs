@@ -7,7 +7,7 @@
 //! stiffness `Kθ − K_C` of the deformed geometry, multiplied by the compliances, so that rigid
 //! sites need no stiffness.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Matrix6x3, SymmetricEigen, Vector3, Vector6};
 
 use super::walk::{Frames, Walk};
 use super::{rotation, translation};
@@ -106,6 +106,57 @@ impl<'w, 'a> Tangent<'w, 'a> {
             given += link.give(&Vector6::zeros(), &link.weight(&gravity));
         }
         given
+    }
+
+    /// For each site what carries a small displacement in its own axes to the tool: the twist there,
+    /// base axes, with all that is given in answer. In base axes the answers to a shift and a turn
+    /// are sums over the sites before the one that moves, and over those behind it.
+    pub(super) fn carriers(&self) -> Vec<Matrix6<f64>> {
+        let tool = self.frames[self.walk.sites - 1].behind.translation.vector;
+        let both = |shift: Matrix3<f64>, turn: Matrix3<f64>| {
+            let mut blocks = Matrix6::zeros();
+            blocks.fixed_view_mut::<3, 3>(0, 0).copy_from(&shift);
+            blocks.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
+            blocks
+        };
+        let axes = |site: usize| {
+            let turn = *self.frames[site].before.rotation.to_rotation_matrix().matrix();
+            let lever = tool - self.frames[site].before.translation.vector;
+            let mut rigid = both(turn, turn);
+            rigid.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-lever.cross_matrix() * turn));
+            (turn, rigid)
+        };
+        // What a moment on a site does by what it gives, and a turn of all that it bears.
+        let mut by_moment = vec![Matrix6x3::zeros(); self.walk.sites];
+        let mut by_turn = by_moment.clone();
+        for Giving { site, slope } in &self.giving {
+            let ((turn, rigid), acting) = (axes(*site), &self.acting[*site]);
+            let back = turn.transpose();
+            let answer = rigid * slope * both(back, back);
+            let (force, moment) = (answer.fixed_columns::<3>(0), answer.fixed_columns::<3>(3));
+            by_moment[*site] = moment.into_owned();
+            by_turn[*site] = force * acting.force.cross_matrix()
+                + moment * (acting.turning + acting.moment.cross_matrix());
+            if let Some(link) = self.walk.link(*site) {
+                let gravity = back * self.walk.actual.arm.gravity.cross_matrix();
+                let own = |k| link.give(&Vector6::zeros(), &link.weight(&gravity.column(k).into()));
+                by_turn[*site] += rigid * Matrix6x3::from_columns(&[own(0), own(1), own(2)]);
+            }
+        }
+        let mut before = Matrix6x3::zeros();
+        let mut behind: Matrix6x3<f64> = by_turn.iter().sum();
+        let each = (0..self.walk.sites).map(|site| {
+            let ((turn, rigid), acting) = (axes(site), &self.acting[site]);
+            behind -= by_turn[site];
+            let by_shift = -before * acting.force.cross_matrix();
+            before += by_moment[site];
+            let turned = before * acting.turning + behind;
+            let mut answers = Matrix6::zeros();
+            answers.fixed_columns_mut::<3>(0).copy_from(&by_shift);
+            answers.fixed_columns_mut::<3>(3).copy_from(&turned);
+            rigid + answers * both(turn, turn * left(&rotation(&self.at[site])))
+        });
+        each.collect()
     }
 
     /// How the load of a site changes, its axes, as `moved` is displaced.
@@ -292,6 +343,15 @@ mod tests {
         let frames = walk.frames(&at);
         let loads = walk.loads(&frames);
         let tangent = Tangent::new(&walk, &at, &frames, &loads);
+        let carriers = tangent.carriers();
+        let tool = frames[walk.sites - 1].behind.translation.vector;
+        let rigid = |site: usize, by: &Vector6<f64>| -> Vector6<f64> {
+            let frame = &frames[site].before;
+            let turn = frame.rotation * rotation(by);
+            let lever = tool - frame.translation.vector;
+            let shift = frame.rotation * translation(by) + turn.cross(&lever);
+            Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+        };
         let step = 1e-5;
         for moved in 0..walk.sites {
             for k in 0..6 {
@@ -310,6 +370,14 @@ mod tests {
                     want[site] -= given;
                 }
                 let left = want.iter().map(|w| w.amax()).fold(0.0, f64::max);
+                let carried = tangent
+                    .answers(moved, &Vector6::ith(k, 1.0))
+                    .fold(rigid(moved, &Vector6::ith(k, 1.0)), |sum, (site, given)| {
+                        sum + rigid(site, &given)
+                    });
+                let apart = (carried - carriers[moved].column(k)).amax();
+                // Some hundred roundings of what is carried.
+                assert!(apart <= 1e-13 * carried.amax(), "{moved} {k}: {apart:e}");
                 // The square of the step, and gives of 1e-2, rounded some hundred times, over it.
                 assert!(left <= 1e-8 * size + 1e-11, "{moved} {k}: {left:e} of {size:e}");
             }
