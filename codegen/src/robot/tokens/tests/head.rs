@@ -100,7 +100,7 @@ fn a_file_is_named() {
         errors("mod elbow from \"elbow.toml\"; name: \"x\"; joint | theta"),
         [
             "1:30 `name` belongs into the robot file | \
-             beside a file only `crate` and `products` can be set",
+             beside a file only `crate`, `outputs` and `products` can be set",
             "1:41 a table and a robot file: one of them is enough"
         ]
     );
