@@ -4,7 +4,7 @@ use stiffarm::kernels::{Pose, Unstable};
 
 use crate::Real;
 use crate::impedance::{Impedance, step};
-use crate::robots::{iiwa14, kuka_kr240, ur5_lean, ur5_springs, ur10};
+use crate::robots::{iiwa14, kuka_kr240, kuka_kr240_lean, ur5_lean, ur5_springs, ur10_lean};
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
 /// A function of joint values and a wrench that writes its result.
@@ -46,7 +46,7 @@ macro_rules! kernels {
 }
 
 kernels! {
-    /// Sines and cosines that [`pose`] and [`jacobian`] need.
+    /// Sines and cosines that [`pose`] needs.
     sines(q: 6, _) -> ur5_lean::Posture<S> {
         ur5_lean::Posture::new(q)
     } from ur5_lean::Posture::new(&[S::of(0); 6]);
@@ -60,11 +60,11 @@ kernels! {
     } from [[S::of(0); 6]; 6];
     /// Both, by the same sines and cosines.
     pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur5_springs, q)
+        pose_and_jacobian!(ur5_lean, q)
     } from (ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Both and the compliance.
     with_compliance(q: 6, _) -> (PoseAndJacobian<S, 6>, [[S; 6]; 6]) {
-        use ur5_springs::{Posture, compliance, jacobian, pose};
+        use ur5_lean::{Posture, compliance, jacobian, pose};
         let posture = Posture::new(q);
         let both = (pose::given(&posture), jacobian::given(&posture));
         (both, compliance::given(&posture))
@@ -99,11 +99,11 @@ kernels! {
     } from [S::of(0); 6];
     /// Pose and Jacobian of the UR10.
     ur10_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur10, q)
-    } from (ur10::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
+        pose_and_jacobian!(ur10_lean, q)
+    } from (ur10_lean::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Pose and Jacobian of the KR 240-2.
     kuka_kr240_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(kuka_kr240, q)
+        pose_and_jacobian!(kuka_kr240_lean, q)
     } from (kuka_kr240::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Deflection of the KR 240-2 with K_C, and its 6x6 solve.
     kuka_kr240_deflection(q: 6, w) -> Result<[S; 6], Unstable> {
