@@ -9,7 +9,9 @@ use quote::{quote, quote_spanned};
 use syn::{LitStr, Visibility};
 
 use crate::emit::{RustOptions, rust};
-use crate::robot::{Outline, Rejected, Robot, Source, closest, parse_tokens};
+#[cfg(feature = "urdf")]
+use crate::robot::urdf::invoked as urdf;
+use crate::robot::{File, Located, Outline, Rejected, Robot, Source, closest, parse_tokens};
 use stub::stub;
 
 /// Expands a `robot!` invocation. `root` is the folder that robot files are looked for in: the one of
@@ -25,10 +27,12 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
     let (attrs, vis, module) = (&invocation.attrs, &invocation.vis, &invocation.module);
     let kernels = invocation.kernels.map_or_else(default_path, |path| quote!(#path));
     let robot = match invocation.source {
-        Source::Table(robot) => Ok((*robot, None)),
-        Source::File(name) => read(&name, root).map(|(robot, watched)| (robot, Some(watched))),
+        Source::Table(robot) => Ok((*robot, Vec::new(), None)),
+        Source::File(file) => {
+            read(&file, root).map(|(robot, remarks, watched)| (robot, remarks, Some(watched)))
+        }
     };
-    let (mut robot, watched) = match robot {
+    let (mut robot, remarks, watched) = match robot {
         Ok(read) => read,
         Err(Unread { errors, watched, outline }) => {
             let stub = stub((attrs, vis, module), &kernels, &outline);
@@ -45,6 +49,7 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
         Ok(items) => quote! {
             #[allow(clippy::approx_constant)]
             #(#attrs)*
+            #(#[doc = ""] #[doc = #remarks])*
             #vis mod #module { #watched #items }
         },
         Err(e) => {
@@ -84,7 +89,8 @@ fn path_text(path: &TokenStream) -> String {
 fn whereabouts(path: &Path) -> String {
     let here = path.parent().and_then(|folder| folder.read_dir().ok()).into_iter().flatten();
     let names = here.flatten().map(|file| file.file_name().to_string_lossy().into_owned());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    let robots = |name: &String| name.ends_with(".toml") || name.ends_with(".urdf");
+    let mut names: Vec<String> = names.filter(robots).collect();
     names.sort();
     let wanted = path.file_name().unwrap_or_default().to_string_lossy();
     match closest(&wanted, names.iter().map(String::as_str)) {
@@ -101,9 +107,10 @@ struct Unread {
     outline: Outline,
 }
 
-/// Reads a robot file, with an item that makes the compiler watch it; mistakes are reported at the
-/// file's name, each with its own line and column.
-fn read(name: &LitStr, root: &Path) -> Result<(Robot, TokenStream), Unread> {
+/// Reads a robot file or a URDF, with what its documentation is to say, and with an item that makes the compiler
+/// watch it; mistakes are reported at the file's name, each with its own line and column.
+fn read(file: &File, root: &Path) -> Result<(Robot, Vec<String>, TokenStream), Unread> {
+    let name = &file.name;
     let path = root.join(name.value());
     let at = name.span();
     let text = std::fs::read_to_string(&path).map_err(|e| {
@@ -111,13 +118,11 @@ fn read(name: &LitStr, root: &Path) -> Result<(Robot, TokenStream), Unread> {
         let errors = quote_spanned! { at => ::core::compile_error!(#message); };
         Unread { errors, watched: None, outline: Outline::default() }
     })?;
-    let file = Literal::string(&path.to_string_lossy());
-    let watched = quote! { const _: &[u8] = include_bytes!(#file); };
-    let remarks = match Robot::from_toml(&text, &name.value()) {
-        // A macro cannot warn on stable Rust, and a doubt must not pass in silence.
-        Ok((robot, warnings)) if warnings.is_empty() => return Ok((robot, watched)),
-        Ok((_, warnings)) => warnings,
-        Err(error) => error.errors,
+    let watch = Literal::string(&path.to_string_lossy());
+    let watched = quote! { const _: &[u8] = include_bytes!(#watch); };
+    let remarks = match understood(file, &text) {
+        Ok((robot, remarks)) => return Ok((robot, remarks, watched)),
+        Err(remarks) => remarks,
     };
     let errors = remarks.iter().map(|remark| {
         let message = remark.to_string();
@@ -125,4 +130,29 @@ fn read(name: &LitStr, root: &Path) -> Result<(Robot, TokenStream), Unread> {
     });
     let outline = Outline::of_file(&text);
     Err(Unread { errors: errors.collect(), watched: Some(watched), outline })
+}
+
+/// The robot in a file's text, and remarks on it.
+fn understood(file: &File, text: &str) -> Result<(Robot, Vec<String>), Vec<Located>> {
+    let name = file.name.value();
+    if file.is_urdf() {
+        let [base, tip] = [&file.base, &file.tip].map(|link| link.as_ref().map(LitStr::value));
+        return urdf(text, &name, (base.as_deref(), tip.as_deref()));
+    }
+    match Robot::from_toml(text, &name) {
+        // A macro cannot warn on stable Rust, and a doubt must not pass in silence.
+        Ok((robot, warnings)) if warnings.is_empty() => Ok((robot, Vec::new())),
+        Ok((_, warnings)) => Err(warnings),
+        Err(error) => Err(error.errors),
+    }
+}
+
+#[cfg(not(feature = "urdf"))]
+fn urdf(
+    text: &str,
+    path: &str,
+    _: (Option<&str>, Option<&str>),
+) -> Result<(Robot, Vec<String>), Vec<Located>> {
+    let message = "this is a URDF, which is read where the feature `urdf` of stiffarm is on";
+    Err(vec![Located::on_file(path, text, message)])
 }

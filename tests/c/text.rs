@@ -3,7 +3,7 @@
 //! `INSTA_UPDATE=always cargo test -p stiffarm --test c` accepts a change.
 
 use stiffarm_codegen::emit::{CFiles, COptions, Precision, Sines, c};
-use stiffarm_codegen::robot::Robot;
+use stiffarm_codegen::robot::{Output, Robot};
 
 use crate::arms::robot;
 
@@ -46,6 +46,17 @@ fn the_header_reads_like_the_table() {
 #[test]
 fn the_source_reads_like_a_textbook() {
     insta::assert_snapshot!(files(&planar(), Precision::F32, Sines::Polynomial).source);
+}
+
+/// What is not asked for is not written; the posture holds what is needed.
+#[test]
+fn outputs_are_written_as_they_are_asked_for() {
+    let robot = Robot { outputs: vec![Output::Jacobian], ..robot("ur5") };
+    let CFiles { header, source } = files(&robot, Precision::F64, Sines::Polynomial);
+    let declared = header.lines().filter(|line| line.starts_with("void "));
+    let names: Vec<&str> = declared.filter_map(|line| line.split(['(', ' ']).nth(1)).collect();
+    assert_eq!(names, ["planar_posture", "planar_jacobian", "planar_given_jacobian"]);
+    assert!(!source.contains("solve_") && !header.contains("s6") && header.contains("s234"));
 }
 
 /// FNV-1a, written once more.

@@ -1,7 +1,8 @@
 //! The macro's input, right and wrong: what `stiffarm::robot!` accepts, and what it says otherwise.
 //!
 //! Each file of `wrong/` is a table with mistakes and code that uses its module. The `.stderr` beside
-//! it is all that the compiler says: one error per mistake, at its cell, and none about the code.
+//! it is all that the compiler says: one error per mistake, at its cell, and none about the code. In `missing/`
+//! the tables are right, and the code asks for what they do not have.
 //! `TRYBUILD=overwrite cargo test -p stiffarm-tables` writes these files; read them as a user would.
 
 use std::path::Path;
@@ -25,7 +26,9 @@ fn provide_files() -> io::Result<()> {
 #[test]
 fn wrong_tables_are_explained() {
     provide_files().expect("robot files can be copied");
-    trybuild::TestCases::new().compile_fail("wrong/*.rs");
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("wrong/*.rs");
+    cases.compile_fail("missing/*.rs");
 }
 
 /// The reviewed outputs hold no errors of the compiler's own: those have codes, or are warnings.

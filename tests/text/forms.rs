@@ -6,6 +6,8 @@ use std::{env, fs};
 
 use proc_macro2::{TokenStream, TokenTree};
 use stiffarm_codegen::emit::{RustOptions, rust};
+use stiffarm_codegen::robot::Robot;
+use stiffarm_codegen::robot::urdf::{Chain, Table, read, robot_file};
 use stiffarm_codegen::{expand, generate_to_out_dir};
 
 use crate::tables::{collection, invocations, table};
@@ -61,6 +63,73 @@ fn fused_products_are_written_where_they_are_asked_for() {
     assert!(expansion("").ends_with(&tokens(&plain)));
     assert!(expansion("products: separate;").ends_with(&tokens(&plain)));
     assert!(expansion("products: fused;").ends_with(&tokens(&fused)));
+}
+
+/// What is not asked for is not printed; `all` holds what is asked for and can be had together.
+#[test]
+fn outputs_are_printed_as_they_are_asked_for() {
+    let file = "robots/arms/kuka_kr240.toml";
+    let expansion = |said: &str| {
+        let invocation = format!("mod arm from \"{file}\"; {said} crate: ::here;");
+        items(expand(invocation.parse().expect("tokens"), Path::new(".")))
+    };
+    let text = std::fs::read_to_string(file).expect("the file is here");
+    let options = RustOptions { kernels: "::here".to_owned(), fused: false };
+    let of = |outputs: &str| {
+        let said = format!("outputs = [{outputs}]\n{text}");
+        rust(&Robot::from_toml(&said, file).expect("a valid file").0, &options)
+    };
+    let functions = |text: &str| -> Vec<String> {
+        let heads = text.lines().filter_map(|line| line.strip_prefix("pub fn "));
+        heads.filter_map(|head| head.split('<').next()).map(str::to_owned).collect()
+    };
+    let two = of("'jacobian', 'pose', 'jacobian'");
+    assert_eq!(functions(&two), ["pose", "jacobian", "all"]);
+    assert!(two.contains("generate ROBOT --outputs pose,jacobian --check FILE"));
+    assert!(expansion("outputs: jacobian, pose;").ends_with(&tokens(&two)));
+    let one = of("'deflection'");
+    assert_eq!(functions(&one), ["deflection"]);
+    assert!(expansion("outputs: deflection;").ends_with(&tokens(&one)));
+    assert_eq!(functions(&of("'frames', 'weight_torque'")), ["frames", "weight_torque"]);
+    // A posture of no more than they need, and each function as it is among all.
+    let all = rust(&Robot::from_toml(&text, file).expect("a valid file").0, &options);
+    let jacobian = |text: &str| {
+        let from = text.find("    pub const SPARSITY: [[bool; 6]; 6]").expect("the Jacobian's");
+        text[from..]
+            .split("\n}\n")
+            .next()
+            .map(|part| part.replace(", .. } = *posture", " } = *posture"))
+    };
+    assert_eq!(jacobian(&of("'jacobian'")), jacobian(&all));
+    assert!(!of("'jacobian'").contains("s6") && all.contains("pub s6: S"));
+}
+
+/// A URDF's chain as a table, as the command imports it.
+#[test]
+fn a_urdf_expands_to_its_table() {
+    let expansion = |said: &str| {
+        let invocation = format!("mod arm from {said}; crate: ::here;");
+        expand(invocation.parse().expect("tokens"), Path::new("tests/data/urdf"))
+    };
+    let said = "\"ur5.urdf\", base \"base_link_inertia\", tip \"tool0\"";
+    let urdf = read(include_str!("../data/urdf/ur5.urdf"), false).expect("a URDF");
+    let chain = Chain::new(&urdf.robot, Some("base_link_inertia"), Some("tool0")).expect("a chain");
+    let robot = robot_file(&chain, &Table::new(&chain));
+    let text = rust(&robot, &RustOptions { kernels: "::here".to_owned(), fused: false });
+    assert!(items(expansion(said)).ends_with(&tokens(&text)));
+    let documentation = expansion(said).to_string();
+    assert!(documentation.contains("From `ur5.urdf`: link `base_link_inertia` to link `tool0`."));
+    for (said, told) in [
+        ("\"ur5.urdf\", tip \"tool1\"", "tool1"),
+        ("\"ur5.urdf\", tipp \"tool0\"", "each once, behind the name of a URDF"),
+        ("\"ur5.urdf\", tip \"tool0\", tip \"tool0\"", "each once, behind the name of a URDF"),
+        ("\"ur5.toml\", tip \"tool0\"", "each once, behind the name of a URDF"),
+        ("\"ur5.urfd\"", "did you mean `ur5.urdf`"),
+        ("\"oblique.urdf\", base \"foot\", tip \"needle\"", "poses would be told in another frame"),
+    ] {
+        let found = expansion(said).to_string();
+        assert!(found.contains("compile_error") && found.contains(told), "{said}: {found}");
+    }
 }
 
 /// Set in the process that plays the build script.

@@ -135,8 +135,7 @@ fn arguments_that_do_not_fit() {
     refused(&["check", "ur5", "--count", "0"], &["--count"]);
     refused(&["check", "jweeg_two_link"], &["found no number for a1, a2"]);
     refused(&["generate", "ur5", "--emit", "fortran"], &["rust, c, latex, dot"]);
-    refused(&["generate", "ur5", "--emit", "latex", "--output", "poses"], &["'pose'"]);
-    refused(&["generate", "ur5", "--emit", "rust", "--output", "pose"], &["--output is for latex"]);
+    refused(&["generate", "ur5", "--emit", "latex", "--outputs", "poses"], &["'pose'"]);
     refused(&["generate", "ur5", "--emit", "dot", "--kernels", "k"], &["--kernels is for rust"]);
     refused(
         &["generate", "ur5", "--emit", "rust", "--out", "a", "--check", "b"],

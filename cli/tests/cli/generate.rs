@@ -96,13 +96,15 @@ fn a_difference_is_shown_with_its_line() {
 
 #[test]
 fn outputs_are_chosen() {
-    let one = stiffarm(&["generate", "ur5", "--emit", "latex", "--output", "pose"]).good();
-    let two = stiffarm(&[
-        "generate", "ur5", "--emit", "latex", "--output", "pose", "--output", "jacobian",
-    ]);
+    let one = stiffarm(&["generate", "ur5", "--emit", "latex", "--outputs", "pose"]).good();
+    let two = stiffarm(&["generate", "ur5", "--emit", "latex", "--outputs", "pose,jacobian"]);
     assert!(one.contains("{pose}") && !one.contains("{jacobian}"));
     assert!(two.good().contains("{jacobian}"));
-    let dot = stiffarm(&["generate", "ur5", "--emit", "dot", "--output", "joint_torque"]).good();
+    let dot = stiffarm(&["generate", "ur5", "--emit", "dot", "--outputs", "joint_torque"]).good();
+    let rust =
+        stiffarm(&["generate", "ur5", "--emit", "rust", "--outputs", "jacobian,pose"]).good();
+    assert!(rust.contains("pub fn all<") && !rust.contains("pub fn joint_torque<"));
+    assert!(rust.contains("`stiffarm generate ROBOT --outputs pose,jacobian --check FILE`"));
     assert!(dot.starts_with("digraph") && dot.contains("joint_torque 1,1"));
     let kernels =
         stiffarm(&["generate", "ur5", "--emit", "rust", "--kernels", "crate::kernels"]).good();

@@ -53,7 +53,6 @@ fn what_does_not_go_together_is_refused() {
     for (arguments, told) in [
         (&["ur5", "--emit", "c"][..], "--out FOLDER"),
         (&["ur5", "--emit", "c", "--out", "-"], "--out FOLDER"),
-        (&["ur5", "--emit", "c", "--out", "/", "--output", "pose"], "every output"),
         (&["ur5", "--emit", "c", "--out", "/", "--flexible"], "rust and latex"),
         (&["ur5", "--emit", "c", "--out", "/", "--kernels", "k"], "--kernels is for rust"),
         (&["ur5", "--emit", "rust", "--precision", "f32"], "for c"),

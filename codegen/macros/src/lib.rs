@@ -19,6 +19,13 @@ use proc_macro::TokenStream;
 /// stiffarm::robot! { pub mod elbow from "elbow.toml"; }
 /// ```
 ///
+/// A URDF does as well, with the feature `urdf`: the chain between two links (the root and the only tip, where they are
+/// not named), fixed joints folded, a joint that mimics another refused.
+///
+/// ```ignore
+/// stiffarm::robot! { pub mod arm from "arm.urdf", base "base_link", tip "tool0"; }
+/// ```
+///
 /// Attributes (documentation among them) and the visibility of the module are kept. A file's name is
 /// relative to the folder of the invoking crate's Cargo.toml; the compiler watches the file. Every
 /// mistake is an error at its cell, all of them at once, and a module of the same names stands in for the
@@ -27,7 +34,7 @@ use proc_macro::TokenStream;
 /// # Settings
 ///
 /// Each ends with `;` and stands once, `marker` as often as there are markers. Beside a file only
-/// `products` and `crate` can be set.
+/// `outputs`, `products` and `crate` can be set.
 ///
 /// | setting | values | without it |
 /// |---|---|---|
@@ -36,6 +43,7 @@ use proc_macro::TokenStream;
 /// | `gravity` | `[x, y, z]`, an acceleration in base axes | `[0, 0, -9.80665 m/s^2]` |
 /// | `tool` | `translation [x, y, z] rotation [rx, ry, rz]`, either or both: the tool in the last frame, rotation as a rotation vector (axis × angle) | the last frame |
 /// | `marker` | `name` or `name [x, y, z]`: a measured point in the tool frame | none |
+/// | `outputs` | `pose, jacobian, …`: what is generated, and `all` of what of them can be had together | every output, or what the robot file says |
 /// | `products` | `separate`, or `fused`: products fused into sums, faster where the target has the instruction and the kernels' feature `fma` asks for it, and not the same bits everywhere | `separate` |
 /// | `crate` | the path of the kernels' crate | `::stiffarm::kernels` |
 ///
@@ -75,14 +83,14 @@ use proc_macro::TokenStream;
 /// | `NAME`, `N`, `DH` | the arm's name, its number of joints, its table as written |
 /// | `pose`, `jacobian`, … | a function for each output, of `q` (`&[S; N]`, rad, m of a prismatic joint) and where it takes one of the wrench (`&[S; 6]`, N and N·m, base axes, at the tool origin), for any `S: Scalar`; its documentation says shape, units, axes and source |
 /// | `all` | several of them in one function, which shares what they have in common |
-/// | `pose::given`, … | the kernel: the same of sines and cosines, for those who have them |
-/// | `pose::Posture`, `Posture::new(q)` | the sines, cosines and displacements that it takes |
+/// | `pose::given`, … | the kernel: the same of a posture, for those who have its sines and cosines |
+/// | `Posture`, `Posture::new(q)` | the sines, cosines and displacements that all of them take |
 /// | `pose::OPS`, … | its additions, multiplications, sign changes, divisions, sine-cosine pairs |
 /// | `pose::SPARSITY`, … | which of its entries are not structurally zero, `[column][row]` |
 /// | `all::All` | what `all` returns |
 /// | `Parameters` | a field for each symbolic parameter; only where the table has some |
 /// | `Constants`, `Constants::new(&parameters)` | what is worked out of the parameters once; every function takes them first |
-/// | `Robot` | the arm as `Kernels`, every output by its name from slices; with symbolic parameters it holds `Constants` |
+/// | `Robot` | the arm as a value: `Arm<N>` and `has::Pose<N>`, … for what is written against any arm, `Numeric<N>` where the table has numbers only, `Kernels`, every output by its name from slices; with symbolic parameters it holds `Constants` |
 ///
 /// A function that solves for a loaded equilibrium returns `Result<_, Unstable>`. Everything is `no_std`
 /// and allocates nothing.

@@ -19,6 +19,13 @@ pub use latex::{flexible_latex, latex};
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 
 use crate::derive::Output;
+use crate::robot::Robot;
+
+/// How a command asks for the outputs of a robot, where they are not all of them.
+fn asked(robot: &Robot) -> String {
+    let names: Vec<&str> = robot.generated().into_iter().map(Output::name).collect();
+    if robot.outputs.is_empty() { String::new() } else { format!(" --outputs {}", names.join(",")) }
+}
 
 /// What the functions of a module compute: each of `outputs` by itself, and `all` what can be had together.
 fn sets(outputs: &[Output]) -> Vec<Vec<Output>> {

@@ -58,6 +58,12 @@ impl Located {
         }
     }
 
+    /// A remark on a file as a whole.
+    #[cfg(all(feature = "macro", not(feature = "urdf")))]
+    pub(crate) fn on_file(path: &str, text: &str, message: &str) -> Self {
+        Located::new(path, text, Problem::new(0..0, message))
+    }
+
     /// Sorted by place; the same remark twice is one.
     pub(crate) fn all(
         path: &str,

@@ -38,4 +38,4 @@ pub use model::{
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;
 #[cfg(feature = "macro")]
-pub use tokens::{Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};
+pub use tokens::{File, Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};

@@ -1,6 +1,6 @@
 //! Ways of writing a table.
 
-use stiffarm::kernels::{Kernels, Motion};
+use stiffarm::kernels::{Arm, Convention, Error, Kernels, Motion, Numeric, Output, Scalar, has};
 use stiffarm::robot;
 
 robot! {
@@ -43,6 +43,16 @@ robot! {
 robot! { pub mod one_line; convention: standard_dh; joint | theta | a a1 | q | 1 a2 | q | 0.5 }
 
 robot! {
+    /// Only what is asked for.
+    mod lean;
+    convention: standard_dh;
+    outputs: jacobian;
+    joint | theta | d | a
+    a1    | q     | 0 | 1
+    a2    | 0     | q | 0
+}
+
+robot! {
     /// From a file beside Cargo.toml.
     pub(super) mod filed from "files/good.toml";
 }
@@ -75,4 +85,34 @@ fn a_file_gives_what_its_table_would() {
     assert_eq!((filed::NAME, filed::N), ("good", 2));
     let [x, y, z] = filed::pose(&[0.0_f64, 0.0]).position;
     assert!((x - 0.55).abs() < 1e-12 && y == 0.0 && z == 0.0);
+}
+
+/// What an arm as a value says of its table, and that it computes what its functions do.
+#[test]
+fn an_arm_is_a_value() {
+    fn reach<S: Scalar, const N: usize, A: has::Pose<N, S>>(arm: &A, q: &[S; N]) -> S {
+        arm.pose(&arm.posture(q)).position[0]
+    }
+    assert_eq!(reach(&filed::Robot, &[0.1, 0.2]), filed::pose(&[0.1, 0.2]).position[0]);
+    assert_eq!(reach(&filed::Robot, &[0.1_f32, 0.2]), filed::pose(&[0.1_f32, 0.2]).position[0]);
+    let constants = symbolic::Constants::new(&symbolic::Parameters { L1: 0.3, L2: 0.2 });
+    let robot = symbolic::Robot { constants };
+    assert_eq!(reach(&robot, &[0.1, 0.2]), symbolic::pose(&constants, &[0.1, 0.2]).position[0]);
+
+    assert_eq!(<full::Robot as Numeric<4>>::CONVENTION, Convention::Modified);
+    let [_, second, third, wrist] = <full::Robot as Numeric<4>>::ROWS;
+    assert_eq!((second.theta, second.a), (-core::f64::consts::FRAC_PI_2, 0.35));
+    assert_eq!((second.stiffness, second.mass, second.com), (Some(3.8e6), 12.0, [0.1, 0.0, 0.02]));
+    assert_eq!((third.d, wrist.stiffness), (0.2, None));
+    let limits = <full::Robot as Arm<4>>::LIMITS;
+    assert_eq!((limits[1], limits[2]), (None, Some([0.0, 0.4])));
+}
+
+#[test]
+fn what_is_not_asked_for_is_absent() {
+    let (q, mut out) = ([0.3, 0.5], [0.0; 12]);
+    let evaluate = |output, out: &mut [f64]| lean::Robot.evaluate(output, &q, &[0.0; 6], out);
+    assert_eq!(evaluate(Output::Jacobian, &mut out), Ok(()));
+    assert_eq!(out.as_slice(), lean::jacobian(&q).as_flattened());
+    assert_eq!(evaluate(Output::Pose, &mut out), Err(Error::Absent));
 }

@@ -55,7 +55,7 @@ pub(super) fn margin(robot: &Robot, weights: bool) -> Option<[Number; 2]> {
 struct Levers {
     /// Part of a row's length that its own joint swings.
     own: Vec<f64>,
-    /// Distance between a row's frames.
+    /// Distance between a row's frames, at most.
     row: Vec<f64>,
 }
 
@@ -67,7 +67,7 @@ impl Levers {
         };
         let revolute = robot.joints.iter().all(|joint| joint.motion == Motion::Revolute);
         let own = robot.joints.iter().map(swung).collect::<Option<_>>().filter(|_| revolute)?;
-        let length = |joint: &Joint| Some(number(&joint.a)?.hypot(number(&joint.d)?));
+        let length = |joint: &Joint| Some(number(&joint.a)?.abs() + number(&joint.d)?.abs());
         Some(Levers { own, row: robot.joints.iter().map(length).collect::<Option<_>>()? })
     }
 

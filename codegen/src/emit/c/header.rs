@@ -1,5 +1,6 @@
 //! The header file: what was generated from what, constants, declarations.
 
+use super::super::asked;
 use super::comment::{harmless, plain};
 use super::function::Function;
 use super::hash::{Table, fnv1a};
@@ -59,7 +60,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
  *
  * To compare both files with a table:
  *   stiffarm generate ROBOT --emit c --name {name} \\
- *     --precision {precision} --sines {option} --check FOLDER
+ *     --precision {precision} --sines {option}{asked} --check FOLDER
  *
  * Compile without fused products and without fast-math:
  *   gcc -std=c99 -O2 -ffp-contract=off -c {name}.c
@@ -75,6 +76,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
  *
 ",
         robot = harmless(robot),
+        asked = asked(module.robot),
         table = table.hash,
         real = module.language.real(),
         except = match module.options.sines {

@@ -2,6 +2,7 @@
 
 use stiffarm_kernels::Form;
 
+use super::super::asked;
 use super::super::constants::Constants;
 use super::RustOptions;
 use crate::emit::lines::Lines;
@@ -17,13 +18,7 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
         robot.name
     ));
     let fused = if options.fused { " --fused" } else { "" };
-    let asked = match robot.outputs.as_slice() {
-        [] => String::new(),
-        _ => format!(
-            " --outputs {}",
-            robot.generated().iter().map(|o| o.name()).collect::<Vec<_>>().join(",")
-        ),
-    };
+    let asked = asked(robot);
     out.code(&format!(
         "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
     ));

@@ -245,7 +245,11 @@ fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
 fn outputs(cell: &Raw, report: &mut Report<Spot>) -> Vec<Output> {
     let names = Output::EACH.map(Output::name);
     let mut outputs = Vec::new();
-    for name in split(&cell.tokens, ',', cell.at) {
+    let mut found = split(&cell.tokens, ',', cell.at);
+    if found.is_empty() {
+        found.push(cell.clone());
+    }
+    for name in found {
         let word: String = name.tokens.iter().map(ToString::to_string).collect();
         match Output::EACH.into_iter().find(|output| output.name() == word) {
             Some(output) => outputs.push(output),

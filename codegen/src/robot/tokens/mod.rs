@@ -3,6 +3,7 @@
 //! ```text
 //! /// Documentation of the module.
 //! pub mod kr240;                        // or: pub mod kr240 from "kr240.toml";
+//!                                       // or: pub mod kr240 from "kr240.urdf", base "base_link", tip "tool0";
 //! name: "KUKA KR 240-2";                // optional; the module's name if absent
 //! convention: modified_dh;              // or standard_dh
 //! gravity: [0, 0, -9.80665];            // optional
@@ -70,8 +71,25 @@ pub struct Invocation {
 pub enum Source {
     /// From an inline table, read and validated.
     Table(Box<Robot>),
-    /// From a robot file, whose name is given.
-    File(LitStr),
+    /// From a robot file or a URDF, whose name is given.
+    File(File),
+}
+
+/// A file that an invocation names.
+pub struct File {
+    /// Its name, relative to the folder of the invoking crate's Cargo.toml.
+    pub name: LitStr,
+    /// The link of a URDF at which the arm begins.
+    pub base: Option<LitStr>,
+    /// The link of a URDF at which it ends.
+    pub tip: Option<LitStr>,
+}
+
+impl File {
+    /// Whether it is a URDF.
+    pub fn is_urdf(&self) -> bool {
+        self.name.value().ends_with(".urdf")
+    }
 }
 
 /// An invocation that cannot be read: every mistake in it, and as much of its head as was read, so
@@ -129,7 +147,7 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
         }
         (source, Head { attrs, vis, module, said: Said { kernels, .. }, .. }) => {
             let file = match source {
-                Some(Source::File(file)) => Some(file),
+                Some(Source::File(file)) => Some(file.name),
                 _ => None,
             };
             let mut errors: Vec<_> = report.errors.into_iter().map(SpannedError::from).collect();
@@ -145,7 +163,7 @@ struct Head {
     attrs: Vec<Attribute>,
     vis: Option<Visibility>,
     module: Option<Ident>,
-    file: Option<LitStr>,
+    file: Option<File>,
     said: Said,
 }
 
@@ -158,7 +176,7 @@ struct Said {
 }
 
 impl Head {
-    /// Reads `mod name;` or `mod name from "file";` and returns what follows.
+    /// Reads `mod name;` or `mod name from "file";`, of a URDF with base and tip, and returns what follows.
     fn read(&mut self, input: ParseStream<'_>) -> syn::Result<TokenStream> {
         let here = |error: syn::Error, message: &str| syn::Error::new(error.span(), message);
         self.attrs = input.call(Attribute::parse_outer)?;
@@ -174,7 +192,22 @@ impl Head {
                 return Err(syn::Error::new(word.span(), message));
             }
             let message = "expected the name of a robot file in quotes";
-            self.file = Some(input.parse().map_err(|e| here(e, message))?);
+            let name = input.parse().map_err(|e| here(e, message))?;
+            self.file = Some(File { name, base: None, tip: None });
+        }
+        while let Some(file) = self.file.as_mut().filter(|_| input.peek(Token![,])) {
+            input.parse::<Token![,]>()?;
+            let message =
+                "expected `base \"link\"` or `tip \"link\"`, each once, behind the name of a URDF";
+            let word: Ident = input.parse().map_err(|e| here(e, message))?;
+            let urdf = file.is_urdf();
+            let link = match word.to_string().as_str() {
+                "base" if urdf && file.base.is_none() => &mut file.base,
+                "tip" if urdf && file.tip.is_none() => &mut file.tip,
+                _ => return Err(syn::Error::new(word.span(), message)),
+            };
+            *link =
+                Some(input.parse().map_err(|e| here(e, "expected the name of a link in quotes"))?);
         }
         input.parse::<Token![;]>().map_err(|e| here(e, "expected `;`"))?;
         input.parse()
@@ -184,7 +217,7 @@ impl Head {
 fn body(
     said: &mut Said,
     outline: &mut Outline,
-    (module, file): (&Ident, Option<LitStr>),
+    (module, file): (&Ident, Option<File>),
     rest: TokenStream,
     report: &mut Report<Spot>,
 ) -> Option<Source> {

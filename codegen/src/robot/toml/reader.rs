@@ -222,13 +222,14 @@ impl<'a> Reader<'a> {
 
     /// Names of outputs, one or more.
     pub fn outputs(&mut self, value: &Node<'_>) -> Vec<Output> {
-        let names = match value.get_ref() {
-            DeValue::Array(names) if !names.is_empty() => names,
-            _ => {
-                self.expected(value, "an array of outputs, such as [\"pose\", \"jacobian\"],");
-                return Vec::new();
-            }
+        let DeValue::Array(names) = value.get_ref() else {
+            self.expected(value, "an array of outputs");
+            return Vec::new();
         };
+        if names.is_empty() {
+            let problem = Problem::new(value.span(), "an array of no outputs");
+            self.report.error(problem.help("leave `outputs` out for all of them"));
+        }
         let known = Output::EACH.map(|output| (output.name(), output));
         names.iter().filter_map(|name| self.choice(name, &known).value).collect()
     }

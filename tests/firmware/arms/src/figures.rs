@@ -3,7 +3,8 @@
 use stiffarm::kernels::{Pose, Unstable};
 
 use crate::Real;
-use crate::robots::{iiwa14, kuka_kr240, ur5_lean, ur5_springs, ur10};
+use crate::impedance::{Impedance, step};
+use crate::robots::{iiwa14, kuka_kr240, kuka_kr240_lean, ur5_lean, ur5_springs, ur10_lean};
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
 /// A function of joint values and a wrench that writes its result.
@@ -45,7 +46,7 @@ macro_rules! kernels {
 }
 
 kernels! {
-    /// Sines and cosines that [`pose`] and [`jacobian`] need.
+    /// Sines and cosines that [`pose`] needs.
     sines(q: 6, _) -> ur5_lean::Posture<S> {
         ur5_lean::Posture::new(q)
     } from ur5_lean::Posture::new(&[S::of(0); 6]);
@@ -59,13 +60,14 @@ kernels! {
     } from [[S::of(0); 6]; 6];
     /// Both, by the same sines and cosines.
     pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur5_springs, q)
+        pose_and_jacobian!(ur5_lean, q)
     } from (ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Both and the compliance.
     with_compliance(q: 6, _) -> (PoseAndJacobian<S, 6>, [[S; 6]; 6]) {
-        let posture = ur5_springs::Posture::new(q);
-        let compliance = ur5_springs::compliance::given(&posture);
-        (pose_and_jacobian!(ur5_springs, q), compliance)
+        use ur5_lean::{Posture, compliance, jacobian, pose};
+        let posture = Posture::new(q);
+        let both = (pose::given(&posture), jacobian::given(&posture));
+        (both, compliance::given(&posture))
     } from ((ur5_springs::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]), [[S::of(0); 6]; 6]);
     /// Joint torques of the UR5-like arm.
     joint_torque(q: 6, w) -> [S; 6] {
@@ -87,13 +89,21 @@ kernels! {
     control_period(q: 6, w) -> Result<Correction<S>, Refusal> {
         correct(&Reading { encoders: *q, wrench: *w }, q)
     } from Err(Refusal::NotFinite);
+    /// One period of impedance control, written against the trait: towards the pose of the zero posture.
+    impedance_period(q: 6, w) -> [S; 6] {
+        let zero = S::of(0);
+        let axis = |k: usize| core::array::from_fn(|i| S::of(i32::from(i == k)));
+        let target = Pose { rotation: core::array::from_fn(axis), position: [zero; 3] };
+        let impedance = Impedance { stiffness: *w, damping: [S::of(1); 6] };
+        step(&ur5_lean::Robot, (q, &[zero; 6]), &target, &impedance)
+    } from [S::of(0); 6];
     /// Pose and Jacobian of the UR10.
     ur10_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(ur10, q)
-    } from (ur10::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
+        pose_and_jacobian!(ur10_lean, q)
+    } from (ur10_lean::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Pose and Jacobian of the KR 240-2.
     kuka_kr240_pose_and_jacobian(q: 6, _) -> PoseAndJacobian<S, 6> {
-        pose_and_jacobian!(kuka_kr240, q)
+        pose_and_jacobian!(kuka_kr240_lean, q)
     } from (kuka_kr240::pose(&[S::of(0); 6]), [[S::of(0); 6]; 6]);
     /// Deflection of the KR 240-2 with K_C, and its 6x6 solve.
     kuka_kr240_deflection(q: 6, w) -> Result<[S; 6], Unstable> {

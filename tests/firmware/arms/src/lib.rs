@@ -5,6 +5,8 @@
 
 pub mod draw;
 pub mod figures;
+#[path = "../../../../examples/impedance/step.rs"]
+pub mod impedance;
 pub mod outputs;
 pub mod real;
 pub mod record;

@@ -19,8 +19,18 @@ robot! {
     pub mod ur5_springs from "ur5_springs.toml";
 }
 robot! {
-    /// The same with no more than pose and Jacobian, in whose posture nothing else is.
+    /// The same with no more than these outputs, in whose posture nothing else is.
     pub mod ur5_lean from "ur5_springs.toml";
+    outputs: pose, jacobian, compliance;
+}
+robot! {
+    /// The UR10, pose and Jacobian.
+    pub mod ur10_lean from "../../../robots/arms/ur10.toml";
+    outputs: pose, jacobian;
+}
+robot! {
+    /// The KR 240-2, pose and Jacobian.
+    pub mod kuka_kr240_lean from "../../../robots/arms/kuka_kr240.toml";
     outputs: pose, jacobian;
 }
 robot! {

@@ -24,6 +24,7 @@ fn title(name: &str) -> &str {
         "deflection" => "deflection with K_C, 6×6 solve",
         "all" => "`all`: pose, J, K_C, torques, compliance, deflection",
         "control_period" => "a period of the control loop",
+        "impedance_period" => "a period of impedance control, by the trait",
         "ur10_pose_and_jacobian" => "UR10: pose + Jacobian",
         "kuka_kr240_pose_and_jacobian" => "KR 240-2: pose + Jacobian",
         "kuka_kr240_deflection" => "KR 240-2: deflection with K_C",

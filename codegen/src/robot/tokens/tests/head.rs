@@ -94,13 +94,13 @@ fn every_setting_and_column_is_read() {
 fn a_file_is_named() {
     let text = "#[allow(x)] mod elbow from \"elbow.toml\"; crate: crate::kernels; products: fused;";
     let Ok(invocation) = parse(text) else { panic!() };
-    assert!(matches!(&invocation.source, Source::File(name) if name.value() == "elbow.toml"));
+    assert!(matches!(&invocation.source, Source::File(file) if file.name.value() == "elbow.toml"));
     assert!(invocation.kernels.is_some() && invocation.fused);
     assert_eq!(
         errors("mod elbow from \"elbow.toml\"; name: \"x\"; joint | theta"),
         [
             "1:30 `name` belongs into the robot file | \
-             beside a file only `crate` and `products` can be set",
+             beside a file only `crate`, `outputs` and `products` can be set",
             "1:41 a table and a robot file: one of them is enough"
         ]
     );
@@ -155,6 +155,8 @@ fn mistakes_of_the_settings() {
         with("convention: standard_dh;"),
         ["3:1 `convention` stands here for the second time"]
     );
+    assert!(with("outputs: ;")[0].starts_with("3:1 the name of an output is expected here"));
+    assert_eq!(with("outputs: pose, poze;"), ["3:16 `poze` is no output | did you mean `pose`?"]);
     assert_eq!(with("name: arm;"), ["3:7 a text in quotes is expected here"]);
     assert_eq!(with("gravity: 9.81;"), ["3:10 [x, y, z] is expected here"]);
     assert_eq!(with("gravity: [0, 1];"), ["3:10 a list of 2 where [x, y, z] is expected"]);

@@ -108,6 +108,28 @@ fn a_joint_may_say_that_it_is_rigid() {
 }
 
 #[test]
+fn outputs_are_named_once_each() {
+    let file = |list: &str| format!("outputs = {list}\n{HEAD}{JOINT}");
+    let robot = read(&file("[\"jacobian\", \"pose\", \"jacobian\"]"));
+    assert_eq!(robot.generated(), [Output::Pose, Output::Jacobian]);
+    assert!(robot.to_toml().contains("\noutputs = [\"pose\", \"jacobian\"]\n"));
+    assert_eq!(read(&robot.to_toml()).generated(), robot.generated());
+    let all = read(&format!("{HEAD}{JOINT}"));
+    assert_eq!(all.generated(), Output::EACH);
+    assert!(!all.to_toml().contains("outputs"));
+    for (list, told) in [
+        ("[]", "1:11 an array of no outputs | leave `outputs` out for all of them"),
+        ("\"pose\"", "1:11 a string stands where an array of outputs is expected"),
+        ("[1]", "1:12 a number stands where a string is expected"),
+    ] {
+        assert_eq!(errors(&file(list)), [told]);
+    }
+    let misspelt = errors(&file("[\"pose\", \"jacobain\"]"));
+    assert!(misspelt[0].starts_with("1:20 `jacobain` stands where one of pose, "), "{misspelt:?}");
+    assert!(misspelt[0].ends_with(" | did you mean `jacobian`?"), "{misspelt:?}");
+}
+
+#[test]
 fn a_rounded_angle_is_a_warning() {
     let text = format!("{HEAD}{JOINT}alpha = 1.5708\n[tool]\nrotation = [0, 0, -1.570796327]\n");
     let (robot, warnings) = Robot::from_toml(&text, "arm.toml").unwrap();

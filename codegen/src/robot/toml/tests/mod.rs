@@ -3,7 +3,7 @@
 mod format;
 mod mistakes;
 
-use super::super::{FileError, Located, Robot, Value};
+use super::super::{FileError, Located, Output, Robot, Value};
 use crate::number::Number;
 
 const HEAD: &str = "name = \"arm\"\nconvention = \"standard\"\n";
