@@ -42,9 +42,10 @@ pub(crate) fn shrink(before: f64, after: f64) -> f64 {
     if before > 0.0 { 1.0 - (after / before).sqrt() } else { 0.0 }
 }
 
-/// 95 % interval of [`shrink`], from the sums of squares of each pose. What is resampled scatters
-/// less than what it was drawn from: the limits stand off by the ratio of Student's to the normal
-/// deviate, and of the variances.
+/// 95 % interval in which [`shrink`] lies in another campaign of as many poses, from the sums of
+/// squares of each pose. What is resampled scatters less than what it was drawn from: the limits stand
+/// off by the ratio of Student's to the normal deviate, and of the variances. The other campaign is a
+/// sample as this one is, which makes the variance of the difference twice that of the mean.
 pub(crate) fn shrink_interval(before: &[f64], after: &[f64], seed: u64) -> [f64; 2] {
     let limits = interval([before, after], seed, |[before, after]| shrink(before, after));
     let count = before.len() as f64;
@@ -53,7 +54,7 @@ pub(crate) fn shrink_interval(before: &[f64], after: &[f64], seed: u64) -> [f64;
     }
     let middle = shrink(before.iter().sum(), after.iter().sum());
     let t = StudentsT::new(0.0, 1.0, count - 1.0).map_or(NORMAL, |t| t.inverse_cdf(0.975));
-    let wider = t / NORMAL * (count / (count - 1.0)).sqrt();
+    let wider = t / NORMAL * (2.0 * count / (count - 1.0)).sqrt();
     limits.map(|limit| (middle + (limit - middle) * wider).min(1.0))
 }
 

@@ -109,6 +109,11 @@ impl<'h> Held<'h> {
         (0..values.len()).map(|k| each.iter().map(|gaps| gaps[k]).collect()).collect()
     }
 
+    /// The held-out gaps without any effect that was found.
+    pub(crate) fn without_findings(&self) -> Vec<Vector6<f64>> {
+        self.gaps(&[self.values(&[])]).remove(0)
+    }
+
     /// The groups in the order in which they shrink the held-out gap most, and the held-out gaps
     /// before the first and after each.
     pub(crate) fn ordered(&self, groups: Vec<Group>) -> (Vec<Group>, Vec<Vec<Vector6<f64>>>) {

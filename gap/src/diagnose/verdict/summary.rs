@@ -46,7 +46,8 @@ impl Search<'_, '_> {
         Ok(findings)
     }
 
-    fn shrink(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Shrink {
+    /// From gaps to others of the same rows.
+    pub(crate) fn shrink(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Shrink {
         let first = if self.problem.measures_position() { 0 } else { 3 };
         let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
         let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> { gaps.iter().map(size).collect() };
