@@ -132,7 +132,7 @@ pub fn diagnose_with(
         gap: GapReport {
             before: size,
             after: statistics,
-            shrink: search.shrink(&before, &after),
+            shrink: judged.shrink,
             nested,
             noise: explained.noise.report(),
         },

@@ -202,7 +202,8 @@ pub struct Shrink {
     pub after: f64,
     /// 1 − after/before.
     pub shrink: f64,
-    /// 95 % interval of that in another campaign of as many such poses, by resampling poses.
+    /// 95 % interval of that in another campaign: poses are drawn again, those to fit and those to
+    /// measure the gap on.
     pub shrink_ci95: [f64; 2],
 }
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
-pub(super) const RANK: f64 = 1e-11;
+pub(crate) const RANK: f64 = 1e-11;
 
 /// Coordinates in which a normal matrix is the identity: `tᵀ A t = 1`, undecided directions left
 /// out.

@@ -16,7 +16,7 @@ mod model;
 mod refit;
 
 pub(crate) use align::aligned;
-pub(crate) use basis::{Basis, principal};
+pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, squares, strain};
