@@ -69,6 +69,9 @@ pub struct Args {
     /// Number of folds [default: one per pose up to 30 poses, else 10]
     #[arg(long, value_name = "K")]
     folds: Option<usize>,
+    /// Run the search again for each fold on the others, and tell the gap that it leaves there
+    #[arg(long)]
+    nested: bool,
     /// Seed of folds, permutations and intervals; the same seed gives the same bytes
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -202,6 +205,7 @@ impl Args {
             folds: self.folds,
             seed: self.seed,
             keep_all: self.keep_all,
+            nested: self.nested,
             noise_position: noise("--noise-position", &self.noise_position, Dimension::Length)?,
             noise_rotation: noise("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
             effects: self.effects.clone(),

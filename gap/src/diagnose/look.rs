@@ -7,6 +7,7 @@ use super::fit::Model;
 use super::options::DiagnoseError;
 use super::report::{CannotSee, Gauge, LeftOut, Part, Share};
 use super::search::{Explained, Search};
+use super::verdict::Held;
 use crate::effects::Effect;
 use crate::gap::Statistics;
 
@@ -17,7 +18,7 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) struct Looked {
     /// What is fitted along, alone, without the states of the rows.
     pub(crate) start: Explained,
-    /// Gaps that it leaves.
+    /// Gaps that it leaves, each row's by a fit that has not seen it.
     pub(crate) before: Vec<Vector6<f64>>,
     /// Whether these are more than rounding.
     pub(crate) is_there: bool,
@@ -37,7 +38,7 @@ impl Search<'_, '_> {
         known: Option<Model>,
     ) -> Result<Looked, DiagnoseError> {
         let begun = self.begin(model.clone())?;
-        let before = begun.fit.predicted.gaps.clone();
+        let mut before = begun.fit.predicted.gaps.clone();
         let size = Statistics::of(&self.problem.kept(&before));
         let is_there = size.position_max > ROUNDING * (1.0 + self.problem.reach)
             || size.rotation_rms > ROUNDING;
@@ -48,6 +49,9 @@ impl Search<'_, '_> {
         if is_there {
             places = self.shares(&begun, &seen);
             self.begin_with(&begun, seen);
+            if begun.fit.model.parameters(self.problem) > 0 {
+                before = Held::new(self, &begun).without_findings();
+            }
             parts = self.parts(&begun);
         }
         let start = begun.without_states();

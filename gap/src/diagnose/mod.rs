@@ -119,6 +119,8 @@ pub fn diagnose_with(
     let (explained, judged) =
         search.judged(&looked.start, looked.explained, &before, looked.is_there)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
+    let nested = options.nested.then(|| search.nested(&model)).transpose()?;
+    let nested = nested.map(|gaps| Statistics::of(&problem.kept(&gaps)));
     let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(&problem.kept(gaps)));
     let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
     let compared = compared.iter().map(compare).collect();
@@ -127,7 +129,13 @@ pub fn diagnose_with(
         robot: arm.name.clone(),
         measurements: data.rows.len(),
         held_out: HeldOut { folds: folds.count, grouped_by: "pose" },
-        gap: GapReport { before: size, after: statistics, noise: explained.noise.report() },
+        gap: GapReport {
+            before: size,
+            after: statistics,
+            shrink: judged.shrink,
+            nested,
+            noise: explained.noise.report(),
+        },
         places: looked.places,
         findings,
         cannot_see: looked.cannot_see,

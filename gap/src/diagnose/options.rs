@@ -77,6 +77,9 @@ pub struct Options {
     /// Standard deviations to which makers hold lengths and angles, m and rad; by default
     /// [`TOLERANCE`].
     pub tolerance: Option<[f64; 2]>,
+    /// Whether the search is run again for each fold on the others, and the gap told that it leaves:
+    /// as many times the work.
+    pub nested: bool,
     /// Whether rows that do not fit are fitted and counted all the same.
     pub keep_all: bool,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:

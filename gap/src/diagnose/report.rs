@@ -133,11 +133,16 @@ pub struct HeldOut {
 /// The gap before and after, and the noise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapReport {
-    /// Of the robot file as it is.
+    /// Of the robot file as it is; with what is fitted along, each row by fits that have not seen it.
     pub before: Statistics,
     /// With the findings, each row by fits that have not seen it. Equal to `before` without
     /// findings.
     pub after: Statistics,
+    /// From the one to the other.
+    pub shrink: Shrink,
+    /// As `after`, the search run again for each fold on the others; only if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nested: Option<Statistics>,
     /// Of the measurement.
     pub noise: NoiseReport,
 }
@@ -197,7 +202,8 @@ pub struct Shrink {
     pub after: f64,
     /// 1 − after/before.
     pub shrink: f64,
-    /// 95 % interval by resampling poses.
+    /// 95 % interval of that in another campaign: poses are drawn again, those to fit and those to
+    /// measure the gap on.
     pub shrink_ci95: [f64; 2],
 }
 

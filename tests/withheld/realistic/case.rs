@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nalgebra::Vector6;
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Diagnosed, Diagnosis, Finding, Nuisance};
+use stiffarm_gap::diagnose::{Diagnosed, Finding, Nuisance};
 use stiffarm_gap::gap::rms;
 use stiffarm_gap::{Options, diagnose_with};
 
@@ -185,8 +185,10 @@ impl Case {
         self.unexplained = found.unexplained.present;
         let happened = drawn.planted.iter().any(|p| !lasts(p.truth.effect))
             || self.found.iter().any(|f| matches!(f.what.effect.as_str(), "slip" | "drift"));
-        self.shrink = promised(found).filter(|_| !happened).and_then(|[predicted, low, high]| {
-            Some(Shrink { predicted, ci95: [low, high], realised: realised(drawn, diagnosed)? })
+        let is_promised = !found.findings.is_empty() && !happened;
+        self.shrink = is_promised.then(|| realised(drawn, diagnosed)).flatten().map(|realised| {
+            let promised = &found.gap.shrink;
+            Shrink { predicted: promised.shrink, ci95: promised.shrink_ci95, realised }
         });
     }
 }
@@ -213,23 +215,6 @@ fn covered(truth: &stiffarm_gap::plant::Truth, found: &Found) -> Vec<bool> {
         own.is_some_and(|(_, _, [low, high])| (*low..=*high).contains(value))
     };
     values.map(is_covered).collect()
-}
-
-/// How far the gap is said to shrink by all findings together, with its interval: the steps' ratios
-/// multiply, and the logarithms' half widths add as those of independent numbers.
-fn promised(found: &Diagnosis) -> Option<[f64; 3]> {
-    let log = |shrink: f64| (1.0 - shrink).max(1e-9).ln();
-    let (mut sum, mut below, mut above) = (0.0, 0.0, 0.0);
-    for finding in &found.findings {
-        let [low, high] = finding.held_out.shrink_ci95.map(log);
-        let step = log(finding.held_out.shrink);
-        sum += step;
-        below += (step - high).powi(2);
-        above += (low - step).powi(2);
-    }
-    let shrink = |log: f64| 1.0 - log.exp();
-    let interval = [shrink(sum), shrink(sum + f64::sqrt(above)), shrink(sum - f64::sqrt(below))];
-    (!found.findings.is_empty()).then_some(interval)
 }
 
 /// How far it shrinks over all later sessions, where the instrument was not just wrong.

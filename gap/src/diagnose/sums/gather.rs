@@ -6,7 +6,7 @@
 //! rows; time is linear in rows. Blocks are worked on at once, each in the order of its rows, and
 //! added up in their order: the bits do not depend on the number of threads.
 
-use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
@@ -30,6 +30,8 @@ pub(crate) struct Gathered {
     /// Of each fold, what is measured first alone (positions, or rotations without them), in m or
     /// rad.
     pub(crate) plain: Vec<Products>,
+    /// The same of each block, the model's parameters alone.
+    pub(crate) plain_blocks: Vec<Products>,
 }
 
 /// What is gathered.
@@ -72,25 +74,22 @@ impl Gathered {
         }
         let mut total = Products::zeros(k, &layout.sizes);
         blocks.iter().for_each(|b| total.add(b));
-        Self { blocks, total, plain }
+        let alone = Choice::first(k, &[]);
+        let plain_blocks = mains.iter().map(|main| main.chosen(&alone)).collect();
+        Self { blocks, total, plain, plain_blocks }
     }
 }
 
 impl Gathered {
     /// The same without what was gathered along, and of the first candidates alone.
     pub(crate) fn narrowed(&self, parameters: usize, candidates: &[Candidate]) -> Self {
-        let choice = Choice {
-            kept: (0..parameters).collect(),
-            back: Vec::new(),
-            values: DVector::zeros(0),
-            candidates: candidates.len(),
-            numbers: candidates.iter().map(|c| c.size).sum(),
-        };
-        let each = |of: &[Products]| of.iter().map(|p| p.chosen(&choice)).collect();
+        let choice = Choice::first(parameters, candidates);
+        let each = |of: &[Products], choice: &Choice| of.iter().map(|p| p.chosen(choice)).collect();
         Self {
-            blocks: each(&self.blocks),
+            blocks: each(&self.blocks, &choice),
             total: self.total.chosen(&choice),
-            plain: each(&self.plain),
+            plain: each(&self.plain, &choice),
+            plain_blocks: each(&self.plain_blocks, &Choice::first(parameters, &[])),
         }
     }
 }

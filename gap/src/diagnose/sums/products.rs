@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::candidate::Candidate;
+
 /// Products of one set of rows: `z` are the model's parameters, `x` the candidates' numbers, `r`
 /// what is left of the gap.
 #[derive(Clone, Debug)]
@@ -29,6 +31,19 @@ pub(crate) struct Choice {
     /// Candidates that stay, from the first, and their numbers.
     pub(crate) candidates: usize,
     pub(crate) numbers: usize,
+}
+
+impl Choice {
+    /// The first parameters and candidates, as they are.
+    pub(crate) fn first(parameters: usize, candidates: &[Candidate]) -> Self {
+        Choice {
+            kept: (0..parameters).collect(),
+            back: Vec::new(),
+            values: DVector::zeros(0),
+            candidates: candidates.len(),
+            numbers: candidates.iter().map(|c| c.size).sum(),
+        }
+    }
 }
 
 impl Products {

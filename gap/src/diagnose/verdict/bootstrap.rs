@@ -9,9 +9,6 @@ use crate::gap::percentile;
 /// Resamplings of each interval.
 pub(crate) const DRAWS: usize = 10_000;
 
-/// The normal distribution's 97.5 % point.
-const NORMAL: f64 = 1.959_963_985;
-
 /// Central 95 % of a statistic of resampled poses; `statistic` gets the sum of each quantity over
 /// the drawn poses. `quantities[k][pose]`.
 fn interval<const K: usize>(
@@ -42,19 +39,14 @@ pub(crate) fn shrink(before: f64, after: f64) -> f64 {
     if before > 0.0 { 1.0 - (after / before).sqrt() } else { 0.0 }
 }
 
-/// 95 % interval of [`shrink`], from the sums of squares of each pose. What is resampled scatters
-/// less than what it was drawn from: the limits stand off by the ratio of Student's to the normal
-/// deviate, and of the variances.
-pub(crate) fn shrink_interval(before: &[f64], after: &[f64], seed: u64) -> [f64; 2] {
-    let limits = interval([before, after], seed, |[before, after]| shrink(before, after));
-    let count = before.len() as f64;
-    if count < 2.0 {
-        return limits;
-    }
-    let middle = shrink(before.iter().sum(), after.iter().sum());
-    let t = StudentsT::new(0.0, 1.0, count - 1.0).map_or(NORMAL, |t| t.inverse_cdf(0.975));
-    let wider = t / NORMAL * (count / (count - 1.0)).sqrt();
-    limits.map(|limit| (middle + (limit - middle) * wider).min(1.0))
+/// 95 % interval of a [`shrink`] whose logarithm of what is left scatters by `spread` over campaigns
+/// that are drawn again from so many poses. What is drawn again scatters less than what it was drawn
+/// from: the limits stand off by Student's deviate, and by the ratio of the variances.
+pub(crate) fn shrink_interval(shrink: f64, spread: f64, poses: usize) -> [f64; 2] {
+    let freedom = poses.saturating_sub(1).max(1) as f64;
+    let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
+    let off = t * spread * (1.0 + 1.0 / freedom).sqrt();
+    [off, -off].map(|off| 1.0 - (1.0 - shrink) * off.exp())
 }
 
 /// 95 % interval of the mean over rows of a difference, from its sum over each pose and the rows of
@@ -84,9 +76,12 @@ mod tests {
 
     #[test]
     fn an_even_shrink_is_certain() {
-        let (before, after) = ([4.0, 8.0, 100.0], [1.0, 2.0, 25.0]);
-        assert_eq!(shrink_interval(&before, &after, 0), [0.5, 0.5]);
-        assert_eq!(shrink_interval(&[0.0; 2], &[0.0; 2], 0), [0.0, 0.0]);
+        assert_eq!(shrink_interval(shrink(112.0, 28.0), 0.0, 3), [0.5, 0.5]);
+        // Student's t of 9 degrees of freedom.
+        let [low, high] = shrink_interval(0.5, 0.1, 10);
+        let off = 2.262_157 * 0.1 * (10.0_f64 / 9.0).sqrt();
+        assert!((low - (1.0 - 0.5 * off.exp())).abs() < 1e-6, "{low}");
+        assert!((high - (1.0 - 0.5 / off.exp())).abs() < 1e-6, "{high}");
         assert!(excludes_zero([0.5, 0.5]) && excludes_zero([-2.0, -1.0]));
     }
 }

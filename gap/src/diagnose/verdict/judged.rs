@@ -3,9 +3,11 @@
 
 use nalgebra::Vector6;
 
+use super::outcome::Held;
+use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
-use crate::diagnose::report::{Finding, Unexplained};
+use crate::diagnose::report::{Finding, Shrink, Unexplained};
 use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
 use crate::gap::Statistics;
 
@@ -17,6 +19,8 @@ pub(crate) struct Judged {
     pub(crate) findings: Vec<Finding>,
     /// Held-out gap of each row with all findings.
     pub(crate) after: Vec<Vector6<f64>>,
+    /// From the gap before to that.
+    pub(crate) shrink: Shrink,
     pub(crate) unexplained: Unexplained,
 }
 
@@ -44,14 +48,17 @@ impl Search<'_, '_> {
             let main = if positions { size.position_rms } else { size.rotation_rms };
             let unexplained =
                 if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
-            let findings = self.findings(&now, &groups, before, &held_out, !unexplained.present)?;
+            let refitted = Refitted::new(&Held::new(self, &now), &groups, self.options.seed);
+            let at_noise = !unexplained.present;
+            let findings = self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
                 .filter(|k| {
                     findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
                 });
             let Some(worst) = worst else {
-                return Ok((now, Judged { findings, after, unexplained }));
+                let shrink = self.shrink(before, &after, refitted.spread(0, groups.len()));
+                return Ok((now, Judged { findings, after, shrink, unexplained }));
             };
             let mut group = groups[worst].clone();
             group.sort_unstable();

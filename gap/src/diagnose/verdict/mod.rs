@@ -3,15 +3,17 @@
 //! **In:** the fit with all its effects.
 //! **Out:** `judged`: the findings, in the order in which they shrink the held-out gap
 //! (`outcome`), each with its values and intervals and the shrink with its own (`summary`,
-//! `bootstrap`), the explanations that could stand in its place (`rivals`), the chance of noise and
+//! `bootstrap`, `refitted`), the explanations that could stand in its place (`rivals`), the chance of noise and
 //! how often half of the poses find it again (`stability`), and the measurement that would separate
 //! it (`separate`); and what is left (`remainder`). What is not significant beside all the
-//! others is taken out again. [`Rival`] is another model, which the file's columns predict with.
+//! others is taken out again. `nested` runs the search itself again without each fold. [`Rival`] is another model, which the file's columns predict with.
 
 mod bootstrap;
 mod compared;
 mod judged;
+mod nested;
 mod outcome;
+mod refitted;
 mod remainder;
 mod rivals;
 mod separate;
@@ -19,4 +21,5 @@ mod stability;
 mod summary;
 
 pub(crate) use compared::Rival;
+pub(crate) use outcome::Held;
 pub(crate) use summary::{cover, nuisances};

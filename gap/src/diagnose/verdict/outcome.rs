@@ -1,10 +1,10 @@
 //! What was found, put in order and held out: each row predicted by fits that have not seen it.
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Basis, Fit, Model, block, squares};
+use crate::diagnose::fit::{Basis, Fit, Model, RANK, block, squares};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::Products;
@@ -20,20 +20,22 @@ pub(crate) struct Held<'h> {
     /// Weighted, all effects given back.
     of_fold: Vec<Normal>,
     total: Normal,
+    /// Of each block of poses, weighted and as it is measured first, m or rad.
+    pub(super) blocks: Vec<[Normal; 2]>,
     /// Which parameters belong to which effect; what is fitted along to none.
     owner: Vec<Option<usize>>,
 }
 
 /// A normal matrix, its right-hand side, and the squares to be explained.
 #[derive(Clone)]
-struct Normal {
+pub(super) struct Normal {
     matrix: DMatrix<f64>,
     right: DVector<f64>,
     squares: f64,
 }
 
 impl Normal {
-    fn zeros(k: usize) -> Self {
+    pub(super) fn zeros(k: usize) -> Self {
         Self { matrix: DMatrix::zeros(k, k), right: DVector::zeros(k), squares: 0.0 }
     }
 
@@ -43,6 +45,20 @@ impl Normal {
         self.squares += products.rr + values.dot(&model) + 2.0 * values.dot(&products.zr);
         self.matrix += &products.zz;
         self.right += &products.zr + model;
+    }
+}
+
+impl Normal {
+    /// Adds another so many times.
+    pub(super) fn add_times(&mut self, other: &Normal, times: f64) {
+        self.matrix += &other.matrix * times;
+        self.right += &other.right * times;
+        self.squares += other.squares * times;
+    }
+
+    /// Squares that such values leave.
+    pub(super) fn left(&self, values: &DVector<f64>) -> f64 {
+        self.squares + values.dot(&(&self.matrix * values)) - 2.0 * values.dot(&self.right)
     }
 }
 
@@ -57,39 +73,67 @@ impl<'h> Held<'h> {
         let values = DVector::from_vec(fit.model.values(problem));
         let mut of_fold = vec![Normal::zeros(owner.len()); folds.count];
         let mut total = Normal::zeros(owner.len());
-        for (block, products) in search.gathered(now).blocks.iter().enumerate() {
-            of_fold[folds.of_block[block]].add(products, &values);
-            total.add(products, &values);
+        let gathered = search.gathered(now);
+        let both = gathered.blocks.iter().zip(&gathered.plain_blocks);
+        let blocks: Vec<[Normal; 2]> = both
+            .map(|(white, plain)| {
+                [white, plain].map(|products| {
+                    let mut normal = Normal::zeros(owner.len());
+                    normal.add(products, &values);
+                    normal
+                })
+            })
+            .collect();
+        for (block, [white, _]) in blocks.iter().enumerate() {
+            of_fold[folds.of_block[block]].add_times(white, 1.0);
+            total.add_times(white, 1.0);
         }
-        Self { problem, folds, fit, of_fold, total, owner }
+        Self { problem, folds, fit, of_fold, total, blocks, owner }
     }
 
     /// The values of all parameters with the effects of `groups` fitted to the other folds, a
     /// column for each fold; those of other effects are 0.
     fn values(&self, groups: &[&Group]) -> DMatrix<f64> {
-        let kept: Vec<usize> = (0..self.owner.len())
-            .filter(|&c| self.owner[c].is_none_or(|o| groups.iter().any(|g| g.contains(&o))))
-            .collect();
-        let mut values = DMatrix::zeros(self.owner.len(), self.of_fold.len());
-        let held = DVector::from_vec(self.fit.model.held(self.problem)).map(|held| held * held);
-        let total = &self.total.matrix + DMatrix::from_diagonal(&held);
-        for (fold, own) in self.of_fold.iter().enumerate() {
-            let others = (&total - &own.matrix).select_rows(&kept);
-            let right = (&self.total.right - &own.right).select_rows(&kept);
-            let found = Basis::new(&others.select_columns(&kept)).solve(&right);
-            for (at, value) in kept.iter().zip(found.iter()) {
-                values[(*at, fold)] = *value;
-            }
-        }
+        let kept = self.kept(groups);
+        let each = self.of_fold.iter().map(|own| {
+            let mut others = self.total.clone();
+            others.add_times(own, -1.0);
+            self.solved(&others, &kept)
+        });
+        DMatrix::from_columns(&each.collect::<Vec<_>>())
+    }
+
+    /// Number of parameters.
+    pub(super) fn parameters(&self) -> usize {
+        self.owner.len()
+    }
+
+    /// The parameters of some groups, and what is fitted along.
+    pub(super) fn kept(&self, groups: &[&Group]) -> Vec<usize> {
+        let is_kept =
+            |c: &usize| self.owner[*c].is_none_or(|o| groups.iter().any(|g| g.contains(&o)));
+        (0..self.owner.len()).filter(is_kept).collect()
+    }
+
+    /// The values of all parameters of which some are kept; those of the others are 0.
+    pub(super) fn solved(&self, rows: &Normal, kept: &[usize]) -> DVector<f64> {
+        let held = self.fit.model.held(self.problem);
+        let mut matrix = rows.matrix.select_rows(kept).select_columns(kept);
+        kept.iter().enumerate().for_each(|(k, at)| matrix[(k, k)] += held[*at].powi(2));
+        let right = rows.right.select_rows(kept);
+        let found = match matrix.clone().cholesky().filter(|root| is_decided(root, &matrix)) {
+            Some(root) => root.solve(&right),
+            None => Basis::new(&matrix).solve(&right),
+        };
+        let mut values = DVector::zeros(self.owner.len());
+        kept.iter().zip(found.iter()).for_each(|(at, value)| values[*at] = *value);
         values
     }
 
     /// Weighted squares of the held-out rows with such values.
     fn squares(&self, values: &DMatrix<f64>) -> f64 {
-        let each = self.of_fold.iter().zip(values.column_iter()).map(|(own, values)| {
-            own.squares + values.dot(&(&own.matrix * values)) - 2.0 * values.dot(&own.right)
-        });
-        each.sum()
+        let each = self.of_fold.iter().zip(values.column_iter());
+        each.map(|(own, values)| own.left(&values.into_owned())).sum()
     }
 
     /// Gap of each row, m and rad, with each of the given values.
@@ -107,6 +151,11 @@ impl<'h> Held<'h> {
             })
             .collect();
         (0..values.len()).map(|k| each.iter().map(|gaps| gaps[k]).collect()).collect()
+    }
+
+    /// The held-out gaps without any effect that was found.
+    pub(crate) fn without_findings(&self) -> Vec<Vector6<f64>> {
+        self.gaps(&[self.values(&[])]).remove(0)
     }
 
     /// The groups in the order in which they shrink the held-out gap most, and the held-out gaps
@@ -128,6 +177,13 @@ impl<'h> Held<'h> {
         let gaps = self.gaps(&values);
         (done, gaps)
     }
+}
+
+/// Whether no direction of a normal matrix is left undecided: what is left of a column beside those
+/// before it is more than rounding.
+fn is_decided(root: &Cholesky<f64, Dyn>, matrix: &DMatrix<f64>) -> bool {
+    let own = root.l_dirty().diagonal();
+    own.iter().zip(matrix.diagonal().iter()).all(|(own, all)| own * own > RANK * all)
 }
 
 impl Search<'_, '_> {

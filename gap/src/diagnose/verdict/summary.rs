@@ -5,6 +5,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::bootstrap::{shrink, shrink_interval};
 use super::outcome::Group;
+use super::refitted::Refitted;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Basis, Model, squares};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
@@ -22,6 +23,7 @@ impl Search<'_, '_> {
         groups: &[Group],
         before: &[Vector6<f64>],
         held_out: &[Vec<Vector6<f64>>],
+        refitted: &Refitted,
         at_noise: bool,
     ) -> Result<Vec<Finding>, DiagnoseError> {
         let values = self.intervals(now);
@@ -36,7 +38,11 @@ impl Search<'_, '_> {
                 effect: first.effect.identifier(),
                 place: first.spot.place.to_string(),
                 parameters: group.iter().flat_map(|index| values[*index].clone()).collect(),
-                held_out: self.shrink(last, &held_out[number + 1]),
+                held_out: self.shrink(
+                    last,
+                    &held_out[number + 1],
+                    refitted.spread(number, number + 1),
+                ),
                 p_value: rivals.p_value,
                 stability: rivals.stability,
                 alternatives: rivals.alternatives,
@@ -46,19 +52,25 @@ impl Search<'_, '_> {
         Ok(findings)
     }
 
-    fn shrink(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Shrink {
+    /// From gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.
+    pub(super) fn shrink(
+        &self,
+        before: &[Vector6<f64>],
+        after: &[Vector6<f64>],
+        spread: f64,
+    ) -> Shrink {
         let first = if self.problem.measures_position() { 0 } else { 3 };
         let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
         let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> { gaps.iter().map(size).collect() };
         let (before, after) = (sizes(before), sizes(after));
         let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes));
-        let blocks = |sizes: &[f64]| self.folds.per_block(self.problem.data, sizes);
         let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
+        let shrink = shrink(sum(&before), sum(&after));
         Shrink {
             before: rms(&before),
             after: rms(&after),
-            shrink: shrink(sum(&before), sum(&after)),
-            shrink_ci95: shrink_interval(&blocks(&before), &blocks(&after), self.options.seed),
+            shrink,
+            shrink_ci95: shrink_interval(shrink, spread, self.folds.blocks()),
         }
     }
 
