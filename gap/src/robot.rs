@@ -1,7 +1,7 @@
 //! From the robot file's model to the arm that is simulated, and to what the reader must know.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use stiffarm_codegen::robot::{self, Angle, Robot, Value};
+use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::measurement::{Layout, Marker};
@@ -63,6 +63,15 @@ impl Reader {
         Vector3::from_fn(|k, _| self.value(|| at.to_owned(), &values[k]))
     }
 
+    /// A transform, and its rotation vector.
+    fn frame(&mut self, at: &'static str, frame: &Frame) -> (Isometry3<f64>, Vector3<f64>) {
+        let translation = self.vector(&format!("{at} translation"), &frame.translation);
+        let turn = |k| self.angle(|| format!("{at} rotation"), &frame.rotation[k]);
+        let rotation = Vector3::from(std::array::from_fn(turn));
+        let turned = UnitQuaternion::from_scaled_axis(rotation);
+        (Isometry3::from_parts(Translation3::from(translation), turned), rotation)
+    }
+
     fn symbol(&mut self, at: String, name: &str) -> f64 {
         self.symbols.push((at, name.to_owned()));
         0.0
@@ -77,9 +86,8 @@ impl Reader {
 pub fn arm(robot: &Robot) -> Result<Arm, RobotError> {
     let mut read = Reader::default();
     let joints = robot.joints.iter().map(|j| joint(&mut read, j)).collect();
-    let translation = read.vector("tool translation", &robot.tool.translation);
-    let rotation =
-        Vector3::from_fn(|k, _| read.angle(|| "tool rotation".to_owned(), &robot.tool.rotation[k]));
+    let [base, (tool, rotation)] =
+        [("base", &robot.base), ("tool", &robot.tool)].map(|(at, f)| read.frame(at, f));
     let gravity = read.vector("gravity", &robot.gravity);
     refuse_symbols(robot, read)?;
     let arm = Arm {
@@ -89,10 +97,8 @@ pub fn arm(robot: &Robot) -> Result<Arm, RobotError> {
             robot::Convention::Modified => Convention::Modified,
         },
         joints,
-        tool: Isometry3::from_parts(
-            Translation3::from(translation),
-            UnitQuaternion::from_scaled_axis(rotation),
-        ),
+        base: base.0,
+        tool,
         tool_rotation_vector: rotation,
         gravity,
     };
@@ -147,6 +153,7 @@ fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
         d: read.value(at("d"), &joint.d),
         a: read.value(at("a"), &joint.a),
         alpha: read.angle(at("alpha"), &joint.alpha),
+        beta: read.angle(at("beta"), &joint.beta),
         compliance: match &joint.stiffness {
             Some(Value::Symbol(name)) => read.symbol(at("stiffness")(), name),
             Some(Value::Number(k)) => 1.0 / k.to_f64(),
@@ -195,6 +202,7 @@ mod tests {
             d: Value::ZERO,
             a: number("0.5"),
             alpha: Angle::ZERO,
+            beta: Angle::ZERO,
             stiffness: Some(number("2e5")),
             mass: None,
             com: [const { Value::ZERO }; 3],
@@ -207,7 +215,10 @@ mod tests {
             convention: robot::Convention::Standard,
             gravity: [Value::ZERO, Value::ZERO, number("-9.80665")],
             joints: vec![joint],
-            tool: robot::Tool::default(),
+            base: Frame::default(),
+            tool: Frame::default(),
+            effects: Vec::new(),
+            payloads: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),

@@ -31,7 +31,10 @@ mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub use model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+pub use model::{
+    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Payload, Quantity, Robot, Section,
+    Spot, Value,
+};
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;

@@ -10,9 +10,9 @@ use crate::Motion;
 /// How one row of the table becomes a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convention {
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: Denavit and Hartenberg as in Paul and in Lin et al.
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`: Denavit and Hartenberg as in Paul and in Lin et al.
     Standard,
-    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
+    /// `Rx(alpha) Ry(beta) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
     Modified,
 }
 
@@ -25,12 +25,14 @@ pub struct Arm {
     pub convention: Convention,
     /// The rows of the table, base to tip.
     pub joints: Vec<Joint>,
+    /// Frame 0 in the world, in whose axes poses, twists and wrenches are told.
+    pub base: Isometry3<f64>,
     /// Tool frame in the last frame.
     pub tool: Isometry3<f64>,
     /// The rotation vector (axis × angle, rad, in the last frame) that [`Arm::tool`] was made from.
     /// Only [`Arm::parameter_jacobian`] reads it: of the vectors of one rotation it says which.
     pub tool_rotation_vector: Vector3<f64>,
-    /// Gravity in base axes, m/s².
+    /// Gravity in the axes of frame 0, m/s².
     pub gravity: Vector3<f64>,
 }
 
@@ -47,6 +49,8 @@ pub struct Joint {
     pub a: f64,
     /// Rotation about x, rad.
     pub alpha: f64,
+    /// Rotation about y behind it, rad: between parallel axes `d` and `alpha` do not say all (Hayati).
+    pub beta: f64,
     /// 1/k of the joint's spring, rad/(N·m), or m/N if it is prismatic; 0 is rigid.
     pub compliance: f64,
     /// Mass of the link that this joint moves, kg.

@@ -124,7 +124,7 @@ impl Arm {
         let at_tool = |link: &Link<'_>| {
             let hanging = weights.iter().filter(|weight| weight.beyond >= link.row);
             let at_tip: Vector6<f64> = hanging.map(|weight| weight.wrench_at(&link.tip)).sum();
-            let twist = link.flexibility() * at_tip + link.sag(&self.gravity);
+            let twist = link.flexibility() * at_tip + link.sag(&self.falling());
             wrench_transport(&tool, &link.tip).tr_mul(&twist)
         };
         self.links(q).iter().map(at_tool).sum()

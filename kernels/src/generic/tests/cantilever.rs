@@ -32,6 +32,7 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         shear_coefficient: Some(KAPPA),
     };
     let joint = Joint {
+        beta: 0.0,
         motion,
         theta: 0.0,
         d,
@@ -44,6 +45,7 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         beam: Some(beam),
     };
     Arm {
+        base: Isometry3::identity(),
         name: "cantilever".to_string(),
         convention,
         joints: vec![joint],

@@ -23,6 +23,7 @@ fn kr240() -> Arm {
         (-FRAC_PI_2, 0.0, rl6, 4.7e5),
     ];
     let joint = |(alpha, a, d, stiffness): (f64, f64, f64, f64)| Joint {
+        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d,
@@ -35,6 +36,7 @@ fn kr240() -> Arm {
         beam: None,
     };
     Arm {
+        base: Isometry3::identity(),
         name: "KUKA KR 240-2".to_string(),
         convention: Convention::Modified,
         joints: rows.map(joint).into(),

@@ -25,6 +25,7 @@ fn robot(links: &[(f64, f64)]) -> Arm {
     // So large that a link does not stretch; the weight per inch is density × area × |gravity|.
     let area = 1e12;
     let joint = |&(inertia, weight): &(f64, f64)| Joint {
+        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d: 0.0,
@@ -46,6 +47,7 @@ fn robot(links: &[(f64, f64)]) -> Arm {
         }),
     };
     Arm {
+        base: Isometry3::identity(),
         name: "Lin, Chiang, Cui".to_string(),
         convention: Convention::Standard,
         joints: links.iter().map(joint).collect(),

@@ -57,6 +57,7 @@ impl Random {
         let motion = if self.chance(0.3) { Motion::Prismatic } else { Motion::Revolute };
         let right_angles = self.between(-2.0, 2.0).round();
         Joint {
+            beta: 0.0,
             motion,
             theta: self.between(-3.0, 3.0),
             d: if self.chance(0.4) { 0.0 } else { self.between(-1.0, 1.0) },
@@ -79,6 +80,7 @@ impl Random {
         let count = self.between(1.0, 7.999) as usize;
         let rotation = self.vector(1.5);
         Arm {
+            base: Isometry3::identity(),
             name: "random".to_string(),
             convention: if self.chance(0.5) { Convention::Standard } else { Convention::Modified },
             joints: (0..count).map(|_| self.joint()).collect(),

@@ -2,7 +2,7 @@
 
 use num_rational::Ratio;
 
-use super::super::super::{Angle, Convention, Motion, Tool};
+use super::super::super::{Angle, Convention, Motion, Frame};
 use super::*;
 
 #[test]
@@ -95,7 +95,7 @@ fn defaults() {
     assert!(joint.d.is_zero() && joint.a.is_zero());
     assert_eq!((&joint.stiffness, &joint.mass, &joint.limits), (&None, &None, &None));
     assert_eq!(robot.gravity, [Value::ZERO, Value::ZERO, number("-9.80665")]);
-    assert_eq!(robot.tool, Tool::default());
+    assert_eq!(robot.tool, Frame::default());
 }
 
 #[test]
