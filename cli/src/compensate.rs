@@ -77,7 +77,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     };
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm()?;
+    let arm = source.arm_alone("compensate")?;
     let (targets, starts) = targets(&args.targets, &source)?;
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
         let message = format!("--wrench: {} has loads of its own", args.targets.display());

@@ -16,7 +16,7 @@ use super::Verdict;
 use super::screen::Screen;
 use crate::input::data;
 use crate::input::quantity::{self, counted};
-use crate::input::source::RobotArgs;
+use crate::input::source::{RobotArgs, Source};
 use crate::report::Report;
 use crate::terminal::failure::Failure;
 use crate::terminal::interrupt;
@@ -101,8 +101,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         ("--write-robot", &args.write_robot),
         ("--report", &args.report),
     ])?;
-    let options = args.options()?;
     let source = args.robot.load(quiet)?;
+    let options = args.options(&source)?;
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
     let data = data::read(&args.data, &layout)?;
@@ -178,7 +178,7 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
-    fn options(&self) -> Result<Options, Failure> {
+    fn options(&self, source: &Source) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
@@ -192,6 +192,7 @@ impl Args {
             effects: self.effects.clone(),
             nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
             rivals: self.rivals.clone(),
+            known: source.known.clone(),
             stop: Stop::default(),
             ..Options::default()
         })

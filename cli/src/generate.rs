@@ -115,6 +115,7 @@ fn outputs() -> Vec<&'static str> {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
     let source = source::open(&args.robot, quiet)?;
+    source.refuse_effects("generate")?;
     let mut verdict = Verdict::Good;
     for (name, text) in args.files(&source)? {
         // One text is the file that was named, several are in the folder that was named.

@@ -89,7 +89,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     ])?;
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm()?;
+    let arm = source.arm_alone("identify")?;
     let data = data::read(&args.data, &data::layout(&source)?)?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));

@@ -86,7 +86,7 @@ pub struct Args {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     one_to_stdout(&[("--svg", &args.svg), ("--csv", &args.csv)])?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm()?;
+    let arm = source.arm_alone("map")?;
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
     let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &arm, quiet)?;
     let asked =

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
+use nalgebra::Isometry3;
+use stiffarm_codegen::robot::{Dimension as Cell, Located, Motion, Robot, Spot, Symbol};
+use stiffarm_gap::corrected::{FoldError, folded};
+use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
@@ -24,8 +27,13 @@ pub struct RobotArgs {
 pub struct Source {
     /// As it was named on the command line.
     pub given: String,
-    /// The model, parameters replaced by their numbers.
+    /// The model: parameters replaced by their numbers, effects taken into the table as far as it
+    /// holds them.
     pub robot: Robot,
+    /// The effects that are left.
+    pub known: Vec<Known>,
+    /// The file's text.
+    text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
 }
@@ -36,12 +44,12 @@ impl RobotArgs {
     /// # Errors
     /// [`Failure`]: no such robot, the file's mistakes, parameters without numbers.
     pub fn load(&self, quiet: bool) -> Result<Source, Failure> {
-        let source = open(&self.robot, quiet)?;
+        let source = read(&self.robot, quiet)?;
         let symbols = source.robot.symbols();
         let given = self.parameters(&source.robot.name, &symbols)?;
         let value = |name: &str| given.iter().rev().find(|(n, _)| n == name).map(|(_, v)| *v);
         match source.robot.with_parameters(value) {
-            Ok(robot) => Ok(Source { robot, ..source }),
+            Ok(robot) => Source { robot, ..source }.understood(),
             Err(missing) => Err(Failure::with_help(
                 format!("{}: found no number for {}", source.robot.name, missing.join(", ")),
                 format!("give each one with --set NAME=VALUE: {}", listing(&symbols)),
@@ -69,12 +77,62 @@ impl RobotArgs {
 }
 
 impl Source {
-    /// The robot as the textbook has it.
+    fn new(given: &str, robot: Robot, text: String, built_in: bool) -> Source {
+        Source { given: given.to_owned(), robot, known: Vec::new(), text, built_in }
+    }
+
+    /// The table as the textbook has it; what the file says beyond it is [`Source::known`].
     ///
     /// # Errors
     /// [`Failure`] if something in it has no number.
     pub fn arm(&self) -> Result<Arm, Failure> {
         stiffarm_gap::robot::arm(&self.robot).map_err(|error| Failure::new(error.to_string()))
+    }
+
+    /// The table for a command that honours nothing beyond it and stands at the arm's base.
+    ///
+    /// # Errors
+    /// As [`Source::arm`] and [`Source::refuse_effects`].
+    pub fn arm_alone(&self, command: &str) -> Result<Arm, Failure> {
+        self.refuse_effects(command)?;
+        Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
+    }
+
+    /// Refuses an effect, for a command that does not honour it.
+    ///
+    /// # Errors
+    /// [`Failure`] names the effect where it stands.
+    pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
+        let Some(Known { effect, spot, at, .. }) = self.known.first() else { return Ok(()) };
+        let what = format!("{} at {}", effect.identifier().replace('_', " "), spot.place);
+        let message = format!("`stiffarm {command}` does not honour the {what}");
+        let help = "take the [[effect]] out of a copy of the file to go on without it".to_owned();
+        Err(self.mistakes([(at, message, Some(help))]))
+    }
+
+    fn mistakes<'m>(
+        &self,
+        each: impl IntoIterator<Item = (&'m Spot, String, Option<String>)>,
+    ) -> Failure {
+        let remark = |(at, message, help)| {
+            let located = Located::at(&self.given, &self.text, at, message, help);
+            Remark::located(&located, &self.text, false)
+        };
+        Failure::File(each.into_iter().map(remark).collect())
+    }
+
+    /// The same with its effects read: those that the table holds are in it then.
+    fn understood(self) -> Result<Source, Failure> {
+        if self.robot.effects.is_empty() {
+            return Ok(self);
+        }
+        match folded(&self.robot, &Catalogue::default()) {
+            Ok((robot, known)) => Ok(Source { robot, known, ..self }),
+            Err(FoldError::Robot(error)) => Err(Failure::new(error.to_string())),
+            Err(FoldError::Effects(wrong)) => {
+                Err(self.mistakes(wrong.iter().map(|e| (&e.at, e.message.clone(), e.help.clone()))))
+            }
+        }
     }
 
     /// What the joint values are, base to tip.
@@ -92,11 +150,15 @@ impl Source {
 /// # Errors
 /// [`Failure`]: no such robot, or the file's mistakes.
 pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
+    read(given, quiet)?.understood()
+}
+
+fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
     let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
             let robot = parse(toml, given, true)?;
-            return Ok(Source { given: given.to_owned(), robot, built_in: true });
+            return Ok(Source::new(given, robot, toml.to_owned(), true));
         }
         if !Path::new(given).exists() {
             return Err(no_such_robot(given));
@@ -104,7 +166,7 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
     }
     let text = text(Path::new(given))?;
     let robot = parse(&text, given, quiet)?;
-    Ok(Source { given: given.to_owned(), robot, built_in: false })
+    Ok(Source::new(given, robot, text, false))
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {

@@ -15,7 +15,7 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{Effect, Forms, Parameter, Place, Spot};
+use crate::effects::{Effect, Forms, Known, Parameter, Place, Spot};
 use crate::measurement::nearest;
 
 /// One effect at one place, with its size.
@@ -82,6 +82,11 @@ impl Truth {
         let truth = Truth { effect, place, values };
         truth.check(arm).map_err(wrong)?;
         Ok(truth)
+    }
+
+    /// What a robot file says.
+    pub(super) fn known(known: &Known, arm: &Arm) -> Truth {
+        Truth { effect: known.effect, place: known.spot.place, values: known.named(arm) }
     }
 
     /// The spots of the effect with the values of all parameters there.

@@ -54,7 +54,7 @@ impl<'a> Actual<'a> {
             load_point: Vector3::zeros(),
             fixed: vec![Vector6::zeros(); Site::count(arm.dof())],
             laws: Vec::new(),
-            base: Isometry3::identity(),
+            base: arm.base,
             metre: 1.0,
             loaded_geometry: 0.0,
             arm: Cow::Borrowed(arm),
@@ -82,11 +82,12 @@ impl<'a> Actual<'a> {
         };
         let along = |x, z| Isometry3::translation(x, 0.0, z);
         let about_z = Isometry3::rotation(Vector3::new(0.0, 0.0, theta));
-        let about_x = Isometry3::rotation(Vector3::new(joint.alpha, 0.0, 0.0));
+        let inclined = Isometry3::rotation(Vector3::new(joint.alpha, 0.0, 0.0))
+            * Isometry3::rotation(Vector3::new(0.0, joint.beta, 0.0));
         let motion = about_z * along(0.0, d);
         match self.arm.convention {
-            Convention::Standard => (Isometry3::identity(), motion * along(joint.a, 0.0) * about_x),
-            Convention::Modified => (about_x * along(joint.a, 0.0), motion),
+            Convention::Standard => (Isometry3::identity(), motion * along(joint.a, 0.0) * inclined),
+            Convention::Modified => (inclined * along(joint.a, 0.0), motion),
         }
     }
 

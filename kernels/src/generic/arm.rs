@@ -66,7 +66,7 @@ pub struct Joint {
 /// A straight elastic beam from the origin of frame i−1 to the origin of frame i.
 ///
 /// Its x axis is that chord. Its z axis is the part of z of frame i−1 perpendicular to the chord;
-/// where the chord is parallel to that axis, its y axis is x of frame i (standard) or of frame i−1
+/// where the chord is parallel to that axis, its y axis is x of frame i before its beta (standard) or of frame i−1
 /// (modified), and z = x × y.
 ///
 /// The beam is an Euler-Bernoulli one, and a Timoshenko one where it has a shear coefficient. On a

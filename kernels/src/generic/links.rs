@@ -52,7 +52,9 @@ impl<'a> Link<'a> {
             return None;
         }
         let x = match arm.convention {
-            Convention::Standard => own * Vector3::x(),
+            Convention::Standard => {
+                own * (Rotation3::new(-joint.beta * Vector3::y()) * Vector3::x())
+            }
             Convention::Modified => previous * Vector3::x(),
         };
         let rotation = beam_axes(&chord, &(previous * Vector3::z()), &x);

@@ -20,6 +20,7 @@ pub(super) fn single_row(arm: &Arm, index: usize) -> Arm {
         name: String::new(),
         convention: arm.convention,
         joints: vec![joint],
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: nalgebra::Vector3::zeros(),
         gravity: nalgebra::Vector3::zeros(),

@@ -37,6 +37,8 @@ fn read(reader: &mut Reader<'_>, table: &DeTable<'_>, at: Range<usize>) -> Optio
             entries.push(Entry { key: key.get_ref().to_string(), value: found, at });
         }
     }
+    // The parser has them by name.
+    entries.sort_by_key(|entry| entry.at.span.start);
     let mut text = |name: &str, help: &str| {
         let index = entries.iter().position(|entry| entry.key == name);
         let (place, problem) = match index.map(|index| entries.remove(index)) {

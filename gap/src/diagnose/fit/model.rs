@@ -58,7 +58,7 @@ impl Model {
     pub(crate) fn nominal(problem: &Problem<'_>) -> Self {
         Self {
             arm: problem.arm.clone(),
-            instrument: Isometry3::identity(),
+            instrument: problem.arm.base,
             markers: vec![Vector3::zeros(); problem.markers.len()],
             found: Vec::new(),
         }
@@ -70,6 +70,7 @@ impl Model {
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
         actual.base = self.instrument;
+        problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
             found.effect.alter(&mut actual, data, when, found.spot, &found.values);
         }

@@ -6,7 +6,7 @@ use nalgebra::Vector6;
 use super::explanation::Explanation;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
-use crate::diagnose::options::{DiagnoseError, Options};
+use crate::diagnose::options::DiagnoseError;
 use crate::measurement::{Measurements, Row};
 
 /// The gap to be expected at a posture, measured as the diagnosed data was: root mean squares, m;
@@ -61,8 +61,7 @@ impl Explanation {
             measured_in: [None; 6],
             wrench_in: [None; 6],
         };
-        let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
-        let problem = Problem::new(&self.nominal, &data, &options)?;
+        let problem = Problem::new(&self.nominal, &data, &self.options())?;
         let placed = |model: &Model| {
             let mut model = model.clone();
             model.markers.clear();
