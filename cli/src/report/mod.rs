@@ -25,7 +25,7 @@ mod waterfall;
 pub mod withheld;
 mod words;
 
-use stiffarm_gap::diagnose::{Diagnosis, , Prediction};
+use stiffarm_gap::diagnose::{Diagnosis, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
