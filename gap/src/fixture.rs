@@ -8,6 +8,7 @@ use crate::measurement::{Kind, Layout, Measurements, Row};
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
     Joint {
+        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d,
@@ -25,6 +26,7 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
 pub(crate) fn rigid() -> Arm {
     let half = core::f64::consts::FRAC_PI_2;
     Arm {
+        base: Isometry3::identity(),
         name: "elbow".to_owned(),
         convention: Convention::Standard,
         joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],

@@ -19,6 +19,7 @@ const PSI: f64 = POUND / (INCH * INCH);
 /// large.
 fn arm() -> Arm {
     let link = |second_moment: f64| Joint {
+        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d: 0.0,
@@ -40,6 +41,7 @@ fn arm() -> Arm {
         }),
     };
     Arm {
+        base: Isometry3::identity(),
         name: "Lin 1991 two-link planar arm".to_owned(),
         convention: Convention::Standard,
         joints: vec![link(1.920), link(0.289)],

@@ -9,7 +9,7 @@
 use num_rational::Ratio;
 use stiffarm_kernels::Output;
 
-use super::chain::{Place, Step, expression, row_steps, frame_rotation};
+use super::chain::{Place, Step, expression, frame_rotation, row_steps};
 use super::displacements::Displacements;
 use super::program::{Block, Program};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};

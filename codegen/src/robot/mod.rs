@@ -32,8 +32,8 @@ mod validate;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{
-    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Payload, Quantity, Robot, Section,
-    Spot, Value,
+    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Payload, Quantity, Robot,
+    Section, Spot, Value,
 };
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

@@ -91,7 +91,10 @@ impl Known {
                     Given::Text(file) => session = Some(file.clone()),
                     Given::Si(_) => {
                         let help = Some("write session = \"run1.csv\"".to_owned());
-                        return wrong("a number stands where a file's name is expected".into(), help);
+                        return wrong(
+                            "a number stands where a file's name is expected".into(),
+                            help,
+                        );
                     }
                 }
                 continue;
@@ -108,7 +111,8 @@ impl Known {
     /// As a table of a robot file. Reading it gives the same effect.
     pub fn table(&self, arm: &Arm) -> Table {
         let entry = |key: &str, value| Entry { key: key.to_owned(), value, at: Default::default() };
-        let text = |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
+        let text =
+            |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
         let forms = self.effect.forms_are();
         let counted = if forms == Forms::Joints { self.spot.form + 1 } else { self.spot.form };
         let form = forms.key().map(|key| entry(key, Given::Si(counted as f64)));
@@ -204,7 +208,8 @@ fn value(number: &Entry<Given>, parameter: &Parameter) -> Result<f64, KnownError
         wrong(format!("`{found}` is no number and its unit: {units}"), Some(help))
     })?;
     if value < parameter.least {
-        let message = format!("`{}` is {found}: below {:e} it is not physical", number.key, parameter.least);
+        let message =
+            format!("`{}` is {found}: below {:e} it is not physical", number.key, parameter.least);
         return Err(wrong(message, None));
     }
     Ok(value)

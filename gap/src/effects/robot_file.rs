@@ -106,7 +106,8 @@ impl<'a> RobotFile<'a> {
 
     /// The corrected file with these effects.
     pub fn finish(mut self, known: &[Known]) -> Robot {
-        for (frame, found) in [(&mut self.robot.base, self.base), (&mut self.robot.tool, self.tool)] {
+        for (frame, found) in [(&mut self.robot.base, self.base), (&mut self.robot.tool, self.tool)]
+        {
             if let Some(found) = found {
                 set(frame, &found);
             }

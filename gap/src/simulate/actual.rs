@@ -86,7 +86,9 @@ impl<'a> Actual<'a> {
             * Isometry3::rotation(Vector3::new(0.0, joint.beta, 0.0));
         let motion = about_z * along(0.0, d);
         match self.arm.convention {
-            Convention::Standard => (Isometry3::identity(), motion * along(joint.a, 0.0) * inclined),
+            Convention::Standard => {
+                (Isometry3::identity(), motion * along(joint.a, 0.0) * inclined)
+            }
             Convention::Modified => (inclined * along(joint.a, 0.0), motion),
         }
     }

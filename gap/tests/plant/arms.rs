@@ -13,6 +13,7 @@ pub const EXACT: Noise = Noise { position: 0.0, rotation: 0.0 };
 /// A revolute row: theta, d, a, alpha.
 pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
     Joint {
+        beta: 0.0,
         motion: Motion::Revolute,
         theta,
         d,
@@ -28,6 +29,7 @@ pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
 
 pub fn arm(convention: Convention, joints: Vec<Joint>) -> Arm {
     Arm {
+        base: Isometry3::identity(),
         name: "arm".to_owned(),
         convention,
         joints,

@@ -113,13 +113,16 @@ impl Settings {
             "name" => self.name = Some(string(&cell, report)),
             "convention" => self.convention = Some(convention(&cell, report)),
             "gravity" => self.gravity = Some(values(&cell, Dimension::Acceleration, report)),
-            "base" => self.base = frame(&cell, report, |cell, report| {
-                let reason = "where the base stands cannot stay symbolic";
-                known_lengths(cell, reason, report)
-            }),
-            "tool" => self.tool = frame(&cell, report, |cell, report| {
-                values(cell, Dimension::Length, report)
-            }),
+            "base" => {
+                self.base = frame(&cell, report, |cell, report| {
+                    let reason = "where the base stands cannot stay symbolic";
+                    known_lengths(cell, reason, report)
+                })
+            }
+            "tool" => {
+                self.tool =
+                    frame(&cell, report, |cell, report| values(cell, Dimension::Length, report))
+            }
             "marker" => self.markers.extend(marker(&cell, report)),
             "products" => self.fused = fused(&cell, report),
             _ => self.kernels = path(&cell, report),

@@ -16,7 +16,18 @@ use super::{beam, header, rows};
 
 /// The columns that a table may have.
 pub(super) const COLUMNS: [&str; 12] = [
-    "joint", "theta", "d", "a", "alpha", "beta", "stiffness", "mass", "com", "limits", "beam", "source",
+    "joint",
+    "theta",
+    "d",
+    "a",
+    "alpha",
+    "beta",
+    "stiffness",
+    "mass",
+    "com",
+    "limits",
+    "beam",
+    "source",
 ];
 const HEADER_HELP: &str = "for example `joint | theta | d | a | alpha | stiffness`";
 

@@ -20,7 +20,8 @@ pub(super) fn read_all(reader: &mut Reader<'_>, value: &Spanned<DeValue<'_>>) ->
         match value.get_ref() {
             DeValue::Table(table) => effects.extend(read(reader, table, value.span())),
             other => {
-                let message = format!("{} stands where the table [[effect]] is expected", kind(other));
+                let message =
+                    format!("{} stands where the table [[effect]] is expected", kind(other));
                 reader.report.error(Problem::new(value.span(), message));
             }
         }

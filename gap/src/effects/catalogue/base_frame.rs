@@ -7,7 +7,9 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
-use crate::effects::{Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement};
+use crate::effects::{
+    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 

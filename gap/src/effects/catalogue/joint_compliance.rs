@@ -7,7 +7,10 @@
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::effects::robot_file::{RIGID, significant};
-use crate::effects::{Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told, joints};
+use crate::effects::{
+    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile,
+    Scene, Spot, Told, joints,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 

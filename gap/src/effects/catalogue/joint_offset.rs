@@ -8,7 +8,9 @@ use stiffarm_codegen::robot;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{shift, turn};
-use crate::effects::{Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints};
+use crate::effects::{
+    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 

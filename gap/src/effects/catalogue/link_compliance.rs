@@ -10,7 +10,9 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{RIGID, significant};
-use crate::effects::{Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told};
+use crate::effects::{
+    Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 

@@ -11,7 +11,9 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
 use crate::effects::robot_file::{shift, turn};
-use crate::effects::{Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links};
+use crate::effects::{
+    Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 

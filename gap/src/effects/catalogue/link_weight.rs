@@ -9,7 +9,9 @@ use stiffarm_codegen::robot::{Convention, Motion, Value};
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{decimals, significant};
-use crate::effects::{Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links};
+use crate::effects::{
+    Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 

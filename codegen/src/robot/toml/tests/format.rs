@@ -203,8 +203,12 @@ fn what_lies_beyond_the_table_is_read_and_written() {
     assert_eq!(robot.joints[0].beta.radians().unwrap(), 0.1_f64.to_radians());
     assert_eq!(robot.base.translation, [number("1"), number("-0.5"), Value::ZERO]);
     let effect = &robot.effects[0];
-    assert_eq!((effect.id.value.as_str(), effect.place.value.as_str()), ("transmission_error", "joint 1"));
-    let numbers: Vec<_> = effect.numbers.iter().map(|n| (n.key.as_str(), &n.value, n.at.line)).collect();
+    assert_eq!(
+        (effect.id.value.as_str(), effect.place.value.as_str()),
+        ("transmission_error", "joint 1")
+    );
+    let numbers: Vec<_> =
+        effect.numbers.iter().map(|n| (n.key.as_str(), &n.value, n.at.line)).collect();
     let text = Quantity::Text("0.10 mrad".to_owned());
     let expected =
         [("order", &Quantity::Si(2.0), 12), ("cos", &text, 13), ("sin", &Quantity::Si(-5e-5), 14)];
