@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
+use stiffarm_gap::simulate::moments;
+use stiffarm_gap::whole::Whole;
+use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::Verdict;
 use crate::input::source::{RobotArgs, Source};
@@ -77,22 +80,29 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     };
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm_alone("compensate")?;
+    let table = source.arm()?;
+    // Targets are told in the world in which the base stands, loads and set-points are not.
+    let arm = Arm { base: Isometry3::identity(), ..table.clone() };
     let (targets, starts) = targets(&args.targets, &source)?;
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
         let message = format!("--wrench: {} has loads of its own", args.targets.display());
         return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));
     }
-    if arm.joints.iter().all(|joint| joint.compliance == 0.0 && joint.beam.is_none()) {
+    let gives = |joint: &Joint| joint.compliance != 0.0 || joint.beam.is_some();
+    if source.known.is_empty() && !arm.joints.iter().any(gives) {
         note("nothing in the robot file gives way: the set-points are those of a rigid arm", quiet);
     }
     let progress = Progress::new(&source.given, targets.rows.len(), quiet);
     let mut found: Vec<Reached> = Vec::new();
-    for row in &targets.rows {
+    for (row, now) in targets.rows.iter().zip(moments(&targets)) {
+        let warming = now.warming;
+        let whole = Whole { arm: &arm, known: &source.known, row: Some(row), warming };
+        source.refuse_undecided("compensate", &whole)?;
         let load = given.unwrap_or(row.wrench);
         let before = found.last().filter(|end| end.ended == Ended::Reached);
         let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
-        let end = reach(&arm, &goal(row, targets.kind), &load, from.map(Vec::as_slice), &search);
+        let goal = goal(row, targets.kind, &table.base);
+        let end = reach(whole, &goal, &load, from.map(Vec::as_slice), &search);
         found.push(end.map_err(|error| {
             Failure::new(format!("{}: line {}: {error}", targets.file, row.line))
         })?);
@@ -114,10 +124,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 /// The targets, and whether they have joint values to start from.
 fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    let full = data::layout(source)?;
     let starts = has_readings(&bytes);
-    // Without a column of joint values the reader is told of no joints.
-    let layout = if starts { full } else { Layout { motions: Vec::new(), ..full } };
+    let layout = Layout { readings: starts, ..data::layout(source)? };
     let targets = data::from_bytes(path, &bytes, &layout)?;
     let refused = |text: &str, help: &str| {
         Err(Failure::with_help(format!("{}: {text}", path.display()), help))
@@ -148,11 +156,15 @@ fn has_readings(bytes: &[u8]) -> bool {
     header.is_some_and(|header| header.split(',').any(reading))
 }
 
-fn goal(row: &Row, kind: Kind) -> Goal {
+/// In the frame of the base.
+fn goal(row: &Row, kind: Kind, base: &Isometry3<f64>) -> Goal {
     let m = &row.measured;
     let rotation = matches!(kind, Kind::Pose { orientation: true })
         .then(|| UnitQuaternion::from_scaled_axis(Vector3::new(m[3], m[4], m[5])));
-    Goal { position: Vector3::new(m[0], m[1], m[2]), rotation }
+    Goal {
+        position: base.inverse_transform_point(&Point3::new(m[0], m[1], m[2])).coords,
+        rotation: rotation.map(|to| base.rotation.inverse() * to),
+    }
 }
 
 /// `[position, rotation]` of an error, m and rad.

@@ -22,7 +22,7 @@ use crate::terminal::failure::Failure;
 use crate::terminal::interrupt;
 use crate::terminal::json;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::Stages;
 
 const EXAMPLES: &str = "\
@@ -96,11 +96,6 @@ struct Written<'a> {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    one_to_stdout(&[
-        ("--json", &args.json),
-        ("--write-robot", &args.write_robot),
-        ("--report", &args.report),
-    ])?;
     let source = args.robot.load(quiet)?;
     let options = args.options(&source)?;
     let arm = source.arm()?;

@@ -21,7 +21,7 @@ use crate::report::identified::Identified;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::{PARTS, Progress};
 
 const EXAMPLES: &str = "\
@@ -82,11 +82,6 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    one_to_stdout(&[
-        ("--json", &args.json),
-        ("--write-robot", &args.write_robot),
-        ("--report", &args.report),
-    ])?;
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm_alone("identify")?;

@@ -110,7 +110,7 @@ fn read(name: &LitStr, root: &Path) -> Result<(Robot, TokenStream), Unread> {
     })?;
     let file = Literal::string(&path.to_string_lossy());
     let watched = quote! { const _: &[u8] = include_bytes!(#file); };
-    let remarks = match Robot::from_toml(&text, &name.value()) {
+    let remarks = match Robot::table_from_toml(&text, &name.value()) {
         // A macro cannot warn on stable Rust, and a doubt must not pass in silence.
         Ok((robot, warnings)) if warnings.is_empty() => return Ok((robot, watched)),
         Ok((_, warnings)) => warnings,

@@ -25,6 +25,7 @@ pub mod plant;
 pub mod random;
 pub mod robot;
 pub mod simulate;
+pub mod whole;
 pub mod withhold;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};

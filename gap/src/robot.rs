@@ -135,7 +135,7 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
         })
         .collect();
     refuse_symbols(robot, read)?;
-    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), markers })
+    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), readings: true, markers })
 }
 
 fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {

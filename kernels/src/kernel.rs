@@ -79,6 +79,8 @@ pub struct DhRow {
     pub a: &'static str,
     /// alpha, as text.
     pub alpha: &'static str,
+    /// beta, as text; `0` in a table of Denavit and Hartenberg's.
+    pub beta: &'static str,
     /// Joint stiffness, as text; `rigid` where there is none.
     pub stiffness: &'static str,
 }

@@ -5,8 +5,9 @@ use std::path::Path;
 use nalgebra::Isometry3;
 use stiffarm_codegen::robot::{Dimension as Cell, Located, Motion, Robot, Spot, Symbol};
 use stiffarm_gap::corrected::{FoldError, folded};
-use stiffarm_gap::effects::{Catalogue, Known};
+use stiffarm_gap::effects::{Catalogue, Depends, Known};
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -103,9 +104,29 @@ impl Source {
     /// # Errors
     /// [`Failure`] names the effect where it stands.
     pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
-        let Some(Known { effect, spot, at, .. }) = self.known.first() else { return Ok(()) };
+        self.refuse(command, "", self.known.first())
+    }
+
+    /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
+    ///
+    /// # Errors
+    /// [`Failure`] names the effect where it stands.
+    pub fn refuse_undecided(&self, command: &str, whole: &Whole<'_>) -> Result<(), Failure> {
+        let known = whole.undecided();
+        let because = known.map_or("", |known| match known.effect.depends() {
+            Depends::Posture => "",
+            Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
+            Depends::Temperature => ": no column temperature says how warm the arm is",
+            Depends::LastMove => ": the move before is not known",
+            Depends::Session => ": it belongs to the session of its measurements",
+        });
+        self.refuse(command, because, known)
+    }
+
+    fn refuse(&self, command: &str, because: &str, known: Option<&Known>) -> Result<(), Failure> {
+        let Some(Known { effect, spot, at, .. }) = known else { return Ok(()) };
         let what = format!("{} at {}", effect.identifier().replace('_', " "), spot.place);
-        let message = format!("`stiffarm {command}` does not honour the {what}");
+        let message = format!("`stiffarm {command}` does not honour the {what}{because}");
         let help = "take the [[effect]] out of a copy of the file to go on without it".to_owned();
         Err(self.mistakes([(at, message, Some(help))]))
     }

@@ -60,6 +60,7 @@ impl Learnt {
         let options = Options {
             noise_position: noise.transpose()?,
             nuisances: nuisances.collect::<Result<_, _>>().map_err(plain)?,
+            known: source.known.clone(),
             ..Options::default()
         };
         let data = data::read(path, &data::layout(source)?)?;

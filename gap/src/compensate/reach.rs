@@ -20,6 +20,7 @@ use stiffarm_kernels::generic::Arm;
 use super::{CompensateError, finite};
 use crate::random::between;
 use crate::simulate::equilibrium;
+use crate::whole::Whole;
 
 /// Where the tool should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +78,8 @@ pub struct Reached {
     pub ended: Ended,
 }
 
-/// Set-points for one target under a load on the tool (base axes, at the tool origin).
+/// Set-points for one target under a load on the tool (base axes, at the tool origin); the effects of
+/// the robot file count as far as posture and load decide them.
 ///
 /// From `start` if there is one; where that is not given or leads nowhere, from random starts, of
 /// which the one is taken whose arm gives way least.
@@ -86,29 +88,30 @@ pub struct Reached {
 /// [`CompensateError::NotFinite`]; [`CompensateError::JointValues`] if the start has not as many values
 /// as the arm has joints; [`CompensateError::Unlimited`] if a prismatic joint has no limits and no
 /// start is given; [`CompensateError::NotPositive`] for a tolerance.
-pub fn reach(
-    arm: &Arm,
+pub fn reach<'a>(
+    arm: impl Into<Whole<'a>>,
     target: &Target,
     load: &Vector6<f64>,
     start: Option<&[f64]>,
     search: &Search,
 ) -> Result<Reached, CompensateError> {
-    check(arm, target, load, start, search)?;
+    let arm = arm.into();
+    check(&arm, target, load, start, search)?;
     let task = steps::Task::new(arm, *target, *load, search);
     let mut best: Option<steps::Point> = None;
     if let Some(start) = start {
-        match task.settle(&within(arm, start)) {
+        match task.settle(&within(&arm, start)) {
             Some(end) if task.reached(&end) => {
                 return Ok(finish(arm, target, &task, end, search));
             }
             missed => best = missed,
         }
     }
-    let Some(bounds) = bounds(arm) else {
-        return match (best, unlimited(arm)) {
+    let Some(bounds) = bounds(&arm) else {
+        return match (best, unlimited(&arm)) {
             (None, Some(joint)) if start.is_none() => Err(CompensateError::Unlimited { joint }),
             (best, _) => Ok(best.map_or_else(
-                || nothing(arm, start),
+                || nothing(&arm, start),
                 |end| finish(arm, target, &task, end, search),
             )),
         };
@@ -129,11 +132,11 @@ pub fn reach(
         }
     }
     let end = reached.map(|(_, end)| end).or(best);
-    Ok(end.map_or_else(|| nothing(arm, start), |end| finish(arm, target, &task, end, search)))
+    Ok(end.map_or_else(|| nothing(&arm, start), |end| finish(arm, target, &task, end, search)))
 }
 
 fn finish(
-    arm: &Arm,
+    arm: Whole<'_>,
     target: &Target,
     task: &steps::Task<'_>,
     end: steps::Point,
@@ -150,13 +153,13 @@ fn finish(
 
 /// What the loaded arm misses at the set-points of a rigid one near `q`.
 fn uncompensated(
-    arm: &Arm,
+    arm: Whole<'_>,
     target: &Target,
     task: &steps::Task<'_>,
     q: &[f64],
     search: &Search,
 ) -> Option<Vector6<f64>> {
-    let mut rigid = arm.clone();
+    let mut rigid = arm.arm.clone();
     for joint in &mut rigid.joints {
         (joint.compliance, joint.beam) = (0.0, None);
         // Where a rigid arm would have to stand is no question of limits.
@@ -164,7 +167,7 @@ fn uncompensated(
     }
     let ideal = steps::Task::new(&rigid, *target, Vector6::zeros(), search);
     let end = ideal.settle(q).filter(|end| ideal.reached(end))?;
-    let state = equilibrium(arm, &end.q, task.load()).ok()?;
+    let state = arm.at(&end.q, task.load()).ok()?;
     Some(task.missed(&state.tool))
 }
 

@@ -16,7 +16,7 @@ use ::toml::de::{DeTable, DeValue, Error};
 
 use super::diagnostic::{FileError, Located, Warning};
 use super::draft::{Cell, Draft, DraftFrame, DraftMarker, DraftPayload};
-use super::model::{Convention, Robot};
+use super::model::{Convention, Effect, Robot};
 use super::problem::{Problem, Report};
 use super::validate::validate;
 use fields::Fields;
@@ -45,6 +45,26 @@ impl Robot {
                 Ok((robot, Located::all(path, text, report.warnings)))
             }
             _ => Err(FileError::new(path, text, report)),
+        }
+    }
+
+    /// The same for kernels, which are made of the table alone: an `[[effect]]` is a mistake.
+    ///
+    /// # Errors
+    /// Every mistake in the file, else every effect in it.
+    pub fn table_from_toml(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
+        let (robot, warnings) = Robot::from_toml(text, path)?;
+        let mut report = Report::new();
+        for Effect { at, id, place, .. } in &robot.effects {
+            let (id, place) = (id.value.replace('_', " "), &place.value);
+            let message =
+                format!("kernels do not honour the {id} at {place}: they are of the table");
+            let help = "take the [[effect]] out of a copy of the file to go on without it";
+            report.error(Problem::new(at.span.clone(), message).help(help));
+        }
+        match report.errors.is_empty() {
+            true => Ok((robot, warnings)),
+            false => Err(FileError::new(path, text, report)),
         }
     }
 }

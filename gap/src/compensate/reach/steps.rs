@@ -4,10 +4,10 @@ use core::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector, Isometry3, Vector6};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::Arm;
 
 use super::{Search, Target};
-use crate::simulate::{State, equilibrium};
+use crate::simulate::State;
+use crate::whole::Whole;
 
 /// Most steps from one start.
 const MOST_STEPS: usize = 100;
@@ -27,7 +27,7 @@ const AT_LIMIT: f64 = 1e-9;
 
 /// An arm, a load and a target.
 pub(super) struct Task<'a> {
-    arm: &'a Arm,
+    arm: Whole<'a>,
     target: Target,
     load: Vector6<f64>,
     translation: f64,
@@ -47,11 +47,12 @@ pub(super) struct Point {
 
 impl<'a> Task<'a> {
     pub(super) fn new(
-        arm: &'a Arm,
+        arm: impl Into<Whole<'a>>,
         target: Target,
         load: Vector6<f64>,
         search: &Search,
     ) -> Task<'a> {
+        let arm = arm.into();
         let reach: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
         let length = (reach + arm.tool.translation.vector.norm()) / 2.0;
         let length = if length > 0.0 { length } else { 1.0 };
@@ -72,7 +73,7 @@ impl<'a> Task<'a> {
     }
 
     fn at(&self, q: Vec<f64>) -> Option<Point> {
-        let state = equilibrium(self.arm, &q, &self.load).ok()?;
+        let state = self.arm.at(&q, &self.load).ok()?;
         let error = self.missed(&state.tool);
         let size =
             (error.fixed_rows::<3>(0).norm() / self.length).hypot(error.fixed_rows::<3>(3).norm());
@@ -194,7 +195,7 @@ impl<'a> Task<'a> {
                 for (slot, &k) in free.iter().enumerate() {
                     q[k] += part * step[slot];
                 }
-                return super::within(self.arm, &q);
+                return super::within(&self.arm, &q);
             }
             free.retain(|k| !stuck.contains(k));
             if free.is_empty() {

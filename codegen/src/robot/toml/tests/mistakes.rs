@@ -200,3 +200,12 @@ fn a_text_is_one_line() {
     }
     assert_eq!(errors(&format!("name = \"a\\nb\"\nconvention = \"standard\"\n{JOINT}")).len(), 1);
 }
+
+#[test]
+fn kernels_are_of_the_table() {
+    let text = format!("{HEAD}{JOINT}[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
+    let error = Robot::table_from_toml(&text, "arm.toml").expect_err("an effect");
+    let place = (error.errors[0].line, error.errors[0].message.as_str());
+    assert_eq!(place, (5, "kernels do not honour the backlash at joint 1: they are of the table"));
+    assert!(Robot::table_from_toml(&format!("{HEAD}{JOINT}"), "arm.toml").is_ok());
+}
