@@ -87,10 +87,12 @@ pub struct Args {
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
-    if args.of != Of::Shrink {
-        source.refuse_effects("map")?;
-    }
     let table = source.arm()?;
+    let joints = |q: &[f64]| match args.of {
+        // The diagnosis knows what the file says.
+        Of::Shrink => Ok(q.to_vec()),
+        _ => source.real_joints("map", &table, q),
+    };
     let arm = Arm { base: Isometry3::identity(), ..table.clone() };
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
     let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &table, quiet)?;
@@ -104,7 +106,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let unstable = AtomicUsize::new(0);
     let map = sweep.plane.map(|q| {
         progress.add(1);
-        match asked.value(&arm, q) {
+        match asked.value(&arm, &joints(q)?) {
             Ok(value) => Ok(value),
             Err(NoValue::Unstable) => {
                 unstable.fetch_add(1, Ordering::Relaxed);

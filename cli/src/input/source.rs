@@ -104,7 +104,8 @@ impl Source {
     /// # Errors
     /// [`Failure`] names the effect where it stands.
     pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
-        self.refuse(command, "", self.known.first())
+        let first = self.known.first();
+        first.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
     }
 
     /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
@@ -112,23 +113,26 @@ impl Source {
     /// # Errors
     /// [`Failure`] names the effect where it stands.
     pub fn refuse_undecided(&self, command: &str, whole: &Whole<'_>) -> Result<(), Failure> {
-        let known = whole.undecided();
-        let because = known.map_or("", |known| match known.effect.depends() {
-            Depends::Posture => "",
-            Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
-            Depends::Temperature => ": no column temperature says how warm the arm is",
-            Depends::LastMove => ": the move before is not known",
-            Depends::Session => ": it belongs to the session of its measurements",
-        });
-        self.refuse(command, because, known)
+        let open = whole.undecided();
+        open.map_or(Ok(()), |known| Err(self.refusal(command, known, lacking(known))))
     }
 
-    fn refuse(&self, command: &str, because: &str, known: Option<&Known>) -> Result<(), Failure> {
-        let Some(Known { effect, spot, at, .. }) = known else { return Ok(()) };
-        let what = format!("{} at {}", effect.identifier().replace('_', " "), spot.place);
-        let message = format!("`stiffarm {command}` does not honour the {what}{because}");
+    /// The joint values that readings mean: some effects do nothing else than move joints.
+    ///
+    /// # Errors
+    /// [`Failure`] names another effect where it stands.
+    pub fn real_joints(&self, command: &str, arm: &Arm, q: &[f64]) -> Result<Vec<f64>, Failure> {
+        let whole = Whole { known: &self.known, ..Whole::from(arm) };
+        whole.joints(q).map_err(|known| self.refusal(command, known, lacking(known)))
+    }
+
+    fn refusal(&self, command: &str, known: &Known, because: &str) -> Failure {
+        let name = known.effect.identifier().replace('_', " ");
+        let place = known.spot.place;
+        let message =
+            format!("`stiffarm {command}` does not honour the {name} at {place}{because}");
         let help = "take the [[effect]] out of a copy of the file to go on without it".to_owned();
-        Err(self.mistakes([(at, message, Some(help))]))
+        self.mistakes([(&known.at, message, Some(help))])
     }
 
     fn mistakes<'m>(
@@ -272,5 +276,16 @@ fn dimension(cell: Cell) -> Option<Dimension> {
         Cell::Length => Some(Dimension::Length),
         Cell::Angle => Some(Dimension::Angle),
         _ => None,
+    }
+}
+
+/// What a posture and a load do not say of an effect.
+fn lacking(known: &Known) -> &'static str {
+    match known.effect.depends() {
+        Depends::Posture => "",
+        Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
+        Depends::Temperature => ": no column temperature says how warm the arm is",
+        Depends::LastMove => ": the move before is not known",
+        Depends::Session => ": it belongs to the session of its measurements",
     }
 }

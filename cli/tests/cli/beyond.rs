@@ -24,12 +24,26 @@ enum With {
 use With::{Honours, Refuses};
 
 const COMMANDS: [(&str, With); 15] = [
-    ("eval", Refuses(&["eval", "ROBOT", "--q", "0,0,0,0,0,0"])),
+    ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
     ("check", Refuses(&["check", "ROBOT", "--count", "10"])),
     ("robots", With::None),
     ("import", With::None),
     ("generate", Refuses(&["generate", "ROBOT", "--emit", "rust"])),
-    ("map", Refuses(&["map", "ROBOT", "--over", "q2,q3", "--of", "condition", "--csv", "-"])),
+    (
+        "map",
+        Honours(&[
+            "map",
+            "ROBOT",
+            "--over",
+            "q2,q3",
+            "--of",
+            "condition",
+            "--steps",
+            "3",
+            "--csv",
+            "-",
+        ]),
+    ),
     ("poses", Refuses(&["poses", "ROBOT", "--count", "2", "--csv", "-"])),
     ("identify", Refuses(&["identify", "ROBOT", "docs/workbench/run.csv", "--json", "-"])),
     (
