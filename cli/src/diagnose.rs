@@ -89,6 +89,8 @@ struct Written<'a> {
     diagnosis: &'a Diagnosis,
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
+    /// The robot file with what was found: the whole is a robot to every command.
+    corrected: &'a str,
 }
 
 /// Runs the command.
@@ -110,11 +112,13 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
+    let corrected = corrected::text(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        target.write(&json::text(&Written { diagnosis: found, check: check.as_ref() })?)?;
+        let check = check.as_ref();
+        target.write(&json::text(&Written { diagnosis: found, check, corrected: &corrected })?)?;
     }
     if let Some(target) = &args.write_robot {
-        target.write(&corrected::text(&source, &data, &diagnosed))?;
+        target.write(&corrected)?;
         if data.sim_given.contains(&true) {
             note(
                 "the robot file is corrected by what the simulator of the sim_ columns lacks",

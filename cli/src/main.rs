@@ -41,7 +41,8 @@ const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form el
                      why the real arm is not where the model says";
 
 const AFTER: &str = "\
-A ROBOT is a robot file (TOML) or the id of a built-in robot (`stiffarm robots` lists them).
+A ROBOT is a robot file (TOML), the id of a built-in robot (`stiffarm robots` lists them), or a
+diagnosis in JSON: the robot with what it found.
 Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
 
 Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was

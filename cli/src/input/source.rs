@@ -17,7 +17,8 @@ use crate::terminal::failure::{Failure, Remark};
 /// Which robot.
 #[derive(clap::Args)]
 pub struct RobotArgs {
-    /// A robot file (TOML), or the id of a built-in robot
+    /// A robot file (TOML), the id of a built-in robot, or a diagnosis (JSON): the robot with what it
+    /// found
     robot: String,
     /// A number for a symbolic parameter, in SI or with a unit: L1=0.6, L1=24in
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -179,7 +180,8 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
 }
 
 fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
-    let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
+    let ends = [".toml", ".json"].iter().any(|end| given.ends_with(end));
+    let looks_like_a_path = given.contains(['/', '\\']) || ends;
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
             let robot = parse(toml, given, true)?;
@@ -190,8 +192,21 @@ fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
         }
     }
     let text = text(Path::new(given))?;
+    let text = if given.ends_with(".json") { corrected(given, &text)? } else { text };
     let robot = parse(&text, given, quiet)?;
     Ok(Source::new(given, robot, text, false))
+}
+
+/// The robot file that a diagnosis in JSON holds.
+fn corrected(given: &str, json: &str) -> Result<String, Failure> {
+    let read: Result<serde_json::Value, _> = serde_json::from_str(json);
+    let read = read.map_err(|error| Failure::new(format!("{given}: this is no JSON: {error}")))?;
+    read["corrected"].as_str().map(str::to_owned).ok_or_else(|| {
+        Failure::with_help(
+            format!("{given}: found no `corrected`, expected a diagnosis"),
+            "`stiffarm diagnose ROBOT DATA --json OUT.json` writes one",
+        )
+    })
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {

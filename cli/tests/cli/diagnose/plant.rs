@@ -222,6 +222,14 @@ fn what_the_table_cannot_hold_is_an_effect() {
     let written = std::fs::read_to_string(&better).expect("written");
     assert!(written.contains("#   backlash at joint 3: width "), "{written}");
     assert!(written.contains("], in an [[effect]]\n"), "{written}");
+    // A diagnosis is a robot to every command: the one that it found.
+    let json = text(&bench.folder.path("found.json"));
+    bench.diagnose(&bench.robot, &run, &["--json", &json]);
+    let gap = |robot: &str| bench.json(robot, &run, &[])["gap"].clone();
+    assert_eq!(gap(&json), gap(&better));
+    let none = bench.folder.file("none.json", "{}");
+    let err = stiffarm(&["diagnose", &none, &run]).refused();
+    assert!(err.contains("none.json: found no `corrected`, expected a diagnosis"), "{err}");
     let effect = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 3\"\nwidth = ";
     assert!(written.contains(effect), "{written}");
     assert_eq!(findings(&bench.json(&better, &run, &[])), [""; 0]);
