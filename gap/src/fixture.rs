@@ -8,12 +8,12 @@ use crate::measurement::{Kind, Layout, Measurements, Row};
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
     Joint {
-        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d,
         a,
         alpha,
+        beta: 0.0,
         compliance: 0.0,
         mass: 12.0,
         com: Vector3::new(-a / 2.0, 0.0, 0.02),
@@ -26,10 +26,10 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
 pub(crate) fn rigid() -> Arm {
     let half = core::f64::consts::FRAC_PI_2;
     Arm {
-        base: Isometry3::identity(),
         name: "elbow".to_owned(),
         convention: Convention::Standard,
         joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
+        base: Isometry3::identity(),
         tool: Isometry3::translation(0.1, 0.0, 0.05),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),

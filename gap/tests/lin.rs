@@ -19,12 +19,12 @@ const PSI: f64 = POUND / (INCH * INCH);
 /// large.
 fn arm() -> Arm {
     let link = |second_moment: f64| Joint {
-        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d: 0.0,
         a: 24.0 * INCH,
         alpha: 0.0,
+        beta: 0.0,
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
@@ -41,10 +41,10 @@ fn arm() -> Arm {
         }),
     };
     Arm {
-        base: Isometry3::identity(),
         name: "Lin 1991 two-link planar arm".to_owned(),
         convention: Convention::Standard,
         joints: vec![link(1.920), link(0.289)],
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -9.80665, 0.0),

@@ -32,12 +32,12 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         shear_coefficient: Some(KAPPA),
     };
     let joint = Joint {
-        beta: 0.0,
         motion,
         theta: 0.0,
         d,
         a,
         alpha: 0.0,
+        beta: 0.0,
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
@@ -45,10 +45,10 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         beam: Some(beam),
     };
     Arm {
-        base: Isometry3::identity(),
         name: "cantilever".to_string(),
         convention,
         joints: vec![joint],
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),

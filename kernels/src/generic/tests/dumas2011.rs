@@ -23,12 +23,12 @@ fn kr240() -> Arm {
         (-FRAC_PI_2, 0.0, rl6, 4.7e5),
     ];
     let joint = |(alpha, a, d, stiffness): (f64, f64, f64, f64)| Joint {
-        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d,
         a,
         alpha,
+        beta: 0.0,
         compliance: 1.0 / stiffness,
         mass: 0.0,
         com: Vector3::zeros(),
@@ -36,10 +36,10 @@ fn kr240() -> Arm {
         beam: None,
     };
     Arm {
-        base: Isometry3::identity(),
         name: "KUKA KR 240-2".to_string(),
         convention: Convention::Modified,
         joints: rows.map(joint).into(),
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),

@@ -25,12 +25,12 @@ fn robot(links: &[(f64, f64)]) -> Arm {
     // So large that a link does not stretch; the weight per inch is density × area × |gravity|.
     let area = 1e12;
     let joint = |&(inertia, weight): &(f64, f64)| Joint {
-        beta: 0.0,
         motion: Motion::Revolute,
         theta: 0.0,
         d: 0.0,
         a: LENGTH,
         alpha: 0.0,
+        beta: 0.0,
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
@@ -47,10 +47,10 @@ fn robot(links: &[(f64, f64)]) -> Arm {
         }),
     };
     Arm {
-        base: Isometry3::identity(),
         name: "Lin, Chiang, Cui".to_string(),
         convention: Convention::Standard,
         joints: links.iter().map(joint).collect(),
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -1.0, 0.0),

@@ -57,12 +57,12 @@ impl Random {
         let motion = if self.chance(0.3) { Motion::Prismatic } else { Motion::Revolute };
         let right_angles = self.between(-2.0, 2.0).round();
         Joint {
-            beta: 0.0,
             motion,
             theta: self.between(-3.0, 3.0),
             d: if self.chance(0.4) { 0.0 } else { self.between(-1.0, 1.0) },
             a: if self.chance(0.4) { 0.0 } else { self.between(-1.0, 1.0) },
             alpha: if self.chance(0.6) {
+            beta: 0.0,
                 right_angles * core::f64::consts::FRAC_PI_2
             } else {
                 self.between(-3.0, 3.0)
@@ -80,10 +80,10 @@ impl Random {
         let count = self.between(1.0, 7.999) as usize;
         let rotation = self.vector(1.5);
         Arm {
-            base: Isometry3::identity(),
             name: "random".to_string(),
             convention: if self.chance(0.5) { Convention::Standard } else { Convention::Modified },
             joints: (0..count).map(|_| self.joint()).collect(),
+            base: Isometry3::identity(),
             tool: Isometry3::new(self.vector(0.5), rotation),
             tool_rotation_vector: rotation,
             gravity: self.vector(9.0),
