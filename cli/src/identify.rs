@@ -86,6 +86,14 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm_alone("identify")?;
     let data = data::read(&args.data, &data::layout(&source)?)?;
+    // Loads are told in the base's axes, and so are springs.
+    let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {
+        let message = format!("{}: found some components alone", args.data.display());
+        Failure::with_help(
+            message,
+            "seen from a [base] that is turned, all three or none are measured",
+        )
+    })?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);

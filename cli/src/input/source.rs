@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use nalgebra::Isometry3;
-use stiffarm_codegen::robot::{Dimension as Cell, Located, Motion, Robot, Spot, Symbol};
-use stiffarm_gap::corrected::{FoldError, folded};
-use stiffarm_gap::effects::{Catalogue, Depends, Known};
+use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
+use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -35,7 +33,7 @@ pub struct Source {
     /// The effects that are left.
     pub known: Vec<Known>,
     /// The file's text.
-    text: String,
+    pub(super) text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
 }
@@ -98,67 +96,6 @@ impl Source {
     pub fn arm_alone(&self, command: &str) -> Result<Arm, Failure> {
         self.refuse_effects(command)?;
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
-    }
-
-    /// Refuses an effect, for a command that does not honour it.
-    ///
-    /// # Errors
-    /// [`Failure`] names the effect where it stands.
-    pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
-        let first = self.known.first();
-        first.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
-    }
-
-    /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
-    ///
-    /// # Errors
-    /// [`Failure`] names the effect where it stands.
-    pub fn refuse_undecided(&self, command: &str, whole: &Whole<'_>) -> Result<(), Failure> {
-        let open = whole.undecided();
-        open.map_or(Ok(()), |known| Err(self.refusal(command, known, lacking(known))))
-    }
-
-    /// The joint values that readings mean: some effects do nothing else than move joints.
-    ///
-    /// # Errors
-    /// [`Failure`] names another effect where it stands.
-    pub fn real_joints(&self, command: &str, arm: &Arm, q: &[f64]) -> Result<Vec<f64>, Failure> {
-        let whole = Whole { known: &self.known, ..Whole::from(arm) };
-        whole.joints(q).map_err(|known| self.refusal(command, known, lacking(known)))
-    }
-
-    fn refusal(&self, command: &str, known: &Known, because: &str) -> Failure {
-        let name = known.effect.identifier().replace('_', " ");
-        let place = known.spot.place;
-        let message =
-            format!("`stiffarm {command}` does not honour the {name} at {place}{because}");
-        let help = "take the [[effect]] out of a copy of the file to go on without it".to_owned();
-        self.mistakes([(&known.at, message, Some(help))])
-    }
-
-    fn mistakes<'m>(
-        &self,
-        each: impl IntoIterator<Item = (&'m Spot, String, Option<String>)>,
-    ) -> Failure {
-        let remark = |(at, message, help)| {
-            let located = Located::at(&self.given, &self.text, at, message, help);
-            Remark::located(&located, &self.text, false)
-        };
-        Failure::File(each.into_iter().map(remark).collect())
-    }
-
-    /// The same with its effects read: those that the table holds are in it then.
-    fn understood(self) -> Result<Source, Failure> {
-        if self.robot.effects.is_empty() {
-            return Ok(self);
-        }
-        match folded(&self.robot, &Catalogue::default()) {
-            Ok((robot, known)) => Ok(Source { robot, known, ..self }),
-            Err(FoldError::Robot(error)) => Err(Failure::new(error.to_string())),
-            Err(FoldError::Effects(wrong)) => {
-                Err(self.mistakes(wrong.iter().map(|e| (&e.at, e.message.clone(), e.help.clone()))))
-            }
-        }
     }
 
     /// What the joint values are, base to tip.
@@ -291,16 +228,5 @@ fn dimension(cell: Cell) -> Option<Dimension> {
         Cell::Length => Some(Dimension::Length),
         Cell::Angle => Some(Dimension::Angle),
         _ => None,
-    }
-}
-
-/// What a posture and a load do not say of an effect.
-fn lacking(known: &Known) -> &'static str {
-    match known.effect.depends() {
-        Depends::Posture => "",
-        Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
-        Depends::Temperature => ": no column temperature says how warm the arm is",
-        Depends::LastMove => ": the move before is not known",
-        Depends::Session => ": it belongs to the session of its measurements",
     }
 }

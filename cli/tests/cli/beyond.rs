@@ -275,65 +275,32 @@ fn mistakes_of_an_effect_are_shown_at_their_place() {
 }
 
 #[test]
-fn results_are_not_written_over_each_other_or_over_what_is_read() {
-    let folder = Folder::new();
-    let robot = with(&folder, "arm.toml", "");
-    let data = folder.file("run.csv", read("docs/workbench/check.csv"));
-    let link = folder.path("link.csv");
-    std::os::unix::fs::symlink(&data, &link).expect("a link");
-    let link = crate::support::text(&link);
-    let (there, same) = (read("docs/workbench/check.csv"), read(ARM));
-    for (arguments, over) in [
-        (&["diagnose", &robot, &data, "--report", &data][..], "--report would write over DATA"),
-        (&["diagnose", &robot, &data, "--json", &link], "--json would write over DATA"),
-        (
-            &["diagnose", &robot, &data, "--write-robot", &robot],
-            "--write-robot would write over ROBOT",
-        ),
-        (
-            &["diagnose", &robot, &data, "--check", &link, "--json", &link],
-            "--json would write over",
-        ),
-        (&["identify", &robot, "docs/workbench/run.csv", "--write-robot", &robot], "over ROBOT"),
-        (&["simulate", &robot, &data, "--csv", &data], "--csv would write over DATA"),
-        (
-            &["compensate", &robot, "--targets", &data, "--out", &data],
-            "--out would write over --targets",
-        ),
-        (&["generate", &robot, "--emit", "rust", "--out", &robot], "--out would write over ROBOT"),
-        (
-            &["eval", &robot, "--q", "0,0,0,0,0,0", "--json", &robot],
-            "--json would write over ROBOT",
-        ),
-    ] {
-        let err = stiffarm(arguments).refused();
-        assert!(err.contains(over), "{arguments:?}: {err}");
-    }
-    let out = crate::support::text(&folder.path("out"));
-    let err = stiffarm(&["diagnose", &robot, &data, "--json", &out, "--report", &out]).refused();
-    assert!(err.contains("--report would write over --json"), "{err}");
-    assert_eq!(std::fs::read_to_string(&data).expect("there"), there);
-    assert_eq!(std::fs::read_to_string(&robot).expect("there"), same);
-    assert_eq!(folder.names(), ["arm.toml", "link.csv", "run.csv"]);
-    // What is no file takes whatever comes.
-    stiffarm(&[
-        "diagnose",
-        &robot,
-        &data,
-        "--json",
-        "/dev/null",
-        "--report",
-        "/dev/null",
-        "--quiet",
-    ])
-    .good();
-}
-
-#[test]
 fn a_name_is_one_line() {
     let folder = Folder::new();
     let evil = read(ARM).replacen(NAMED, "name = \"a\\nfn evil() {}\" #", 1);
     let robot = folder.file("evil.toml", evil);
     let err = stiffarm(&["generate", &robot, "--emit", "rust"]).refused();
     assert!(err.contains("the control character '\\n' stands in a text"), "{err}");
+}
+
+/// The same springs of the same arm, wherever it stands.
+#[test]
+fn springs_are_identified_wherever_the_arm_stands() {
+    let folder = Folder::new();
+    let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
+    let springs = |robot: &str| -> Vec<f64> {
+        let run = crate::support::text(&folder.path("run.csv"));
+        let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
+        let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
+        stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();
+        let out = stiffarm(&["identify", robot, &run, "--json", "-"]).good();
+        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let each = found["parameters"].as_array().expect("a list").iter();
+        each.map(|p| p["value"].as_f64().expect("a number")).collect()
+    };
+    let (here, there) = (springs(ARM), springs(&with(&folder, "base.toml", base)));
+    assert!((here[1] * 6.6e6 - 1.66).abs() < 0.01, "{here:?}");
+    for (a, b) in here.iter().zip(&there) {
+        assert!((a / b - 1.0).abs() < 1e-6, "{here:?} {there:?}");
+    }
 }
