@@ -70,6 +70,7 @@ struct Checked {
 }
 
 fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
+    source.refuse_effects("check")?;
     let arm = source.arm()?;
     let model = Model::new(&source.robot, &Output::EACH);
     let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
-use stiffarm_gap::compensate::{Real, Situation};
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
+use stiffarm_gap::simulate::moments;
+use stiffarm_gap::whole::{Situation, Whole};
+use stiffarm_kernels::generic::Joint;
 
 use super::Verdict;
 use crate::input::source::{RobotArgs, Source};
@@ -79,28 +81,29 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
+    let whole = Whole { arm: &arm, known: &source.known };
     let (targets, starts) = targets(&args.targets, &source)?;
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
         let message = format!("--wrench: {} has loads of its own", args.targets.display());
         return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));
     }
-    if arm.joints.iter().all(|joint| joint.compliance == 0.0 && joint.beam.is_none()) {
+    let gives = |joint: &Joint| joint.compliance != 0.0 || joint.beam.is_some();
+    if source.known.is_empty() && !arm.joints.iter().any(gives) {
         note("nothing in the robot file gives way: the set-points are those of a rigid arm", quiet);
     }
     let progress = Progress::new(&source.given, targets.rows.len(), quiet);
     let mut found: Vec<Reached> = Vec::new();
-    for row in &targets.rows {
-        let load = given.unwrap_or(row.wrench);
-        let before = found.last().filter(|end| end.ended == Ended::Reached);
-        let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
+    for (row, now) in targets.rows.iter().zip(moments(&targets)) {
         let at = Situation {
-            load,
+            load: given.unwrap_or(row.wrench),
             direction: row.direction.clone(),
-            warming: row.temperature.zip(targets.rows[0].temperature).map(|(now, then)| now - then),
+            warming: row.temperature.map(|_| now.warming),
             before: found.last().map(|end| end.q.clone()),
         };
-        let real = Real::nominal(&arm);
-        let end = reach(&real, &goal(row, targets.kind), &at, from.map(Vec::as_slice), &search);
+        source.refuse_undecided("compensate", &whole, &at)?;
+        let before = found.last().filter(|end| end.ended == Ended::Reached);
+        let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
+        let end = reach(whole, &goal(row, targets.kind), &at, from.map(Vec::as_slice), &search);
         found.push(end.map_err(|error| {
             Failure::new(format!("{}: line {}: {error}", targets.file, row.line))
         })?);
@@ -122,10 +125,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 /// The targets, and whether they have joint values to start from.
 fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    let full = data::layout(source)?;
     let starts = has_readings(&bytes);
-    // Without a column of joint values the reader is told of no joints.
-    let layout = if starts { full } else { Layout { motions: Vec::new(), ..full } };
+    let layout = Layout { readings: starts, ..data::layout(source)? };
     let targets = data::from_bytes(path, &bytes, &layout)?;
     if !targets.skipped.is_empty() {
         return Err(data::refusal(&targets.file, &bytes, &targets.skipped, 0));

@@ -16,13 +16,13 @@ use super::Verdict;
 use super::screen::Screen;
 use crate::input::data;
 use crate::input::quantity::{self, counted};
-use crate::input::source::RobotArgs;
+use crate::input::source::{RobotArgs, Source};
 use crate::report::Report;
 use crate::terminal::failure::Failure;
 use crate::terminal::interrupt;
 use crate::terminal::json;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::Stages;
 
 const EXAMPLES: &str = "\
@@ -99,6 +99,8 @@ struct Written<'a> {
     diagnosis: &'a Diagnosis,
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
+    /// The robot file with what was found: the whole is a robot to every command.
+    corrected: &'a str,
 }
 
 /// Runs the command.
@@ -106,13 +108,8 @@ struct Written<'a> {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    one_to_stdout(&[
-        ("--json", &args.json),
-        ("--write-robot", &args.write_robot),
-        ("--report", &args.report),
-    ])?;
-    let options = args.options()?;
     let source = args.robot.load(quiet)?;
+    let options = args.options(&source)?;
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
     let data = data::read(&args.data, &layout, quiet)?;
@@ -125,11 +122,13 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
+    let corrected = corrected::text(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        target.write(&json::text(&Written { diagnosis: found, check: check.as_ref() })?)?;
+        let check = check.as_ref();
+        target.write(&json::text(&Written { diagnosis: found, check, corrected: &corrected })?)?;
     }
     if let Some(target) = &args.write_robot {
-        target.write(&corrected::text(&source, &data, &diagnosed))?;
+        target.write(&corrected)?;
         if data.sim_given.contains(&true) {
             note(
                 "the robot file is corrected by what the simulator of the sim_ columns lacks",
@@ -188,7 +187,7 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
-    fn options(&self) -> Result<Options, Failure> {
+    fn options(&self, source: &Source) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
@@ -211,6 +210,7 @@ impl Args {
             effects: self.effects.clone(),
             tolerance: tolerance.transpose()?,
             rivals: self.rivals.clone(),
+            known: source.known.clone(),
             stop: Stop::default(),
             ..Options::default()
         };

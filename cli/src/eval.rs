@@ -69,14 +69,18 @@ const OUTPUTS: [Output; 8] = [
 /// [`Failure`]: the robot, the values, or the arm not stable under the load.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
     let q = quantity::list("--q", &args.q, &source.readings(), &joints(&source))?;
-    let wrench = match &args.wrench {
-        None => [0.0; 6],
-        Some(text) => wrench("--wrench", text)?.into(),
-    };
+    let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
+    let given = given.unwrap_or_default();
+    // The kernels know the axes of the world in which the base stands, and no others.
+    let base = arm.base.rotation;
+    let (force, moment) = (base * given.fixed_rows::<3>(0), base * given.fixed_rows::<3>(3));
+    let wrench = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
     let deflection = if args.gravity { Output::DeflectionWithGravity } else { Output::Deflection };
     let model = Model::new(&source.robot, &[&OUTPUTS[..7], &[deflection]].concat());
-    let result = evaluate(&model, &q, &wrench, args.gravity, deflection)?;
+    let real = source.real_joints("eval", &arm, &q)?;
+    let result = evaluate(&model, &real, &wrench, args.gravity, deflection)?;
     match &args.json {
         Some(target) => target.write(&json::text(&result)?)?,
         None => print(&screen(&source, &q, &wrench, args.gravity, &result))?,

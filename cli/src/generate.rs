@@ -118,6 +118,7 @@ fn outputs() -> Vec<&'static str> {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
     let mut source = source::open(&args.robot, quiet)?;
+    source.refuse_effects("generate")?;
     if !args.outputs.is_empty() {
         let asked = |output: &Output| args.outputs.iter().any(|name| name == output.name());
         source.robot.outputs = Output::EACH.into_iter().filter(asked).collect();

@@ -22,7 +22,7 @@ use crate::report::identified::Identified;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::{PARTS, Progress};
 
 const EXAMPLES: &str = "\
@@ -83,15 +83,18 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    one_to_stdout(&[
-        ("--json", &args.json),
-        ("--write-robot", &args.write_robot),
-        ("--report", &args.report),
-    ])?;
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm()?;
+    let arm = source.arm_alone("identify")?;
     let data = data::read(&args.data, &data::layout(&source)?, quiet)?;
+    // Loads are told in the base's axes, and so are springs.
+    let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {
+        let message = format!("{}: found some components alone", args.data.display());
+        Failure::with_help(
+            message,
+            "seen from a [base] that is turned, all three or none are measured",
+        )
+    })?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);

@@ -28,7 +28,9 @@ mod withhold;
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use terminal::failure::Failure;
+use terminal::output;
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Yellow.on_default().bold())
@@ -40,7 +42,8 @@ const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form el
                      why the real arm is not where the model says";
 
 const AFTER: &str = "\
-A ROBOT is a robot file (TOML) or the id of a built-in robot (`stiffarm robots` lists them).
+A ROBOT is a robot file (TOML), the id of a built-in robot (`stiffarm robots` lists them), or a
+diagnosis in JSON: the robot with what it found.
 Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
 
 Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was
@@ -89,8 +92,29 @@ pub enum Verdict {
 
 /// Runs the command line.
 fn main() -> ExitCode {
-    let Cli { command, quiet } = Cli::parse();
-    let ended = match command {
+    let given = Cli::command().get_matches();
+    let Cli { command, quiet } = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
+    let ended = apart(&given).and_then(|()| run(command, quiet));
+    match ended {
+        Ok(Verdict::Good) => ExitCode::SUCCESS,
+        Ok(Verdict::Failed) => ExitCode::from(1),
+        Err(failure) => {
+            failure.print();
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Refuses outputs of the command that are one, or that it reads.
+fn apart(given: &ArgMatches) -> Result<(), Failure> {
+    let all = Cli::command();
+    let chosen =
+        given.subcommand().and_then(|(name, given)| Some((all.find_subcommand(name)?, given)));
+    chosen.map_or(Ok(()), |(command, given)| output::apart(command, given))
+}
+
+fn run(command: Command, quiet: bool) -> Result<Verdict, Failure> {
+    match command {
         Command::Eval(args) => eval::run(&args, quiet),
         Command::Check(args) => check::run(&args, quiet),
         Command::Robots(args) => robots::run(&args),
@@ -107,13 +131,5 @@ fn main() -> ExitCode {
         Command::Papers(args) => papers::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
-    };
-    match ended {
-        Ok(Verdict::Good) => ExitCode::SUCCESS,
-        Ok(Verdict::Failed) => ExitCode::from(1),
-        Err(failure) => {
-            failure.print();
-            ExitCode::from(2)
-        }
     }
 }

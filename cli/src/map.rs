@@ -7,7 +7,9 @@ mod sweep;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use nalgebra::Isometry3;
 use stiffarm_gap::dexterity::Map;
+use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use crate::input::quantity;
@@ -15,7 +17,7 @@ use crate::input::source::RobotArgs;
 use crate::plot::number;
 use crate::terminal::failure::Failure;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, one_to_stdout, print};
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{bold, dim, short};
 use learnt::{Learnt, LearntArgs};
@@ -84,11 +86,16 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    one_to_stdout(&[("--svg", &args.svg), ("--csv", &args.csv)])?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm()?;
+    let table = source.arm()?;
+    let joints = |q: &[f64]| match args.of {
+        // The diagnosis knows what the file says.
+        Of::Shrink => Ok(q.to_vec()),
+        _ => source.real_joints("map", &table, q),
+    };
+    let arm = Arm { base: Isometry3::identity(), ..table.clone() };
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
-    let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &arm, quiet)?;
+    let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &table, quiet)?;
     let asked =
         Quantity::new(args.of, args.wrench.as_deref(), args.length.as_deref(), &arm, learnt)?;
     if let (Of::Condition, None) = (args.of, &args.length) {
@@ -99,7 +106,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let unstable = AtomicUsize::new(0);
     let map = sweep.plane.map(|q| {
         progress.add(1);
-        match asked.value(&arm, q) {
+        match asked.value(&arm, &joints(q)?) {
             Ok(value) => Ok(value),
             Err(NoValue::Unstable) => {
                 unstable.fetch_add(1, Ordering::Relaxed);

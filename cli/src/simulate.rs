@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::{Dimension, Kind};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
@@ -130,7 +131,9 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let noise = args.experiment.noise()?;
     let seed = args.experiment.seed;
-    let mut plant = Plant::new(&arm, &truths).map_err(plain)?;
+    let known: Vec<Known> =
+        source.known.iter().filter(|known| known.is_there(&design)).cloned().collect();
+    let mut plant = Plant::beyond(&arm, &known, &truths).map_err(plain)?;
     if args.frames.is_some() {
         plant = plant.with_frames(Frames::unknown(seed));
     }

@@ -1,27 +1,25 @@
 //! The robot file with what a diagnosis has found put into it.
 //!
-//! A robot file holds zeros, lengths, twists, springs, masses, beams and the tool; what else was
-//! found is told and left out. Entries that nothing was found about stay as they are, exact
-//! multiples of π too.
+//! Zeros, lengths, twists, springs, masses, beams, base, tool and markers go into the table's own
+//! entries, what these cannot hold into `[[effect]]` tables: the file is the model that was fitted.
+//! Entries that nothing was found about stay as they are, exact multiples of π too.
 
 use stiffarm_codegen::robot::Robot;
 
 use crate::diagnose::{Diagnosed, Nuisance};
-pub use crate::effects::Fate;
-use crate::effects::{ParameterReport, RobotFile};
+use crate::effects::{Catalogue, Known, KnownError, ParameterReport, RobotFile};
+use crate::robot::{RobotError, arm};
 
-/// A robot with what was found in it, and what became of each number.
+/// A robot with what was found in it, and where each number is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corrected {
-    /// The robot; the one that was diagnosed where nothing could be put in.
+    /// The robot.
     pub robot: Robot,
-    /// What became of the numbers of each finding, in their order.
+    /// Where the numbers of each finding are, in their order.
     pub outcomes: Vec<Outcome>,
-    /// Whether the tool was fitted along, and stands in the robot where it was fitted.
-    pub tool_was_fitted: bool,
 }
 
-/// What became of one number that was found.
+/// Where one number that was found is now.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Identifier of the effect.
@@ -30,37 +28,73 @@ pub struct Outcome {
     pub place: String,
     /// The number and its interval.
     pub parameter: ParameterReport,
-    /// Where it is now.
-    pub fate: Fate,
+    /// The entries that hold it.
+    pub entry: String,
 }
 
-/// The robot that `diagnosed` was made of, with what was found put into it.
-///
-/// A tool that was fitted along (as a nuisance) is put in too.
+/// The robot that `diagnosed` was made of, with what was found put into it: findings, frames and
+/// markers that were fitted along.
 pub fn corrected(robot: &Robot, diagnosed: &Diagnosed) -> Corrected {
     let (diagnosis, explanation) = (&diagnosed.diagnosis, &diagnosed.explanation);
     let mut file = RobotFile::new(robot, explanation.arm());
-    let tool = Nuisance::ToolFrame.identifier();
-    let tool_was_fitted = diagnosis.nuisances.iter().any(|n| n.name == tool);
-    if tool_was_fitted {
-        file.fit_tool();
+    for (name, place) in explanation.markers() {
+        file.place_marker(name, place);
     }
+    let is_fitted = |frame: Nuisance| {
+        diagnosis.nuisances.iter().any(|nuisance| nuisance.name == frame.identifier())
+    };
+    file.place_frames(Nuisance::ALL.map(is_fitted));
+    let mut known = explanation.known().to_vec();
+    let found = explanation.found();
+    let entries: Vec<String> = found.iter().map(|found| file.put(found, &mut known)).collect();
     let mut outcomes = Vec::new();
     for finding in &diagnosis.findings {
-        let effect = explanation.catalogue().named(finding.effect);
-        let fates = match (effect, finding.place.parse()) {
-            (Some(effect), Ok(place)) => effect.write(&mut file, place, &finding.parameters),
-            _ => file.no_entry(&finding.parameters),
+        let is_of = |found: &Known| {
+            found.effect.identifier() == finding.effect
+                && found.spot.place.to_string() == finding.place
         };
-        let each = finding.parameters.iter().zip(fates).map(|(parameter, fate)| Outcome {
+        let entry = found.iter().position(is_of).map(|k| entries[k].clone());
+        let each = finding.parameters.iter().map(|parameter| Outcome {
             effect: finding.effect,
             place: finding.place.clone(),
             parameter: parameter.clone(),
-            fate,
+            entry: entry.clone().unwrap_or_default(),
         });
         outcomes.extend(each);
     }
-    Corrected { robot: file.finish(), outcomes, tool_was_fitted }
+    Corrected { robot: file.finish(&known), outcomes }
+}
+
+/// Why a robot file's effects cannot be taken into its table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FoldError {
+    /// The table has no numbers.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// Tables that say nothing.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Effects(Vec<KnownError>),
+}
+
+/// The same robot with every effect in the table's own entries that these can hold, and the effects
+/// that are left.
+///
+/// # Errors
+/// [`FoldError`]: the robot has symbols, or an effect that says nothing.
+pub fn folded(robot: &Robot, catalogue: &Catalogue) -> Result<(Robot, Vec<Known>), FoldError> {
+    let (mut robot, mut left) = (robot.clone(), Vec::new());
+    let nominal = arm(&robot)?;
+    let known = Known::all(&robot, &nominal, catalogue).map_err(FoldError::Effects)?;
+    for one in known {
+        // Each on top of the last: two may act on one entry.
+        let table = arm(&robot)?;
+        let mut file = RobotFile::new(&robot, &table);
+        let is_in = one.effect.write(&mut file, one.spot, &one.values).is_some();
+        robot = file.finish(&[]);
+        left.extend((!is_in).then_some(one));
+    }
+    robot.effects = left.iter().map(|known| known.table(&nominal)).collect();
+    Ok((robot, left))
 }
 
 #[cfg(test)]

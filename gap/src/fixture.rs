@@ -14,6 +14,7 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
         d,
         a,
         alpha,
+        beta: 0.0,
         compliance: 0.0,
         mass: 12.0,
         com: Vector3::new(-a / 2.0, 0.0, 0.02),
@@ -29,6 +30,7 @@ pub(crate) fn rigid() -> Arm {
         name: "elbow".to_owned(),
         convention: Convention::Standard,
         joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
+        base: Isometry3::identity(),
         tool: Isometry3::translation(0.1, 0.0, 0.05),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),
@@ -85,5 +87,5 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
 
 /// A robot of revolute joints without markers.
 pub(crate) fn layout(joints: usize) -> Layout {
-    Layout { motions: vec![Motion::Revolute; joints], markers: Vec::new() }
+    Layout { motions: vec![Motion::Revolute; joints], readings: true, markers: Vec::new() }
 }

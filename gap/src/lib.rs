@@ -26,6 +26,7 @@ pub mod random;
 pub mod readings;
 pub mod robot;
 pub mod simulate;
+pub mod whole;
 pub mod withhold;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use stiffarm_codegen::robot::{self, Angle, Robot, Value};
+use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Joint};
 
@@ -66,6 +66,15 @@ impl Reader {
         Vector3::from_fn(|k, _| self.value(|| at.to_owned(), &values[k]))
     }
 
+    /// A transform, and its rotation vector.
+    fn frame(&mut self, at: &'static str, frame: &Frame) -> (Isometry3<f64>, Vector3<f64>) {
+        let translation = self.vector(&format!("{at} translation"), &frame.translation);
+        let turn = |k| self.angle(|| format!("{at} rotation"), &frame.rotation[k]);
+        let rotation = Vector3::from(std::array::from_fn(turn));
+        let turned = UnitQuaternion::from_scaled_axis(rotation);
+        (Isometry3::from_parts(Translation3::from(translation), turned), rotation)
+    }
+
     fn symbol(&mut self, at: String, name: &str) -> f64 {
         self.symbols.push((at, name.to_owned()));
         0.0
@@ -80,19 +89,16 @@ impl Reader {
 pub fn arm(robot: &Robot) -> Result<Arm, RobotError> {
     let mut read = Reader::default();
     let joints = robot.joints.iter().map(|j| joint(&mut read, j)).collect();
-    let translation = read.vector("tool translation", &robot.tool.translation);
-    let rotation =
-        Vector3::from_fn(|k, _| read.angle(|| "tool rotation".to_owned(), &robot.tool.rotation[k]));
+    let [base, (tool, rotation)] =
+        [("base", &robot.base), ("tool", &robot.tool)].map(|(at, f)| read.frame(at, f));
     let gravity = read.vector("gravity", &robot.gravity);
     refuse_symbols(robot, read)?;
     let arm = Arm {
         name: robot.name.clone(),
         convention: robot.convention,
         joints,
-        tool: Isometry3::from_parts(
-            Translation3::from(translation),
-            UnitQuaternion::from_scaled_axis(rotation),
-        ),
+        base: base.0,
+        tool,
         tool_rotation_vector: rotation,
         gravity,
     };
@@ -129,7 +135,7 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
         })
         .collect();
     refuse_symbols(robot, read)?;
-    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), markers })
+    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), readings: true, markers })
 }
 
 fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
@@ -160,6 +166,7 @@ fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
         d: read.value(at("d"), &joint.d),
         a: read.value(at("a"), &joint.a),
         alpha: read.angle(at("alpha"), &joint.alpha),
+        beta: read.angle(at("beta"), &joint.beta),
         compliance: match &joint.stiffness {
             Some(Value::Symbol(name)) => read.symbol(at("stiffness")(), name),
             Some(Value::Number(k)) => 1.0 / k.to_f64(),
@@ -206,6 +213,7 @@ mod tests {
             d: Value::ZERO,
             a: number("0.5"),
             alpha: Angle::ZERO,
+            beta: Angle::ZERO,
             stiffness: Some(number("2e5")),
             mass: None,
             com: [const { Value::ZERO }; 3],
@@ -218,7 +226,10 @@ mod tests {
             convention: robot::Convention::Standard,
             gravity: [Value::ZERO, Value::ZERO, number("-9.80665")],
             joints: vec![joint],
-            tool: robot::Tool::default(),
+            base: Frame::default(),
+            tool: Frame::default(),
+            effects: Vec::new(),
+            payloads: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),

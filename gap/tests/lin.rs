@@ -24,6 +24,7 @@ fn arm() -> Arm {
         d: 0.0,
         a: 24.0 * INCH,
         alpha: 0.0,
+        beta: 0.0,
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
@@ -43,6 +44,7 @@ fn arm() -> Arm {
         name: "Lin 1991 two-link planar arm".to_owned(),
         convention: Convention::Standard,
         joints: vec![link(1.920), link(0.289)],
+        base: Isometry3::identity(),
         tool: Isometry3::identity(),
         tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -9.80665, 0.0),
@@ -94,7 +96,7 @@ fn data() -> Measurements {
             format!("{theta1},{theta2},-1.02,-{exp},-{printed},{:e},{:e},{:e}\n", -ycd, -ytd, -yt);
         text.push_str(&line);
     }
-    let layout = Layout { motions: vec![Motion::Revolute; 2], markers: Vec::new() };
+    let layout = Layout { motions: vec![Motion::Revolute; 2], readings: true, markers: Vec::new() };
     Measurements::from_bytes("lin1991_table3.csv", text.as_bytes(), &layout).unwrap()
 }
 

@@ -51,6 +51,7 @@ const PIECES: &[&str] = &[
 
 fn layout() -> Layout {
     Layout {
+        readings: true,
         motions: vec![Motion::Revolute, Motion::Prismatic],
         markers: vec![Marker { name: "smr".to_owned(), translation: None }],
     }

@@ -67,9 +67,9 @@ pub enum Motion {
 /// How one row of the table becomes a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convention {
-    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`: Denavit and Hartenberg as in Paul and in Lin et al.
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`: Denavit and Hartenberg as in Paul and in Lin et al.
     Standard,
-    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
+    /// `Rx(alpha) Ry(beta) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
     Modified,
 }
 
@@ -88,6 +88,8 @@ pub struct DhRow {
     pub a: &'static str,
     /// alpha, as text.
     pub alpha: &'static str,
+    /// beta, as text; `0` in a table of Denavit and Hartenberg's.
+    pub beta: &'static str,
     /// Joint stiffness, as text; `rigid` where there is none.
     pub stiffness: &'static str,
 }

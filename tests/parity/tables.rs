@@ -1,4 +1,4 @@
-//! Random tables: both conventions, prismatic joints, tools, symbols, masses, beams.
+//! Random tables: both conventions, prismatic joints, tilted rows, bases, tools, symbols, masses, beams.
 
 use core::ops::RangeInclusive;
 
@@ -88,6 +88,7 @@ prop_compose! {
         prismatic in Just(prismatic),
         theta in angle(),
         alpha in angle(),
+        beta in prop::option::weighted(0.3, angle()),
         a in length(),
         d in length(),
         stiffness in prop::option::weighted(0.8, 1u32..100),
@@ -105,6 +106,7 @@ prop_compose! {
         // A chord of no length is refused by the validator.
         let chord = prismatic || a != "0.0" && a != "\"0 mm\"" || symbols.iter().any(|(s, _)| *s == "a");
         text += &[cell("alpha", alpha), cell("a", a), cell("d", d)].concat();
+        text += &beta.map(|beta| format!("beta = {beta}\n")).unwrap_or_default();
         if let Some(k) = stiffness {
             text += &cell("stiffness", format!("{k}e5"));
         }
@@ -123,7 +125,7 @@ prop_compose! {
     pub fn table(rows: RangeInclusive<usize>)(
         standard in any::<bool>(),
         joints in prop::collection::vec(joint(), rows),
-        tool in prop::option::of((prop::array::uniform3(length()), rotation())),
+        frames in prop::array::uniform2(prop::option::of((prop::array::uniform3(length()), rotation()))),
         gravity in prop::array::uniform3(-10i32..=10),
     ) -> Table {
         let convention = if standard { "standard" } else { "modified" };
@@ -137,8 +139,8 @@ prop_compose! {
             text += &joint.text.replace('@', &row);
             values.extend(joint.values.into_iter().map(|(name, x)| (name.replace('@', &row), x)));
         }
-        if let Some((t, r)) = tool {
-            text += &format!("[tool]\ntranslation = [{}]\nrotation = [{}]\n", t.join(", "), r.join(", "));
+        for (name, (t, r)) in ["base", "tool"].into_iter().zip(frames).filter_map(|(n, f)| Some((n, f?))) {
+            text += &format!("[{name}]\ntranslation = [{}]\nrotation = [{}]\n", t.join(", "), r.join(", "));
         }
         Table { text, values }
     }

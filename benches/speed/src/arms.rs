@@ -53,6 +53,7 @@ pub fn textbook(id: &str) -> Arm {
         d: number(&joint.d),
         a: number(&joint.a),
         alpha: joint.alpha.radians().expect("a number"),
+        beta: joint.beta.radians().expect("a number"),
         compliance: 1.0 / joint.stiffness.as_ref().map_or(1e5, number),
         mass: joint.mass.as_ref().map_or(0.0, number),
         com: Vector3::from(joint.com.each_ref().map(number)),
@@ -60,6 +61,7 @@ pub fn textbook(id: &str) -> Arm {
         beam: None,
     };
     Arm {
+        base: Isometry3::identity(),
         name: robot.name.clone(),
         convention: robot.convention,
         joints: robot.joints.iter().map(joint).collect(),

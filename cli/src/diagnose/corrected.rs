@@ -1,8 +1,8 @@
-//! The robot file with what was found: what was put in, and what it cannot hold, stand at its top.
+//! The robot file with what was found: at its top stands what was put in, and where.
 
 use stiffarm_gap::Measurements;
-use stiffarm_gap::corrected::{Fate, Outcome, corrected};
-use stiffarm_gap::diagnose::{Diagnosed, Nuisance, NuisanceReport};
+use stiffarm_gap::corrected::{Outcome, corrected};
+use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
 
 use crate::input::source::Source;
 
@@ -10,8 +10,6 @@ use crate::input::source::Source;
 pub fn text(source: &Source, data: &Measurements, diagnosed: &Diagnosed) -> String {
     let diagnosis = &diagnosed.diagnosis;
     let found = corrected(&source.robot, diagnosed);
-    let is_in = |o: &&Outcome| matches!(o.fate, Fate::PutIn(_));
-    let (put_in, left_out): (Vec<_>, Vec<_>) = found.outcomes.iter().partition(is_in);
     let version = &diagnosis.stiffarm;
     let mut lines = vec![format!(
         "Corrected by stiffarm {version} from {}, diagnosed with {}.",
@@ -20,20 +18,11 @@ pub fn text(source: &Source, data: &Measurements, diagnosed: &Diagnosed) -> Stri
     if data.sim_given.contains(&true) {
         lines.push("What was found is what the simulator of the sim_ columns lacks.".to_owned());
     }
-    let tool = Nuisance::ToolFrame.identifier();
-    let fitted = |n: &&NuisanceReport| found.tool_was_fitted && n.name == tool;
     lines.push(String::new());
     lines.push("Put in, with 95 % intervals:".to_owned());
-    lines.extend(put_in.iter().map(|o| line(o)));
-    lines.extend(diagnosis.nuisances.iter().filter(fitted).map(frame));
-    if put_in.is_empty() && !found.tool_was_fitted {
-        lines.push("  nothing".to_owned());
-    }
-    lines.push(String::new());
-    lines.push("Found, and not in this file:".to_owned());
-    lines.extend(left_out.iter().map(|o| line(o)));
-    lines.extend(diagnosis.nuisances.iter().filter(|n| !fitted(n)).map(frame));
-    if left_out.is_empty() && diagnosis.nuisances.iter().all(|n| fitted(&n)) {
+    lines.extend(found.outcomes.iter().map(line));
+    lines.extend(diagnosis.nuisances.iter().map(frame));
+    if found.outcomes.is_empty() && diagnosis.nuisances.is_empty() {
         lines.push("  nothing".to_owned());
     }
     let head: String = lines.iter().map(|line| comment(line)).collect();
@@ -41,7 +30,7 @@ pub fn text(source: &Source, data: &Measurements, diagnosed: &Diagnosed) -> Stri
 }
 
 fn line(outcome: &Outcome) -> String {
-    let (p, fate) = (&outcome.parameter, &outcome.fate);
+    let (p, entry) = (&outcome.parameter, &outcome.entry);
     let [low, high] = p.ci95;
     let unit = if p.unit == "1" { String::new() } else { format!(" {}", p.unit) };
     let number = match low == high {
@@ -49,7 +38,7 @@ fn line(outcome: &Outcome) -> String {
         true => format!("{}{unit}", p.value),
         false => format!("{:.6e}{unit} [{low:.3e} to {high:.3e}]", p.value),
     };
-    format!("  {} at {}: {} {number}, {fate}", outcome.effect, outcome.place, p.name)
+    format!("  {} at {}: {} {number}, in {entry}", outcome.effect, outcome.place, p.name)
 }
 
 /// A frame that was fitted along.

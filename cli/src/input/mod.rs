@@ -1,5 +1,6 @@
 //! What is given on the command line: robots, data, numbers, loads.
 
+mod beyond;
 pub mod data;
 pub mod model;
 pub mod quantity;

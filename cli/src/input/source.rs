@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use nalgebra::Isometry3;
 use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
+use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
@@ -13,7 +15,8 @@ use crate::terminal::failure::{Failure, Remark};
 /// Which robot.
 #[derive(clap::Args)]
 pub struct RobotArgs {
-    /// A robot file (TOML), or the id of a built-in robot
+    /// A robot file (TOML), the id of a built-in robot, or a diagnosis (JSON): the robot with what it
+    /// found
     robot: String,
     /// A number for a symbolic parameter, in SI or with a unit: L1=0.6, L1=24in
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -24,8 +27,13 @@ pub struct RobotArgs {
 pub struct Source {
     /// As it was named on the command line.
     pub given: String,
-    /// The model, parameters replaced by their numbers.
+    /// The model: parameters replaced by their numbers, effects taken into the table as far as it
+    /// holds them.
     pub robot: Robot,
+    /// The effects that are left.
+    pub known: Vec<Known>,
+    /// The file's text.
+    pub(super) text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
 }
@@ -41,12 +49,12 @@ impl RobotArgs {
     /// # Errors
     /// [`Failure`]: no such robot, the file's mistakes, parameters without numbers.
     pub fn load(&self, quiet: bool) -> Result<Source, Failure> {
-        let source = open(&self.robot, quiet)?;
+        let source = read(&self.robot, quiet)?;
         let symbols = source.robot.symbols();
         let given = self.parameters(&source.robot.name, &symbols)?;
         let value = |name: &str| given.iter().rev().find(|(n, _)| n == name).map(|(_, v)| *v);
         match source.robot.with_parameters(value) {
-            Ok(robot) => Ok(Source { robot, ..source }),
+            Ok(robot) => Source { robot, ..source }.understood(),
             Err(missing) => Err(Failure::with_help(
                 format!("{}: found no number for {}", source.robot.name, missing.join(", ")),
                 format!("give each one with --set NAME=VALUE: {}", listing(&symbols)),
@@ -74,12 +82,25 @@ impl RobotArgs {
 }
 
 impl Source {
-    /// The robot as the textbook has it.
+    fn new(given: &str, robot: Robot, text: String, built_in: bool) -> Source {
+        Source { given: given.to_owned(), robot, known: Vec::new(), text, built_in }
+    }
+
+    /// The table as the textbook has it; what the file says beyond it is [`Source::known`].
     ///
     /// # Errors
     /// [`Failure`] if something in it has no number.
     pub fn arm(&self) -> Result<Arm, Failure> {
         stiffarm_gap::robot::arm(&self.robot).map_err(|error| Failure::new(error.to_string()))
+    }
+
+    /// The table for a command that honours nothing beyond it and stands at the arm's base.
+    ///
+    /// # Errors
+    /// As [`Source::arm`] and [`Source::refuse_effects`].
+    pub fn arm_alone(&self, command: &str) -> Result<Arm, Failure> {
+        self.refuse_effects(command)?;
+        Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 
     /// What the joint values are, base to tip.
@@ -97,19 +118,37 @@ impl Source {
 /// # Errors
 /// [`Failure`]: no such robot, or the file's mistakes.
 pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
-    let looks_like_a_path = given.contains(['/', '\\']) || given.ends_with(".toml");
+    read(given, quiet)?.understood()
+}
+
+fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
+    let ends = [".toml", ".json"].iter().any(|end| given.ends_with(end));
+    let looks_like_a_path = given.contains(['/', '\\']) || ends;
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
             let robot = parse(toml, given, true)?;
-            return Ok(Source { given: given.to_owned(), robot, built_in: true });
+            return Ok(Source::new(given, robot, toml.to_owned(), true));
         }
         if !Path::new(given).exists() {
             return Err(no_such_robot(given));
         }
     }
     let text = text(Path::new(given))?;
+    let text = if given.ends_with(".json") { corrected(given, &text)? } else { text };
     let robot = parse(&text, given, quiet)?;
-    Ok(Source { given: given.to_owned(), robot, built_in: false })
+    Ok(Source::new(given, robot, text, false))
+}
+
+/// The robot file that a diagnosis in JSON holds.
+fn corrected(given: &str, json: &str) -> Result<String, Failure> {
+    let read: Result<serde_json::Value, _> = serde_json::from_str(json);
+    let read = read.map_err(|error| Failure::new(format!("{given}: this is no JSON: {error}")))?;
+    read["corrected"].as_str().map(str::to_owned).ok_or_else(|| {
+        Failure::with_help(
+            format!("{given}: found no `corrected`, expected a diagnosis"),
+            "`stiffarm diagnose ROBOT DATA --json OUT.json` writes one",
+        )
+    })
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {

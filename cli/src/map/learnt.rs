@@ -56,7 +56,9 @@ impl Learnt {
         };
         let noise = args.noise_position.as_ref();
         let noise = noise.map(|t| quantity::with_unit("--noise-position", t, Dimension::Length));
-        let mut options = Options { noise_position: noise.transpose()?, ..Options::default() };
+        let known = source.known.clone();
+        let mut options =
+            Options { noise_position: noise.transpose()?, known, ..Options::default() };
         options.fit_along(&args.nuisance).map_err(plain)?;
         let data = data::read(path, &data::layout(source)?, quiet)?;
         let stages = Stages::new(quiet);

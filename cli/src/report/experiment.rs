@@ -1,7 +1,7 @@
 //! What a page draws of an experiment, whatever was made of it: the rows, the arm, and the gap
 //! before and after.
 
-use nalgebra::{Isometry3, Vector6};
+use nalgebra::Vector6;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::measurement::Row;
 use stiffarm_kernels::generic::Arm;
@@ -14,10 +14,8 @@ pub struct Experiment<'a> {
     pub data: &'a Measurements,
     /// The arm of the robot file.
     pub arm: &'a Arm,
-    /// The same with its tool where the measured frame is.
+    /// The same with base and tool where they were fitted.
     pub placed: &'a Arm,
-    /// Where the base stands in the measuring frame.
-    pub base: Isometry3<f64>,
     /// Where the markers that the file does not know were found, m, tool frame.
     pub markers: Vec<(&'a str, [f64; 3])>,
     /// Of each row, before and after, m and rad.

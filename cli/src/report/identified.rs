@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use askama::Template;
-use nalgebra::Isometry3;
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::Measurements;
@@ -158,7 +157,6 @@ impl Identified<'_> {
             data: self.data,
             arm: self.arm,
             placed: self.arm,
-            base: Isometry3::identity(),
             markers: Vec::new(),
             gaps: [before, after],
             shares: Vec::new(),

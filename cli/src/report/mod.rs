@@ -25,8 +25,7 @@ mod waterfall;
 pub mod withheld;
 mod words;
 
-use nalgebra::Isometry3;
-use stiffarm_gap::diagnose::{Diagnosis, Nuisance, Prediction};
+use stiffarm_gap::diagnose::{Diagnosis, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
@@ -67,8 +66,6 @@ impl<'a> Report<'a> {
 
     fn experiment(&self) -> Experiment<'a> {
         let found = self.found;
-        let base = Nuisance::BaseFrame.identifier();
-        let base = found.nuisances.iter().find(|n| n.name == base);
         let share = |place: &str| Share {
             place: place.to_owned(),
             share: found.places.iter().find(|s| s.place == place).map(|s| s.share),
@@ -80,9 +77,6 @@ impl<'a> Report<'a> {
             data: self.data,
             arm: self.arm,
             placed: self.placed,
-            base: base.map_or_else(Isometry3::identity, |n| {
-                Isometry3::new(n.translation.into(), n.rotation.into())
-            }),
             markers: found.nuisances.iter().map(|n| (n.name.as_str(), n.translation)).collect(),
             gaps: [&self.gaps.before, &self.gaps.after],
             shares: places.chain(findings).map(share).collect(),

@@ -75,15 +75,14 @@ fn measured(experiment: &Experiment<'_>, row: &Row) -> Vector3<f64> {
     match experiment.data.kind {
         Kind::Pose { .. } => row.measured.fixed_rows::<3>(0).into_owned(),
         Kind::Displacement { .. } => {
-            let tool = experiment.base * experiment.placed.pose(&row.q);
-            (tool * Point3::from(experiment.offset(row))).coords
+            (experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row))).coords
         }
     }
 }
 
 /// Base, joints and links in their order, tool. A link runs along the lengths of its row.
 fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
-    let (arm, base) = (experiment.placed, experiment.base);
+    let arm = experiment.placed;
     let part = |name: &str| experiment.shares.iter().find(|s| s.place == name);
     let place = |name: String, through: Vec<Vector3<f64>>| Place {
         share: part(&name).and_then(|s| s.share),
@@ -91,7 +90,7 @@ fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
         through: through.into_iter().map(|p| point(p.into())).collect(),
         name,
     };
-    let frames: Vec<Isometry3<f64>> = arm.frames(q).iter().map(|f| base * f).collect();
+    let frames = arm.frames(q);
     let origin = |f: &Isometry3<f64>| f.translation.vector;
     let mut places = vec![place("base".to_owned(), vec![origin(&frames[0])])];
     for (j, joint) in arm.joints.iter().enumerate() {
@@ -99,9 +98,14 @@ fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
         // Standard: along z of the frame before, then along x of its own; modified: along x of
         // the frame before, then along z of its own, after the joint's axis is reached.
         let (corner, axis) = match arm.convention {
-            Convention::Standard => (to - frames[j + 1] * Vector3::x() * joint.a, from),
+            Convention::Standard => {
+                let tilt = Isometry3::rotation(-joint.beta * Vector3::y());
+                (to - frames[j + 1] * tilt * Vector3::x() * joint.a, from)
+            }
             Convention::Modified => {
-                let corner = from + frames[j] * Vector3::x() * joint.a;
+                let tilt = Isometry3::rotation(joint.alpha * Vector3::x())
+                    * Isometry3::rotation(joint.beta * Vector3::y());
+                let corner = from + frames[j] * tilt * Vector3::x() * joint.a;
                 (corner, corner)
             }
         };
@@ -109,7 +113,7 @@ fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
         places.push(place(format!("joint {}", j + 1), vec![axis]));
     }
     let last = origin(&frames[arm.dof()]);
-    let tool = origin(&(base * arm.pose(q)));
+    let tool = origin(&arm.pose(q));
     places.push(place("tool".to_owned(), vec![last, tool]));
     places
 }

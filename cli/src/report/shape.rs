@@ -121,7 +121,7 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
     let turn: Vector3<f64> = column.fixed_rows::<3>(3).into_owned();
     let arm = experiment.placed.pose(&row.q).rotation * Vector3::from(experiment.offset(row));
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
-    let frame = experiment.base.rotation;
+    let frame = experiment.placed.base.rotation;
     let (from, part) =
         if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
     let measured = experiment.data.kind.components();

@@ -4,6 +4,7 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use clap::{ArgMatches, Command};
 use tempfile::NamedTempFile;
 
 use super::failure::{Failure, reason};
@@ -40,19 +41,52 @@ impl Target {
     }
 }
 
-/// Refuses two results that would both go to standard output.
+/// Refuses results of a command that would go to one place, or to where something is read.
 ///
 /// # Errors
 /// [`Failure`] names both options.
-pub fn one_to_stdout(results: &[(&str, &Option<Target>)]) -> Result<(), Failure> {
-    let printed = results.iter().filter(|(_, to)| **to == Some(Target::Stdout));
-    let printed: Vec<&str> = printed.map(|(option, _)| *option).collect();
-    match printed[..] {
-        [first, second, ..] => {
-            Err(Failure::new(format!("{first} and {second} cannot both go to standard output")))
-        }
-        _ => Ok(()),
+pub fn apart(command: &Command, given: &ArgMatches) -> Result<(), Failure> {
+    let mut taken: Vec<(String, PathBuf)> = Vec::new();
+    let mut results: Vec<(String, Target)> = Vec::new();
+    for argument in command.get_arguments() {
+        let id = argument.get_id().as_str();
+        let option = argument.get_long().map(|long| format!("--{long}"));
+        let name = option.unwrap_or_else(|| id.to_uppercase());
+        let robot = (id == "robot").then(|| given.try_get_many::<String>(id).ok().flatten());
+        let robot = robot.flatten().into_iter().flatten().map(PathBuf::from);
+        let files = given.try_get_many::<PathBuf>(id).ok().flatten().into_iter().flatten().cloned();
+        taken.extend(robot.chain(files).map(|file| (name.clone(), place(&file))));
+        let to = given.try_get_many::<Target>(id).ok().flatten().into_iter().flatten();
+        results.extend(to.map(|target| (name.clone(), target.clone())));
     }
+    let mut printed: Option<String> = None;
+    for (option, result) in results {
+        match (result, &printed) {
+            (Target::Stdout, Some(first)) => {
+                let message = format!("{first} and {option} cannot both go to standard output");
+                return Err(Failure::new(message));
+            }
+            (Target::Stdout, None) => printed = Some(option),
+            (Target::File(path), _) => {
+                let to = place(&path);
+                // What is no plain file, such as /dev/null, takes whatever comes.
+                let plain = fs::metadata(&to).map_or(true, |there| there.is_file());
+                if let Some((other, _)) = taken.iter().find(|(_, place)| plain && *place == to) {
+                    let message = format!("{option} would write over {other}: {}", path.display());
+                    return Err(Failure::with_help(message, "name another file"));
+                }
+                taken.push((option, to));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where a path leads, there already or not.
+fn place(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let beside = || Some(fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    fs::canonicalize(path).ok().or_else(beside).unwrap_or_else(|| path.to_owned())
 }
 
 /// Prints to standard output. A reader that has seen enough (`| head`) is no mistake.

@@ -104,7 +104,7 @@ fn the_json_is_the_formats() {
     ];
     assert_eq!(keys[..9], expected);
     for key in &keys[9..] {
-        assert!(["parts", "by", "covers"].contains(&key.as_str()), "{key}");
+        assert!(["parts", "by", "covers", "corrected"].contains(&key.as_str()), "{key}");
     }
     assert_eq!(found["stiffarm"], env!("CARGO_PKG_VERSION"));
     let finding = &found["findings"][0];

@@ -181,3 +181,58 @@ fn a_missing_column_is_named() {
         assert!(named && err.contains("less.csv"), "{arguments:?}: {err}");
     }
 }
+
+#[test]
+fn results_are_not_written_over_each_other_or_over_what_is_read() {
+    let folder = Folder::new();
+    let robot = folder.file("arm.toml", read(SPRINGS[1]));
+    let data = folder.file("run.csv", read("docs/workbench/check.csv"));
+    let link = folder.path("link.csv");
+    std::os::unix::fs::symlink(&data, &link).expect("a link");
+    let link = text(&link);
+    let (there, same) = (read("docs/workbench/check.csv"), read(SPRINGS[1]));
+    for (arguments, over) in [
+        (&["diagnose", &robot, &data, "--report", &data][..], "--report would write over DATA"),
+        (&["diagnose", &robot, &data, "--json", &link], "--json would write over DATA"),
+        (
+            &["diagnose", &robot, &data, "--write-robot", &robot],
+            "--write-robot would write over ROBOT",
+        ),
+        (
+            &["diagnose", &robot, &data, "--check", &link, "--json", &link],
+            "--json would write over",
+        ),
+        (&["identify", &robot, "docs/workbench/run.csv", "--write-robot", &robot], "over ROBOT"),
+        (&["simulate", &robot, &data, "--csv", &data], "--csv would write over DATA"),
+        (
+            &["compensate", &robot, "--targets", &data, "--out", &data],
+            "--out would write over --targets",
+        ),
+        (&["generate", &robot, "--emit", "rust", "--out", &robot], "--out would write over ROBOT"),
+        (
+            &["eval", &robot, "--q", "0,0,0,0,0,0", "--json", &robot],
+            "--json would write over ROBOT",
+        ),
+    ] {
+        let err = stiffarm(arguments).refused();
+        assert!(err.contains(over), "{arguments:?}: {err}");
+    }
+    let out = text(&folder.path("out"));
+    let err = stiffarm(&["diagnose", &robot, &data, "--json", &out, "--report", &out]).refused();
+    assert!(err.contains("--report would write over --json"), "{err}");
+    assert_eq!(std::fs::read_to_string(&data).expect("there"), there);
+    assert_eq!(std::fs::read_to_string(&robot).expect("there"), same);
+    assert_eq!(folder.names(), ["arm.toml", "link.csv", "run.csv"]);
+    // What is no file takes whatever comes.
+    stiffarm(&[
+        "diagnose",
+        &robot,
+        &data,
+        "--json",
+        "/dev/null",
+        "--report",
+        "/dev/null",
+        "--quiet",
+    ])
+    .good();
+}

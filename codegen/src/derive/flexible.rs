@@ -9,11 +9,11 @@
 use num_rational::Ratio;
 use stiffarm_kernels::Output;
 
-use super::chain::{Place, Step, expression, row_steps, tool_rotation};
+use super::chain::{Place, Step, expression, frame_rotation, row_steps};
 use super::displacements::Displacements;
 use super::program::{Block, Program};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
-use crate::robot::{Angle, Robot};
+use crate::robot::{Angle, Frame, Robot};
 
 /// How the displacements enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +45,7 @@ impl Form {
 pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Program {
     let mut walk = Walk::new(robot, displacements, form);
     let n = robot.dof();
+    walk.frame(&robot.base);
     walk.displace(0);
     for row in 0..n {
         for step in row_steps(&mut walk.g, robot, row) {
@@ -52,7 +53,7 @@ pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Pro
         }
         walk.displace(row + 1);
     }
-    walk.tool(robot);
+    walk.frame(&robot.tool);
     walk.displace(n + 1);
     let entries = walk.pose();
     let blocks = vec![Block { output: Output::Pose, entries }];
@@ -172,15 +173,16 @@ impl<'d> Walk<'d> {
         self.place = Place { axes, turn: Turn::ZERO };
     }
 
-    fn tool(&mut self, robot: &Robot) {
-        let shift = robot.tool.translation.each_ref().map(|value| expression(&mut self.g, value));
+    /// A fixed transform.
+    fn frame(&mut self, frame: &Frame) {
+        let shift = frame.translation.each_ref().map(|value| expression(&mut self.g, value));
         self.local = self.g.add3(self.local, shift);
-        let [x, y, z] = &robot.tool.rotation;
+        let [x, y, z] = &frame.rotation;
         if x.is_zero() && y.is_zero() {
             let turn = Turn::constant(&mut self.g, z);
             return self.step(&Step::RotateZ(turn));
         }
-        let columns = tool_rotation(&robot.tool).map(|column| column.map(|n| self.g.number(n)));
+        let columns = frame_rotation(frame).map(|column| column.map(|n| self.g.number(n)));
         self.multiply(columns);
     }
 

@@ -40,6 +40,7 @@ pub(super) fn stub(
                 d: "",
                 a: "",
                 alpha: "",
+                beta: "",
                 stiffness: "",
             }; N];
             pub const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };

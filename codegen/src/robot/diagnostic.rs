@@ -3,6 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
+use super::model::Spot;
 use super::problem::{Problem, Report};
 
 /// One remark on a robot file.
@@ -41,6 +42,11 @@ pub struct FileError {
 }
 
 impl Located {
+    /// A remark on what stands at a place of a file.
+    pub fn at(path: &str, text: &str, spot: &Spot, message: String, help: Option<String>) -> Self {
+        Located::new(path, text, Problem { at: spot.span.clone(), message, help })
+    }
+
     pub(crate) fn new(path: &str, text: &str, problem: Problem<Range<usize>>) -> Self {
         let end = text.len();
         let start = floor_boundary(text, problem.at.start.min(end));

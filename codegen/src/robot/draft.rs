@@ -1,7 +1,7 @@
 //! A table as read: every cell with its place, so that the one validator can point at it.
 
 use super::dimension::Dimension;
-use super::model::{Angle, Convention, Motion, Output, Value};
+use super::model::{Angle, Convention, Effect, Motion, Output, Value};
 use super::symbols::Symbolic;
 
 /// What a cell holds, and where. A cell that could not be read has no value and has already been
@@ -24,10 +24,33 @@ pub(crate) struct Draft<L> {
     pub convention: Option<Cell<Convention, L>>,
     pub gravity: Option<Vector<Value, L>>,
     pub joints: Vec<DraftJoint<L>>,
+    pub base: DraftFrame<L>,
+    pub tool: DraftFrame<L>,
+    pub markers: Vec<DraftMarker<L>>,
+    pub effects: Vec<Effect>,
+    pub payloads: Vec<DraftPayload<L>>,
+    pub outputs: Vec<Output>,
+}
+
+/// A fixed transform.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftFrame<L> {
     pub translation: Option<Vector<Value, L>>,
     pub rotation: Option<Vector<Angle, L>>,
-    pub markers: Vec<DraftMarker<L>>,
-    pub outputs: Vec<Output>,
+}
+
+impl<L> Default for DraftFrame<L> {
+    fn default() -> Self {
+        DraftFrame { translation: None, rotation: None }
+    }
+}
+
+/// A load with a name.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftPayload<L> {
+    pub name: Cell<String, L>,
+    pub mass: Cell<Value, L>,
+    pub com: Option<Vector<Value, L>>,
 }
 
 /// One row.
@@ -40,6 +63,7 @@ pub(crate) struct DraftJoint<L> {
     pub d: Option<Cell<Value, L>>,
     pub a: Option<Cell<Value, L>>,
     pub alpha: Option<Cell<Angle, L>>,
+    pub beta: Option<Cell<Angle, L>>,
     pub stiffness: Option<Cell<Value, L>>,
     pub mass: Option<Cell<Value, L>>,
     /// The place of the whole vector, and its entries.
@@ -107,6 +131,7 @@ impl<L> DraftJoint<L> {
         visit_cell(visit, Dimension::Length, &self.d);
         visit_cell(visit, Dimension::Length, &self.a);
         visit_cell(visit, Dimension::Angle, &self.alpha);
+        visit_cell(visit, Dimension::Angle, &self.beta);
         let stiffness = Dimension::stiffness(self.motion.value.unwrap_or(Motion::Revolute));
         visit_cell(visit, stiffness, &self.stiffness);
         visit_cell(visit, Dimension::Mass, &self.mass);
@@ -129,6 +154,6 @@ impl<L> Draft<L> {
         for joint in &self.joints {
             joint.each_symbol(visit);
         }
-        visit_cell(visit, Dimension::Length, self.translation.iter().flatten());
+        visit_cell(visit, Dimension::Length, self.tool.translation.iter().flatten());
     }
 }

@@ -32,7 +32,8 @@ mod validate;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{
-    Angle, Beam, Convention, Joint, Marker, Motion, Output, Robot, Section, Tool, Value,
+    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
+    Quantity, Robot, Section, Spot, Value,
 };
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

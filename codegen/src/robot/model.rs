@@ -1,5 +1,7 @@
 //! What a robot file or an inline table says: one model for both, in SI units.
 
+use core::ops::Range;
+
 use num_rational::Ratio;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
@@ -16,10 +18,17 @@ pub struct Robot {
     pub gravity: [Value; 3],
     /// The rows of the table, base to tip.
     pub joints: Vec<Joint>,
+    /// The fixed transform from the world, in which poses are told, to frame 0; the identity if the
+    /// file has none.
+    pub base: Frame,
     /// The fixed transform from the last frame to the tool; the identity if the file has none.
-    pub tool: Tool,
+    pub tool: Frame,
     /// Measured points other than the tool origin.
     pub markers: Vec<Marker>,
+    /// What the real arm does beyond the table.
+    pub effects: Vec<Effect>,
+    /// Loads that rows of data name.
+    pub payloads: Vec<Payload>,
     /// The outputs that are generated of it; every one if there are none.
     pub outputs: Vec<Output>,
 }
@@ -39,6 +48,8 @@ pub struct Joint {
     pub a: Value,
     /// The twist, rad.
     pub alpha: Angle,
+    /// Hayati's angle about y behind the twist, rad; 0 in a table of Denavit and Hartenberg's.
+    pub beta: Angle,
     /// N·m/rad, or N/m for a prismatic joint; `None` is rigid.
     pub stiffness: Option<Value>,
     /// Mass of the link that this joint moves, kg; `None` is weightless.
@@ -83,10 +94,10 @@ pub struct Section {
     pub j: Value,
 }
 
-/// A fixed transform: translation, then rotation, in the last frame.
+/// A fixed transform: translation, then rotation, in the frame that it begins in.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tool {
-    /// Origin of the tool in the last frame, m.
+pub struct Frame {
+    /// The origin that it leads to, m.
     pub translation: [Value; 3],
     /// Rotation vector (axis × angle).
     pub rotation: [Angle; 3],
@@ -99,6 +110,66 @@ pub struct Marker {
     pub name: String,
     /// In the tool frame, m; `None` is unknown.
     pub translation: Option<[Value; 3]>,
+}
+
+/// What the real arm does beyond the table: an effect of a catalogue at a place, with its numbers.
+/// The catalogue is another package's: this is what stands in the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// Where the table stands.
+    pub at: Spot,
+    /// The catalogue's name for it.
+    pub id: Entry<String>,
+    /// Where it acts: `joint 2`.
+    pub place: Entry<String>,
+    /// Everything else that the table holds, in the order of its keys.
+    pub numbers: Vec<Entry<Quantity>>,
+}
+
+/// A key with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry<T> {
+    /// The key.
+    pub key: String,
+    /// The value.
+    pub value: T,
+    /// Where the value stands.
+    pub at: Spot,
+}
+
+/// What an entry of an effect holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// In SI units.
+    Si(f64),
+    /// A number with its unit, or a word, as it stands.
+    Text(String),
+}
+
+/// A place in a robot file. Two robots are equal wherever their entries stand: so are two places.
+#[derive(Clone, Debug, Default)]
+pub struct Spot {
+    /// Bytes of the file.
+    pub span: Range<usize>,
+    /// The line of the first of them, from 1; 0 of what stands in no file.
+    pub line: usize,
+}
+
+impl PartialEq for Spot {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// A load that rows of data name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Payload {
+    /// Its name.
+    pub name: String,
+    /// kg.
+    pub mass: Value,
+    /// Its centre of mass in the tool frame, m.
+    pub com: [Value; 3],
 }
 
 /// A number in SI units, or a parameter that stays symbolic.
@@ -162,9 +233,9 @@ impl Angle {
     }
 }
 
-impl Default for Tool {
+impl Default for Frame {
     fn default() -> Self {
-        Tool { translation: [const { Value::ZERO }; 3], rotation: [const { Angle::ZERO }; 3] }
+        Frame { translation: [const { Value::ZERO }; 3], rotation: [const { Angle::ZERO }; 3] }
     }
 }
 

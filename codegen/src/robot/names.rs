@@ -19,6 +19,17 @@ pub(crate) fn check<L: Place>(draft: &Draft<L>, report: &mut Report<L>) {
     unique("joint", joints.filter_map(|c| Some((c.value.as_deref()?, &c.at))), report);
     let markers = draft.markers.iter();
     unique("marker", markers.filter_map(|m| Some((m.name.value.as_deref()?, &m.name.at))), report);
+    let payloads = draft.payloads.iter();
+    unique(
+        "payload",
+        payloads.filter_map(|p| Some((p.name.value.as_deref()?, &p.name.at))),
+        report,
+    );
+    let texts =
+        [&draft.name].into_iter().flatten().chain(draft.joints.iter().flat_map(|j| &j.source));
+    texts
+        .filter_map(|c| Some((c.value.as_deref()?, &c.at)))
+        .for_each(|(t, at)| plain(t, at, report));
     let mut seen: HashMap<&str, Dimension> = HashMap::new();
     // The joint variable is misplaced wherever it stands; another name is refused once.
     draft.each_symbol(&mut |name, dimension, at| match seen.get(name).filter(|_| name != "q") {
@@ -50,7 +61,18 @@ fn unique<'a, L: Place + 'a>(
         } else if seen.contains(&name) {
             report.error(Problem::new(at.clone(), format!("two {what}s are called `{name}`")));
         }
+        plain(name, at, report);
         seen.push(name);
+    }
+}
+
+/// A name stands in comments, messages and pages: a line break in it would be theirs.
+pub(crate) fn plain<L: Place>(text: &str, at: &L, report: &mut Report<L>) {
+    if let Some(found) = text.chars().find(|c| c.is_control()) {
+        let message = format!("the control character {found:?} stands in a text");
+        report.error(
+            Problem::new(at.clone(), message).help("write the text on one line, without it"),
+        );
     }
 }
 

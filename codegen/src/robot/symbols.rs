@@ -64,7 +64,7 @@ fn values<'a>(
 
 impl Robot {
     /// The symbolic parameters, each once, in order of first appearance: gravity, the joints row by
-    /// row (theta, d, a, alpha, stiffness, mass, com, beam), the tool.
+    /// row (theta, d, a, alpha, beta, stiffness, mass, com, beam), the tool.
     pub fn symbols(&self) -> Vec<Symbol> {
         let mut found: Vec<Symbol> = Vec::new();
         self.clone().each_slot(&mut |slot, dimension| {
@@ -115,6 +115,7 @@ impl Joint {
         visit(Slot::Angle(&mut self.theta), Dimension::Angle);
         values(visit, Dimension::Length, [&mut self.d, &mut self.a]);
         visit(Slot::Angle(&mut self.alpha), Dimension::Angle);
+        visit(Slot::Angle(&mut self.beta), Dimension::Angle);
         values(visit, Dimension::stiffness(self.motion), &mut self.stiffness);
         values(visit, Dimension::Mass, &mut self.mass);
         values(visit, Dimension::Length, &mut self.com);

@@ -1,7 +1,9 @@
 //! The one validator: both readers hand it a draft, and it makes the [`Robot`].
 
-use super::draft::{Cell, Draft, DraftBeam, DraftJoint, Vector};
-use super::model::{Angle, Beam, Convention, Joint, Marker, Motion, Robot, Section, Tool, Value};
+use super::draft::{Cell, Draft, DraftBeam, DraftFrame, DraftJoint, DraftPayload, Vector};
+use super::model::{
+    Angle, Beam, Convention, Frame, Joint, Marker, Motion, Payload, Robot, Section, Value,
+};
 use super::names;
 use super::problem::{Place, Problem, Report};
 use crate::number::Number;
@@ -29,12 +31,8 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         convention: content(&draft.convention).unwrap_or(Convention::Standard),
         gravity: draft.gravity.as_ref().map_or_else(standard_gravity, vector),
         joints,
-        tool: Tool {
-            translation: draft.translation.as_ref().map_or(Tool::default().translation, vector),
-            rotation: draft.rotation.as_ref().map_or(Tool::default().rotation, |angles| {
-                angles.each_ref().map(|c| c.value.clone().unwrap_or(Angle::ZERO))
-            }),
-        },
+        base: frame(&draft.base),
+        tool: frame(&draft.tool),
         markers: draft
             .markers
             .iter()
@@ -43,7 +41,28 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
                 translation: m.translation.as_ref().map(vector),
             })
             .collect(),
+        effects: draft.effects.clone(),
+        payloads: draft.payloads.iter().map(|p| payload(p, report)).collect(),
         outputs: draft.outputs.clone(),
+    }
+}
+
+fn frame<L>(frame: &DraftFrame<L>) -> Frame {
+    let none = Frame::default();
+    Frame {
+        translation: frame.translation.as_ref().map_or(none.translation, vector),
+        rotation: frame.rotation.as_ref().map_or(none.rotation, |angles| {
+            angles.each_ref().map(|c| c.value.clone().unwrap_or(Angle::ZERO))
+        }),
+    }
+}
+
+fn payload<L: Place>(payload: &DraftPayload<L>, report: &mut Report<L>) -> Payload {
+    not_below_zero("the mass", &payload.mass, report);
+    Payload {
+        name: payload.name.value.clone().unwrap_or_default(),
+        mass: payload.mass.value.clone().unwrap_or(Value::ZERO),
+        com: payload.com.as_ref().map_or([Value::ZERO; 3], vector),
     }
 }
 
@@ -85,6 +104,7 @@ fn joint<L: Place>(index: usize, row: &DraftJoint<L>, report: &mut Report<L>) ->
         d: value(&row.d),
         a: value(&row.a),
         alpha: content(&row.alpha).unwrap_or(Angle::ZERO),
+        beta: content(&row.beta).unwrap_or(Angle::ZERO),
         stiffness: content(&row.stiffness),
         mass: content(&row.mass),
         com: row.com.as_ref().map_or([Value::ZERO; 3], |(_, com)| vector(com)),

@@ -17,6 +17,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         d: length(*d),
         a: length(*a),
         alpha: Angle::Pi(Ratio::new(*alpha, 2)),
+        beta: Angle::ZERO,
         stiffness: Some(Value::Number(Number::integer(1_000_000))),
         mass: None,
         com: [Value::ZERO, Value::ZERO, Value::ZERO],
@@ -29,8 +30,11 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         convention,
         gravity: [Value::ZERO, Value::ZERO, Value::Number(Number::ratio(-980_665, 100_000))],
         joints: joints.collect(),
+        base: Default::default(),
         tool: Default::default(),
         markers: Vec::new(),
+        effects: Vec::new(),
+        payloads: Vec::new(),
         outputs: Vec::new(),
     }
 }

@@ -1,15 +1,12 @@
 //! Compensation of the static deflection at the end-effector: set-points of any arm, its joint
-//! limits kept, at equilibrium in the loaded geometry ([`mod@reach`]), with every effect that is
-//! present ([`Real`]): what must be known to compensate one, the effect says itself
+//! limits kept, at equilibrium in the loaded geometry ([`mod@reach`]), with every effect of its robot file
+//! ([`Whole`](crate::whole::Whole)): what must be known to compensate one, the effect says itself
 //! ([`Depends`](crate::effects::Depends)).
 //!
 //! SI units, radians. A load is a wrench `[fx fy fz mx my mz]`, constant in base axes, and acts at
 //! the tool origin.
 
 pub mod reach;
-mod real;
-
-pub use real::{Present, Real, Situation};
 
 /// Why no compensation could be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -14,9 +14,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
-use super::{CompensateError, Real, Situation, finite};
+use super::{CompensateError, finite};
 use crate::random::between;
 use crate::robot::ranges;
+use crate::whole::{Situation, Whole};
 
 /// Where the tool should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +75,7 @@ pub struct Reached {
     pub ended: Ended,
 }
 
-/// Set-points for one target in a situation.
+/// Set-points for one target in a situation; the effects of the robot file count.
 ///
 /// From `start` if there is one; where that is not given or leads nowhere, from random starts, of
 /// which the one is taken whose arm gives way least.
@@ -84,17 +85,21 @@ pub struct Reached {
 /// as the arm has joints; [`CompensateError::Unlimited`] if a prismatic joint has no limits and no
 /// start is given; [`CompensateError::NotPositive`] for a tolerance; [`CompensateError::Unknown`] if an
 /// effect depends on what the situation leaves open.
-pub fn reach(
-    real: &Real<'_>,
+pub fn reach<'a>(
+    arm: impl Into<Whole<'a>>,
     target: &Target,
     at: &Situation,
     start: Option<&[f64]>,
     search: &Search,
 ) -> Result<Reached, CompensateError> {
-    let arm = real.arm;
+    let whole = arm.into();
+    let arm = whole.arm;
     check(arm, target, &at.load, start, search)?;
-    real.check(at)?;
-    let task = steps::Task::new(real, at, *target, search);
+    if let Some((known, unknown)) = whole.undecided(at) {
+        let effect = format!("{} at {}", known.effect.identifier(), known.spot.place);
+        return Err(CompensateError::Unknown { effect, unknown });
+    }
+    let task = steps::Task::new(whole, at, *target, search);
     let mut best: Option<steps::Point> = None;
     if let Some(start) = start {
         match task.settle(&within(arm, start)) {
@@ -149,8 +154,8 @@ fn uncompensated(task: &steps::Task<'_>, q: &[f64], search: &Search) -> Option<V
         // Where a rigid arm would have to stand is no question of limits.
         joint.limits = None;
     }
-    let (rigid, unloaded) = (Real::nominal(&rigid), Situation::under(Vector6::zeros()));
-    let ideal = steps::Task::new(&rigid, &unloaded, task.target, search);
+    let unloaded = Situation::under(Vector6::zeros());
+    let ideal = steps::Task::new(Whole::from(&rigid), &unloaded, task.target, search);
     let end = ideal.settle(q).filter(|end| ideal.reached(end))?;
     Some(task.at(end.q)?.error)
 }

@@ -37,7 +37,7 @@ use stiffarm_kernels::generic::Arm;
 pub use crate::effects::ParameterReport;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use progress::{Stage, Stop};
-pub use promise::{Expected, Explanation, FoundEffect, Prediction};
+pub use promise::{Expected, Explanation, Prediction};
 pub use report::{
     Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, LeftOut,
     NoiseReport, NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
@@ -155,7 +155,7 @@ pub fn diagnose_with(
         [nominal, explained.fit.model],
         spread,
         &diagnosis.covers,
-        &options.catalogue,
+        options,
     );
     Ok(Diagnosed { diagnosis, explanation })
 }

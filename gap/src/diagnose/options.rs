@@ -1,7 +1,7 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
 use super::progress::Stop;
-use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, ToolFrame};
+use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, ToolFrame};
 use crate::measurement::nearest;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
@@ -67,6 +67,8 @@ pub struct Options {
     pub noise_rotation: Option<f64>,
     /// The effects that there are: stiffarm's, and one's own.
     pub catalogue: Catalogue,
+    /// What the robot file says of the arm beyond its table.
+    pub known: Vec<Known>,
     /// Identifiers of those to be tried; `None` is all.
     pub effects: Option<Vec<String>>,
     /// Frames that are known to be unknown.

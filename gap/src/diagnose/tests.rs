@@ -185,7 +185,7 @@ fn unknown_frames_and_markers_are_fitted_and_never_findings() {
     assert!(again.inside.iter().all(|inside| *inside));
     let rms = crate::gap::Statistics::of(&again.after).position_rms;
     assert!(rms < 2.0 * 1e-5 * 3.0_f64.sqrt(), "{rms}");
-    assert_eq!(found.explanation.found()[0].place, Place::Joint(2));
+    assert_eq!(found.explanation.found()[0].spot.place, Place::Joint(2));
     let mut far = data.clone();
     far.rows[3].q[0] += 10.0;
     far.rows[5].wrench[0] += 1e4;

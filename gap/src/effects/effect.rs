@@ -4,8 +4,8 @@ use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::{
-    Carrier, Curve, Depends, Draw, Fate, Forms, Group, Parameter, ParameterReport, Place,
-    RobotFile, Scene, Spot, Told,
+    Carrier, Curve, Depends, Draw, Forms, Group, Parameter, ParameterReport, Place, RobotFile,
+    Scene, Spot, Told,
 };
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
@@ -136,10 +136,10 @@ pub trait Effect: Sync {
 
     // Its place in a robot file.
 
-    /// Puts its numbers at a place into the file's own entries, as far as these hold them; what
-    /// became of each. What no entry holds stands in an `[[effect]]` table.
-    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
-        file.no_entry(numbers)
+    /// Puts its values at a spot into the file's own entries, and names them; `None` if these hold
+    /// no such thing: it stands in an `[[effect]]` table then.
+    fn write(&self, _: &mut RobotFile<'_>, _: Spot, _: &[f64]) -> Option<String> {
+        None
     }
 
     // Its cases when it is withheld.

@@ -179,7 +179,8 @@ pub(crate) fn kind(
 }
 
 fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mistakes) {
-    for joint in 0..layout.motions.len() {
+    let needed = if layout.readings { layout.motions.len() } else { 0 };
+    for joint in 0..needed {
         if heads.iter().any(|h| h.role == Some(Role::Reading(joint))) {
             continue;
         }

@@ -10,6 +10,7 @@ mod group;
 mod header;
 mod mistake;
 mod role;
+mod seen;
 mod table;
 mod unit;
 

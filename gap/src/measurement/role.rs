@@ -22,6 +22,8 @@ pub const SIM_PREFIX: &str = "sim_";
 pub struct Layout {
     /// One per joint, base to tip: a revolute reading is an angle, a prismatic one a length.
     pub motions: Vec<Motion>,
+    /// Whether every row has its readings: targets may go without.
+    pub readings: bool,
     /// The `[[marker]]` of the robot file.
     pub markers: Vec<Marker>,
 }
@@ -154,7 +156,11 @@ mod tests {
     use super::*;
 
     fn layout() -> Layout {
-        Layout { motions: vec![Motion::Revolute, Motion::Prismatic], markers: Vec::new() }
+        Layout {
+            motions: vec![Motion::Revolute, Motion::Prismatic],
+            readings: true,
+            markers: Vec::new(),
+        }
     }
 
     #[test]

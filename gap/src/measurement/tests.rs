@@ -5,6 +5,7 @@ use stiffarm_kernels::Motion;
 fn layout() -> Layout {
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     Layout {
+        readings: true,
         motions: vec![Motion::Revolute, Motion::Revolute, Motion::Prismatic],
         markers: vec![marker("smr1", Some([0.0, 0.1, 0.02])), marker("smr2", None)],
     }

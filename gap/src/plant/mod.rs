@@ -39,6 +39,7 @@ pub use text::csv;
 pub use truth::{Truth, TruthError};
 
 use crate::dice::{Dice, Stream};
+use crate::effects::Known;
 use crate::measurement::{Measurements, Row};
 use observe::{InOrder, Shown};
 use reality::Reality;
@@ -99,13 +100,24 @@ impl Plant {
     /// [`PlantError::Truth`] for a truth that this arm cannot have, [`PlantError::Total`] if
     /// compliances, masses or flexibilities become negative.
     pub fn new(arm: &Arm, truths: &[Truth]) -> Result<Plant, PlantError> {
+        Plant::beyond(arm, &[], truths)
+    }
+
+    /// The same where the robot file has effects of its own.
+    ///
+    /// # Errors
+    /// As [`Plant::new`].
+    pub fn beyond(arm: &Arm, known: &[Known], truths: &[Truth]) -> Result<Plant, PlantError> {
         for truth in truths {
             truth.check(arm).map_err(|fault| TruthError { text: truth.to_string(), fault })?;
         }
-        let reality = Reality::new(arm, truths)
-            .map_err(|fault| PlantError::Total { arm: arm.name.clone(), fault })?;
+        let real = |truths: &[Truth]| {
+            Reality::new(arm, truths)
+                .map_err(|fault| PlantError::Total { arm: arm.name.clone(), fault })
+        };
+        let known: Vec<Truth> = known.iter().map(|known| Truth::known(known, arm)).collect();
+        let (nominal, reality) = (real(&known)?, real(&[&known, truths].concat())?);
         let first_order_sim = reality.geometric != 0.0;
-        let nominal = Reality::nominal(arm);
         Ok(Plant { nominal, reality, frames: Frames::default(), first_order_sim })
     }
 

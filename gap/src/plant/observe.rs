@@ -142,7 +142,7 @@ impl Reality {
         let over = self.base_slips.iter().filter(|slip| at.number > slip.after);
         let slipped: Vector6<f64> = over.map(|slip| slip.by).sum();
         let all = self.base_frame + slipped + at.elapsed() * self.drift;
-        frames.base.to_homogeneous() * displaced(&all)
+        frames.base.to_homogeneous() * self.base * displaced(&all)
     }
 
     fn seen(&self, standing: &Matrix4<f64>, tool: &Matrix4<f64>, row: &Row) -> Shown {

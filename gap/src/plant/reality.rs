@@ -16,7 +16,9 @@ pub(super) struct Reality {
     pub(super) joints: Vec<RealJoint>,
     /// Tool frame in the last frame: rotation and translation apart, for only the latter grows.
     pub(super) tool: Matrix4<f64>,
-    /// The arm's base in the measuring frame.
+    /// The robot file's base.
+    pub(super) base: Matrix4<f64>,
+    /// The base's displacement.
     pub(super) base_frame: Vector6<f64>,
     /// The tool frame's displacement.
     pub(super) tool_frame: Vector6<f64>,
@@ -113,7 +115,7 @@ impl Reality {
             d: joint.d,
             a: joint.a,
             alpha: joint.alpha,
-            beta: 0.0,
+            beta: joint.beta,
             offset: 0.0,
             ratio: 0.0,
             lag: 0.0,
@@ -134,6 +136,7 @@ impl Reality {
             gravity: arm.gravity,
             joints: joints.collect(),
             tool: transform::of(&arm.tool),
+            base: transform::of(&arm.base),
             base_frame: Vector6::zeros(),
             tool_frame: Vector6::zeros(),
             rock: [0.0; 2],

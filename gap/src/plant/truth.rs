@@ -15,7 +15,9 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{Effect, Forms, Parameter, Place, Spot, at_place, cannot_act, did_you_mean};
+use crate::effects::{
+    Effect, Forms, Known, Parameter, Place, Spot, at_place, cannot_act, did_you_mean,
+};
 use crate::measurement::nearest;
 
 /// One effect at one place, with its size.
@@ -70,6 +72,11 @@ impl Truth {
         let truth = Truth { effect, place, values };
         truth.check(arm).map_err(wrong)?;
         Ok(truth)
+    }
+
+    /// What a robot file says.
+    pub(super) fn known(known: &Known, arm: &Arm) -> Truth {
+        Truth { effect: known.effect, place: known.spot.place, values: known.named(arm) }
     }
 
     /// The spots of the effect with the values of all parameters there.

@@ -56,12 +56,22 @@ impl<'a> Actual<'a> {
             load_point: Vector3::zeros(),
             fixed: vec![Vector6::zeros(); Site::count(arm.dof())],
             laws: Vec::new(),
-            base: Isometry3::identity(),
+            base: arm.base,
             metre: 1.0,
             loaded_geometry: 0.0,
             nominal: arm,
             arm: Cow::Borrowed(arm),
         }
+    }
+
+    /// Whether it differs from the arm as the table has it in its joint values alone.
+    pub(crate) fn is_but_for_joints(&self, plain: &Actual<'_>) -> bool {
+        matches!(self.arm, Cow::Borrowed(_))
+            && self.laws.is_empty()
+            && self.fixed == plain.fixed
+            && (self.wrench, self.load_point) == (plain.wrench, plain.load_point)
+            && (self.base, self.metre) == (plain.base, plain.metre)
+            && self.loaded_geometry == plain.loaded_geometry
     }
 
     /// The displacement of a site that does not depend on the load.
@@ -85,11 +95,14 @@ impl<'a> Actual<'a> {
         };
         let along = |x, z| Isometry3::translation(x, 0.0, z);
         let about_z = Isometry3::rotation(Vector3::new(0.0, 0.0, theta));
-        let about_x = Isometry3::rotation(Vector3::new(joint.alpha, 0.0, 0.0));
+        let inclined = Isometry3::rotation(Vector3::new(joint.alpha, 0.0, 0.0))
+            * Isometry3::rotation(Vector3::new(0.0, joint.beta, 0.0));
         let motion = about_z * along(0.0, d);
         match self.arm.convention {
-            Convention::Standard => (Isometry3::identity(), motion * along(joint.a, 0.0) * about_x),
-            Convention::Modified => (about_x * along(joint.a, 0.0), motion),
+            Convention::Standard => {
+                (Isometry3::identity(), motion * along(joint.a, 0.0) * inclined)
+            }
+            Convention::Modified => (inclined * along(joint.a, 0.0), motion),
         }
     }
 

@@ -39,7 +39,7 @@ impl<'a> Link<'a> {
         let previous = row.rotation.inverse();
         let z = previous * Vector3::z();
         let x = match convention {
-            Convention::Standard => Vector3::x(),
+            Convention::Standard => Rotation3::new(-joint.beta * Vector3::y()) * Vector3::x(),
             Convention::Modified => previous * Vector3::x(),
         };
         let across = z - along * along.dot(&z);

@@ -45,7 +45,7 @@ pub fn exact(
             let sim = Sim::of(design.kind, marker, None, |loaded| {
                 let load = if loaded { row.wrench } else { Vector6::zeros() };
                 let mut actual = Actual::new(arm, &row.q, &load);
-                actual.base = base;
+                actual.base = base * arm.base;
                 truths.iter().for_each(|truth| put(truth, &mut actual, row, &when, sign));
                 actual
             })?;

@@ -64,10 +64,18 @@ fn rows_of_the_table_are_off() {
     for convention in BOTH {
         let arm = spatial(convention);
         let mut changed = arm.clone();
-        changed.joints[1].d += 1e-3;
+        changed.joints[0].d += 1e-3;
+        changed.joints[0].a -= 2e-3;
+        changed.joints[0].alpha += 3e-3;
+        let text = "link_geometry@link 1:d=1mm,a=-2mm,alpha=3mrad";
+        let found = one(&arm, &[text], reading(&Q, [0.0; 6]));
+        same_pose(&found, &changed.pose(&Q), ROUNDING);
+        // Between parallel axes a tilt takes the place of d.
+        let mut changed = arm.clone();
         changed.joints[1].a -= 2e-3;
         changed.joints[1].alpha += 3e-3;
-        let text = "link_geometry@link 2:d=1mm,a=-2mm,alpha=3mrad";
+        changed.joints[1].beta -= 4e-3;
+        let text = "link_geometry@link 2:a=-2mm,alpha=3mrad,beta=-4mrad";
         let found = one(&arm, &[text], reading(&Q, [0.0; 6]));
         same_pose(&found, &changed.pose(&Q), ROUNDING);
         let mut changed = arm.clone();

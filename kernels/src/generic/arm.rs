@@ -17,12 +17,14 @@ pub struct Arm {
     pub convention: Convention,
     /// The rows of the table, base to tip.
     pub joints: Vec<Joint>,
+    /// Frame 0 in the world, in whose axes poses, twists and wrenches are told.
+    pub base: Isometry3<f64>,
     /// Tool frame in the last frame.
     pub tool: Isometry3<f64>,
     /// The rotation vector (axis × angle, rad, in the last frame) that [`Arm::tool`] was made from.
     /// Only [`Arm::parameter_jacobian`] reads it: of the vectors of one rotation it says which.
     pub tool_rotation_vector: Vector3<f64>,
-    /// Gravity in base axes, m/s².
+    /// Gravity in the axes of frame 0, m/s².
     pub gravity: Vector3<f64>,
 }
 
@@ -39,6 +41,8 @@ pub struct Joint {
     pub a: f64,
     /// Rotation about x, rad.
     pub alpha: f64,
+    /// Rotation about y behind it, rad: between parallel axes `d` and `alpha` do not say all (Hayati).
+    pub beta: f64,
     /// 1/k of the joint's spring, rad/(N·m), or m/N if it is prismatic; 0 is rigid.
     pub compliance: f64,
     /// Mass of the link that this joint moves, kg.
@@ -54,7 +58,7 @@ pub struct Joint {
 /// A straight elastic beam from the origin of frame i−1 to the origin of frame i.
 ///
 /// Its x axis is that chord. Its z axis is the part of z of frame i−1 perpendicular to the chord;
-/// where the chord is parallel to that axis, its y axis is x of frame i (standard) or of frame i−1
+/// where the chord is parallel to that axis, its y axis is x of frame i before its beta (standard) or of frame i−1
 /// (modified), and z = x × y.
 ///
 /// The beam is an Euler-Bernoulli one, and a Timoshenko one where it has a shear coefficient. On a

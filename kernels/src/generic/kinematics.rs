@@ -44,10 +44,11 @@ fn row_transform(convention: Convention, joint: &Joint, q: f64) -> Isometry3<f64
     let rz = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), theta);
     let tz = Translation3::new(0.0, 0.0, d);
     let tx = Translation3::new(joint.a, 0.0, 0.0);
-    let rx = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), joint.alpha);
+    let inclined = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), joint.alpha)
+        * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), joint.beta);
     match convention {
-        Convention::Standard => rz * tz * tx * rx,
-        Convention::Modified => rx * tx * rz * tz,
+        Convention::Standard => rz * tz * tx * inclined,
+        Convention::Modified => inclined * tx * rz * tz,
     }
 }
 
@@ -58,11 +59,11 @@ pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
 ];
 
 impl Arm {
-    /// Frames 0 to n in the base frame (n + 1 of them; frame 0 is the base itself), m.
+    /// Frames 0 to n in the world (n + 1 of them; frame 0 is the base), m.
     pub fn frames(&self, q: &[f64]) -> Vec<Isometry3<f64>> {
         assert_eq!(q.len(), self.dof(), "as many joint values as the arm has joints");
         let mut frames = Vec::with_capacity(self.dof() + 1);
-        let mut frame = Isometry3::identity();
+        let mut frame = self.base;
         frames.push(frame);
         for (joint, &value) in self.joints.iter().zip(q) {
             frame *= row_transform(self.convention, joint, value);
@@ -71,7 +72,7 @@ impl Arm {
         frames
     }
 
-    /// The tool frame in the base frame, m.
+    /// The tool frame in the world, m.
     pub fn pose(&self, q: &[f64]) -> Isometry3<f64> {
         self.frames(q)[self.dof()] * self.tool
     }

@@ -52,7 +52,9 @@ impl<'a> Link<'a> {
             return None;
         }
         let x = match arm.convention {
-            Convention::Standard => own * Vector3::x(),
+            Convention::Standard => {
+                own * (Rotation3::new(-joint.beta * Vector3::y()) * Vector3::x())
+            }
             Convention::Modified => previous * Vector3::x(),
         };
         let rotation = beam_axes(&chord, &(previous * Vector3::z()), &x);
@@ -124,7 +126,7 @@ impl Arm {
         let at_tool = |link: &Link<'_>| {
             let hanging = weights.iter().filter(|weight| weight.beyond >= link.row);
             let at_tip: Vector6<f64> = hanging.map(|weight| weight.wrench_at(&link.tip)).sum();
-            let twist = link.flexibility() * at_tip + link.sag(&self.gravity);
+            let twist = link.flexibility() * at_tip + link.sag(&self.falling());
             wrench_transport(&tool, &link.tip).tr_mul(&twist)
         };
         self.links(q).iter().map(at_tool).sum()

@@ -17,9 +17,11 @@
 //! * Units are SI (or any one consistent system). A twist is `[dx dy dz drx dry drz]`, a wrench
 //!   `[fx fy fz mx my mz]`; unless it is said otherwise both stand at the tool origin, in base
 //!   axes.
+//! * Base axes are those of the world in which the base stands, [`Arm::base`]; its own where that is
+//!   the identity.
 //! * Frames are numbered 0 (the base) to n. Row i of the table takes frame i−1 to frame i by
-//!   `Rz(theta) Tz(d) Tx(a) Rx(alpha)` in the [standard](Convention::Standard) convention and by
-//!   `Rx(alpha) Tx(a) Rz(theta) Tz(d)` in the [modified](Convention::Modified) one. A revolute
+//!   `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)` in the [standard](Convention::Standard) convention and by
+//!   `Rx(alpha) Ry(beta) Tx(a) Rz(theta) Tz(d)` in the [modified](Convention::Modified) one. A revolute
 //!   joint's value is added to theta, a prismatic one's to d.
 //! * Joint i rotates about, or translates along, z of frame i−1 (standard) or of frame i (modified). Both
 //!   conventions fix link i's mass in frame i, and joints 1..=i move it.

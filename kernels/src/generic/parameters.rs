@@ -1,6 +1,6 @@
 //! How the tool moves with each entry of the table.
 
-use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6xX, UnitQuaternion, Vector3, Vector6};
 
 use super::arm::{Arm, Convention};
 use super::kinematics::origin;
@@ -34,8 +34,9 @@ impl Arm {
     /// origin. Columns: theta, d, a, alpha of row 1, of row 2, ...; the tool's translation x, y, z,
     /// in the last frame's axes; the three entries of [`Arm::tool_rotation_vector`].
     ///
-    /// theta and d turn about and slide along z of frame i−1 (standard) or i (modified); a and
-    /// alpha slide along and turn about x of frame i (standard) or i−1 (modified).
+    /// theta and d turn about and slide along z of frame i−1 (standard) or i (modified). In the standard
+    /// convention a slides along and alpha turns about x of frame i before `Ry(beta)`; in the modified
+    /// one alpha turns about x of frame i−1, and a slides along it behind `Rx(alpha) Ry(beta)`.
     pub fn parameter_jacobian(&self, q: &[f64]) -> Matrix6xX<f64> {
         let frames = self.frames(q);
         let p = self.tool_origin(q);
@@ -47,14 +48,24 @@ impl Arm {
         let mut jacobian = Matrix6xX::zeros(4 * n + 6);
         let mut set = |column: usize, twist: Vector6<f64>| jacobian.set_column(column, &twist);
         for i in 0..n {
-            let (with_z, with_x) = match self.convention {
-                Convention::Standard => (&frames[i], &frames[i + 1]),
-                Convention::Modified => (&frames[i + 1], &frames[i]),
+            let joint = &self.joints[i];
+            let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), joint.beta);
+            let twist = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), joint.alpha);
+            let x = Vector3::x();
+            let (with_z, with_x, along, x) = match self.convention {
+                Convention::Standard => {
+                    let before = frames[i + 1].rotation * tilt.inverse() * x;
+                    (&frames[i], &frames[i + 1], before, before)
+                }
+                Convention::Modified => {
+                    let turned = frames[i].rotation;
+                    (&frames[i + 1], &frames[i], turned * twist * tilt * x, turned * x)
+                }
             };
-            let (z, x) = (with_z * Vector3::z(), with_x * Vector3::x());
+            let z = with_z * Vector3::z();
             set(4 * i, turn(z, origin(with_z)));
             set(4 * i + 1, slide(z));
-            set(4 * i + 2, slide(x));
+            set(4 * i + 2, slide(along));
             set(4 * i + 3, turn(x, origin(with_x)));
         }
         let last = frames[n].rotation;

@@ -39,18 +39,23 @@ pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
 ];
 
 impl Arm {
+    /// Gravity in the world's axes, m/s².
+    pub(super) fn falling(&self) -> Vector3<f64> {
+        self.base.rotation * self.gravity
+    }
+
     /// Every weight of the arm: of link i its mass, fixed in frame i, and its beam.
     pub(super) fn weights(&self, q: &[f64]) -> Vec<Weight> {
         let frames = self.frames(q);
         let masses =
             self.joints.iter().zip(&frames[1..]).enumerate().map(|(k, (joint, frame))| Weight {
-                force: joint.mass * self.gravity,
+                force: joint.mass * self.falling(),
                 centre: origin(frame) + frame.rotation * joint.com,
                 moved_by: k + 1,
                 beyond: k + 1,
             });
         let beams = self.links(q).into_iter().map(|link: Link<'_>| Weight {
-            force: link.length * link.load(&self.gravity),
+            force: link.length * link.load(&self.falling()),
             centre: link.middle(),
             moved_by: match self.convention {
                 Convention::Standard => link.row,

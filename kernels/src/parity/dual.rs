@@ -21,6 +21,10 @@ type Frame<T> = [[T; 4]; 3];
 struct Table<T> {
     /// theta, d, a, alpha, joint values included.
     rows: Vec<[T; 4]>,
+    /// beta of each row.
+    tilts: Vec<T>,
+    /// The base in the world.
+    base: Frame<T>,
     /// Translation and rotation vector.
     tool: [T; 6],
 }
@@ -146,19 +150,23 @@ fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T>
     });
     let (shift, turn) = (arm.tool.translation.vector, arm.tool_rotation_vector);
     let tool = [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z].map(&number);
-    Table { rows: rows.collect(), tool }
+    let tilts = arm.joints.iter().map(|joint| number(joint.beta));
+    let stands = arm.base.to_homogeneous();
+    let base = std::array::from_fn(|r| std::array::from_fn(|c| number(stands[(r, c)])));
+    Table { rows: rows.collect(), tilts: tilts.collect(), base, tool }
 }
 
 /// Frames 1 to n, and the tool's frame after them.
 fn frames<T: Number>(convention: Convention, table: &Table<T>) -> Vec<Frame<T>> {
     let mut frames = Vec::with_capacity(table.rows.len() + 1);
-    let mut frame: Frame<T> = identity();
-    for [theta, d, a, alpha] in &table.rows {
+    let mut frame = table.base;
+    for ([theta, d, a, alpha], beta) in table.rows.iter().zip(&table.tilts) {
         let about_z = along(turn(*theta, [0, 1]), 2, *d);
-        let about_x = along(turn(*alpha, [1, 2]), 0, *a);
+        let inclined = product(&turn(*alpha, [1, 2]), &turn(*beta, [2, 0]));
+        let slid = along(identity(), 0, *a);
         let (first, second) = match convention {
-            Convention::Standard => (about_z, about_x),
-            Convention::Modified => (about_x, about_z),
+            Convention::Standard => (about_z, product(&slid, &inclined)),
+            Convention::Modified => (product(&inclined, &slid), about_z),
         };
         frame = product(&product(&frame, &first), &second);
         frames.push(frame);
@@ -217,9 +225,9 @@ fn exponential<T: Number>(v: [T; 3]) -> Frame<T> {
 
 /// `Σ m g · c`: its slope by a joint value is what the weights do to the joint.
 fn energy<T: Number>(arm: &Arm, frames: &[Frame<T>]) -> T {
-    let g: [f64; 3] = arm.gravity.into();
+    let g: [f64; 3] = (arm.base.rotation * arm.gravity).into();
     let mut energy = T::from(0.0);
-    let mut last = [T::from(0.0); 3];
+    let mut last: [T; 3] = arm.base.translation.vector.map(T::from).into();
     for (joint, frame) in arm.joints.iter().zip(frames) {
         let here = origin(frame);
         let beam = joint.beam.as_ref().filter(|_| joint.motion == Motion::Revolute);

@@ -43,7 +43,16 @@ fn row(arm: &Arm, index: usize) -> Arm {
     let (tool, still) = (Isometry3::identity(), Vector3::zeros());
     let name = String::new();
     let convention = arm.convention;
-    Arm { name, convention, joints: vec![joint], tool, tool_rotation_vector: still, gravity: still }
+    let base = nalgebra::Isometry3::identity();
+    Arm {
+        name,
+        convention,
+        joints: vec![joint],
+        base,
+        tool,
+        tool_rotation_vector: still,
+        gravity: still,
+    }
 }
 
 impl Loaded {

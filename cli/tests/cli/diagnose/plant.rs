@@ -169,14 +169,15 @@ fn unknown_frames_are_fitted_along() {
     assert_eq!(findings(&found), ["joint_compliance at joint 2"]);
     assert_eq!(found["nuisances"][1]["name"], "tool_frame");
 
-    // The tool goes into the robot file, the base does not: it is named again.
+    // Tool and base go into the robot file: nothing is unknown then.
     let better = text(&bench.folder.path("better.toml"));
     bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
     let written = std::fs::read_to_string(&better).expect("written");
-    let (put_in, left_out) = written.split_once("# Found, and not in this file:\n").expect("both");
-    assert!(put_in.contains("#   tool_frame, fitted along: at ["), "{written}");
-    assert!(left_out.starts_with("#   base_frame, fitted along: at ["), "{written}");
-    assert_eq!(findings(&bench.json(&better, &run, &["--nuisance", "base_frame"])), [""; 0]);
+    for frame in ["tool_frame", "base_frame"] {
+        assert!(written.contains(&format!("#   {frame}, fitted along: at [")), "{written}");
+    }
+    assert!(written.contains("\n[base]\n") && written.contains("\n[tool]\n"), "{written}");
+    assert_eq!(findings(&bench.json(&better, &run, &[])), [""; 0]);
 }
 
 #[test]
@@ -191,7 +192,6 @@ fn the_corrected_robot_has_no_gap_left() {
     assert!(written.contains("#   joint_compliance at joint 2: compliance "), "{written}");
     assert!(written.contains(", in stiffness of joint 2\n"), "{written}");
     assert!(written.contains(", in theta of joint 3\n"), "{written}");
-    assert!(written.contains("# Found, and not in this file:\n#   nothing\n"), "{written}");
     // What was not found stays as it was, exact angles and all.
     for kept in ["alpha = \"pi/2\"", "theta = \"-pi/2\"", "stiffness = 400000.0", "\"pi/4\"]"] {
         assert!(written.contains(kept), "{kept} in {written}");
@@ -214,17 +214,25 @@ fn the_corrected_robot_has_no_gap_left() {
 }
 
 #[test]
-fn what_a_robot_file_cannot_hold_stands_at_its_top() {
+fn what_the_table_cannot_hold_is_an_effect() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SLACK], 5, false);
     let better = text(&bench.folder.path("better.toml"));
     bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
     let written = std::fs::read_to_string(&better).expect("written");
-    assert!(written.contains("# Put in, with 95 % intervals:\n#   nothing\n"), "{written}");
-    let left = "#   backlash at joint 3: width ";
-    assert!(written.contains(left), "{written}");
-    assert!(written.contains("], left out: a robot file has no entry for it\n"), "{written}");
-    assert_eq!(findings(&bench.json(&better, &run, &[])), ["backlash at joint 3"]);
+    assert!(written.contains("#   backlash at joint 3: width "), "{written}");
+    assert!(written.contains("], in an [[effect]]\n"), "{written}");
+    // A diagnosis is a robot to every command: the one that it found.
+    let json = text(&bench.folder.path("found.json"));
+    bench.diagnose(&bench.robot, &run, &["--json", &json]);
+    let gap = |robot: &str| bench.json(robot, &run, &[])["gap"].clone();
+    assert_eq!(gap(&json), gap(&better));
+    let none = bench.folder.file("none.json", "{}");
+    let err = stiffarm(&["diagnose", &none, &run]).refused();
+    assert!(err.contains("none.json: found no `corrected`, expected a diagnosis"), "{err}");
+    let effect = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 3\"\nwidth = ";
+    assert!(written.contains(effect), "{written}");
+    assert_eq!(findings(&bench.json(&better, &run, &[])), [""; 0]);
 }
 
 #[test]
@@ -294,7 +302,7 @@ fn what_cannot_be_is_refused_and_nothing_written() {
     refused(&["--check", &marked], "smr");
     let arguments = ["diagnose", &bench.robot, &run, "--json", "-", "--write-robot", "-"];
     let err = stiffarm(&arguments).refused();
-    assert!(err.contains("--json and --write-robot cannot both go to standard output"), "{err}");
+    assert!(err.contains("--write-robot and --json cannot both go to standard output"), "{err}");
     assert_eq!(bench.folder.names(), ["arm.toml", "marked.csv", "run.csv"]);
 }
 

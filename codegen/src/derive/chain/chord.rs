@@ -1,7 +1,7 @@
 //! The straight line between the frames of a row, along which its beam lies.
 
 use super::layout::Chain;
-use super::place::{ROW, Step};
+use super::place::{ROW, Step, tilt};
 use crate::expr::{Expr, Node, Turn, Vec3};
 use crate::number::Number;
 use crate::robot::Convention;
@@ -33,13 +33,15 @@ pub fn chord(chain: &mut Chain, row: usize) -> Chord {
     };
     let y = chain.g.cross3(z, x);
     let previous = chain.z(ROW * row);
-    let (directed, axes) = if a.is_zero() {
+    let tilted =
+        chain.robot.convention == Convention::Modified && !chain.robot.joints[row].beta.is_zero();
+    let (directed, axes) = if tilted || !(a.is_zero() || d.is_zero()) {
+        oblique(chain, row, (a, x), (d, z))
+    } else if a.is_zero() {
         // x is perpendicular to both the chord and, unless they coincide, the previous z.
         (d, [z, x, y])
-    } else if d.is_zero() {
-        (a, [x, chain.g.cross3(previous, x), previous])
     } else {
-        oblique(chain, row, (a, x), (d, z))
+        (a, [x, chain.g.cross3(previous, x), previous])
     };
     let length = magnitude(chain, directed);
     Chord { length, directed, axes, to_end, end }
@@ -55,7 +57,8 @@ fn magnitude(chain: &mut Chain, x: Expr) -> Expr {
     chain.g.sqrt(square)
 }
 
-/// A chord along neither axis: `u = (a x + d z)/L`, `y = previous z × u` normalised, `z = u × y`.
+/// A chord along neither axis, or one that beta tilts: `u = (a x + d z)/L`, `y = previous z × u`
+/// normalised, `z = u × y`.
 fn oblique(
     chain: &mut Chain,
     row: usize,
@@ -63,28 +66,47 @@ fn oblique(
     (d, z): (Expr, Vec3),
 ) -> (Expr, [Vec3; 3]) {
     let previous = chain.z(ROW * row);
-    let twist = match &chain.steps()[ROW * row] {
+    // What lies between the previous frame and the chord: nothing in the standard convention.
+    let of = |step: &Step| match step {
         Step::RotateX(turn) => turn.clone(),
         _ => Turn::ZERO,
     };
+    let [twist, tilt] = match chain.robot.convention {
+        Convention::Standard => [Turn::ZERO, Turn::ZERO],
+        modified => [0, tilt(modified)].map(|offset| of(&chain.steps()[ROW * row + offset])),
+    };
     let g = &mut chain.g;
-    let (aa, dd) = (g.mul(a, a), g.mul(d, d));
-    let square = g.add(aa, dd);
-    let length = g.sqrt(square);
-    let inverse = g.recip(length);
-    let (along_x, along_z) = (g.mul(a, inverse), g.mul(d, inverse));
+    let (length, [along_x, along_z]) = match (a.is_zero(), d.is_zero()) {
+        (true, _) => (d, [Expr::ZERO, Expr::ONE]),
+        (_, true) => (a, [Expr::ONE, Expr::ZERO]),
+        _ => {
+            let (aa, dd) = (g.mul(a, a), g.mul(d, d));
+            let square = g.add(aa, dd);
+            let length = g.sqrt(square);
+            let inverse = g.recip(length);
+            (length, [a, d].map(|part| g.mul(part, inverse)))
+        }
+    };
     let chord = g.combine3(along_x, x, along_z, z);
-    if twist.is_zero() || twist.is_half_turn() {
+    if tilt.is_zero() && (twist.is_zero() || twist.is_half_turn()) {
         // The chord lies in the plane of x and the previous z: nothing to normalise.
         let across = g.cross3(z, x);
         let up = g.combine3(-along_z, x, along_x, z);
         return (length, [chord, across, up]);
     }
-    // The chord's part along the previous z is (d/L) cos alpha, a constant of the row.
+    // The chord's part along the previous z is (d cos beta − a sin beta)/L cos alpha, a constant of
+    // the row.
+    let (sine, cosine) = tilt.sin_cos(g);
+    let (lifted, sunk) = (g.mul(along_z, cosine), g.mul(along_x, sine));
+    let within = g.sub(lifted, sunk);
     let (_, cosine) = twist.sin_cos(g);
-    let along = g.mul(along_z, cosine);
+    let along = g.mul(within, cosine);
     let along_square = g.mul(along, along);
     let rest = g.sub(Expr::ONE, along_square);
+    if rest.is_zero() {
+        let y = chain.axes(ROW * row)[0];
+        return (length, [chord, y, chain.g.cross3(chord, y)]);
+    }
     let root = g.sqrt(rest);
     let norm = g.recip(root);
     let crossed = g.cross3(previous, chord);

@@ -1,12 +1,12 @@
 //! The chain: a table as a sequence of rotations about and translations along z and x, and the axes of
 //! every place along it in the working frame.
 
-use super::place::{Place, ROW, Step, expression, row_steps};
-use super::tool::tool_rotation;
+use super::place::{Place, ROW, Step, entries, expression, row_steps};
+use super::tool::frame_rotation;
 use crate::derive::passes::Passes;
 use crate::expr::{Expr, Graph, Symbol, Turn, Twist, Vec3};
 use crate::number::Number;
-use crate::robot::{Convention, Motion, Robot, Value};
+use crate::robot::{Angle, Convention, Motion, Robot, Value};
 
 /// What is known of an arm whose twists were worked out run by run of parallel joints.
 pub struct ByRun {
@@ -72,8 +72,8 @@ impl<'r> Chain<'r> {
     /// Boundaries at which a working frame may lie: the base, and after every row's rotations.
     pub fn cuts(robot: &Robot) -> Vec<usize> {
         let rotations = match robot.convention {
-            Convention::Standard => [1, 4],
-            Convention::Modified => [1, 3],
+            Convention::Standard => [1, ROW],
+            Convention::Modified => [4, 6],
         };
         let mut cuts = vec![0];
         cuts.extend((0..robot.dof()).flat_map(|row| rotations.map(|t| ROW * row + t)));
@@ -92,13 +92,8 @@ impl<'r> Chain<'r> {
 
     /// Index of the step that joint `row` moves.
     pub fn joint_step(&self, row: usize) -> usize {
-        let offset = match (self.robot.convention, self.robot.joints[row].motion) {
-            (Convention::Standard, Motion::Revolute) => 0,
-            (Convention::Standard, Motion::Prismatic) => 1,
-            (Convention::Modified, Motion::Revolute) => 2,
-            (Convention::Modified, Motion::Prismatic) => 3,
-        };
-        ROW * row + offset
+        let [theta, d, ..] = entries(self.robot.convention);
+        ROW * row + if self.revolute(row) { theta } else { d }
     }
 
     /// Whether joint `row` is revolute.
@@ -144,10 +139,8 @@ impl<'r> Chain<'r> {
 
     /// The two translations of a row: (step of the translation along z, step of the translation along x).
     pub fn row_translations(&self, row: usize) -> (usize, usize) {
-        let first = ROW * row;
-        let z = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::TranslateZ(_)));
-        let x = (first..first + ROW).find(|s| matches!(self.steps[*s], Step::TranslateX(_)));
-        (z.unwrap_or(first), x.unwrap_or(first))
+        let [_, d, a, _] = entries(self.robot.convention);
+        (ROW * row + d, ROW * row + a)
     }
 
     /// Axes of the tool.
@@ -155,18 +148,34 @@ impl<'r> Chain<'r> {
         self.tool
     }
 
-    /// A vector of the working frame in base axes.
+    /// A vector of the working frame in base axes, or in the world's where the base is turned in it.
     pub fn in_base(&mut self, v: Vec3) -> Vec3 {
         let base = self.axes(0);
-        base.map(|axis| self.g.dot3(axis, v))
+        let own = base.map(|axis| self.g.dot3(axis, v));
+        let Some(world) = self.base_axes() else { return own };
+        combined(&mut self.g, own, world)
     }
 
-    /// A vector given in base axes, in the working frame.
+    /// A vector given in these axes, in the working frame.
     pub fn in_frame(&mut self, v: Vec3) -> Vec3 {
+        let own = match self.base_axes() {
+            Some(world) => world.map(|axis| self.g.dot3(axis, v)),
+            None => v,
+        };
+        self.of_base(own)
+    }
+
+    /// The axes of the base in the world; `None` where they are the world's.
+    fn base_axes(&mut self) -> Option<[Vec3; 3]> {
+        let base = &self.robot.base;
+        let turned = !base.rotation.iter().all(Angle::is_zero);
+        turned.then(|| frame_rotation(base).map(|column| column.map(|n| self.g.number(n))))
+    }
+
+    /// A vector given in the base's own axes, in the working frame.
+    pub fn of_base(&mut self, v: Vec3) -> Vec3 {
         let base = self.axes(0);
-        let parts: [Vec3; 3] = core::array::from_fn(|k| self.g.scale3(v[k], base[k]));
-        let sum = self.g.add3(parts[0], parts[1]);
-        self.g.add3(sum, parts[2])
+        combined(&mut self.g, v, base)
     }
 
     /// A cell of the table.
@@ -183,7 +192,7 @@ impl<'r> Chain<'r> {
             let place = self.places[last].after(&mut self.g, &Step::RotateZ(turn));
             return place.carried_out(&mut self.g);
         }
-        let matrix = tool_rotation(&self.robot.tool);
+        let matrix = frame_rotation(&self.robot.tool);
         self.turned(matrix, last)
     }
 
@@ -191,12 +200,8 @@ impl<'r> Chain<'r> {
     pub fn turned(&mut self, matrix: [[Number; 3]; 3], s: usize) -> [Vec3; 3] {
         let frame = self.axes(s);
         matrix.map(|column| {
-            let parts: [Vec3; 3] = core::array::from_fn(|k| {
-                let c = self.g.number(column[k]);
-                self.g.scale3(c, frame[k])
-            });
-            let sum = self.g.add3(parts[0], parts[1]);
-            self.g.add3(sum, parts[2])
+            let column = column.map(|c| self.g.number(c));
+            combined(&mut self.g, column, frame)
         })
     }
 
@@ -209,4 +214,11 @@ impl<'r> Chain<'r> {
             self.g.name3(axis, name);
         }
     }
+}
+
+/// The vector of these components along some axes.
+fn combined(g: &mut Graph, components: Vec3, axes: [Vec3; 3]) -> Vec3 {
+    let parts: [Vec3; 3] = core::array::from_fn(|k| g.scale3(components[k], axes[k]));
+    let sum = g.add3(parts[0], parts[1]);
+    g.add3(sum, parts[2])
 }

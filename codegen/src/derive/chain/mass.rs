@@ -62,7 +62,7 @@ pub fn masses(chain: &mut Chain) -> Vec<Mass> {
 pub fn gravity(chain: &mut Chain) -> Vec3 {
     let components = chain.robot.gravity.clone();
     let base = components.each_ref().map(|c| chain.value(c));
-    let g = chain.in_frame(base);
+    let g = chain.of_base(base);
     chain.g.name3(g, "gw");
     g
 }

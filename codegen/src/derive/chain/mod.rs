@@ -14,8 +14,8 @@ pub use chord::{Chord, beam_mass, chord};
 pub use layout::Chain;
 pub use lever::{Levers, Point};
 pub use mass::{gravity, mass_beyond};
-pub use place::{Place, ROW, Step, expression, row_steps};
-pub use tool::{left_jacobian, tool_rotation};
+pub use place::{Place, ROW, Step, entries, expression, row_steps};
+pub use tool::{frame_rotation, left_jacobian};
 pub use twist::{base_twists, flatten, power, twists, wrench};
 
 use super::passes::Passes;

@@ -1,10 +1,25 @@
 //! The steps of a table and the orientation behind each of them.
 
-use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
-use crate::robot::{Convention, Motion, Robot, Value};
+use num_rational::Ratio;
 
-/// Steps of a row, whatever the convention.
-pub const ROW: usize = 4;
+use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
+use crate::robot::{Angle, Convention, Motion, Robot, Value};
+
+/// Steps of a row, whatever the convention: `Ry(beta)` is three, `Rz(π/2) Rx(beta) Rz(−π/2)`.
+pub const ROW: usize = 7;
+
+/// Which of a row's steps are those of theta, d, a and alpha.
+pub fn entries(convention: Convention) -> [usize; 4] {
+    match convention {
+        Convention::Standard => [0, 1, 2, 3],
+        Convention::Modified => [5, 6, 4, 0],
+    }
+}
+
+/// Which of a row's steps turns by beta.
+pub fn tilt(convention: Convention) -> usize {
+    entries(convention)[3] + 2
+}
 
 /// An elementary transform.
 #[derive(Clone, Debug)]
@@ -90,7 +105,7 @@ pub fn expression(g: &mut Graph, value: &Value) -> Expr {
     }
 }
 
-/// The four steps of a row in the order of its convention.
+/// The steps of a row in the order of its convention.
 pub fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
     let joint = &robot.joints[row];
     let mut theta = Turn::constant(g, &joint.theta);
@@ -104,8 +119,16 @@ pub fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
     }
     let a = Step::TranslateX(expression(g, &joint.a));
     let alpha = Step::RotateX(Turn::constant(g, &joint.alpha));
+    let beta = Turn::constant(g, &joint.beta);
+    let quarter = match joint.beta.is_zero() {
+        true => Turn::ZERO,
+        false => Turn::constant(g, &Angle::Pi(Ratio::new(1, 2))),
+    };
+    let back = Step::RotateZ(quarter.negated());
+    let [turn, about, back] = [Step::RotateZ(quarter), Step::RotateX(beta), back];
+    let (theta, d) = (Step::RotateZ(theta), Step::TranslateZ(d));
     match robot.convention {
-        Convention::Standard => [Step::RotateZ(theta), Step::TranslateZ(d), a, alpha],
-        Convention::Modified => [alpha, a, Step::RotateZ(theta), Step::TranslateZ(d)],
+        Convention::Standard => [theta, d, a, alpha, turn, about, back],
+        Convention::Modified => [alpha, turn, about, back, a, theta, d],
     }
 }

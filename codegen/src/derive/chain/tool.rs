@@ -1,18 +1,18 @@
-//! The tool's constant rotation.
+//! The constant rotations of tool and base.
 
 use crate::number::Number;
-use crate::robot::Tool;
+use crate::robot::Frame;
 
-/// The tool's rotation matrix, columns, from its rotation vector (Rodrigues).
-pub fn tool_rotation(tool: &Tool) -> [[Number; 3]; 3] {
-    let vector = rotation_vector(tool);
+/// A frame's rotation matrix, columns, from its rotation vector (Rodrigues).
+pub fn frame_rotation(frame: &Frame) -> [[Number; 3]; 3] {
+    let vector = rotation_vector(frame);
     let angle = norm(vector);
     series(vector, ratio(angle, 1), ratio(angle, 2))
 }
 
 /// Rotation of the tool per unit of each entry of its rotation vector, columns: the left Jacobian of SO(3)
 /// at the nominal vector.
-pub fn left_jacobian(tool: &Tool) -> [[Number; 3]; 3] {
+pub fn left_jacobian(tool: &Frame) -> [[Number; 3]; 3] {
     let vector = rotation_vector(tool);
     let angle = norm(vector);
     series(vector, ratio(angle, 2), ratio(angle, 3))
@@ -40,9 +40,9 @@ fn norm(v: [f64; 3]) -> f64 {
     libm::sqrt(v.iter().map(|c| c * c).sum())
 }
 
-fn rotation_vector(tool: &Tool) -> [f64; 3] {
-    // The validator lets no symbol stand in a tool's rotation.
-    tool.rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0))
+fn rotation_vector(frame: &Frame) -> [f64; 3] {
+    // The readers let no symbol stand in a frame's rotation.
+    frame.rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0))
 }
 
 /// Columns of `I + first [v]× + second [v]×²`.

@@ -3,7 +3,7 @@
 use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
-use crate::derive::chain::{Chain, Levers, Point, ROW, Step, flatten, left_jacobian};
+use crate::derive::chain::{Chain, Levers, Point, ROW, Step, entries, flatten, left_jacobian};
 use crate::expr::{Expr, Twist, Vec3};
 
 /// The outputs of this file.
@@ -16,20 +16,18 @@ pub(super) const DERIVED: &[(Output, Derivation)] =
 /// A rotation's column is that of a revolute joint at its place, a translation's that of a prismatic one.
 fn parameter_jacobian(chain: &mut Chain) -> Derived {
     let levers = Levers::to_tool(chain);
-    let mut columns = Vec::new();
+    let mut columns: Vec<Twist> = Vec::new();
     for row in 0..chain.dof() {
-        let mut entries: [Twist; 4] = [([Expr::ZERO; 3], [Expr::ZERO; 3]); 4];
-        for s in ROW * row..ROW * (row + 1) {
+        for s in entries(chain.robot.convention).map(|offset| ROW * row + offset) {
             // Rotations about an axis may be taken before or after themselves: the axis is the same.
-            let (entry, axis, revolute) = match chain.steps()[s] {
-                Step::RotateZ(_) => (0, chain.z(s), true),
-                Step::TranslateZ(_) => (1, chain.z(s), false),
-                Step::TranslateX(_) => (2, chain.axes(s)[0], false),
-                Step::RotateX(_) => (3, chain.axes(s)[0], true),
+            let (axis, revolute) = match chain.steps()[s] {
+                Step::RotateZ(_) => (chain.z(s), true),
+                Step::TranslateZ(_) => (chain.z(s), false),
+                Step::TranslateX(_) => (chain.axes(s)[0], false),
+                Step::RotateX(_) => (chain.axes(s)[0], true),
             };
-            entries[entry] = column(chain, &levers, Point::Step(s), axis, revolute);
+            columns.push(column(chain, &levers, Point::Step(s), axis, revolute));
         }
-        columns.extend(entries);
     }
     let last = chain.axes(chain.steps().len());
     columns.extend(last.map(|axis| (axis, [Expr::ZERO; 3])));

@@ -7,7 +7,7 @@ use super::super::constants::Constants;
 use super::RustOptions;
 use crate::emit::lines::Lines;
 use crate::number::Number;
-use crate::robot::{Angle, Convention, Joint, Motion, Robot, Value};
+use crate::robot::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
@@ -53,14 +53,24 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     out.blank();
     out.doc("The Denavit-Hartenberg table that every function of this module was derived from:");
     out.doc(match robot.convention {
-        Convention::Standard => "each row is Rz(theta) Tz(d) Tx(a) Rx(alpha).",
-        Convention::Modified => "each row is Rx(alpha) Tx(a) Rz(theta) Tz(d).",
+        Convention::Standard => "each row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta).",
+        Convention::Modified => "each row is Rx(alpha) Ry(beta) Tx(a) Rz(theta) Tz(d).",
     });
     out.doc("");
-    out.doc("| joint | theta | d | a | alpha | stiffness |");
-    out.doc("|---|---|---|---|---|---|");
+    out.doc("| joint | theta | d | a | alpha | beta | stiffness |");
+    out.doc("|---|---|---|---|---|---|---|");
     for joint in &robot.joints {
         out.doc(&row(joint));
+    }
+    if robot.base != Frame::default() {
+        let list = |cells: [String; 3]| cells.join(", ");
+        let at = list(robot.base.translation.each_ref().map(value));
+        let turned = list(robot.base.rotation.each_ref().map(angle));
+        out.doc("");
+        out.doc(
+            "What is told in base axes below is told in the world's, in which the base stands at",
+        );
+        out.doc(&format!("[{at}] m, turned by the rotation vector [{turned}]."));
     }
     out.code("pub const DH: [DhRow; N] = [");
     out.indent();
@@ -72,12 +82,13 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
         let stiffness = joint.stiffness.as_ref().map_or("rigid".to_string(), value);
         out.code(&format!(
             "DhRow {{ joint: {:?}, motion: Motion::{motion}, theta: {:?}, d: {:?}, a: {:?}, alpha: {:?}, \
-             stiffness: {:?} }},",
+             beta: {:?}, stiffness: {:?} }},",
             joint.name,
             angle(&joint.theta),
             value(&joint.d),
             value(&joint.a),
             angle(&joint.alpha),
+            angle(&joint.beta),
             stiffness,
         ));
     }
@@ -99,8 +110,8 @@ fn row(joint: &Joint) -> String {
         Motion::Prismatic => (theta, with_q(d)),
     };
     let stiffness = joint.stiffness.as_ref().map_or("rigid".to_string(), value);
-    let (a, alpha) = (value(&joint.a), angle(&joint.alpha));
-    format!("| {} | {theta} | {d} | {a} | {alpha} | {stiffness} |", joint.name)
+    let (a, alpha, beta) = (value(&joint.a), angle(&joint.alpha), angle(&joint.beta));
+    format!("| {} | {theta} | {d} | {a} | {alpha} | {beta} | {stiffness} |", joint.name)
 }
 
 /// The structs of symbolic parameters and of what is worked out from them once.

@@ -156,15 +156,18 @@ pub(super) fn values(
     }
 }
 
-/// A marker's place: lengths that must be numbers.
-pub(super) fn known_lengths(cell: &Raw, report: &mut Report<Spot>) -> Vector<Value, Spot> {
-    let reason = "leave the place out where a marker's place is unknown";
+/// Lengths that must be numbers, and why.
+pub(super) fn known_lengths(
+    cell: &Raw,
+    reason: &str,
+    report: &mut Report<Spot>,
+) -> Vector<Value, Spot> {
     values(cell, Dimension::Length, report).map(|cell| known(cell, reason, report))
 }
 
-/// The tool's rotation vector, which must be numbers.
+/// A frame's rotation vector, which must be numbers.
 pub(super) fn rotation(cell: &Raw, report: &mut Report<Spot>) -> Vector<Angle, Spot> {
-    let reason = "the tool's rotation cannot stay symbolic";
+    let reason = "a frame's rotation cannot stay symbolic";
     match list::<3>(cell, "a rotation vector [rx, ry, rz]", report) {
         Some(entries) => entries.each_ref().map(|e| known(angle(e, report), reason, report)),
         None => broken(&cell.at),

@@ -6,15 +6,15 @@ use syn::parse::Parser;
 use syn::{Ident, LitStr, Path};
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, Draft, DraftJoint, DraftMarker, Vector};
-use super::super::model::{Angle, Convention, Output, Value};
+use super::super::draft::{Cell, Draft, DraftFrame, DraftJoint, DraftMarker, Vector};
+use super::super::model::{Convention, Output, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::{advice, closest};
 use super::cells::{Raw, known_lengths, rotation, split, values};
 use super::spot::{Spot, is_sign, is_word};
 
-const KEYS: [&str; 8] =
-    ["name", "convention", "gravity", "tool", "marker", "outputs", "products", "crate"];
+const KEYS: [&str; 9] =
+    ["name", "convention", "gravity", "base", "tool", "marker", "outputs", "products", "crate"];
 
 const CONVENTIONS: [(&str, Convention); 4] = [
     ("standard_dh", Convention::Standard),
@@ -30,8 +30,8 @@ pub(super) struct Settings {
     name: Option<Cell<String, Spot>>,
     convention: Option<Cell<Convention, Spot>>,
     gravity: Option<Vector<Value, Spot>>,
-    translation: Option<Vector<Value, Spot>>,
-    rotation: Option<Vector<Angle, Spot>>,
+    base: DraftFrame<Spot>,
+    tool: DraftFrame<Spot>,
     markers: Vec<DraftMarker<Spot>>,
     /// What is to be generated; every output if there are none.
     pub outputs: Vec<Output>,
@@ -115,49 +115,20 @@ impl Settings {
             "name" => self.name = Some(string(&cell, report)),
             "convention" => self.convention = Some(convention(&cell, report)),
             "gravity" => self.gravity = Some(values(&cell, Dimension::Acceleration, report)),
-            "tool" => self.tool(&cell, report),
+            "base" => {
+                self.base = frame(&cell, report, |cell, report| {
+                    let reason = "where the base stands cannot stay symbolic";
+                    known_lengths(cell, reason, report)
+                })
+            }
+            "tool" => {
+                self.tool =
+                    frame(&cell, report, |cell, report| values(cell, Dimension::Length, report))
+            }
             "marker" => self.markers.extend(marker(&cell, report)),
             "outputs" => self.outputs = outputs(&cell, report),
             "products" => self.fused = fused(&cell, report),
             _ => self.kernels = path(&cell, report),
-        }
-    }
-
-    /// `translation [x, y, z] rotation [rx, ry, rz]`, either part and in either order.
-    fn tool(&mut self, cell: &Raw, report: &mut Report<Spot>) {
-        let expected = "`translation [x, y, z]` or `rotation [rx, ry, rz]` is expected here";
-        if cell.tokens.is_empty() {
-            report.error(Problem::new(cell.at, expected));
-        }
-        let mut rest = cell.tokens.as_slice();
-        while let Some((word, after)) = rest.split_first() {
-            let part = match after.first() {
-                Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Bracket => {
-                    Raw::new(after[..1].to_vec(), cell.at)
-                }
-                _ => return report.error(Problem::new(Spot::new(word.span()), expected)),
-            };
-            if is_word(word, "translation") && self.translation.is_none() {
-                self.translation = Some(values(&part, Dimension::Length, report));
-            } else if is_word(word, "rotation") && self.rotation.is_none() {
-                self.rotation = Some(rotation(&part, report));
-            } else {
-                let problem = Problem::new(Spot::new(word.span()), expected);
-                let parts = ["translation", "rotation"];
-                let help = closest(&word.to_string(), parts);
-                return report.error(match help {
-                    Some(near) if is_word(word, near) => problem.help("each part stands once"),
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
-                    None => problem,
-                });
-            }
-            rest = &after[1..];
-            if let Some((comma, after)) = rest.split_first().filter(|(t, _)| is_sign(t, ',')) {
-                rest = after;
-                if rest.is_empty() {
-                    report.error(Problem::new(Spot::new(comma.span()), expected));
-                }
-            }
         }
     }
 
@@ -189,12 +160,62 @@ impl Settings {
             convention: self.convention,
             gravity: self.gravity,
             joints,
-            translation: self.translation,
-            rotation: self.rotation,
+            base: self.base,
+            tool: self.tool,
             markers: self.markers,
+            effects: Vec::new(),
+            payloads: Vec::new(),
             outputs: self.outputs,
         }
     }
+}
+
+/// `translation [x, y, z] rotation [rx, ry, rz]`, either part and in either order.
+fn frame(
+    cell: &Raw,
+    report: &mut Report<Spot>,
+    lengths: impl Fn(&Raw, &mut Report<Spot>) -> Vector<Value, Spot>,
+) -> DraftFrame<Spot> {
+    let mut found = DraftFrame::default();
+    let expected = "`translation [x, y, z]` or `rotation [rx, ry, rz]` is expected here";
+    if cell.tokens.is_empty() {
+        report.error(Problem::new(cell.at, expected));
+    }
+    let mut rest = cell.tokens.as_slice();
+    while let Some((word, after)) = rest.split_first() {
+        let part = match after.first() {
+            Some(TokenTree::Group(g)) if g.delimiter() == Delimiter::Bracket => {
+                Raw::new(after[..1].to_vec(), cell.at)
+            }
+            _ => {
+                report.error(Problem::new(Spot::new(word.span()), expected));
+                return found;
+            }
+        };
+        if is_word(word, "translation") && found.translation.is_none() {
+            found.translation = Some(lengths(&part, report));
+        } else if is_word(word, "rotation") && found.rotation.is_none() {
+            found.rotation = Some(rotation(&part, report));
+        } else {
+            let problem = Problem::new(Spot::new(word.span()), expected);
+            let parts = ["translation", "rotation"];
+            let help = closest(&word.to_string(), parts);
+            report.error(match help {
+                Some(near) if is_word(word, near) => problem.help("each part stands once"),
+                Some(near) => problem.help(format!("did you mean `{near}`?")),
+                None => problem,
+            });
+            return found;
+        }
+        rest = &after[1..];
+        if let Some((comma, after)) = rest.split_first().filter(|(t, _)| is_sign(t, ',')) {
+            rest = after;
+            if rest.is_empty() {
+                report.error(Problem::new(Spot::new(comma.span()), expected));
+            }
+        }
+    }
+    found
 }
 
 /// A string in quotes.
@@ -236,7 +257,10 @@ fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
     };
     let translation = match rest {
         [] => None,
-        _ => Some(known_lengths(&Raw::new(rest.to_vec(), cell.at), report)),
+        _ => {
+            let reason = "leave the place out where a marker's place is unknown";
+            Some(known_lengths(&Raw::new(rest.to_vec(), cell.at), reason, report))
+        }
     };
     Some(DraftMarker { name, translation })
 }

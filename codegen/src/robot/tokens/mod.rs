@@ -7,6 +7,7 @@
 //! name: "KUKA KR 240-2";                // optional; the module's name if absent
 //! convention: modified_dh;              // or standard_dh
 //! gravity: [0, 0, -9.80665];            // optional
+//! base: translation [1, 0, 0] rotation [0, 0, pi/2];           // optional, either part
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
 //! outputs: pose, jacobian;              // optional: what is generated, every output if absent
@@ -17,7 +18,7 @@
 //! a2    | q + t2 | 0      | 350 mm | 90 deg | k2            | m2   | [c2, 0, 0]     | [-2, 2]
 //! ```
 //!
-//! Columns after `joint` may stand in any order. `theta`, `d`, `a`, `alpha` are 0 where a column or
+//! Columns after `joint` may stand in any order. `theta`, `d`, `a`, `alpha`, `beta` are 0 where a column or
 //! cell (`-`) is absent; `stiffness`, `mass`, `com`, `limits`, `beam`, `source` are then not given.
 //! A stiffness that is not given may also be written `rigid`.
 //!

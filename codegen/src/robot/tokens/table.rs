@@ -15,8 +15,20 @@ use super::spot::{Spot, is_sign, is_word, words};
 use super::{beam, header, rows};
 
 /// The columns that a table may have.
-pub(super) const COLUMNS: [&str; 11] =
-    ["joint", "theta", "d", "a", "alpha", "stiffness", "mass", "com", "limits", "beam", "source"];
+pub(super) const COLUMNS: [&str; 12] = [
+    "joint",
+    "theta",
+    "d",
+    "a",
+    "alpha",
+    "beta",
+    "stiffness",
+    "mass",
+    "com",
+    "limits",
+    "beam",
+    "source",
+];
 const HEADER_HELP: &str = "for example `joint | theta | d | a | alpha | stiffness`";
 
 /// Reads the table; `at` is the place to blame if there is none.
@@ -181,6 +193,7 @@ impl Row<'_> {
             }),
             a: self.get("a").map(|cell| value(cell, Dimension::Length, report)),
             alpha: self.get("alpha").map(|cell| angle(cell, report)),
+            beta: self.get("beta").map(|cell| angle(cell, report)),
             stiffness,
             mass: self.get("mass").map(|cell| value(cell, Dimension::Mass, report)),
             com: self.get("com").map(|c| (c.at, values(c, Dimension::Length, report))),

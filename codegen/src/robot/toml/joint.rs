@@ -19,6 +19,7 @@ const KEYS: &[&str] = &[
     "d",
     "a",
     "alpha",
+    "beta",
     "stiffness",
     "mass",
     "com",
@@ -58,6 +59,7 @@ fn read(reader: &mut Reader<'_>, fields: &Fields<'_, '_>) -> DraftJoint<Range<us
         d: fields.get("d").map(|v| reader.value(v, length)),
         a: fields.get("a").map(|v| reader.value(v, length)),
         alpha: fields.get("alpha").map(|v| reader.angle(v)),
+        beta: fields.get("beta").map(|v| reader.angle(v)),
         // What these measure depends on a type that is not known: they are left unread. A rigid joint
         // may say so instead of leaving its stiffness out.
         stiffness: fields.get("stiffness").filter(|v| v.as_ref().as_str() != Some("rigid")).map(

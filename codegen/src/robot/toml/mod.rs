@@ -1,6 +1,7 @@
 //! The robot file: TOML, read with the place of every value so that each mistake can be pointed at.
 
 mod beam;
+mod effect;
 mod fields;
 mod joint;
 mod reader;
@@ -14,14 +15,25 @@ use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue, Error};
 
 use super::diagnostic::{FileError, Located, Warning};
-use super::draft::{Draft, DraftMarker};
-use super::model::{Convention, Robot};
+use super::draft::{Cell, Draft, DraftFrame, DraftMarker, DraftPayload};
+use super::model::{Convention, Effect, Robot};
 use super::problem::{Problem, Report};
 use super::validate::validate;
 use fields::Fields;
 use reader::Reader;
 
-const KEYS: &[&str] = &["name", "convention", "gravity", "joint", "tool", "marker", "outputs"];
+const KEYS: &[&str] = &[
+    "name",
+    "convention",
+    "gravity",
+    "joint",
+    "base",
+    "tool",
+    "marker",
+    "effect",
+    "payload",
+    "outputs",
+];
 
 impl Robot {
     /// Reads a robot file. `path` is only used in messages.
@@ -43,6 +55,26 @@ impl Robot {
                 Ok((robot, Located::all(path, text, report.warnings)))
             }
             _ => Err(FileError::new(path, text, report)),
+        }
+    }
+
+    /// The same for kernels, which are made of the table alone: an `[[effect]]` is a mistake.
+    ///
+    /// # Errors
+    /// Every mistake in the file, else every effect in it.
+    pub fn table_from_toml(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
+        let (robot, warnings) = Robot::from_toml(text, path)?;
+        let mut report = Report::new();
+        for Effect { at, id, place, .. } in &robot.effects {
+            let (id, place) = (id.value.replace('_', " "), &place.value);
+            let message =
+                format!("kernels do not honour the {id} at {place}: they are of the table");
+            let help = "take the [[effect]] out of a copy of the file to go on without it";
+            report.error(Problem::new(at.span.clone(), message).help(help));
+        }
+        match report.errors.is_empty() {
+            true => Ok((robot, warnings)),
+            false => Err(FileError::new(path, text, report)),
         }
     }
 }
@@ -79,10 +111,6 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
         let problem = Problem::new(fields.at(), "a robot has at least one joint");
         reader.report.error(problem.help("write one [[joint]] table per row, base to tip"));
     }
-    let (translation, rotation) = match fields.get("tool") {
-        Some(value) => tool(reader, value),
-        None => (None, None),
-    };
     Draft {
         name: fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v)),
         convention: fields
@@ -90,9 +118,11 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
             .map(|v| reader.choice(v, &CONVENTIONS)),
         gravity: fields.get("gravity").map(|v| reader.values(v, super::Dimension::Acceleration)),
         joints: joints.unwrap_or_default(),
-        translation,
-        rotation,
+        base: frame(reader, &fields, "base", "[base]"),
+        tool: frame(reader, &fields, "tool", "[tool]"),
         markers: fields.get("marker").map(|v| markers(reader, v)).unwrap_or_default(),
+        effects: fields.get("effect").map(|v| effect::read_all(reader, v)).unwrap_or_default(),
+        payloads: fields.get("payload").map(|v| payloads(reader, v)).unwrap_or_default(),
         outputs: fields.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default(),
     }
 }
@@ -100,16 +130,24 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
 const CONVENTIONS: [(&str, Convention); 2] =
     [("standard", Convention::Standard), ("modified", Convention::Modified)];
 
-type Vectors = (
-    Option<super::draft::Vector<super::Value, Range<usize>>>,
-    Option<super::draft::Vector<super::Angle, Range<usize>>>,
-);
-
-fn tool(reader: &mut Reader<'_>, value: &Spanned<DeValue<'_>>) -> Vectors {
+fn frame(
+    reader: &mut Reader<'_>,
+    robot: &Fields<'_, '_>,
+    name: &str,
+    what: &'static str,
+) -> DraftFrame<Range<usize>> {
+    let value = robot.get(name);
     let keys = &["translation", "rotation"];
-    let Some(fields) = Fields::of(reader, value, "[tool]", keys) else { return (None, None) };
-    let translation = fields.get("translation").map(|v| reader.values(v, super::Dimension::Length));
-    (translation, fields.get("rotation").map(|v| reader.rotation(v)))
+    let Some(fields) = value.and_then(|value| Fields::of(reader, value, what, keys)) else {
+        return DraftFrame::default();
+    };
+    let lengths = fields.get("translation");
+    // The world is no part of the arm: where it stands is known when the code is made.
+    let translation = lengths.map(|v| match name {
+        "base" => reader.known_lengths(v, "where the base stands cannot stay symbolic"),
+        _ => reader.values(v, super::Dimension::Length),
+    });
+    DraftFrame { translation, rotation: fields.get("rotation").map(|v| reader.rotation(v)) }
 }
 
 fn markers(
@@ -120,11 +158,35 @@ fn markers(
     for value in reader.tables(value, "marker") {
         let keys = &["name", "translation"];
         let Some(fields) = Fields::of(reader, value, "[[marker]]", keys) else { continue };
-        let translation = fields.get("translation").map(|v| reader.known_lengths(v));
+        let translation = fields.get("translation").map(|v| {
+            reader.known_lengths(v, "leave `translation` out where a marker's place is unknown")
+        });
         let name = fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v));
         if let Some(name) = name {
             found.push(DraftMarker { name, translation });
         }
+    }
+    found
+}
+
+fn payloads(
+    reader: &mut Reader<'_>,
+    value: &Spanned<DeValue<'_>>,
+) -> Vec<DraftPayload<Range<usize>>> {
+    let mut found = Vec::new();
+    for value in reader.tables(value, "payload") {
+        let keys = &["name", "mass", "com"];
+        let Some(fields) = Fields::of(reader, value, "[[payload]]", keys) else { continue };
+        let name = fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v));
+        let reason = "a payload is weighed, not chosen: write its mass";
+        let mass = fields.required(reader, "mass", "write mass = 5.0");
+        let mass = mass.map(|v| reader.number(v, super::Dimension::Mass, reason));
+        let com = fields.get("com").map(|v| reader.known_lengths(v, "write its place"));
+        found.push(DraftPayload {
+            name: name.unwrap_or_else(|| Cell::broken(fields.at())),
+            mass: mass.unwrap_or_else(|| Cell::broken(fields.at())),
+            com,
+        });
     }
     found
 }

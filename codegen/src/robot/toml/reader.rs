@@ -8,7 +8,7 @@ use ::toml::de::{DeArray, DeValue};
 use super::super::dimension::Dimension;
 use super::super::draft::{Cell, Vector, broken};
 use super::super::lexeme::{Lexeme, lex};
-use super::super::model::{Angle, Motion, Output, Value};
+use super::super::model::{Angle, Motion, Output, Spot, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::advice;
 use super::super::symbols::Symbolic;
@@ -40,6 +40,12 @@ impl<'a> Reader<'a> {
     /// A reader of this text.
     pub fn new(text: &'a str) -> Self {
         Reader { text, report: Report::new() }
+    }
+
+    /// The place of some bytes.
+    pub fn spot(&self, span: At) -> Spot {
+        let before = self.text.get(..span.start).unwrap_or_default();
+        Spot { line: before.matches('\n').count() + 1, span }
     }
 
     /// Reports that another kind of value is expected.
@@ -179,10 +185,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Three lengths that must be numbers: a marker's place.
-    pub fn known_lengths(&mut self, value: &Node<'_>) -> Vector<Value, At> {
+    /// Three lengths that must be numbers, and why.
+    pub fn known_lengths(&mut self, value: &Node<'_>, reason: &str) -> Vector<Value, At> {
         let cells = self.values(value, Dimension::Length);
-        let reason = "leave `translation` out where a marker's place is unknown";
         cells.map(|cell| self.known(cell, reason))
     }
 
@@ -191,7 +196,7 @@ impl<'a> Reader<'a> {
         match self.array::<3>(value, "a rotation vector [rx, ry, rz]") {
             Some(entries) => entries.map(|entry| {
                 let cell = self.angle(entry);
-                self.known(cell, "the tool's rotation cannot stay symbolic")
+                self.known(cell, "a frame's rotation cannot stay symbolic")
             }),
             None => broken(&value.span()),
         }

@@ -3,7 +3,9 @@
 use core::fmt::Write as _;
 
 use super::super::decimal;
-use super::super::model::{Angle, Beam, Convention, Joint, Motion, Robot, Tool, Value};
+use super::super::model::{
+    Angle, Beam, Convention, Effect, Frame, Joint, Motion, Quantity, Robot, Value,
+};
 use super::super::pi::spell;
 
 impl Robot {
@@ -32,10 +34,12 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
     for (i, joint) in robot.joints.iter().enumerate() {
         write_joint(text, i, joint)?;
     }
-    if robot.tool != Tool::default() {
-        writeln!(text, "\n[tool]")?;
-        writeln!(text, "translation = {}", list(robot.tool.translation.iter().map(value)))?;
-        writeln!(text, "rotation = {}", list(robot.tool.rotation.iter().map(angle)))?;
+    for (name, frame) in [("base", &robot.base), ("tool", &robot.tool)] {
+        if *frame != Frame::default() {
+            writeln!(text, "\n[{name}]")?;
+            writeln!(text, "translation = {}", list(frame.translation.iter().map(value)))?;
+            writeln!(text, "rotation = {}", list(frame.rotation.iter().map(angle)))?;
+        }
     }
     for marker in &robot.markers {
         writeln!(text, "\n[[marker]]\nname = {}", quoted(&marker.name))?;
@@ -43,7 +47,34 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
             writeln!(text, "translation = {}", list(translation.iter().map(value)))?;
         }
     }
+    robot.effects.iter().try_for_each(|effect| write_effect(text, effect))?;
+    for payload in &robot.payloads {
+        writeln!(text, "\n[[payload]]\nname = {}", quoted(&payload.name))?;
+        writeln!(text, "mass = {}", value(&payload.mass))?;
+        writeln!(text, "com = {}", list(payload.com.iter().map(value)))?;
+    }
     Ok(())
+}
+
+fn write_effect(text: &mut String, effect: &Effect) -> core::fmt::Result {
+    writeln!(text, "\n[[effect]]\nid = {}", quoted(&effect.id.value))?;
+    writeln!(text, "place = {}", quoted(&effect.place.value))?;
+    for number in &effect.numbers {
+        // A whole number is the number of something.
+        let value = match &number.value {
+            Quantity::Si(x) if x.fract() == 0.0 && x.abs() < 1e9 => format!("{x:.0}"),
+            Quantity::Si(x) => format!("{x:?}"),
+            Quantity::Text(text) => quoted(text),
+        };
+        writeln!(text, "{} = {value}", key(&number.key))?;
+    }
+    Ok(())
+}
+
+/// A key as it may stand, in quotes if it must.
+fn key(name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quoted(name) }
 }
 
 fn write_joint(text: &mut String, index: usize, joint: &Joint) -> core::fmt::Result {
@@ -59,6 +90,9 @@ fn write_joint(text: &mut String, index: usize, joint: &Joint) -> core::fmt::Res
     writeln!(text, "d = {}", value(&joint.d))?;
     writeln!(text, "a = {}", value(&joint.a))?;
     writeln!(text, "alpha = {}", angle(&joint.alpha))?;
+    if !joint.beta.is_zero() {
+        writeln!(text, "beta = {}", angle(&joint.beta))?;
+    }
     if let Some(stiffness) = &joint.stiffness {
         writeln!(text, "stiffness = {}", value(stiffness))?;
     }

@@ -4,7 +4,7 @@ use super::angle::{angle, value};
 use super::chain::{Chain, Step};
 use super::geometry::Frame;
 use super::table::Table;
-use crate::robot::{Convention, Joint, Robot, Tool, Value};
+use crate::robot::{Angle, Convention, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
 pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
@@ -18,8 +18,11 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         convention: Convention::Modified,
         gravity: gravity.map(value),
         joints,
-        tool: Tool { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        base: Fixed::default(),
+        tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
         markers: Vec::new(),
+        effects: Vec::new(),
+        payloads: Vec::new(),
         outputs: Vec::new(),
     }
 }
@@ -38,6 +41,7 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         d: length(row.d),
         a: length(row.a),
         alpha: angle(row.alpha),
+        beta: Angle::ZERO,
         stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
         com: com.map(length),

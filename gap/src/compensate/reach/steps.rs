@@ -7,7 +7,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Search, Target};
-use crate::compensate::{Real, Situation};
+use crate::whole::{Situation, Whole};
 
 /// Most steps from one start.
 const MOST_STEPS: usize = 100;
@@ -27,7 +27,7 @@ const AT_LIMIT: f64 = 1e-9;
 
 /// An arm in a situation, and a target.
 pub(super) struct Task<'a> {
-    real: &'a Real<'a>,
+    whole: Whole<'a>,
     situation: &'a Situation,
     pub(super) target: Target,
     translation: f64,
@@ -48,21 +48,21 @@ pub(super) struct Point {
 
 impl<'a> Task<'a> {
     pub(super) fn new(
-        real: &'a Real<'a>,
+        whole: Whole<'a>,
         situation: &'a Situation,
         target: Target,
         search: &Search,
     ) -> Task<'a> {
-        let arm = real.arm;
+        let arm = whole.arm;
         let reach: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
         let length = (reach + arm.tool.translation.vector.norm()) / 2.0;
         let length = if length > 0.0 { length } else { 1.0 };
         let (translation, rotation) = (search.translation, search.rotation);
-        Task { real, situation, target, translation, rotation, length }
+        Task { whole, situation, target, translation, rotation, length }
     }
 
     pub(super) fn arm(&self) -> &'a Arm {
-        self.real.arm
+        self.whole.arm
     }
 
     /// From a tool to the target.
@@ -74,7 +74,7 @@ impl<'a> Task<'a> {
     }
 
     pub(super) fn at(&self, q: Vec<f64>) -> Option<Point> {
-        let (state, base) = self.real.rest(&q, self.situation).ok()?;
+        let (state, base) = self.whole.at(&q, self.situation).ok()?;
         let (tool, mut jacobian) = (base * state.tool, state.jacobian());
         for mut column in jacobian.column_iter_mut() {
             for first in [0, 3] {

@@ -6,11 +6,13 @@ use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Ended, Reached, Search, Target, reach};
-use crate::compensate::{CompensateError, Present, Real, Situation};
+use crate::compensate::CompensateError;
+use crate::effects::Known;
 use crate::measurement::Kind;
 use crate::plant::{Plant, Truth};
 use crate::random::between;
 use crate::simulate::equilibrium;
+use crate::whole::{Situation, Whole};
 
 fn kr240() -> Arm {
     let mut arm = crate::fixture::kr240([0.0; 3]);
@@ -49,8 +51,7 @@ fn the_loaded_arm_stands_at_the_target() {
             let target = target(&arm, &q, &load);
             let search = Search::default();
             let found =
-                reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&near), &search)
-                    .unwrap();
+                reach(&arm, &target, &Situation::under(load), Some(&near), &search).unwrap();
             assert_eq!(found.ended, Ended::Reached, "{found:?}");
             let [p, r] = missed(&arm, &target, &load, &found);
             assert!(p <= 1e-6 && r <= 1e-6, "{p} {r}");
@@ -67,18 +68,13 @@ fn random_starts_find_the_target_too() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let target = target(&arm, &[0.4, 1.2, -1.9, 0.5, 0.8, -0.3], &load);
     let search = Search::default();
-    let found =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap();
+    let found = reach(&arm, &target, &Situation::under(load), None, &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
     let [p, r] = missed(&arm, &target, &load, &found);
     assert!(p <= 1e-6 && r <= 1e-6);
-    assert_eq!(
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap(),
-        found
-    );
+    assert_eq!(reach(&arm, &target, &Situation::under(load), None, &search).unwrap(), found);
     let far = [3.0, 0.1, -4.0, -3.0, -1.0, 3.0];
-    let found =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&far), &search).unwrap();
+    let found = reach(&arm, &target, &Situation::under(load), Some(&far), &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
 }
 
@@ -90,8 +86,7 @@ fn the_gap_without_compensation_is_the_deflection() {
     let ideal = arm.pose(&q);
     let target = Target { position: ideal.translation.vector, rotation: Some(ideal.rotation) };
     let found =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&q), &Search::default())
-            .unwrap();
+        reach(&arm, &target, &Situation::under(load), Some(&q), &Search::default()).unwrap();
     let tool = equilibrium(&arm, &q, &load).unwrap().tool;
     let sag = ideal.translation.vector - tool.translation.vector;
     let without: Vector3<f64> = found.uncompensated.unwrap().fixed_rows::<3>(0).into_owned();
@@ -105,9 +100,7 @@ fn a_position_alone_leaves_the_wrist_free() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let position = Vector3::new(1.6, 0.4, 0.7);
     let target = Target { position, rotation: None };
-    let found =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &Search::default())
-            .unwrap();
+    let found = reach(&arm, &target, &Situation::under(load), None, &Search::default()).unwrap();
     assert_eq!(found.ended, Ended::Reached);
     assert_eq!(found.error.fixed_rows::<3>(3).norm(), 0.0);
     assert!(missed(&arm, &target, &load, &found)[0] <= 1e-6);
@@ -117,9 +110,7 @@ fn a_position_alone_leaves_the_wrist_free() {
 fn what_cannot_be_reached_is_said() {
     let (arm, load) = (kr240(), Vector6::from(LOAD));
     let far = Target { position: Vector3::new(9.0, 0.0, 0.0), rotation: None };
-    let found =
-        reach(&Real::nominal(&arm), &far, &Situation::under(load), None, &Search::default())
-            .unwrap();
+    let found = reach(&arm, &far, &Situation::under(load), None, &Search::default()).unwrap();
     assert!(matches!(&found.ended, Ended::Nearest(_)), "{found:?}");
     // Stretched out toward it: 0.35 + 1.25 + 1.101 + 0.23 m.
     assert!((found.error.fixed_rows::<3>(0).norm() - (9.0 - 2.93)).abs() < 0.02, "{found:?}");
@@ -128,14 +119,10 @@ fn what_cannot_be_reached_is_said() {
     narrow.joints[0].limits = Some([-0.35, 0.35]);
     narrow.joints[1].limits = Some([0.0, 1.0]);
     let aside = Target { position: Vector3::new(0.0, 2.2, 0.3), rotation: None };
-    let found =
-        reach(&Real::nominal(&narrow), &aside, &Situation::under(load), None, &Search::default())
-            .unwrap();
+    let found = reach(&narrow, &aside, &Situation::under(load), None, &Search::default()).unwrap();
     assert!(matches!(&found.ended, Ended::Nearest(joints) if joints.contains(&1)), "{found:?}");
     let crush = Vector6::new(0.0, 0.0, -1e12, 0.0, 0.0, 0.0);
-    let found =
-        reach(&Real::nominal(&arm), &aside, &Situation::under(crush), None, &Search::default())
-            .unwrap();
+    let found = reach(&arm, &aside, &Situation::under(crush), None, &Search::default()).unwrap();
     assert_eq!(found.ended, Ended::Unstable);
 }
 
@@ -145,21 +132,17 @@ fn what_makes_no_sense_is_refused() {
     let target = Target { position: Vector3::x(), rotation: Some(UnitQuaternion::identity()) };
     let search = Search::default();
     let lost = Target { position: Vector3::repeat(f64::NAN), rotation: None };
-    let error =
-        reach(&Real::nominal(&arm), &lost, &Situation::under(load), None, &search).unwrap_err();
+    let error = reach(&arm, &lost, &Situation::under(load), None, &search).unwrap_err();
     assert!(matches!(error, CompensateError::NotFinite { .. }));
     let error =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), Some(&[0.0; 5]), &search)
-            .unwrap_err();
+        reach(&arm, &target, &Situation::under(load), Some(&[0.0; 5]), &search).unwrap_err();
     assert!(matches!(error, CompensateError::JointValues { .. }));
     let strict = Search { translation: 0.0, ..search };
-    let error =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &strict).unwrap_err();
+    let error = reach(&arm, &target, &Situation::under(load), None, &strict).unwrap_err();
     assert!(matches!(error, CompensateError::NotPositive { .. }));
     arm.joints[2].motion = stiffarm_kernels::Motion::Prismatic;
     arm.joints[2].limits = None;
-    let error =
-        reach(&Real::nominal(&arm), &target, &Situation::under(load), None, &search).unwrap_err();
+    let error = reach(&arm, &target, &Situation::under(load), None, &search).unwrap_err();
     assert_eq!(error, CompensateError::Unlimited { joint: 3 });
 }
 
@@ -179,9 +162,15 @@ fn effects_are_compensated() {
     let truths: Vec<Truth> = told.iter().map(|text| Truth::parse(text, &arm).unwrap()).collect();
     let present = |truth: &Truth| {
         let spots = truth.effect.spots(&arm, truth.place, &truth.values);
-        spots.into_iter().map(|(spot, values)| Present { effect: truth.effect, spot, values })
+        spots.into_iter().map(|(spot, values)| Known {
+            effect: truth.effect,
+            spot,
+            values,
+            session: None,
+            at: Default::default(),
+        })
     };
-    let effects: Vec<Present> = truths.iter().flat_map(present).collect();
+    let effects: Vec<Known> = truths.iter().flat_map(present).collect();
     let before = vec![0.1, 1.0, -1.5, 0.0, 0.5, 0.0];
     let situation = Situation {
         load,
@@ -191,8 +180,8 @@ fn effects_are_compensated() {
     };
     let q = [0.4, 1.2, -1.9, 0.5, 0.8, -0.3];
     let target = target(&arm, &q, &load);
-    let real = Real { arm: &arm, effects };
-    let found = reach(&real, &target, &situation, Some(&q), &Search::default()).unwrap();
+    let real = Whole { arm: &arm, known: &effects };
+    let found = reach(real, &target, &situation, Some(&q), &Search::default()).unwrap();
     assert_eq!(found.ended, Ended::Reached);
     assert!(found.uncompensated.unwrap().fixed_rows::<3>(0).norm() > 2e-3);
     let mut rows = [before, found.q].map(|q| crate::fixture::row(&q, load)).to_vec();
@@ -212,7 +201,7 @@ fn effects_are_compensated() {
             1 => at.warming = None,
             _ => at.before = None,
         }
-        let error = reach(&real, &target, &at, Some(&q), &Search::default()).unwrap_err();
+        let error = reach(real, &target, &at, Some(&q), &Search::default()).unwrap_err();
         assert!(error.to_string().contains(missing), "{error}");
     }
 }

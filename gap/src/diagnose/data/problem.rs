@@ -6,9 +6,9 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::progress::Stop;
-use crate::effects::Effect;
+use crate::effects::{Effect, Known};
 use crate::measurement::{Measurements, Row};
-use crate::simulate::{Moment, Reading, moments, simulate};
+use crate::simulate::{Actual, Moment, Reading, Sim, moments};
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
@@ -24,6 +24,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) mask: Vector6<f64>,
     /// The components that are measured.
     pub(crate) measured: Vec<usize>,
+    /// What the robot file says of the arm beyond its table, as far as it is there in this data.
+    pub(crate) known: Vec<Known>,
     /// Frames that are unknown.
     pub(crate) nuisances: Vec<Nuisance>,
     /// The arm's geometry, where it is fitted along.
@@ -74,10 +76,20 @@ impl<'a> Problem<'a> {
                 })
             })
             .collect();
-        let seen = |row: &Row| -> Result<(Reading, f64), DiagnoseError> {
+        let known: Vec<Known> =
+            options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
+        let moments = moments(data);
+        let seen = |(row, when): (&Row, &Moment)| -> Result<(Reading, f64), DiagnoseError> {
             let line = row.line;
-            let sim = simulate(arm, row, data.kind)
-                .map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
+            let [x, y, z] = row.offset.unwrap_or_default();
+            let sim = Sim::of(data.kind, Isometry3::translation(x, y, z), None, |loaded| {
+                let wrench = if loaded { row.wrench } else { Vector6::zeros() };
+                let mut actual = Actual::new(arm, &row.q, &wrench);
+                actual.base = Isometry3::identity();
+                known.iter().for_each(|known| known.alter(&mut actual, row, when));
+                actual
+            });
+            let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
             let tool = sim.loaded.tool.translation.vector;
             let numbers = row.q.iter().chain(sim.loaded.torque.iter()).chain(tool.iter());
             if !numbers.chain(row.measured.iter()).all(|x| x.abs() < LARGEST) {
@@ -87,7 +99,7 @@ impl<'a> Problem<'a> {
         };
         // The first row's error is told, however many rows are worked on at once.
         let all: Vec<Result<(Reading, f64), DiagnoseError>> =
-            data.rows.par_iter().map(seen).collect();
+            data.rows.par_iter().zip(&moments).map(seen).collect();
         let (readings, reaches): (Vec<Reading>, Vec<f64>) =
             all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let reach = reaches.into_iter().fold(0.0, f64::max);
@@ -95,9 +107,10 @@ impl<'a> Problem<'a> {
         Ok(Problem {
             arm,
             data,
-            moments: moments(data),
+            moments,
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
+            known,
             nuisances: options.nuisances.clone(),
             along: options.along().filter(|e| e.excluded(data).is_none()),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),

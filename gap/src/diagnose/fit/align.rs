@@ -25,15 +25,16 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
         model.predict(problem, None)?.sims.iter().map(|sim| sim.reading()).collect();
     let measured: Vec<Reading> =
         problem.data.rows.iter().map(|r| Reading::from_vector(&r.measured)).collect();
+    let mut moved = Isometry3::identity();
     if base {
         let from: Vec<_> = readings.iter().map(|r| r.position).collect();
         let to: Vec<_> = measured.iter().map(|r| r.position).collect();
-        model.instrument = rigid(&from, &to);
+        moved = rigid(&from, &to);
+        model.instrument = moved * model.instrument;
     }
     if tool && orientation {
-        let turn = model.instrument.rotation;
         let left = readings.iter().zip(&measured).map(|(sim, is)| {
-            let left = (turn * sim.rotation).inverse() * is.rotation;
+            let left = (moved.rotation * sim.rotation).inverse() * is.rotation;
             *left.to_rotation_matrix().matrix()
         });
         let mean = nearest_rotation(&left.sum());

@@ -63,7 +63,7 @@ impl Model {
         });
         Self {
             arm: problem.arm.clone(),
-            instrument: Isometry3::identity(),
+            instrument: problem.arm.base,
             markers: vec![Vector3::zeros(); problem.markers.len()],
             found: along.into_iter().collect(),
         }
@@ -80,6 +80,7 @@ impl Model {
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
         actual.base = self.instrument;
+        problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
             found.effect.alter(&mut actual, data, when, found.spot, &found.values);
         }

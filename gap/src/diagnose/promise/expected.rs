@@ -6,7 +6,7 @@ use nalgebra::Vector6;
 use super::explanation::Explanation;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
-use crate::diagnose::options::{DiagnoseError, Options};
+use crate::diagnose::options::DiagnoseError;
 use crate::measurement::{Measurements, Row};
 
 /// The gap to be expected at a posture, measured as the diagnosed data was: root mean squares, m;
@@ -49,8 +49,7 @@ impl Explanation {
     pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
         let row = Row { wrench: *wrench, ..Row::new(0, q.to_vec()) };
         let data = Measurements::new("the posture", self.kind, vec![row]);
-        let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
-        let problem = Problem::new(&self.nominal, &data, &options)?;
+        let problem = Problem::new(&self.nominal, &data, &self.options())?;
         let placed = |model: &Model| {
             let mut model = model.clone();
             model.markers.clear();

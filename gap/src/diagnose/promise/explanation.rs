@@ -9,7 +9,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
-use crate::effects::{Catalogue, Depends, Place};
+use crate::effects::{Catalogue, Depends, Known, file_name};
 use crate::measurement::{Kind, Measurements};
 
 /// A part of the range within which a value beyond it still counts as inside.
@@ -26,21 +26,9 @@ pub struct Explanation {
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
     catalogue: Catalogue,
+    pub(super) known: Vec<Known>,
     covers: Cover,
     pub(super) spread: Spread,
-}
-
-/// An effect that was found, with its values in the order of its parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundEffect {
-    /// Its identifier.
-    pub effect: &'static str,
-    /// Where it acts.
-    pub place: Place,
-    /// Which of its forms.
-    pub form: usize,
-    /// Values, SI.
-    pub values: Vec<f64>,
 }
 
 /// Measured minus predicted on other measurements, rows in their order.
@@ -61,10 +49,11 @@ impl Explanation {
         [before, after]: [Model; 2],
         spread: Spread,
         covers: &Cover,
-        catalogue: &Catalogue,
+        options: &Options,
     ) -> Self {
         let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
+        arm.base = after.instrument;
         Self {
             nominal: problem.arm.clone(),
             arm,
@@ -74,21 +63,35 @@ impl Explanation {
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
             covers: covers.clone(),
-            catalogue: catalogue.clone(),
+            catalogue: options.catalogue.clone(),
+            known: options.known.clone(),
             kind: problem.data.kind,
             spread,
         }
     }
 
-    /// The effects that were found.
-    pub fn found(&self) -> Vec<FoundEffect> {
-        let each = self.after.found.iter().map(|f| FoundEffect {
-            effect: f.effect.identifier(),
-            place: f.spot.place,
-            form: f.spot.form,
+    /// The effects that were found, beyond those that were known.
+    pub fn found(&self) -> Vec<Known> {
+        let session = || file_name(&self.file).to_owned();
+        let each = self.after.found.iter().map(|f| Known {
+            effect: f.effect,
+            spot: f.spot,
             values: f.values.clone(),
+            session: (f.effect.depends() == Depends::Session).then(session),
+            at: Default::default(),
         });
         each.collect()
+    }
+
+    /// The effects that were known: those of the robot file.
+    pub fn known(&self) -> &[Known] {
+        &self.known
+    }
+
+    /// The markers whose place was fitted, and it, in the tool frame, m.
+    pub fn markers(&self) -> impl Iterator<Item = (&str, [f64; 3])> {
+        let places = self.after.markers.iter().map(|at| (*at).into());
+        self.markers.iter().map(String::as_str).zip(places)
     }
 
     /// The effects that were known.
@@ -96,9 +99,15 @@ impl Explanation {
         &self.catalogue
     }
 
-    /// The arm with its tool where the measured frame was fitted, or as the robot file has it.
+    /// The arm with base and tool where they were fitted, or as the robot file has them.
     pub fn arm(&self) -> &Arm {
         &self.arm
+    }
+
+    /// What is known of other rows.
+    pub(super) fn options(&self) -> Options {
+        let (nuisances, known) = (self.nuisances.clone(), self.known.clone());
+        Options { nuisances, known, ..Options::default() }
     }
 
     /// What the models make of measurements of the arm. Frames and markers stay where they were
@@ -108,8 +117,7 @@ impl Explanation {
     /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
     /// never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
-        let options = Options { nuisances: self.nuisances.clone(), ..Options::default() };
-        let problem = Problem::new(&self.nominal, data, &options)?;
+        let problem = Problem::new(&self.nominal, data, &self.options())?;
         let mut places = Vec::with_capacity(problem.markers.len());
         for name in &problem.markers {
             let known = self.markers.iter().position(|known| known == name);

@@ -10,4 +10,4 @@ mod explanation;
 mod spread;
 
 pub use expected::Expected;
-pub use explanation::{Explanation, FoundEffect, Prediction};
+pub use explanation::{Explanation, Prediction};

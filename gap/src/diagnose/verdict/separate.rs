@@ -87,9 +87,11 @@ impl Search<'_, '_> {
         let actual = |with: bool| {
             let mut actual = crate::simulate::Actual::new(&model.arm, &moved.q, &moved.wrench);
             actual.base = model.instrument;
+            let when = &self.problem.moments[row];
+            let known = self.problem.known.iter();
+            known.for_each(|known| known.alter(&mut actual, &moved, when));
             for (index, found) in model.found.iter().enumerate() {
                 if with || !group.contains(&index) {
-                    let when = &self.problem.moments[row];
                     found.effect.alter(&mut actual, &moved, when, found.spot, &found.values);
                 }
             }

@@ -8,9 +8,7 @@ use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::{JointOffset, LinkGeometry};
-use crate::effects::{
-    Effect, Fate, Parameter, ParameterReport, Place, RobotFile, Scene, Spot, Told, joints, links,
-};
+use crate::effects::{Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links};
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -90,21 +88,15 @@ impl Effect for Geometry {
         format!("the table's lengths, twists and zeros are off by up to {}", most.join(" and "))
     }
 
-    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
-        let arm = file.arm();
-        let mut rest = numbers;
-        let mut fates = Vec::new();
-        for (effect, spot) in parts(arm) {
-            let parameters = effect.parameters(arm, spot);
-            let (own, others) = rest.split_at(parameters.len().min(rest.len()));
-            let named = |(own, p): (&ParameterReport, Parameter)| ParameterReport {
-                name: p.name.into_owned(),
-                ..own.clone()
-            };
-            let own: Vec<ParameterReport> = own.iter().zip(parameters).map(named).collect();
-            fates.extend(effect.write(file, spot.place, &own));
+    fn write(&self, file: &mut RobotFile<'_>, _: Spot, v: &[f64]) -> Option<String> {
+        let mut changed = file.clone();
+        let mut rest = v;
+        for (effect, spot) in parts(file.arm()) {
+            let (own, others) = rest.split_at(effect.parameters(file.arm(), spot).len());
+            effect.write(&mut changed, spot, own)?;
             rest = others;
         }
-        fates
+        *file = changed;
+        Some("the rows of the table".to_owned())
     }
 }

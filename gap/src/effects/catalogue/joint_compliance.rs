@@ -8,8 +8,8 @@ use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    Carrier, Curve, Effect, Fate, Group, Over, Parameter, ParameterReport, Place, Quantity,
-    RobotFile, Scene, Spot, Told, joints,
+    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile,
+    Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -74,17 +74,12 @@ impl Effect for JointCompliance {
         Some(Curve { over: Over::Torque, proportional: true, value })
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, |row, number| {
-            let whole = row.nominal.compliance + number.value;
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        file.at_row(spot.place, |row| {
+            let whole = row.nominal.compliance + v[0];
             let gives = whole > RIGID * row.nominal.compliance;
             row.joint.stiffness = gives.then(|| significant(1.0 / whole));
-            Ok("stiffness")
+            Some("stiffness")
         })
     }
 }

@@ -9,8 +9,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    Carrier, Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene,
-    Spot, Told, joints,
+    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -62,18 +61,16 @@ impl Effect for JointOffset {
         format!("the zero of {} is off by {}", told.place, told.sized(told.first()))
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, |row, number| {
-            match row.joint.motion {
-                robot::Motion::Revolute => turn(&mut row.joint.theta, number.value),
-                robot::Motion::Prismatic => shift(&mut row.joint.d, number.value),
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        file.at_row(spot.place, |row| match row.joint.motion {
+            robot::Motion::Revolute => {
+                turn(&mut row.joint.theta, v[0]);
+                Some("theta")
             }
-            Ok(if row.joint.motion == robot::Motion::Revolute { "theta" } else { "d" })
+            robot::Motion::Prismatic => {
+                shift(&mut row.joint.d, v[0]);
+                Some("d")
+            }
         })
     }
 }

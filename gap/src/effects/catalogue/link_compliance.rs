@@ -11,8 +11,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene,
-    Spot, Told,
+    Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
@@ -42,26 +41,19 @@ fn gives(chord: &Vector3<f64>, load: &Vector6<f64>) -> [Vector6<f64>; 2] {
     ]
 }
 
-/// Adds 1/EI in both planes, or 1/GJ, to the row's beam; its area, weight and moduli stay.
-fn soften(row: &mut RobotRow<'_>, number: &ParameterReport) -> Result<&'static str, &'static str> {
-    let (Some(beam), Some(nominal)) = (&mut row.joint.beam, &row.nominal.beam) else {
-        return Err("the file has no beam there");
-    };
-    // The second moment m' with 1/(modulus m') = 1/(modulus m) + value.
-    let softened = |modulus: f64, moment: f64| {
-        let softer = 1.0 / (modulus * moment) + number.value;
+/// Adds 1/EI in both planes and 1/GJ to the row's beam; its area, weight and moduli stay.
+fn soften(row: &mut RobotRow<'_>, v: &[f64]) -> Option<&'static str> {
+    let (beam, nominal) = (row.joint.beam.as_mut()?, row.nominal.beam.as_ref()?);
+    // The second moment m' with 1/(modulus m') = 1/(modulus m) + value; no beam is rigid.
+    let softened = |modulus: f64, moment: f64, value: f64| {
+        let softer = 1.0 / (modulus * moment) + value;
         let bends = softer > RIGID / (modulus * moment);
-        bends.then(|| significant(1.0 / (modulus * softer))).ok_or("no beam is rigid")
+        bends.then(|| significant(1.0 / (modulus * softer)))
     };
-    let section = &mut beam.section;
-    if number.name == "torsion" {
-        section.j = softened(nominal.shear_modulus, nominal.j)?;
-        return Ok("the beam's j");
-    }
-    let iy = softened(nominal.youngs_modulus, nominal.iy)?;
-    let iz = softened(nominal.youngs_modulus, nominal.iz)?;
-    (section.iy, section.iz) = (iy, iz);
-    Ok("the beam's iy and iz")
+    beam.section.iy = softened(nominal.youngs_modulus, nominal.iy, v[0])?;
+    beam.section.iz = softened(nominal.youngs_modulus, nominal.iz, v[0])?;
+    beam.section.j = softened(nominal.shear_modulus, nominal.j, v[1])?;
+    Some("the beam's iy, iz and j")
 }
 
 impl Effect for LinkCompliance {
@@ -116,12 +108,7 @@ impl Effect for LinkCompliance {
         format!("{} bends and twists {} than modelled", told.place, told.by_sign("less", "more"))
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, soften)
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        file.at_row(spot.place, |row| soften(row, v))
     }
 }

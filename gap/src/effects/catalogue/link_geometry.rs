@@ -1,18 +1,18 @@
 //! The DH lengths or twist of the row are off.
 //!
-//! The same at every load, moment and direction. Beside the row's own numbers, `beta` tilts what is
-//! parallel out of its plane (Hayati: between parallel axes `a` and `alpha` alone cannot say so).
+//! The same at every load, moment and direction. Between parallel axes `beta` takes the place of `d`
+//! (Hayati & Mirmirani 1985): it tilts what is parallel out of its plane, which the row's own numbers
+//! cannot say, and a shift along them is the next row's.
 //! Confused with its neighbours along common normals and parallel axes, with the base frame (row 1)
 //! and the tool frame (the last row): only sums of such numbers are seen.
 
-use nalgebra::{Matrix6xX, Vector6};
+use nalgebra::{Matrix6xX, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
 use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told,
-    links,
+    Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -21,19 +21,31 @@ use crate::simulate::{Actual, Moment, Site};
 #[derive(Clone, Copy, Debug)]
 pub struct LinkGeometry;
 
-/// Axes whose twist has a smaller sine are parallel.
-const PARALLEL: f64 = 1e-9;
+/// Consecutive axes whose twist has a smaller sine are parallel or nearly: a shift along the one is
+/// a hundred times better known as the other's.
+const PARALLEL: f64 = 1e-2;
 
 /// What a table may be off by without surprise, m and rad.
 const USUAL: f64 = 3e-3;
 
-/// Whether a row stands between two parallel axes of the arm.
+/// Whether a row stands between two axes of the arm that are parallel or nearly.
 fn is_parallel(arm: &Arm, row: usize) -> bool {
     let between = match arm.convention {
         Convention::Standard => row + 1 < arm.dof(),
         Convention::Modified => row > 0,
     };
     between && arm.joints[row].alpha.sin().abs() < PARALLEL
+}
+
+/// The entries of a row that are told: `d` (`theta` of a prismatic joint), `a`, `alpha`; between
+/// parallel axes `beta`, which takes the place of `d`.
+fn entries(arm: &Arm, row: usize) -> &'static [&'static str] {
+    match (arm.joints[row].motion, is_parallel(arm, row)) {
+        (Motion::Revolute, false) => &["d", "a", "alpha"],
+        (Motion::Revolute, true) => &["a", "alpha", "beta"],
+        (Motion::Prismatic, false) => &["theta", "a", "alpha"],
+        (Motion::Prismatic, true) => &["theta", "a", "alpha", "beta"],
+    }
 }
 
 impl Effect for LinkGeometry {
@@ -45,42 +57,26 @@ impl Effect for LinkGeometry {
         links(arm)
     }
 
-    /// `d` (`theta` of a prismatic joint), `a`, `alpha`, and `beta` between parallel axes.
     fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter> {
-        let first = match arm.joints[spot.row()].motion {
-            Motion::Revolute => Parameter::free("d", Quantity::Length),
-            Motion::Prismatic => Parameter::free("theta", Quantity::Angle),
-        };
-        let mut all = vec![
-            first,
-            Parameter::free("a", Quantity::Length),
-            Parameter::free("alpha", Quantity::Angle),
-        ];
-        if is_parallel(arm, spot.row()) {
-            all.push(Parameter::free("beta", Quantity::Angle));
-        }
-        all.into_iter().map(|p| p.usually(USUAL)).collect()
+        let each = entries(arm, spot.row()).iter().map(|entry| {
+            let is_length = matches!(*entry, "d" | "a");
+            let quantity = if is_length { Quantity::Length } else { Quantity::Angle };
+            Parameter::free(entry, quantity).usually(USUAL)
+        });
+        each.collect()
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
-        let convention = actual.arm.convention;
+        let entries = entries(&actual.arm, spot.row());
         let joint = &mut actual.arm.to_mut().joints[spot.row()];
-        match joint.motion {
-            Motion::Revolute => joint.d += v[0],
-            Motion::Prismatic => joint.theta += v[0],
-        }
-        joint.a += v[1];
-        joint.alpha += v[2];
-        let Some(&beta) = v.get(3) else { return };
-        match convention {
-            Convention::Standard => actual.fixed_at(Site::Link(spot.row()))[4] += beta,
-            // About the origin before the row's `a`, seen from behind it.
-            Convention::Modified => {
-                let (sine, cosine) = beta.sin_cos();
-                let a = actual.arm.joints[spot.row()].a;
-                let shift = Vector6::new(a * (cosine - 1.0), 0.0, -a * sine, 0.0, beta, 0.0);
-                *actual.fixed_at(Site::Joint(spot.row())) += shift;
-            }
+        for (entry, value) in entries.iter().zip(v) {
+            *match *entry {
+                "theta" => &mut joint.theta,
+                "d" => &mut joint.d,
+                "a" => &mut joint.a,
+                "alpha" => &mut joint.alpha,
+                _ => &mut joint.beta,
+            } += value;
         }
     }
 
@@ -88,21 +84,26 @@ impl Effect for LinkGeometry {
         let arm = &scene.actual.arm;
         let joint = &arm.joints[spot.row()];
         let (axis, link) = (Site::Joint(spot.row()), Site::Link(spot.row()));
-        let first = match joint.motion {
-            Motion::Revolute => Vector6::ith(2, 1.0),
-            Motion::Prismatic => Vector6::ith(5, 1.0),
+        let carried = |site, (v, w): (Vector3<f64>, Vector3<f64>)| {
+            scene.state.carry(site, &Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z))
         };
-        let unit = |k: usize| Vector6::ith(k, 1.0);
-        let (site, tilt) = match arm.convention {
-            Convention::Standard => (link, unit(4)),
-            Convention::Modified => (axis, Vector6::new(0.0, 0.0, -joint.a, 0.0, 1.0, 0.0)),
+        let slide = |along: Vector3<f64>| (along, Vector3::zeros());
+        // About an axis of what stands `at` before the site, a turn is a shift there too.
+        let turn = |about: Vector3<f64>, at: Vector3<f64>| (-about.cross(&at), about);
+        let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -joint.beta);
+        let along = tilt * Vector3::x();
+        let (site, length, at) = match arm.convention {
+            Convention::Standard => (link, along, Vector3::zeros()),
+            Convention::Modified => (axis, Vector3::x(), -joint.a * Vector3::x()),
         };
-        let mut columns = vec![scene.state.carry(axis, &first)];
-        columns.extend([unit(0), unit(3)].map(|d| scene.state.carry(site, &d)));
-        if is_parallel(scene.nominal, spot.row()) {
-            columns.push(scene.state.carry(site, &tilt));
-        }
-        Matrix6xX::from_columns(&columns)
+        let each = entries(scene.nominal, spot.row()).iter().map(|entry| match *entry {
+            "theta" => carried(axis, turn(Vector3::z(), Vector3::zeros())),
+            "d" => carried(axis, slide(Vector3::z())),
+            "a" => carried(site, slide(length)),
+            "alpha" => carried(site, turn(along, at)),
+            _ => carried(site, turn(Vector3::y(), at)),
+        });
+        Matrix6xX::from_columns(&each.collect::<Vec<_>>())
     }
 
     fn idle(&self) -> &'static str {
@@ -128,23 +129,19 @@ impl Effect for LinkGeometry {
         format!("the table's row of {} is off by {each}", told.place)
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, |row, number| {
-            let joint = &mut *row.joint;
-            match number.name.as_str() {
-                "theta" => turn(&mut joint.theta, number.value),
-                "d" => shift(&mut joint.d, number.value),
-                "a" => shift(&mut joint.a, number.value),
-                "alpha" => turn(&mut joint.alpha, number.value),
-                _ => return Err("a row of the table has no such angle"),
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        let entries = entries(file.arm(), spot.row());
+        file.at_row(spot.place, |row| {
+            for (entry, value) in entries.iter().zip(v) {
+                match *entry {
+                    "theta" => turn(&mut row.joint.theta, *value),
+                    "d" => shift(&mut row.joint.d, *value),
+                    "a" => shift(&mut row.joint.a, *value),
+                    "alpha" => turn(&mut row.joint.alpha, *value),
+                    _ => turn(&mut row.joint.beta, *value),
+                }
             }
-            let entries = ["theta", "d", "a", "alpha"];
-            Ok(entries.into_iter().find(|entry| number.name == *entry).unwrap_or_default())
+            Some("the lengths and angles")
         })
     }
 }

@@ -4,14 +4,13 @@
 //! compliance of the joints before the link, whose sag it scales, and with the weights of its
 //! neighbours: loads of known size tell compliance from weight.
 
-use nalgebra::{Matrix6xX, Point3, Vector3};
+use nalgebra::{Matrix6xX, Point3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{Convention, Motion, Value};
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{decimals, significant};
 use crate::effects::{
-    Effect, Fate, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene, Spot,
-    Told, links,
+    Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
@@ -34,22 +33,25 @@ fn centre(actual: &Actual<'_>, row: usize) -> Vector3<f64> {
 }
 
 /// Adds mass at the link's centre of mass; at the middle of the chord where the file has none.
-fn weigh(row: &mut RobotRow<'_>, number: &ParameterReport) -> Result<&'static str, &'static str> {
+fn weigh(row: &mut RobotRow<'_>, mass: f64) -> Option<&'static str> {
     let (nominal, joint) = (row.nominal, &mut *row.joint);
-    let whole = nominal.mass + number.value;
+    let whole = nominal.mass + mass;
     if nominal.mass == 0.0 && joint.com.iter().all(Value::is_zero) {
         let (sine, cosine) = nominal.alpha.sin_cos();
         let chord = match (row.convention, joint.motion) {
             (Convention::Standard, Motion::Revolute) => {
-                [nominal.a, nominal.d * sine, nominal.d * cosine]
+                let chord = Vector3::new(nominal.a, nominal.d * sine, nominal.d * cosine);
+                let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), nominal.beta);
+                (tilt.inverse() * chord).into()
             }
             (Convention::Modified, Motion::Revolute) if nominal.a == 0.0 => [0.0, 0.0, nominal.d],
-            _ => return Err("the middle of this link moves in its own frame: give it a com"),
+            // The middle of this link moves in its own frame.
+            _ => return None,
         };
         joint.com = chord.map(|x| decimals(-0.5 * x));
     }
     joint.mass = (whole > 0.0).then(|| significant(whole));
-    Ok("mass")
+    Some("mass")
 }
 
 impl Effect for LinkWeight {
@@ -97,12 +99,7 @@ impl Effect for LinkWeight {
         )
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, weigh)
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        file.at_row(spot.place, |row| weigh(row, v[0]))
     }
 }

@@ -9,8 +9,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    Carrier, Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, SIX,
-    Scene, Spot, Told, displacement,
+    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -60,9 +59,7 @@ impl Effect for ToolFrame {
         format!("the tool is {} off", told.moved())
     }
 
-    fn write(&self, file: &mut RobotFile<'_>, _: Place, numbers: &[ParameterReport]) -> Vec<Fate> {
-        let value = |name| numbers.iter().filter(|p| p.name == name).map(|p| p.value).sum();
-        let moved = Displacement::new(&Vector6::from(SIX.map(value))).transform();
-        file.move_tool(&moved, numbers)
+    fn write(&self, file: &mut RobotFile<'_>, _: Spot, v: &[f64]) -> Option<String> {
+        file.move_tool(&Displacement::new(&Vector6::from_column_slice(v)).transform())
     }
 }

@@ -71,8 +71,11 @@ fn the_arm_warms_up() {
 #[test]
 fn the_file_reads_back() {
     let arm = fixture::springy();
-    let layout =
-        Layout { motions: arm.joints.iter().map(|j| j.motion).collect(), markers: Vec::new() };
+    let layout = Layout {
+        motions: arm.joints.iter().map(|j| j.motion).collect(),
+        readings: true,
+        markers: Vec::new(),
+    };
     let only_dz = [false, false, true, false, true, false];
     let kinds =
         [POSE, Kind::Pose { orientation: false }, Kind::Displacement { components: only_dz }];

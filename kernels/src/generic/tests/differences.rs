@@ -78,13 +78,14 @@ fn complementary_stiffness_is_unsymmetric_by_the_moment_alone() {
 fn potential_energy(arm: &Arm, q: &[f64]) -> f64 {
     let frames = arm.frames(q);
     let origin = |i: usize| frames[i].translation.vector;
+    let gravity = arm.base.rotation * arm.gravity;
     let mut energy = 0.0;
     for (i, joint) in arm.joints.iter().enumerate() {
         let centre = frames[i + 1].transform_point(&joint.com.into()).coords;
-        energy -= joint.mass * arm.gravity.dot(&centre);
+        energy -= joint.mass * gravity.dot(&centre);
         if let Some(beam) = &joint.beam {
             let mass = beam.density * beam.area * (origin(i + 1) - origin(i)).norm();
-            energy -= mass * arm.gravity.dot(&((origin(i) + origin(i + 1)) / 2.0));
+            energy -= mass * gravity.dot(&((origin(i) + origin(i + 1)) / 2.0));
         }
     }
     energy

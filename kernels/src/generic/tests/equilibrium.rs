@@ -103,7 +103,7 @@ fn a_pushed_link_buckles() {
     arm.joints[0].motion = Motion::Revolute;
     (arm.joints[0].a, arm.joints[0].compliance) = (0.5, 1e-3);
     (arm.joints[0].theta, arm.joints[0].mass) = (0.0, 0.0);
-    arm.tool = Isometry3::identity();
+    (arm.base, arm.tool) = (Isometry3::identity(), Isometry3::identity());
     let push = |force: f64| Vector6::new(-force, 1.0, 0.0, 0.0, 0.0, 0.0);
     // δ = τ / (k − f L), k = 1000 N·m/rad, τ = 0.5 N·m.
     let near = arm.deflection(&[0.0], &push(1900.0)).unwrap();

@@ -66,6 +66,7 @@ impl Random {
             } else {
                 self.between(-3.0, 3.0)
             },
+            beta: if self.chance(0.7) { 0.0 } else { self.between(-1.0, 1.0) },
             compliance: if self.chance(0.2) { 0.0 } else { self.between(1e-7, 1e-6) },
             mass: if self.chance(0.3) { 0.0 } else { self.between(1.0, 50.0) },
             com: self.vector(0.3),
@@ -82,6 +83,7 @@ impl Random {
             name: "random".to_string(),
             convention: if self.chance(0.5) { Convention::Standard } else { Convention::Modified },
             joints: (0..count).map(|_| self.joint()).collect(),
+            base: Isometry3::new(self.vector(1.0), self.vector(2.0)),
             tool: Isometry3::new(self.vector(0.5), rotation),
             tool_rotation_vector: rotation,
             gravity: self.vector(9.0),

@@ -3,7 +3,7 @@
 
 use std::vec::Vec;
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::support::cases;
 use crate::Motion;
@@ -31,6 +31,8 @@ fn unit_load(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Vector6<f64> {
     let frames = arm.frames(q);
     let origin = |i: usize| frames[i].translation.vector;
     let tool = arm.pose(q).translation.vector;
+    // The file's gravity is told in the base's axes.
+    let gravity = arm.base.rotation * arm.gravity;
     let mut twist = Vector6::zeros();
     for (i, joint) in arm.joints.iter().enumerate() {
         let Some(beam) = &joint.beam else { continue };
@@ -45,7 +47,9 @@ fn unit_load(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Vector6<f64> {
             across.normalize()
         } else {
             match arm.convention {
-                Convention::Standard => frames[i + 1] * Vector3::x(),
+                Convention::Standard => {
+                    frames[i + 1] * (Rotation3::new(-joint.beta * Vector3::y()) * Vector3::x())
+                }
                 Convention::Modified => frames[i] * Vector3::x(),
             }
         };
@@ -55,10 +59,10 @@ fn unit_load(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Vector6<f64> {
         let mut beyond: Vec<Force> = Vec::new();
         for (k, joint) in arm.joints.iter().enumerate().skip(i) {
             let centre = frames[k + 1].transform_point(&joint.com.into()).coords;
-            beyond.push((joint.mass * arm.gravity, centre));
+            beyond.push((joint.mass * gravity, centre));
             if let (Some(beam), true) = (&joint.beam, k > i) {
                 let mass = beam.density * beam.area * (origin(k + 1) - origin(k)).norm();
-                beyond.push((mass * arm.gravity, (origin(k) + origin(k + 1)) / 2.0));
+                beyond.push((mass * gravity, (origin(k) + origin(k + 1)) / 2.0));
             }
         }
         let (f, m) = (Vector3::new(w[0], w[1], w[2]), Vector3::new(w[3], w[4], w[5]));
@@ -68,10 +72,7 @@ fn unit_load(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Vector6<f64> {
             let point = origin(i) + chord * part;
             let rest = length * (1.0 - part);
             let mut forces = beyond.clone();
-            forces.push((
-                beam.density * beam.area * rest * arm.gravity,
-                (point + origin(i + 1)) / 2.0,
-            ));
+            forces.push((beam.density * beam.area * rest * gravity, (point + origin(i + 1)) / 2.0));
             let [force, moment] = section(&point, &forces, m);
             let (e, g) = (beam.youngs_modulus, beam.shear_modulus);
             let stretch = force.dot(&x) / (e * beam.area);

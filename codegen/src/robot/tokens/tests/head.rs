@@ -189,7 +189,7 @@ fn mistakes_of_the_settings() {
     );
     assert_eq!(
         with("tool: rotation [0, 0, r];"),
-        ["3:23 `r` stands where a number is expected | the tool's rotation cannot stay symbolic"]
+        ["3:23 `r` stands where a number is expected | a frame's rotation cannot stay symbolic"]
     );
     assert_eq!(with("marker: [0, 0, 1];"), ["3:9 `name` or `name [x, y, z]` is expected here"]);
     assert_eq!(

@@ -2,7 +2,7 @@
 
 use num_rational::Ratio;
 
-use super::super::super::{Angle, Convention, Motion, Tool};
+use super::super::super::{Angle, Convention, Frame, Motion, Quantity};
 use super::*;
 
 #[test]
@@ -95,7 +95,7 @@ fn defaults() {
     assert!(joint.d.is_zero() && joint.a.is_zero());
     assert_eq!((&joint.stiffness, &joint.mass, &joint.limits), (&None, &None, &None));
     assert_eq!(robot.gravity, [Value::ZERO, Value::ZERO, number("-9.80665")]);
-    assert_eq!(robot.tool, Tool::default());
+    assert_eq!(robot.tool, Frame::default());
 }
 
 #[test]
@@ -208,9 +208,35 @@ fn sections() {
 fn numbers_survive_writing() {
     let text = format!(
         "{HEAD}{JOINT}a = 0.123456789\nd = 1e-20\ntheta = \"37.3 deg\"\n\
-         stiffness = 1e300\nmass = 69e9\nlimits = [\"-pi/2\", 1.5]\nname = \"a \\\"b\\\" \\n\"\n"
+         stiffness = 1e300\nmass = 69e9\nlimits = [\"-pi/2\", 1.5]\nname = \"a \\\"b\\\" é\"\n"
     );
     let robot = read(&text);
     assert_eq!(read(&robot.to_toml()), robot);
-    assert_eq!(robot.joints[0].name, "a \"b\" \n");
+    assert_eq!(robot.joints[0].name, "a \"b\" é");
+}
+
+const BEYOND: &str = "[base]\ntranslation = [\"1 m\", -0.5, 0]\nrotation = [0, 0, \"pi/2\"]\n\
+    [[effect]]\nid = \"transmission_error\"\nplace = \"joint 1\"\norder = 2\n\
+    cos = \"0.10 mrad\"\nsin = -5e-5\n[[payload]]\nname = \"5kg\"\nmass = 5\ncom = [0, 0, \"60 mm\"]\n";
+
+#[test]
+fn what_lies_beyond_the_table_is_read_and_written() {
+    let robot = read(&format!("{HEAD}{JOINT}beta = \"0.1 deg\"\n{BEYOND}"));
+    assert_eq!(robot.joints[0].beta.radians().unwrap(), 0.1_f64.to_radians());
+    assert_eq!(robot.base.translation, [number("1"), number("-0.5"), Value::ZERO]);
+    let effect = &robot.effects[0];
+    assert_eq!(
+        (effect.id.value.as_str(), effect.place.value.as_str()),
+        ("transmission_error", "joint 1")
+    );
+    let numbers: Vec<_> =
+        effect.numbers.iter().map(|n| (n.key.as_str(), &n.value, n.at.line)).collect();
+    let text = Quantity::Text("0.10 mrad".to_owned());
+    let expected =
+        [("order", &Quantity::Si(2.0), 12), ("cos", &text, 13), ("sin", &Quantity::Si(-5e-5), 14)];
+    assert_eq!(numbers, expected);
+    assert_eq!((robot.payloads[0].name.as_str(), &robot.payloads[0].mass), ("5kg", &number("5")));
+    let written = robot.to_toml();
+    assert_eq!(read(&written), robot, "{written}");
+    assert_eq!(read(&written).to_toml(), written);
 }

@@ -44,7 +44,7 @@ fn unknown_keys_are_one_mistake_each() {
         joint_errors("Alpha = 0\ncolour = \"red\""),
         [
             "5:1 unknown key `Alpha` in [[joint]] | did you mean `alpha`?",
-            "6:1 unknown key `colour` in [[joint]] | known here: type, name, theta, d, a, alpha, \
+            "6:1 unknown key `colour` in [[joint]] | known here: type, name, theta, d, a, alpha, beta, \
              stiffness, mass, com, limits, source, beam"
         ]
     );
@@ -133,7 +133,7 @@ fn what_must_be_a_number() {
         ),
         [
             "5:11 `lo` stands where a number is expected | joint limits are numbers",
-            "7:19 `r` stands where a number is expected | the tool's rotation cannot stay symbolic",
+            "7:19 `r` stands where a number is expected | a frame's rotation cannot stay symbolic",
             "10:22 `z` stands where a number is expected | \
              leave `translation` out where a marker's place is unknown"
         ]
@@ -154,4 +154,58 @@ fn what_is_no_toml() {
     let broken = joint_errors("com = [1, 2\nmass = 3");
     assert_eq!(broken.len(), 1, "{broken:?}");
     assert!(broken[0].starts_with("6:1 this is no TOML: "), "{broken:?}");
+}
+
+#[test]
+fn what_lies_beyond_the_table_is_pointed_at() {
+    let at = |text: &str| errors(&format!("{HEAD}{JOINT}{text}"));
+    assert_eq!(
+        at("[[effect]]\nplace = 2\ncos = [1]\nsin = nan\n"),
+        [
+            "5:1 `id` is missing in [[effect]] | write id = \"backlash\", or another effect of \
+             `docs/gap.md`",
+            "6:9 a number stands where a string is expected | write place = \"joint 2\", \"link 3\", \
+             \"base\", \"tool\", \"arm\"",
+            "7:7 a number in SI units, or a string with a number and its unit, is expected",
+            "8:7 a number in SI units, or a string with a number and its unit, is expected",
+        ]
+    );
+    assert_eq!(at("effect = 1\n").len(), 1);
+    assert_eq!(
+        at("[base]\ntranslation = [\"x\", 0, 0]\n"),
+        ["6:16 `x` stands where a number is expected | where the base stands cannot stay symbolic"]
+    );
+    assert_eq!(
+        at("[[payload]]\nname = \"a\"\nmass = -1\n[[payload]]\nname = \"a\"\n"),
+        [
+            "7:8 the mass is -1.0: it must not be below zero",
+            "8:1 `mass` is missing in [[payload]] | write mass = 5.0",
+            "9:8 two payloads are called `a`",
+        ]
+    );
+}
+
+#[test]
+fn a_text_is_one_line() {
+    let help = "write the text on one line, without it";
+    for (text, line, column) in [
+        ("name = \"a\\nfn b() {}\"\n", 5, 8),
+        ("source = \"a\\u0007\"\n", 5, 10),
+        ("[[marker]]\nname = \"m\\r\"\n", 6, 8),
+        ("[[effect]]\nid = \"a\"\nplace = \"b\\u2028\\n\"\n", 7, 9),
+    ] {
+        let found = errors(&format!("{HEAD}{JOINT}{text}"));
+        let place = format!("{line}:{column} the control character ");
+        assert!(found[0].starts_with(&place) && found[0].ends_with(help), "{found:?}");
+    }
+    assert_eq!(errors(&format!("name = \"a\\nb\"\nconvention = \"standard\"\n{JOINT}")).len(), 1);
+}
+
+#[test]
+fn kernels_are_of_the_table() {
+    let text = format!("{HEAD}{JOINT}[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
+    let error = Robot::table_from_toml(&text, "arm.toml").expect_err("an effect");
+    let place = (error.errors[0].line, error.errors[0].message.as_str());
+    assert_eq!(place, (5, "kernels do not honour the backlash at joint 1: they are of the table"));
+    assert!(Robot::table_from_toml(&format!("{HEAD}{JOINT}"), "arm.toml").is_ok());
 }

@@ -1,0 +1,89 @@
+//! What a robot file says beyond its table, as commands take it: read, honoured, or refused.
+
+use stiffarm_codegen::robot::{Located, Spot};
+use stiffarm_gap::corrected::{FoldError, folded};
+use stiffarm_gap::effects::{Catalogue, Depends, Known};
+use stiffarm_gap::whole::{Situation, Whole};
+use stiffarm_kernels::generic::Arm;
+
+use super::source::Source;
+use crate::terminal::failure::{Failure, Remark};
+
+impl Source {
+    /// Refuses an effect, for a command that does not honour it.
+    ///
+    /// # Errors
+    /// [`Failure`] names the effect where it stands.
+    pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
+        let first = self.known.first();
+        first.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
+    }
+
+    /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
+    ///
+    /// # Errors
+    /// [`Failure`] names the effect where it stands.
+    pub fn refuse_undecided(
+        &self,
+        command: &str,
+        whole: &Whole<'_>,
+        at: &Situation,
+    ) -> Result<(), Failure> {
+        let open = whole.undecided(at);
+        open.map_or(Ok(()), |(known, _)| Err(self.refusal(command, known, lacking(known))))
+    }
+
+    /// The joint values that readings mean: some effects do nothing else than move joints.
+    ///
+    /// # Errors
+    /// [`Failure`] names another effect where it stands.
+    pub fn real_joints(&self, command: &str, arm: &Arm, q: &[f64]) -> Result<Vec<f64>, Failure> {
+        let whole = Whole { arm, known: &self.known };
+        whole.joints(q).map_err(|known| self.refusal(command, known, lacking(known)))
+    }
+
+    fn refusal(&self, command: &str, known: &Known, because: &str) -> Failure {
+        let name = known.effect.identifier().replace('_', " ");
+        let place = known.spot.place;
+        let message =
+            format!("`stiffarm {command}` does not honour the {name} at {place}{because}");
+        let help = "take the [[effect]] out of a copy of the file to go on without it".to_owned();
+        self.mistakes([(&known.at, message, Some(help))])
+    }
+
+    fn mistakes<'m>(
+        &self,
+        each: impl IntoIterator<Item = (&'m Spot, String, Option<String>)>,
+    ) -> Failure {
+        let remark = |(at, message, help)| {
+            let located = Located::at(&self.given, &self.text, at, message, help);
+            Remark::located(&located, &self.text, false)
+        };
+        Failure::File(each.into_iter().map(remark).collect())
+    }
+
+    /// The same with its effects read: those that the table holds are in it then.
+    pub(super) fn understood(self) -> Result<Source, Failure> {
+        if self.robot.effects.is_empty() {
+            return Ok(self);
+        }
+        match folded(&self.robot, &Catalogue::default()) {
+            Ok((robot, known)) => Ok(Source { robot, known, ..self }),
+            Err(FoldError::Robot(error)) => Err(Failure::new(error.to_string())),
+            Err(FoldError::Effects(wrong)) => {
+                Err(self.mistakes(wrong.iter().map(|e| (&e.at, e.message.clone(), e.help.clone()))))
+            }
+        }
+    }
+}
+
+/// What a posture and a load do not say of an effect.
+fn lacking(known: &Known) -> &'static str {
+    match known.effect.depends() {
+        Depends::Posture => "",
+        Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
+        Depends::Temperature => ": no column temperature says how warm the arm is",
+        Depends::LastMove => ": the move before is not known",
+        Depends::Session => ": it belongs to the session of its measurements",
+    }
+}

@@ -1,0 +1,306 @@
+//! What a robot file says beyond its table: every command honours it or refuses it, none leaves it
+//! out in silence.
+
+use crate::support::{Folder, read, stiffarm};
+
+const ARM: &str = "docs/workbench/arm.toml";
+
+/// An effect that shows at every posture.
+const RATIO: &str = "\n[[effect]]\nid = \"joint_ratio\"\nplace = \"joint 2\"\nratio = \"0.5 %\"\n";
+/// One that a posture does not decide.
+const SLACK: &str = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 2\"\nwidth = \"3 mrad\"\n";
+
+const NAMED: &str = "name = ";
+
+/// The command with the robot file as ROBOT, and what it does with an effect.
+enum With {
+    /// Its result is another.
+    Honours(&'static [&'static str]),
+    /// It says so, and where the effect stands.
+    Refuses(&'static [&'static str]),
+    /// It has no robot file.
+    None,
+}
+use With::{Honours, Refuses};
+
+const COMMANDS: [(&str, With); 15] = [
+    ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
+    ("check", Refuses(&["check", "ROBOT", "--count", "10"])),
+    ("robots", With::None),
+    ("import", With::None),
+    ("generate", Refuses(&["generate", "ROBOT", "--emit", "rust"])),
+    (
+        "map",
+        Honours(&[
+            "map",
+            "ROBOT",
+            "--over",
+            "q2,q3",
+            "--of",
+            "condition",
+            "--steps",
+            "3",
+            "--csv",
+            "-",
+        ]),
+    ),
+    ("poses", Refuses(&["poses", "ROBOT", "--count", "2", "--csv", "-"])),
+    ("identify", Refuses(&["identify", "ROBOT", "docs/workbench/run.csv", "--json", "-"])),
+    (
+        "diagnose",
+        Honours(&[
+            "diagnose",
+            "ROBOT",
+            "docs/workbench/check.csv",
+            "--effects",
+            "joint_offset",
+            "--json",
+            "-",
+        ]),
+    ),
+    ("simulate", Honours(&["simulate", "ROBOT", "--poses", "2", "--csv", "-"])),
+    ("withhold", Refuses(&["withhold", "ROBOT", "--cases", "2", "--poses", "6"])),
+    (
+        "compensate",
+        Honours(&[
+            "compensate",
+            "ROBOT",
+            "--targets",
+            "docs/workbench/path.csv",
+            "--out",
+            "-",
+            "--quiet",
+        ]),
+    ),
+    ("papers", With::None),
+    ("completions", With::None),
+    ("man", With::None),
+];
+
+/// The robot file with something behind it.
+fn with(folder: &Folder, name: &str, more: &str) -> String {
+    folder.file(name, read(ARM) + more)
+}
+
+fn run(arguments: &[&str], robot: &str) -> crate::support::Run {
+    let arguments: Vec<&str> =
+        arguments.iter().map(|a| if *a == "ROBOT" { robot } else { a }).collect();
+    stiffarm(&arguments)
+}
+
+#[test]
+fn no_command_leaves_an_effect_out_in_silence() {
+    let help = stiffarm(&["--help"]).good();
+    let listed = help.split("Commands:").nth(1).and_then(|l| l.split("Options:").next());
+    let listed = listed.expect("a list of commands").lines();
+    let listed: Vec<&str> = listed.filter_map(|line| line.split_whitespace().next()).collect();
+    let mut known: Vec<&str> = COMMANDS.iter().map(|(name, _)| *name).chain(["help"]).collect();
+    known.sort_unstable();
+    let mut sorted = listed.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, known, "say what a new command does with an effect");
+    let folder = Folder::new();
+    let plain = with(&folder, "plain.toml", "");
+    let beyond = with(&folder, "beyond.toml", RATIO);
+    let line = read(ARM).lines().count() + 2;
+    for (name, does) in COMMANDS {
+        match does {
+            Honours(arguments) => {
+                let (without, with) = (run(arguments, &plain), run(arguments, &beyond));
+                assert!(with.status < 2 && without.status < 2, "{name}: {}", with.err);
+                assert_ne!(with.out, without.out, "{name}");
+            }
+            Refuses(arguments) => {
+                assert!(run(arguments, &plain).status < 2, "{name}");
+                let err = run(arguments, &beyond).refused();
+                let expected =
+                    format!("`stiffarm {name}` does not honour the joint ratio at joint 2");
+                assert!(err.contains(&expected), "{name}: {err}");
+                assert!(err.contains(&format!("beyond.toml:{line}:")), "{name}: {err}");
+            }
+            With::None => {}
+        }
+    }
+}
+
+/// The same as another robot's table: what an entry holds is in it, wherever the file says so.
+#[test]
+fn what_the_table_holds_is_taken_into_it() {
+    let folder = Folder::new();
+    let offset = "\n[[effect]]\nid = \"joint_offset\"\nplace = \"joint 1\"\noffset = \"2 mrad\"\n";
+    let robot = with(&folder, "offset.toml", offset);
+    let emit = ["generate", "ROBOT", "--emit", "rust"];
+    let text = run(&emit, &robot).good();
+    assert!(text.contains("q + 0.002"), "{text}");
+    assert_ne!(text, run(&emit, ARM).good());
+    let at = |robot: &str, q: &str| -> Vec<f64> {
+        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).good();
+        let out: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        serde_json::from_value(out["position"].clone()).expect("three numbers")
+    };
+    let moved = at(ARM, "0.102,0.2,0.3,0.4,0.5,0.6");
+    for (a, b) in at(&robot, "0.1,0.2,0.3,0.4,0.5,0.6").iter().zip(moved) {
+        assert!((a - b).abs() < 1e-14, "{a} {b}");
+    }
+}
+
+#[test]
+fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
+    let folder = Folder::new();
+    let robot = with(&folder, "slack.toml", SLACK);
+    let at = "0.2,1.2,-0.9,0.3,0.8,-0.4";
+    let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).good();
+    let pose: serde_json::Value = serde_json::from_str(&pose).expect("JSON");
+    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let turn = nalgebra::Matrix3::from_fn(|r, c| number(&pose["rotation"][r][c]));
+    let turn = nalgebra::Rotation3::from_matrix(&turn).scaled_axis();
+    let place = pose["position"].as_array().expect("three numbers").iter().map(number);
+    let goal: Vec<String> = place.chain(turn.iter().copied()).map(|x| x.to_string()).collect();
+    let compensate = |columns: &str, cells: &str| {
+        let goal = goal.join(",");
+        let targets = format!("q1,q2,q3,q4,q5,q6,{columns}x,y,z,rx,ry,rz\n{at},{cells}{goal}\n");
+        let targets = folder.file("targets.csv", targets);
+        stiffarm(&["compensate", &robot, "--targets", &targets, "--out", "-", "--quiet"])
+    };
+    let err = compensate("", "").refused();
+    assert!(err.contains("the backlash at joint 2: no columns s1 … sn say"), "{err}");
+    // From where joint 2 comes to rest: half the play to either side.
+    let [below, above] = ["1,", "-1,"].map(|side| {
+        let out = compensate("s2,", side).good();
+        let row = out.lines().last().expect("a row");
+        assert!(row.ends_with("reached"), "{row}");
+        row.split(',').nth(1).and_then(|cell| cell.parse::<f64>().ok()).expect("a number")
+    });
+    assert!(((below - above).to_radians() - 3e-3).abs() < 2e-6, "{below} {above}");
+}
+
+/// A commanded and compensated tool stands where it should, on the arm that has the effect.
+#[test]
+fn a_compensated_arm_with_an_effect_reaches_its_targets() {
+    let folder = Folder::new();
+    let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.0, 0.0, \"pi/2\"]\n";
+    let robot = with(&folder, "beyond.toml", &format!("{base}{RATIO}"));
+    let start = "q1,q2,q3,q4,q5,q6,x,y,z,rx,ry,rz\n0.2,1.2,-0.9,0.3,0.8,-0.4,0,0,0,0,0,0\n";
+    let start = folder.file("q.csv", start);
+    let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--csv", "-"];
+    let shown = |robot: &str, poses: &str| {
+        let out = stiffarm(&[&["simulate", robot, poses][..], &exact].concat()).good();
+        let last = out.lines().last().expect("a row").to_owned();
+        let header = out.lines().find(|line| line.starts_with("q1")).expect("a header").to_owned();
+        (header, last)
+    };
+    // Where the arm with the effect stands at some set-points is a target that they reach.
+    let (header, row) = shown(&robot, &start);
+    let there = folder.file("there.csv", format!("{header}\n{row}\n"));
+    let out =
+        stiffarm(&["compensate", &robot, "--targets", &there, "--out", "-", "--quiet"]).good();
+    let reached = out.lines().last().expect("a row");
+    assert!(reached.ends_with("reached"), "{out}");
+    let cells: Vec<f64> =
+        reached.split(',').take(6).map(|c| c.parse().expect("a number")).collect();
+    for (found, commanded) in cells.iter().zip([0.2_f64, 1.2, -0.9, 0.3, 0.8, -0.4]) {
+        assert!((found - commanded.to_degrees()).abs() < 1e-5, "{out}");
+    }
+}
+
+#[test]
+fn a_base_stands_somewhere() {
+    let folder = Folder::new();
+    let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.0, 0.0, \"pi/2\"]\n";
+    let robot = with(&folder, "base.toml", base);
+    let eval = |robot: &str| -> serde_json::Value {
+        let wrench = "--wrench=30,0,-100,0,5,0";
+        let q = "0.1,-0.8,0.9,0.4,0.5,0.6";
+        let out = stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).good();
+        serde_json::from_str(&out).expect("JSON")
+    };
+    let (own, world) = (eval(ARM), eval(&robot));
+    let at =
+        |value: &serde_json::Value, key: &str, k: usize| value[key][k].as_f64().expect("a number");
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{a} {b}");
+    // A quarter turn about z takes x to y and y to −x.
+    near(at(&world, "position", 0), 0.5 - at(&own, "position", 1));
+    near(at(&world, "position", 1), -0.25 + at(&own, "position", 0));
+    near(at(&world, "position", 2), 0.1 + at(&own, "position", 2));
+    for k in [0, 3] {
+        near(at(&world, "deflection", k), -at(&own, "deflection", k + 1));
+        near(at(&world, "deflection", k + 1), at(&own, "deflection", k));
+    }
+    // The wrench is told in the base's axes by every command: it loads the joints alike.
+    for k in 0..6 {
+        near(at(&world, "joint_torque", k), at(&own, "joint_torque", k));
+    }
+    stiffarm(&["check", &robot, "--count", "50"]).good();
+}
+
+#[test]
+fn mistakes_of_an_effect_are_shown_at_their_place() {
+    let folder = Folder::new();
+    let line = read(ARM).lines().count() + 2;
+    for (effect, below, message, help) in [
+        (
+            "id = \"backlsh\"\nplace = \"joint 1\"",
+            1,
+            "unknown effect `backlsh`",
+            "did you mean `backlash`?",
+        ),
+        (
+            "id = \"backlash\"\nplace = \"joint 9\"",
+            2,
+            "`joint 9` is no place of backlash",
+            "did you mean",
+        ),
+        (
+            "id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"1 mm\"",
+            3,
+            "`1 mm` is no number",
+            "rad",
+        ),
+        (
+            "id = \"slip\"\nplace = \"base\"\nx = 1e-3",
+            0,
+            "`after` of slip is missing",
+            "write after = 1",
+        ),
+    ] {
+        let robot = with(&folder, "wrong.toml", &format!("\n[[effect]]\n{effect}\n"));
+        for arguments in
+            [&["simulate", &robot, "--csv", "-"][..], &["generate", &robot, "--emit", "rust"]]
+        {
+            let err = stiffarm(arguments).refused();
+            assert!(err.contains(message) && err.contains(help), "{err}");
+            assert!(err.contains(&format!("wrong.toml:{}:", line + below)), "{err}");
+        }
+    }
+}
+
+#[test]
+fn a_name_is_one_line() {
+    let folder = Folder::new();
+    let evil = read(ARM).replacen(NAMED, "name = \"a\\nfn evil() {}\" #", 1);
+    let robot = folder.file("evil.toml", evil);
+    let err = stiffarm(&["generate", &robot, "--emit", "rust"]).refused();
+    assert!(err.contains("the control character '\\n' stands in a text"), "{err}");
+}
+
+/// The same springs of the same arm, wherever it stands.
+#[test]
+fn springs_are_identified_wherever_the_arm_stands() {
+    let folder = Folder::new();
+    let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
+    let springs = |robot: &str| -> Vec<f64> {
+        let run = crate::support::text(&folder.path("run.csv"));
+        let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
+        let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
+        stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();
+        let out = stiffarm(&["identify", robot, &run, "--json", "-"]).good();
+        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let each = found["parameters"].as_array().expect("a list").iter();
+        each.map(|p| p["value"].as_f64().expect("a number")).collect()
+    };
+    let (here, there) = (springs(ARM), springs(&with(&folder, "base.toml", base)));
+    assert!((here[1] * 6.6e6 - 1.66).abs() < 0.01, "{here:?}");
+    for (a, b) in here.iter().zip(&there) {
+        assert!((a / b - 1.0).abs() < 1e-6, "{here:?} {there:?}");
+    }
+}

@@ -1,0 +1,223 @@
+//! What a robot file says of the arm beyond its table: the `[[effect]]` tables as the catalogue
+//! understands them.
+
+use stiffarm_codegen::robot::{self, Effect as Table, Entry, Quantity as Given};
+use stiffarm_kernels::generic::Arm;
+
+use super::{Catalogue, Depends, Effect, Forms, MOST_ORDERS, Parameter, Place, Spot};
+use crate::measurement::{Measurements, Row, nearest};
+use crate::simulate::{Actual, Moment};
+
+/// The key that tells of which measurement file an effect is that belongs to one session.
+const SESSION: &str = "session";
+
+/// An effect that the robot file has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// What reality does.
+    pub effect: &'static dyn Effect,
+    /// Where, and in which form.
+    pub spot: Spot,
+    /// Values of its parameters there, SI.
+    pub values: Vec<f64>,
+    /// The one measurement file that it belongs to, of what happened at a time; `None` is every one.
+    pub session: Option<String>,
+    /// Where it stands in the robot file.
+    pub at: robot::Spot,
+}
+
+/// An `[[effect]]` that says nothing.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("line {}: {message}", at.line)]
+pub struct KnownError {
+    /// What of it.
+    pub at: robot::Spot,
+    /// What was found, and what is expected there.
+    pub message: String,
+    /// How to mend it, where that is known.
+    pub help: Option<String>,
+}
+
+impl KnownError {
+    fn new(at: &robot::Spot, message: String, help: Option<String>) -> KnownError {
+        KnownError { at: at.clone(), message, help }
+    }
+}
+
+/// The nearest of some words, else all of them.
+fn advice<'n>(found: &str, known: impl Iterator<Item = &'n str> + Clone) -> Option<String> {
+    let all = || format!("known here: {}", known.clone().collect::<Vec<_>>().join(", "));
+    Some(nearest(found, known.clone()).map_or_else(all, |near| format!("did you mean `{near}`?")))
+}
+
+impl Known {
+    /// The effects of a robot file whose table is `arm`.
+    ///
+    /// # Errors
+    /// The first mistake of each table.
+    pub fn all(
+        file: &robot::Robot,
+        arm: &Arm,
+        catalogue: &Catalogue,
+    ) -> Result<Vec<Known>, Vec<KnownError>> {
+        let read = file.effects.iter().map(|table| Known::read(table, arm, catalogue));
+        let (known, wrong): (Vec<_>, Vec<_>) = read.partition(Result::is_ok);
+        match wrong.is_empty() {
+            true => Ok(known.into_iter().flatten().collect()),
+            false => Err(wrong.into_iter().filter_map(Result::err).collect()),
+        }
+    }
+
+    fn read(table: &Table, arm: &Arm, catalogue: &Catalogue) -> Result<Known, KnownError> {
+        let id = &table.id.value;
+        let effect = catalogue.named(id).ok_or_else(|| {
+            let help = advice(id, catalogue.identifiers().into_iter());
+            KnownError::new(&table.id.at, format!("unknown effect `{id}`"), help)
+        })?;
+        if effect.is_tolerated() {
+            let help = Some("change the numbers of its [[joint]] rows".to_owned());
+            return Err(KnownError::new(&table.id.at, format!("`{id}` is the table itself"), help));
+        }
+        let place = place(effect, table, arm)?;
+        let forms = effect.forms_are();
+        let form = match forms.key() {
+            Some(key) => form(effect, place, key, table, arm)?,
+            None => 0,
+        };
+        let spot = Spot { place, form };
+        let parameters = effect.parameters(arm, spot);
+        let mut values = vec![0.0; parameters.len()];
+        let mut session = None;
+        for number in table.numbers.iter().filter(|number| forms.key() != Some(&number.key)) {
+            let wrong = |message, help| Err(KnownError::new(&number.at, message, help));
+            if number.key == SESSION && effect.depends() == Depends::Session {
+                match &number.value {
+                    Given::Text(file) => session = Some(file.clone()),
+                    Given::Si(_) => {
+                        let help = Some("write session = \"run1.csv\"".to_owned());
+                        return wrong(
+                            "a number stands where a file's name is expected".into(),
+                            help,
+                        );
+                    }
+                }
+                continue;
+            }
+            let Some(index) = parameters.iter().position(|p| p.key == number.key) else {
+                let help = advice(&number.key, parameters.iter().map(|p| p.key));
+                return wrong(format!("unknown number `{}` of {id} at {place}", number.key), help);
+            };
+            values[index] = value(number, &parameters[index])?;
+        }
+        Ok(Known { effect, spot, values, session, at: table.at.clone() })
+    }
+
+    /// As a table of a robot file. Reading it gives the same effect.
+    pub fn table(&self, arm: &Arm) -> Table {
+        let entry = |key: &str, value| Entry { key: key.to_owned(), value, at: Default::default() };
+        let text =
+            |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
+        let forms = self.effect.forms_are();
+        let counted = if forms == Forms::Joints { self.spot.form + 1 } else { self.spot.form };
+        let form = forms.key().map(|key| entry(key, Given::Si(counted as f64)));
+        let session = self.session.iter().map(|file| entry(SESSION, Given::Text(file.clone())));
+        let parameters = self.effect.parameters(arm, self.spot);
+        let each = parameters.iter().zip(&self.values).filter(|(_, value)| **value != 0.0);
+        let numbers = each.map(|(parameter, value)| entry(parameter.key, Given::Si(*value)));
+        Table {
+            at: Default::default(),
+            id: text("id", self.effect.identifier().to_owned()),
+            place: text("place", self.spot.place.to_string()),
+            numbers: form.into_iter().chain(session).chain(numbers).collect(),
+        }
+    }
+
+    /// Its values by the names in which truths and findings tell them.
+    pub fn named(&self, arm: &Arm) -> Vec<(String, f64)> {
+        let form = self.effect.form_number().map(|p| (p.name.into_owned(), self.spot.form as f64));
+        let parameters = self.effect.parameters(arm, self.spot);
+        let each = parameters.into_iter().map(|p| p.name.into_owned()).zip(self.values.clone());
+        form.into_iter().chain(each).collect()
+    }
+
+    /// Whether it is there when these measurements are made.
+    pub fn is_there(&self, data: &Measurements) -> bool {
+        self.session.as_deref().is_none_or(|session| session == file_name(&data.file))
+    }
+
+    /// Puts it into the arm of a row.
+    pub fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment) {
+        self.effect.alter(actual, row, when, self.spot, &self.values);
+    }
+}
+
+/// The last part of a path.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+fn place(effect: &dyn Effect, table: &Table, arm: &Arm) -> Result<Place, KnownError> {
+    let found = &table.place.value;
+    let places = effect.places(arm);
+    if let Some(place) = found.parse().ok().filter(|place| places.contains(place)) {
+        return Ok(place);
+    }
+    let message = format!("`{found}` is no place of {}", effect.identifier());
+    let names: Vec<String> = places.iter().map(Place::to_string).collect();
+    Err(KnownError::new(&table.place.at, message, advice(found, names.iter().map(String::as_str))))
+}
+
+/// The form that stands beside the numbers, as [`Spot`] counts it.
+fn form(
+    effect: &dyn Effect,
+    place: Place,
+    key: &str,
+    table: &Table,
+    arm: &Arm,
+) -> Result<usize, KnownError> {
+    let forms = effect.forms_are();
+    let joint = |form: &usize| *form < arm.dof() && *form != place.row();
+    let (expected, least, most) = match forms {
+        Forms::Joints => (format!("another joint, 1 to {}", arm.dof()), 1, arm.dof()),
+        Forms::Orders { .. } => (format!("an order of 1 to {MOST_ORDERS}"), 1, MOST_ORDERS),
+        Forms::Rows => ("the row after which it happens".to_owned(), 1, usize::MAX),
+        Forms::One | Forms::Numbers(_) => ("a whole number".to_owned(), 0, usize::MAX),
+    };
+    let entry = table.numbers.iter().find(|number| number.key == key);
+    let whole = |x: &f64| x.fract() == 0.0 && (0.0..1e9).contains(x);
+    let given = entry.and_then(|entry| match &entry.value {
+        Given::Si(x) => Some(*x),
+        Given::Text(text) => text.trim().parse().ok(),
+    });
+    let number = given.filter(whole).map(|x| x as usize);
+    let within = number.filter(|number| (least..=most).contains(number));
+    let form = within.map(|number| if forms == Forms::Joints { number - 1 } else { number });
+    form.filter(|form| forms != Forms::Joints || joint(form)).ok_or_else(|| {
+        let at = entry.map_or(&table.at, |entry| &entry.at);
+        let found = if entry.is_some() { "is not" } else { "is missing:" };
+        let message = format!("`{key}` of {} {found} {expected}", effect.identifier());
+        KnownError::new(at, message, Some(format!("write {key} = {}", least.max(1))))
+    })
+}
+
+fn value(number: &Entry<Given>, parameter: &Parameter) -> Result<f64, KnownError> {
+    let (value, found) = match &number.value {
+        Given::Si(x) => (Some(*x), x.to_string()),
+        Given::Text(text) => (parameter.quantity.read(text), text.clone()),
+    };
+    let units = parameter.quantity.units();
+    let wrong = |message: String, help: Option<String>| KnownError::new(&number.at, message, help);
+    let value = value.ok_or_else(|| {
+        let help = format!("a number without a unit is in {}", parameter.quantity.unit());
+        wrong(format!("`{found}` is no number and its unit: {units}"), Some(help))
+    })?;
+    if value < parameter.least {
+        let message =
+            format!("`{}` is {found}: below {:e} it is not physical", number.key, parameter.least);
+        return Err(wrong(message, None));
+    }
+    Ok(value)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,175 @@
+//! One number, one model: the gap that a diagnosis announces, what its model leaves on the same
+//! rows, and what the robot that it writes leaves there.
+
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::corrected::{corrected, folded};
+use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
+use stiffarm_gap::effects::{Catalogue, Effect};
+use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::measurement::Kind;
+use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
+use stiffarm_gap::{Measurements, Options, diagnose_with};
+use stiffarm_kernels::generic::Arm;
+
+/// Six joints, three of them parallel; springs where a real arm has them.
+const FILE: &str = r#"
+name = "six"
+convention = "modified"
+[[joint]]
+type = "revolute"
+d = 0.4
+stiffness = 5e5
+mass = 20.0
+com = [0.0, 0.0, -0.1]
+[[joint]]
+type = "revolute"
+a = 0.1
+alpha = "-pi/2"
+stiffness = 4e5
+mass = 25.0
+com = [0.3, 0.0, 0.1]
+[[joint]]
+type = "revolute"
+a = 0.6
+stiffness = 3e5
+mass = 12.0
+com = [0.2, 0.0, 0.0]
+[[joint]]
+type = "revolute"
+a = 0.5
+d = 0.15
+stiffness = 1e5
+[[joint]]
+type = "revolute"
+d = 0.1
+alpha = "-pi/2"
+[[joint]]
+type = "revolute"
+d = 0.1
+alpha = "pi/2"
+[tool]
+translation = [0.05, 0.0, 0.12]
+"#;
+
+const NOISE: Noise = Noise { position: 2e-5, rotation: 2e-5 };
+
+fn robot() -> Robot {
+    Robot::from_toml(FILE, "six.toml").expect("a robot").0
+}
+
+fn arm(robot: &Robot) -> Arm {
+    stiffarm_gap::robot::arm(robot).expect("numbers")
+}
+
+fn measured(truths: &[&str], frames: Option<Frames>, seed: u64) -> Measurements {
+    let arm = arm(&robot());
+    let truths: Vec<Truth> =
+        truths.iter().map(|t| Truth::parse(t, &arm).expect("a truth")).collect();
+    let plant = Plant::new(&arm, &truths).expect("a plant");
+    let plant = plant.with_frames(frames.unwrap_or_default());
+    let design = Design {
+        shape: Shape::Payload,
+        poses: 60,
+        repeats: 1,
+        payload: 20.0,
+        kind: Kind::Pose { orientation: true },
+        seed,
+    };
+    let mut data = plant.measure(&design.rows(&arm), NOISE, seed).expect("measured");
+    data.file = "run.csv".to_owned();
+    data
+}
+
+/// Position rms that is announced, that the model leaves on the same rows, and that the written
+/// robot does, m.
+fn three(robot: &Robot, data: &Measurements, options: &Options) -> (Diagnosed, [f64; 3]) {
+    let found = diagnose_with(&arm(robot), data, options, &|_| {}).expect("a diagnosis");
+    let announced = found.diagnosis.gap.after.position_rms;
+    let same = found.explanation.predict(data).expect("predicted");
+    let text = corrected(robot, &found).robot.to_toml();
+    let written = Robot::from_toml(&text, "written.toml").unwrap_or_else(|e| panic!("{e}")).0;
+    let (written, known) =
+        folded(&written, &Catalogue::default()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    // Nothing is tried: the gap before is the written robot's.
+    let none = Options { known, effects: Some(Vec::new()), ..Options::default() };
+    let again = diagnose_with(&arm(&written), data, &none, &|_| {}).expect("a diagnosis");
+    let again = again.diagnosis.gap.before.position_rms;
+    (found, [announced, Statistics::of(&same.after).position_rms, again])
+}
+
+/// What is left on rows that were fitted is smaller than on rows that were not: of `n` numbers and `p`
+/// parameters by √((1 − p/n) / (1 + p/n)).
+fn optimism(found: &Diagnosed, data: &Measurements) -> f64 {
+    let fitted: usize = found.explanation.found().iter().map(|k| k.values.len()).sum();
+    let frames = 6 * found.diagnosis.nuisances.len();
+    let part = (fitted + frames) as f64 / (6 * data.rows.len()) as f64;
+    ((1.0 + part) / (1.0 - part)).sqrt()
+}
+
+#[track_caller]
+fn agree(found: &Diagnosed, data: &Measurements, [announced, same, written]: [f64; 3], what: &str) {
+    let held_out = announced / (same * optimism(found, data));
+    assert!((held_out - 1.0).abs() < 0.05, "{what}: {announced:e} {same:e}");
+    // The file has twelve decimals, and nine digits of a stiffness.
+    assert!((written / same - 1.0).abs() < 1e-4, "{what}: {same:e} {written:e}");
+}
+
+/// Arms as they are, in frames that nobody knows: every number that is found is in the file.
+#[test]
+fn announced_checked_and_written_are_one_number() {
+    let everything = [
+        "joint_offset@joint 3=0.4 mrad",
+        "link_geometry@link 2:a=0.3 mm,alpha=0.4 mrad",
+        "link_geometry@link 3:a=-0.2 mm,beta=0.5 mrad",
+        "link_geometry@link 4:alpha=-0.3 mrad,beta=-0.4 mrad",
+        "joint_compliance@joint 2=3e-6",
+        "transmission_error@joint 1:cos 2=0.3 mrad,sin 2=-0.2 mrad",
+        "backlash@joint 4=0.4 mrad",
+        "joint_ratio@joint 5=500 ppm",
+    ];
+    for (count, seed) in [(4, 1), (6, 2), (8, 3)] {
+        let data = measured(&everything[..count], Some(Frames::unknown(seed)), seed);
+        let options = Options { nuisances: Nuisance::ALL.to_vec(), ..Options::default() };
+        let (found, gaps) = three(&robot(), &data, &options);
+        assert!(found.diagnosis.findings.len() >= 3, "{count}");
+        agree(&found, &data, gaps, &format!("{count} truths"));
+        for finding in &found.diagnosis.findings {
+            let along = finding.parameters.iter().find(|p| p.name == "d");
+            assert!(along.is_none_or(|d| d.value.abs() < 2e-3), "{finding:?}");
+        }
+    }
+}
+
+/// Every effect that the plant has, each alone: found, written and read it is the same model.
+#[test]
+fn every_effect_is_written_as_it_was_fitted() {
+    let truths = [
+        "joint_hardening@joint 2=2e-11",
+        "bearing_compliance@joint 2:tilt_x=3e-6,tilt_y=3e-6",
+        "link_compliance@link 3:bending=1e-5,torsion=1e-5",
+        "link_weight@link 2=15",
+        "base_compliance:rock_x=3e-6,rock_y=3e-6,give=3e-7",
+        "wrench_scale=0.3",
+        "payload_com:x=0.1,y=0.1,z=0.1",
+        "friction_hysteresis@joint 2=2e-6",
+        "joint_coupling@joint 3:joint 2=0.001",
+        "thermal_growth=2e-4",
+        "instrument_scale=3e-4",
+        "settling_lag@joint 1=0.001",
+        "drift:x=3e-6,y=2e-6,z=-3e-6,rx=1e-6,ry=2e-6,rz=1e-6",
+        "slip@base:after=50,x=0.3mm,rz=0.5mrad",
+        "base_frame:x=1mm,rz=1mrad",
+        "tool_frame:y=1mm,rx=1mrad",
+    ];
+    for (k, truth) in truths.iter().enumerate() {
+        let data = measured(&[truth], None, k as u64 + 10);
+        let id = truth.split([':', '@', '=']).next().expect("an effect");
+        let options = Options { effects: Some(vec![id.to_owned()]), ..Options::default() };
+        let (found, gaps) = three(&robot(), &data, &options);
+        let names: Vec<_> =
+            found.explanation.found().iter().map(|k| Effect::identifier(k.effect)).collect();
+        assert!(names.contains(&id), "{truth}: {names:?}");
+        agree(&found, &data, gaps, truth);
+    }
+}
