@@ -77,6 +77,7 @@ pub fn solve_fused<S: Scalar, const N: usize, const M: usize>(
     follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(-factor, y, x))
 }
 
+#[allow(clippy::eq_op, reason = "it is not zero where a number is not finite")]
 #[inline(always)]
 fn follow<S: Scalar, const N: usize, const M: usize>(
     a: [[S; N]; N],
