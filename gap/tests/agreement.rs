@@ -173,3 +173,39 @@ fn every_effect_is_written_as_it_was_fitted() {
         agree(&found, &data, gaps, truth);
     }
 }
+
+/// Where the arm stands changes nothing of its gap, another simulator's predictions or not.
+#[test]
+fn an_arm_has_the_same_gap_wherever_it_stands() {
+    let base = "[base]\ntranslation = [1.0, -2.0, 0.5]\nrotation = [0.4, -0.3, 2.0]\n";
+    let there = Robot::from_toml(&format!("{FILE}{base}"), "there.toml").expect("a robot").0;
+    for kind in [
+        Kind::Pose { orientation: true },
+        Kind::Pose { orientation: false },
+        Kind::Displacement { components: [true; 6] },
+    ] {
+        for own_sim in [false, true] {
+            let gap = |robot: &Robot| {
+                let arm = arm(robot);
+                let truth = Truth::parse("joint_compliance@joint 2=3e-6", &arm).expect("a truth");
+                let mut plant = Plant::new(&arm, &[truth]).expect("a plant");
+                if own_sim {
+                    plant = plant.with_first_order_sim();
+                }
+                let (shape, payload) = (Shape::Payload, 20.0);
+                let design = Design { shape, poses: 8, repeats: 1, payload, kind, seed: 4 };
+                let data = plant.exact(&design.rows(&arm)).expect("measured");
+                let none = Options { effects: Some(Vec::new()), ..Options::default() };
+                let found = diagnose_with(&arm, &data, &none, &|_| {}).expect("a diagnosis");
+                found.diagnosis.gap.before
+            };
+            let (here, there) = (gap(&robot()), gap(&there));
+            assert!(here.position_rms > 1e-5, "{kind:?} {own_sim}");
+            // Roundings of places of a metre or two, beside a gap of a tenth of a millimetre and more.
+            let near =
+                |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{kind:?} {own_sim} {a:e} {b:e}");
+            near(here.position_rms, there.position_rms);
+            near(here.rotation_rms, there.rotation_rms);
+        }
+    }
+}

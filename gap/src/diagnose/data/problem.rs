@@ -1,6 +1,6 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
@@ -166,30 +166,34 @@ impl<'a> Problem<'a> {
             return *model;
         };
         let nominal = &nominal[row];
-        let mut merged = nominal.vector();
+        let is_pose = matches!(self.data.kind, crate::measurement::Kind::Pose { .. });
+        let told = |reading: &Reading, frame: &Isometry3<f64>| placed(reading, frame, is_pose);
+        let mut merged = told(nominal, &self.arm.base).vector();
         for k in (0..6).filter(|&k| self.data.sim_given[k]) {
             merged[k] = own[k];
         }
-        let own = Reading::from_vector(&merged);
-        // Both in the arm's base frame, then placed.
-        let is_pose = matches!(self.data.kind, crate::measurement::Kind::Pose { .. });
-        let back = instrument.inverse();
-        let local = if is_pose {
-            back * Isometry3::from_parts(model.position.into(), model.rotation)
-        } else {
-            let turned = back.rotation * model.rotation * instrument.rotation;
-            Isometry3::from_parts((back.rotation * model.position).into(), turned)
+        // All in the arm's base frame, then placed.
+        let own = told(&Reading::from_vector(&merged), &self.arm.base.inverse());
+        let local = told(model, &instrument.inverse());
+        let sum = Reading {
+            position: own.position + local.position - nominal.position,
+            rotation: local.rotation * nominal.rotation.inverse() * own.rotation,
         };
-        let position: Vector3<f64> = own.position + local.translation.vector - nominal.position;
-        let rotation = local.rotation * nominal.rotation.inverse() * own.rotation;
-        if is_pose {
-            let placed = instrument * Isometry3::from_parts(position.into(), rotation);
-            Reading { position: placed.translation.vector, rotation: placed.rotation }
-        } else {
-            Reading {
-                position: instrument.rotation * position,
-                rotation: instrument.rotation * rotation * back.rotation,
-            }
-        }
+        told(&sum, instrument)
+    }
+}
+
+/// What a frame at `frame` reads, told from where that stands; of a displacement only the axes change.
+fn placed(reading: &Reading, frame: &Isometry3<f64>, is_pose: bool) -> Reading {
+    let turn = frame.rotation;
+    match is_pose {
+        true => Reading {
+            position: (frame * Point3::from(reading.position)).coords,
+            rotation: turn * reading.rotation,
+        },
+        false => Reading {
+            position: turn * reading.position,
+            rotation: turn * reading.rotation * turn.inverse(),
+        },
     }
 }
