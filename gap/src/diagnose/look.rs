@@ -82,3 +82,70 @@ impl Search<'_, '_> {
         Ok((fits, told))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{data, normal};
+    use super::*;
+    use crate::diagnose::data::{Stream, generator};
+    use crate::diagnose::{Options, diagnose};
+    use crate::fixture::bent;
+    use crate::measurement::Kind;
+    use crate::simulate::simulate;
+
+    #[test]
+    fn rows_that_do_not_fit_are_named_and_leave_the_rest_as_it_is() {
+        let clean = data(20, [0.0, 4e-6, 0.0], 2e-5, 11);
+        let mut bad = clean.clone();
+        bad.rows[9].measured[0] += 5e-3;
+        bad.rows[30].measured[2] -= 4e-3;
+        let options = Options::default();
+        let [without, with] = [&clean, &bad].map(|data| diagnose(&bent(), data, &options).unwrap());
+        assert!(without.left_out.is_empty(), "{:?}", without.left_out);
+        let [first, second] = &with.left_out[..] else { panic!("{:?}", with.left_out) };
+        assert_eq!([first.line, second.line], [bad.rows[9].line, bad.rows[30].line]);
+        // The noise of three numbers, some four of its deviations.
+        assert!((first.position - 5e-3).abs() < 1e-4 && (second.position - 4e-3).abs() < 1e-4);
+        for d in [&without, &with] {
+            let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
+            assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+            let [low, high] = finding.parameters[0].ci95;
+            assert!((low..=high).contains(&4e-6), "{low} {high}");
+        }
+        assert!((with.gap.after.position_rms / without.gap.after.position_rms - 1.0).abs() < 0.1);
+        let kept = Options { keep_all: true, ..Options::default() };
+        let kept = diagnose(&bent(), &bad, &kept).unwrap();
+        assert!(kept.left_out.is_empty());
+        assert!(kept.gap.after.position_rms > 10.0 * with.gap.after.position_rms);
+    }
+
+    #[test]
+    fn ordinary_calibration_is_one_finding_or_fitted_along() {
+        let mut plant = bent();
+        let mut dice = generator(3, Stream::Signs);
+        for joint in &mut plant.joints {
+            joint.theta += 5e-4 * normal(&mut dice);
+            joint.alpha += 5e-4 * normal(&mut dice);
+            joint.a += 3e-4 * normal(&mut dice);
+            joint.d += 3e-4 * normal(&mut dice);
+        }
+        let mut data = data(40, [0.0; 3], 0.0, 4);
+        for row in &mut data.rows {
+            let exact = simulate(&plant, row, Kind::Pose { orientation: true }).unwrap();
+            row.measured = exact.reading().vector().map(|x| x + 2e-5 * normal(&mut dice));
+        }
+        let found = diagnose(&bent(), &data, &Options::default()).unwrap();
+        let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
+        assert_eq!((finding.effect, finding.place.as_str()), ("geometry", "arm"));
+        assert!(found.gap.after.position_rms < 1.2 * found.gap.noise.position_rms);
+        let mut along = Options::default();
+        along.fit_along(&["geometry".to_owned()]).unwrap();
+        let found = diagnose(&bent(), &data, &along).unwrap();
+        assert!(found.findings.is_empty(), "{:?}", found.findings);
+        assert!(found.gap.before.position_rms < 1.2 * found.gap.noise.position_rms);
+        let nested = Options { nested: true, ..Options::default() };
+        let nested = diagnose(&bent(), &data, &nested).unwrap().gap;
+        let left = nested.nested.unwrap().position_rms / nested.after.position_rms;
+        assert!((0.9..1.2).contains(&left), "{left}");
+    }
+}

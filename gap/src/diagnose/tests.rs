@@ -12,14 +12,14 @@ use rand_chacha::rand_core::Rng;
 const POSE: Kind = Kind::Pose { orientation: true };
 
 /// Roughly normal, standard deviation 1.
-fn normal(generator: &mut ChaCha8Rng) -> f64 {
+pub(super) fn normal(generator: &mut ChaCha8Rng) -> f64 {
     let uniform = |g: &mut ChaCha8Rng| (g.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
     (0..12).map(|_| uniform(generator)).sum::<f64>() - 6.0
 }
 
 /// `poses` poses, each measured twice, of a plant whose joint compliances are raised by `added`,
 /// with noise of `sd` m and rad.
-fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measurements {
+pub(super) fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measurements {
     let mut plant = bent();
     for (joint, more) in plant.joints.iter_mut().zip(added) {
         joint.compliance += more;
@@ -63,7 +63,8 @@ fn a_soft_joint_is_found_with_its_size() {
     assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
     let [low, high] = finding.parameters[0].ci95;
     assert!(low < 4e-6 && 4e-6 < high && high - low < 2e-7, "{low} {high}");
-    assert!(finding.p_value <= 1e-6 && finding.stability > 0.9);
+    // The least that 999 drawn patterns can tell.
+    assert!(finding.p_value == 1e-3 && finding.stability > 0.9);
     assert!(finding.held_out.shrink > 0.9);
     assert!(finding.alternatives.iter().all(|a| a.separable));
     assert_eq!(d.gap.noise.from, "repeats");

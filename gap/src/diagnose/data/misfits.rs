@@ -4,7 +4,7 @@
 use nalgebra::Vector6;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::noise::{Level, Noise};
+use super::noise::{Level, Noise, Source};
 use super::problem::Problem;
 use crate::gap::percentile;
 
@@ -16,7 +16,7 @@ const MOST: f64 = 0.1;
 
 /// The rows that fit, of the gaps of all rows to a model. The scale is that of the middle row (of
 /// normal errors the median of the squared norm is that of a chi-squared number), or the noise if
-/// that is known and larger.
+/// that is given and larger.
 pub(crate) fn fitting(problem: &Problem<'_>, noise: &Noise, gaps: &[Vector6<f64>]) -> Vec<bool> {
     let mut fits = vec![true; gaps.len()];
     for level in noise.kinds() {
@@ -34,6 +34,7 @@ fn limit(level: &Level, sizes: &[f64], rows: usize) -> f64 {
     let mut ascending = sizes.to_vec();
     ascending.sort_by(f64::total_cmp);
     let middle = percentile(&ascending, 0.5) / chi.inverse_cdf(0.5);
-    let known = if level.is_known() { level.sd.powi(2) } else { 0.0 };
-    middle.max(known) * chi.inverse_cdf(1.0 - LEVEL / rows as f64)
+    // Repeats that do not fit would count as noise.
+    let given = if level.source == Source::Option { level.sd.powi(2) } else { 0.0 };
+    middle.max(given) * chi.inverse_cdf(1.0 - LEVEL / rows as f64)
 }

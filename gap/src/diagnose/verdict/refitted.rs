@@ -40,9 +40,10 @@ impl Refitted {
         Self(DMatrix::from_rows(&rows.collect::<Vec<_>>()))
     }
 
-    /// Standard deviation of the logarithm of the gap after step `to` over that after step `from`.
+    /// Standard deviation of the logarithm of the gap after step `to` over that after step `from`, of
+    /// one campaign against another: this one too is but one of those that might have been.
     pub(crate) fn spread(&self, from: usize, to: usize) -> f64 {
-        (self.0.column(to) - self.0.column(from)).variance().sqrt()
+        (2.0 * (self.0.column(to) - self.0.column(from)).variance()).sqrt()
     }
 }
 
