@@ -2,6 +2,7 @@
 
 pub mod data;
 pub mod model;
+pub mod named;
 pub mod quantity;
 pub mod source;
 pub mod wrench;

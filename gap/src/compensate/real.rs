@@ -69,7 +69,7 @@ impl<'a> Real<'a> {
         let before = at.before.as_deref().unwrap_or(q);
         let last_move = q.iter().zip(before).map(|(now, then)| now - then).collect();
         let warming = at.warming.unwrap_or(0.0);
-        let when = Moment { index: 0, last_move, warming, clock: 0.0 };
+        let when = Moment::at_rest(last_move, warming);
         let mut actual = Actual::new(self.arm, q, &at.load);
         for present in &self.effects {
             present.effect.alter(&mut actual, &row, &when, present.spot, &present.values);

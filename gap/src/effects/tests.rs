@@ -31,7 +31,7 @@ fn data(kind: Kind) -> Measurements {
         row.offset = Some([0.05, 0.1, 0.2]);
         row.direction = Some(vec![1, -1, 1]);
         row.temperature = Some(20.0 + at);
-        row.time = Some(60.0 * at);
+        row.time = Some(0.6 * at);
         row.group = k as usize;
         row
     });
@@ -120,6 +120,36 @@ fn every_block_is_the_derivative_of_the_exact_model() {
                     );
                 }
             }
+        }
+    }
+}
+
+/// A load that hangs tilts with gravity: its force, and its moment about the tool.
+#[test]
+fn the_block_of_a_tilt_is_that_of_hanging_loads_too() {
+    for arm in arms() {
+        let mut data = data(Kind::Pose { orientation: true });
+        for row in &mut data.rows {
+            row.wrench = Vector6::new(0.0, 0.0, -800.0, 60.0, -90.0, 0.0);
+        }
+        let (block, difference) = both(&arm, &data, &GravityTilt, Spot::at(Place::Base));
+        let error = (&block - &difference).amax();
+        assert!(error <= 0.03 * difference.amax(), "{block}{difference}");
+    }
+}
+
+/// What is said of an effect is said whole: sentences, and no effect that there is not.
+#[test]
+fn every_effect_says_what_it_is() {
+    for effect in CATALOGUE {
+        let About { reality, signature, confused_with, separated_by } = effect.about();
+        for text in [reality, signature, confused_with, separated_by] {
+            assert!(text.ends_with('.') && !text.contains("  "), "{effect:?}: {text}");
+        }
+        let quoted = confused_with.split('`').skip(1).step_by(2);
+        for name in quoted {
+            let known = CATALOGUE.iter().any(|other| other.identifier() == name);
+            assert!(known && name != effect.identifier(), "{effect:?}: {name}");
         }
     }
 }

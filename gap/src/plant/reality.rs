@@ -13,6 +13,8 @@ use super::truth::Truth;
 pub(super) struct Reality {
     pub(super) convention: Convention,
     pub(super) gravity: Vector3<f64>,
+    /// How far that is turned from where the file has it, rad.
+    pub(super) tilt: Vector3<f64>,
     pub(super) joints: Vec<RealJoint>,
     /// Tool frame in the last frame: rotation and translation apart, for only the latter grows.
     pub(super) tool: Matrix4<f64>,
@@ -29,6 +31,8 @@ pub(super) struct Reality {
     pub(super) payload: Vector3<f64>,
     pub(super) expansion: f64,
     pub(super) instrument_scale: f64,
+    /// Of what is measured behind the readings, s.
+    pub(super) delay: f64,
     /// Per second, or per row.
     pub(super) drift: Vector6<f64>,
     pub(super) base_slips: Vec<Jump>,
@@ -49,6 +53,8 @@ pub(super) struct RealJoint {
     pub(super) offset: f64,
     pub(super) ratio: f64,
     pub(super) lag: f64,
+    /// Per kelvin.
+    pub(super) warming: f64,
     pub(super) width: f64,
     /// Other joints, from 0, and how far they turn this one.
     pub(super) couplings: Vec<(usize, f64)>,
@@ -117,6 +123,7 @@ impl Reality {
             offset: 0.0,
             ratio: 0.0,
             lag: 0.0,
+            warming: 0.0,
             width: 0.0,
             couplings: Vec::new(),
             orders: Vec::new(),
@@ -132,6 +139,7 @@ impl Reality {
         Reality {
             convention: arm.convention,
             gravity: arm.gravity,
+            tilt: Vector3::zeros(),
             joints: joints.collect(),
             tool: transform::of(&arm.tool),
             base_frame: Vector6::zeros(),
@@ -142,6 +150,7 @@ impl Reality {
             payload: Vector3::zeros(),
             expansion: 0.0,
             instrument_scale: 0.0,
+            delay: 0.0,
             drift: Vector6::zeros(),
             base_slips: Vec::new(),
             tool_slips: Vec::new(),

@@ -1,9 +1,7 @@
 //! The DH lengths or twist of the row are off.
 //!
-//! The same at every load, moment and direction. Beside the row's own numbers, `beta` tilts what is
-//! parallel out of its plane (Hayati: between parallel axes `a` and `alpha` alone cannot say so).
-//! Confused with its neighbours along common normals and parallel axes, with the base frame (row 1)
-//! and the tool frame (the last row): only sums of such numbers are seen.
+//! Beside the row's own numbers, `beta` tilts what is parallel out of its plane (Hayati: between parallel
+//! axes `a` and `alpha` alone cannot say so).
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::Motion;
@@ -11,8 +9,8 @@ use stiffarm_kernels::generic::{Arm, Convention};
 
 use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told,
-    links,
+    About, Effect, Fate, Group, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene,
+    Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -39,6 +37,18 @@ fn is_parallel(arm: &Arm, row: usize) -> bool {
 impl Effect for LinkGeometry {
     fn identifier(&self) -> &'static str {
         "link_geometry"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The DH lengths or twist of the row are off.",
+            signature: "The same at every load, moment and direction.",
+            confused_with: "Its neighbours along common normals and parallel axes, `base_frame` \
+                            (row 1) and `tool_frame` (the last row): only sums of such numbers are \
+                            seen.",
+            separated_by: "Poses that turn the joints on both sides of the row through their \
+                           ranges.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,8 +1,4 @@
 //! A link is heavier or lighter than modelled and the compliant structure sags.
-//!
-//! Seen only where the model, or what has been found, gives under load. Confused with the
-//! compliance of the joints before the link, whose sag it scales, and with the weights of its
-//! neighbours: loads of known size tell compliance from weight.
 
 use nalgebra::{Matrix6xX, Point3, Vector3};
 use stiffarm_codegen::robot::{Convention, Motion, Value};
@@ -10,8 +6,8 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{decimals, significant};
 use crate::effects::{
-    Effect, Fate, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene, Spot,
-    Told, links,
+    About, Effect, Fate, Parameter, ParameterReport, Place, Quantity, RobotFile, RobotRow, Scene,
+    Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
@@ -55,6 +51,17 @@ fn weigh(row: &mut RobotRow<'_>, number: &ParameterReport) -> Result<&'static st
 impl Effect for LinkWeight {
     fn identifier(&self) -> &'static str {
         "link_weight"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "A link is heavier or lighter than modelled and the compliant structure sags.",
+            signature: "The sag of the joints before the link, at every load. Seen only where the \
+                        model, or what has been found, gives under load.",
+            confused_with: "The compliance of the joints before the link, whose sag it scales, and \
+                            the weights of its neighbours.",
+            separated_by: "Loads of known size, which tell compliance from weight.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {
