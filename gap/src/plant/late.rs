@@ -27,8 +27,9 @@ pub(super) fn readings_at(rows: &[Row], time: f64) -> Option<Vec<f64>> {
             }
         }
     }
-    let near = known.iter().map(|(then, _)| (then - time).abs()).fold(f64::INFINITY, f64::min);
-    if known.len() < 2 || near > PAUSE {
+    // The first two are those on either side, or the last two of an end.
+    let [one, other, ..] = known[..] else { return None };
+    if (one.0 - other.0).abs() > PAUSE {
         return None;
     }
     let one = |joint: usize| {

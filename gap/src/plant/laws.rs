@@ -11,7 +11,7 @@ use nalgebra::{Vector3, Vector6};
 pub(super) type Law = fn(&mut Reality, &Truth);
 
 /// Every effect that the plant can have, in the order of the format.
-const LAWS: [(&dyn Effect, Law); 27] = [
+const LAWS: [(&dyn Effect, Law); 28] = [
     (&JointOffset, |arm, t| arm.joint(t).offset += t.value("offset")),
     (&LinkGeometry, |arm, t| {
         let row = arm.joint(t);
@@ -78,6 +78,13 @@ const LAWS: [(&dyn Effect, Law); 27] = [
     }),
     (&LinkCom, |arm, t| {
         arm.joint(t).com += Vector3::new(t.value("x"), t.value("y"), t.value("z"));
+    }),
+    (&BearingWobble, |arm, t| {
+        let [x, y] = &mut arm.joint(t).wobble;
+        x[0] += t.value("cos_x");
+        x[1] += t.value("sin_x");
+        y[0] += t.value("cos_y");
+        y[1] += t.value("sin_y");
     }),
     (&JointWarming, |arm, t| arm.joint(t).warming += t.value("rate")),
     (&GeometricStiffness, |arm, t| arm.geometric += t.value("fraction")),

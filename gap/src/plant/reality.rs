@@ -63,6 +63,8 @@ pub(super) struct RealJoint {
     pub(super) cubic: f64,
     pub(super) windup: f64,
     pub(super) tilt: [f64; 2],
+    /// About x and y, cosine and sine of twice the reading.
+    pub(super) wobble: [[f64; 2]; 2],
     /// At the file's centre of mass, kg.
     pub(super) mass: f64,
     pub(super) com: Vector3<f64>,
@@ -131,6 +133,7 @@ impl Reality {
             cubic: 0.0,
             windup: 0.0,
             tilt: [0.0; 2],
+            wobble: [[0.0; 2]; 2],
             mass: joint.mass,
             com: joint.com,
             mass_on_chord: 0.0,

@@ -95,6 +95,27 @@ fn what_is_measured_is_older_than_its_reading() {
     assert_eq!(found, measured(&arm, &[], &rested));
 }
 
+/// An axis of the table is tilted by as much as it wobbles there: about x by `alpha` of a modified row.
+#[test]
+fn an_axis_wobbles_twice_in_a_turn() {
+    let arm = spatial(Convention::Modified);
+    let (sine, cosine) = (2.0 * Q[1]).sin_cos();
+    let tilt = 1e-3 * cosine - 2e-3 * sine;
+    let mut changed = arm.clone();
+    // Rx(alpha) Tx(a) is Tx(a) Rx(alpha): the tilt stands behind both.
+    changed.joints[1].alpha += tilt;
+    let found =
+        one(&arm, &["bearing_wobble@joint 2:cos_x=1mrad,sin_x=-2mrad"], reading(&Q, [0.0; 6]));
+    same_pose(&found, &changed.pose(&Q), ROUNDING);
+    // About y: what is behind the joint turns about the joint's own y.
+    let text = "bearing_wobble@joint 1:cos_y=1mrad,sin_y=2mrad";
+    let arm = spatial(Convention::Standard);
+    let found = one(&arm, &[text], reading(&Q, [0.0; 6]));
+    let (sine, cosine) = (2.0 * Q[0]).sin_cos();
+    let turn = shifted([0.0; 3], [0.0, 1e-3 * cosine + 2e-3 * sine, 0.0]);
+    same_pose(&found, &(turn * arm.pose(&Q)), ROUNDING);
+}
+
 #[test]
 fn rows_of_the_table_are_off() {
     for convention in BOTH {

@@ -4,6 +4,7 @@ mod backlash;
 mod base_compliance;
 mod base_frame;
 mod bearing_compliance;
+mod bearing_wobble;
 mod drift;
 mod friction_hysteresis;
 mod geometric_stiffness;
@@ -35,6 +36,7 @@ pub use backlash::Backlash;
 pub use base_compliance::BaseCompliance;
 pub use base_frame::BaseFrame;
 pub use bearing_compliance::BearingCompliance;
+pub use bearing_wobble::BearingWobble;
 pub use drift::Drift;
 pub use friction_hysteresis::FrictionHysteresis;
 pub use geometric_stiffness::GeometricStiffness;
@@ -61,7 +63,7 @@ pub use transmission_error::TransmissionError;
 pub use wrench_scale::WrenchScale;
 
 /// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 28] = [
+pub const CATALOGUE: [&dyn Effect; 29] = [
     &JointOffset,
     &JointCompliance,
     &Backlash,
@@ -83,6 +85,7 @@ pub const CATALOGUE: [&dyn Effect; 28] = [
     &ThermalGrowth,
     &JointWarming,
     &InstrumentScale,
+    &BearingWobble,
     &LinkGeometry,
     &Geometry,
     &BaseFrame,
