@@ -7,6 +7,7 @@ mod check;
 mod compensate;
 mod completions;
 mod diagnose;
+mod effects;
 mod eval;
 mod generate;
 mod identify;
@@ -73,6 +74,7 @@ enum Command {
     Poses(poses::Args),
     Identify(identify::Args),
     Diagnose(diagnose::Args),
+    Effects(effects::Args),
     Simulate(simulate::Args),
     Withhold(withhold::Args),
     Compensate(compensate::Args),
@@ -125,6 +127,7 @@ fn run(command: Command, quiet: bool) -> Result<Verdict, Failure> {
         Command::Poses(args) => poses::run(&args, quiet),
         Command::Identify(args) => identify::run(&args, quiet),
         Command::Diagnose(args) => diagnose::run(&args, quiet),
+        Command::Effects(args) => effects::run(&args),
         Command::Simulate(args) => simulate::run(&args, quiet),
         Command::Withhold(args) => withhold::run(&args, quiet),
         Command::Compensate(args) => compensate::run(&args, quiet),

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use stiffarm_gap::Options;
-use stiffarm_gap::effects::Effect;
 use stiffarm_gap::plant;
 use stiffarm_gap::withhold::{Plan, Rate, Report, with_findings, withhold};
 
 use super::Verdict;
 use super::simulate::{ExperimentArgs, plain};
+use crate::input::named;
 use crate::input::quantity::counted;
 use crate::input::source::RobotArgs;
 use crate::terminal::failure::Failure;
@@ -74,7 +74,10 @@ const MOST: usize = 6;
 /// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
 /// that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let effects = args.effects()?;
+    let effects = match &args.effects {
+        Some(names) => named::effects(&plant::effects(), names, "--effects: ")?,
+        None => plant::effects(),
+    };
     let [from, to] = args.sizes[..] else {
         let found = counted(args.sizes.len(), "value");
         return Err(Failure::new(format!("--sizes: found {found}, expected two: 8,20")));
@@ -119,28 +122,6 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         print(&screen(&report))?;
     }
     Ok(Verdict::Good)
-}
-
-impl Args {
-    fn effects(&self) -> Result<Vec<&'static dyn Effect>, Failure> {
-        let all = plant::effects();
-        let Some(names) = &self.effects else { return Ok(all) };
-        let each = names.iter().map(|name| {
-            let known = all.iter().copied().find(|effect| effect.identifier() == name.trim());
-            known.ok_or_else(|| {
-                let known: Vec<&str> = all.iter().map(|effect| effect.identifier()).collect();
-                let near =
-                    known.iter().copied().min_by_key(|k| strsim::damerau_levenshtein(k, name));
-                let near = near.filter(|k| strsim::damerau_levenshtein(k, name) <= 3);
-                let meant = near.map_or_else(String::new, |k| format!("; did you mean `{k}`?"));
-                Failure::with_help(
-                    format!("--effects: found the unknown effect `{name}`{meant}"),
-                    format!("expected some of {}", known.join(", ")),
-                )
-            })
-        });
-        each.collect()
-    }
 }
 
 fn screen(report: &Report) -> String {

@@ -104,7 +104,7 @@ impl Situation {
         let row = Row { wrench: self.load, direction, ..Row::new(0, q.to_vec()) };
         let before = self.before.as_deref().unwrap_or(q);
         let last_move = q.iter().zip(before).map(|(now, then)| now - then).collect();
-        (row, Moment { index: 0, last_move, warming: self.warming.unwrap_or(0.0), clock: 0.0 })
+        (row, Moment::at_rest(last_move, self.warming.unwrap_or(0.0)))
     }
 }
 

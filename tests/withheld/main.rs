@@ -8,6 +8,7 @@
 mod arms;
 mod goals;
 mod realistic;
+mod stream;
 mod suite;
 
 use goals::Goals;

@@ -3,6 +3,7 @@
 mod beyond;
 pub mod data;
 pub mod model;
+pub mod named;
 pub mod quantity;
 pub mod source;
 pub mod wrench;

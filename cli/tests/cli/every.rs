@@ -25,9 +25,11 @@ const COMPENSATE: [&str; 6] = [
 ];
 
 /// A command, and an option behind which a file is written.
-const WRITES: [(&[&str], &str); 19] = [
+const WRITES: [(&[&str], &str); 21] = [
     (&EVAL, "--json"),
     (&["robots"], "--json"),
+    (&["effects"], "--json"),
+    (&["effects"], "--markdown"),
     (&URDF, "--toml"),
     (&RAW, "--csv"),
     (&MAP, "--csv"),

@@ -5,6 +5,7 @@ mod check;
 mod committed;
 mod compensate;
 mod diagnose;
+mod effects;
 mod errors;
 mod eval;
 mod every;

@@ -41,8 +41,9 @@ fn write_anew() -> bool {
     std::env::var_os("STIFFARM_WRITE_DOCS").is_some()
 }
 
+/// A committed file is what was made; with STIFFARM_WRITE_DOCS set it is written first.
 #[track_caller]
-fn same(committed: &str, made: &str) {
+pub fn same(committed: &str, made: &str) {
     if write_anew() {
         std::fs::write(Path::new(REPOSITORY).join(committed), made)
             .expect("the folder can be written to");

@@ -4,7 +4,7 @@ use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::{
-    Carrier, Curve, Depends, Draw, Forms, Group, Parameter, ParameterReport, Place, RobotFile,
+    About, Carrier, Curve, Depends, Draw, Forms, Group, Parameter, ParameterReport, Place, RobotFile,
     Scene, Spot, Told,
 };
 use crate::measurement::{Measurements, Row};
@@ -112,6 +112,11 @@ pub trait Effect: Sync {
     }
 
     // Its words.
+
+    /// What those who measure are to know of it; nothing is said of what is empty.
+    fn about(&self) -> About {
+        About::default()
+    }
 
     /// What reality does, in half a sentence with its size: `joint 2 has 0.3 mrad of backlash`.
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -5,6 +5,7 @@
 //! that uses the crate puts its own beside them with [`Catalogue::with`]. Nothing else asks which
 //! effect it has before it: the identifier stands in the effect's own file and nowhere else.
 
+mod about;
 mod at_place;
 mod carrier;
 mod catalogue;
@@ -25,6 +26,7 @@ mod told;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use about::About;
 pub(crate) use at_place::{at_place, cannot_act, did_you_mean};
 pub use carrier::Carrier;
 pub use catalogue::*;

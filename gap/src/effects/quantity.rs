@@ -12,6 +12,7 @@ const ANGLES: [Named; 4] = [("rad", 1.0), ("mrad", 1e-3), ("urad", 1e-6), ("deg"
 const MOMENTS: [Named; 4] = [("N*m", 1.0), ("Nm", 1.0), ("Nmm", 1e-3), ("kNm", 1e3)];
 const FORCES: [Named; 3] = [("N", 1.0), ("kN", 1e3), ("lbf", 4.448_221_615_260_5)];
 const TIMES: [Named; 4] = [("s", 1.0), ("min", 60.0), ("h", 3600.0), ("row", 1.0)];
+const SECONDS: [Named; 2] = [("s", 1.0), ("ms", 1e-3)];
 const MASSES: [Named; 3] = [("kg", 1.0), ("g", 1e-3), ("lb", 0.453_592_37)];
 const PARTS: [Named; 4] = [("", 1.0), ("1", 1.0), ("%", 1e-2), ("ppm", 1e-6)];
 const KELVINS: [Named; 2] = [("K", 1.0), ("degC", 1.0)];
@@ -74,6 +75,9 @@ quantities! {
     AnglePerLength: "rad/m"; ANGLES / LENGTHS^1; 1e-2, 0.5
     LengthPerAngle: "m/rad"; LENGTHS / ANGLES^1; 1e-2, 0.5
     PerKelvin: "1/K"; PARTS / KELVINS^1; 12e-6, 1e-3
+    AnglePerKelvin: "rad/K"; ANGLES / KELVINS^1; 2e-5, 1e-2
+    LengthPerKelvin: "m/K"; LENGTHS / KELVINS^1; 2e-5, 1e-2
+    Time: "s"; SECONDS / NONE^0; 1e-2, 10.0
     /// By the row where the rows have no time.
     LengthRate: "m/s"; LENGTHS / TIMES^1; 3e-4, ANY
     /// By the row where the rows have no time.
@@ -208,6 +212,8 @@ mod tests {
             (Quantity::Ratio, "2 %", 0.02),
             (Quantity::PerKelvin, "12 ppm/K", 12.0 * (1e-6 / 1.0)),
             (Quantity::LengthRate, "1 um/row", 1e-6),
+            (Quantity::AnglePerKelvin, "20 urad/K", 20.0 * (1e-6 / 1.0)),
+            (Quantity::Time, "8 ms", 8.0 * 1e-3),
             (Quantity::Row, "40", 40.0),
         ];
         for (quantity, text, expected) in cases {

@@ -130,6 +130,11 @@ impl RowOf<'_> {
     }
 
     fn tilt(&self, chain: &mut Chain) {
+        let twice = 2.0 * self.value;
+        let [x, y] = self.joint.wobble.map(|[cos, sin]| cos * twice.cos() + sin * twice.sin());
+        if [x, y] != [0.0; 2] {
+            chain.fixed(displaced(&Vector6::new(0.0, 0.0, 0.0, x, y, 0.0)));
+        }
         if self.joint.tilt != [0.0; 2] {
             chain.site(&[3, 4], Law::Diagonal(self.joint.tilt.to_vec()));
         }

@@ -2,6 +2,7 @@
 //! definition.
 
 use super::reality::{Jump, RealJoint, Reality};
+use super::transform::rotation_of;
 use super::truth::Truth;
 use crate::effects::*;
 use nalgebra::{Vector3, Vector6};
@@ -10,7 +11,7 @@ use nalgebra::{Vector3, Vector6};
 pub(super) type Law = fn(&mut Reality, &Truth);
 
 /// Every effect that the plant can have, in the order of the format.
-const LAWS: [(&dyn Effect, Law); 23] = [
+const LAWS: [(&dyn Effect, Law); 28] = [
     (&JointOffset, |arm, t| arm.joint(t).offset += t.value("offset")),
     (&LinkGeometry, |arm, t| {
         let row = arm.joint(t);
@@ -69,6 +70,23 @@ const LAWS: [(&dyn Effect, Law); 23] = [
         let slips = if t.place == Place::Tool { &mut arm.tool_slips } else { &mut arm.base_slips };
         slips.push(jump);
     }),
+    (&Latency, |arm, t| arm.delay += t.value("delay")),
+    (&GravityTilt, |arm, t| {
+        let file = rotation_of(&arm.tilt).tr_mul(&arm.gravity);
+        arm.tilt += Vector3::new(t.value("x"), t.value("y"), 0.0);
+        arm.gravity = rotation_of(&arm.tilt) * file;
+    }),
+    (&LinkCom, |arm, t| {
+        arm.joint(t).com += Vector3::new(t.value("x"), t.value("y"), t.value("z"));
+    }),
+    (&BearingWobble, |arm, t| {
+        let [x, y] = &mut arm.joint(t).wobble;
+        x[0] += t.value("cos_x");
+        x[1] += t.value("sin_x");
+        y[0] += t.value("cos_y");
+        y[1] += t.value("sin_y");
+    }),
+    (&JointWarming, |arm, t| arm.joint(t).warming += t.value("rate")),
     (&GeometricStiffness, |arm, t| arm.geometric += t.value("fraction")),
 ];
 

@@ -17,6 +17,7 @@ mod assemble;
 mod balance;
 mod campaign;
 mod chain;
+mod late;
 mod law;
 mod laws;
 mod noise;
@@ -198,9 +199,7 @@ impl Plant {
 }
 
 fn in_order(design: &Measurements, k: usize) -> InOrder<'_> {
-    let rows = &design.rows;
-    let before = k.checked_sub(1).map(|b| &rows[b]);
-    InOrder { row: &rows[k], number: k + 1, before, first: &rows[0] }
+    InOrder { row: &design.rows[k], number: k + 1, all: &design.rows }
 }
 
 /// Measurements with noise added. Of a rotation of which only some components are measured, those

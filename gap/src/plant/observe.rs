@@ -100,22 +100,26 @@ pub(super) struct InOrder<'a> {
     pub(super) row: &'a Row,
     /// From 1.
     pub(super) number: usize,
-    pub(super) before: Option<&'a Row>,
-    pub(super) first: &'a Row,
+    pub(super) all: &'a [Row],
 }
 
 impl InOrder<'_> {
+    /// The row before it.
+    pub(super) fn before(&self) -> Option<&Row> {
+        self.all.get(self.number.checked_sub(2)?)
+    }
+
     /// Seconds since the first row; rows where there is no time.
     fn elapsed(&self) -> f64 {
-        match (self.row.time, self.first.time) {
+        match (self.row.time, self.all[0].time) {
             (Some(now), Some(then)) => now - then,
             _ => (self.number - 1) as f64,
         }
     }
 
     /// Kelvin above the first row; 0 where there is no temperature.
-    fn warmth(&self) -> f64 {
-        match (self.row.temperature, self.first.temperature) {
+    pub(super) fn warmth(&self) -> f64 {
+        match (self.row.temperature, self.all[0].temperature) {
             (Some(now), Some(then)) => now - then,
             _ => 0.0,
         }
@@ -129,12 +133,29 @@ impl Reality {
             over.map(|slip| slip.by).sum::<Vector6<f64>>()
         };
         Situation {
-            values: self.joint_values(at.row, at.before),
+            values: self.joint_values(at),
             directions: (0..self.joints.len()).map(|j| direction(at.row, j)).collect(),
             growth: 1.0 + self.expansion * at.warmth(),
             tool_frame: self.tool_frame + after(&self.tool_slips),
-            wrench: (1.0 + self.wrench_scale) * wrench,
+            wrench: (1.0 + self.wrench_scale) * self.hanging(wrench),
         }
+    }
+
+    /// The load with gravity where it is. What pulls along the robot file's gravity hangs: from a
+    /// point as high as the tool's origin, straight down.
+    fn hanging(&self, wrench: &Vector6<f64>) -> Vector6<f64> {
+        let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+        let couple = Vector3::new(wrench[3], wrench[4], wrench[5]);
+        let turn = rotation_of(&self.tilt);
+        let down = turn.tr_mul(&self.gravity);
+        let size = force.norm();
+        if size == 0.0 || down.norm() == 0.0 || (force / size - down.normalize()).norm() > 1e-5 {
+            return *wrench;
+        }
+        let hook = down.normalize().cross(&couple) / size;
+        let pull = size * self.gravity.normalize();
+        let couple = couple + hook.cross(&pull) - hook.cross(&force);
+        Vector6::new(pull.x, pull.y, pull.z, couple.x, couple.y, couple.z)
     }
 
     /// The arm's base in the measuring frame; its small displacements add up.

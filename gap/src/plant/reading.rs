@@ -2,21 +2,28 @@
 
 use stiffarm_kernels::Motion;
 
+use super::late;
 use super::laws::Order;
+use super::observe::InOrder;
 use super::reality::{RealJoint, Reality};
 use crate::measurement::Row;
 
 impl Reality {
-    /// Real joint values, rad (m if prismatic), of a row and the one before it.
-    pub(super) fn joint_values(&self, row: &Row, before: Option<&Row>) -> Vec<f64> {
+    /// Real joint values, rad (m if prismatic), when a row is measured.
+    pub(super) fn joint_values(&self, at: InOrder<'_>) -> Vec<f64> {
+        let row = at.row;
+        let late = || late::readings_at(at.all, row.time? - self.delay);
+        let then = if self.delay == 0.0 { None } else { late() };
+        let q = then.as_ref().unwrap_or(&row.q);
         let one = |(j, joint): (usize, &RealJoint)| {
-            let reading = row.q[j];
-            let coupled: f64 = joint.couplings.iter().map(|(other, c)| c * row.q[*other]).sum();
-            let moved = before.map_or(0.0, |b| reading - b.q[j]);
+            let reading = q[j];
+            let coupled: f64 = joint.couplings.iter().map(|(other, c)| c * q[*other]).sum();
+            let moved = at.before().map_or(0.0, |b| row.q[j] - b.q[j]);
             let side = direction(row, j);
             reading + joint.offset + joint.ratio * reading + joint.transmission(reading) + coupled
                 - joint.lag * moved
                 - side * joint.width / 2.0
+                + joint.warming * at.warmth()
         };
         self.joints.iter().enumerate().map(one).collect()
     }

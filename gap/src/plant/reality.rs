@@ -13,6 +13,8 @@ use super::truth::Truth;
 pub(super) struct Reality {
     pub(super) convention: Convention,
     pub(super) gravity: Vector3<f64>,
+    /// How far that is turned from where the file has it, rad.
+    pub(super) tilt: Vector3<f64>,
     pub(super) joints: Vec<RealJoint>,
     /// Tool frame in the last frame: rotation and translation apart, for only the latter grows.
     pub(super) tool: Matrix4<f64>,
@@ -31,6 +33,8 @@ pub(super) struct Reality {
     pub(super) payload: Vector3<f64>,
     pub(super) expansion: f64,
     pub(super) instrument_scale: f64,
+    /// Of what is measured behind the readings, s.
+    pub(super) delay: f64,
     /// Per second, or per row.
     pub(super) drift: Vector6<f64>,
     pub(super) base_slips: Vec<Jump>,
@@ -51,6 +55,8 @@ pub(super) struct RealJoint {
     pub(super) offset: f64,
     pub(super) ratio: f64,
     pub(super) lag: f64,
+    /// Per kelvin.
+    pub(super) warming: f64,
     pub(super) width: f64,
     /// Other joints, from 0, and how far they turn this one.
     pub(super) couplings: Vec<(usize, f64)>,
@@ -59,6 +65,8 @@ pub(super) struct RealJoint {
     pub(super) cubic: f64,
     pub(super) windup: f64,
     pub(super) tilt: [f64; 2],
+    /// About x and y, cosine and sine of twice the reading.
+    pub(super) wobble: [[f64; 2]; 2],
     /// At the file's centre of mass, kg.
     pub(super) mass: f64,
     pub(super) com: Vector3<f64>,
@@ -119,6 +127,7 @@ impl Reality {
             offset: 0.0,
             ratio: 0.0,
             lag: 0.0,
+            warming: 0.0,
             width: 0.0,
             couplings: Vec::new(),
             orders: Vec::new(),
@@ -126,6 +135,7 @@ impl Reality {
             cubic: 0.0,
             windup: 0.0,
             tilt: [0.0; 2],
+            wobble: [[0.0; 2]; 2],
             mass: joint.mass,
             com: joint.com,
             mass_on_chord: 0.0,
@@ -134,6 +144,7 @@ impl Reality {
         Reality {
             convention: arm.convention,
             gravity: arm.gravity,
+            tilt: Vector3::zeros(),
             joints: joints.collect(),
             tool: transform::of(&arm.tool),
             base: transform::of(&arm.base),
@@ -145,6 +156,7 @@ impl Reality {
             payload: Vector3::zeros(),
             expansion: 0.0,
             instrument_scale: 0.0,
+            delay: 0.0,
             drift: Vector6::zeros(),
             base_slips: Vec::new(),
             tool_slips: Vec::new(),

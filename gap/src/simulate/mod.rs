@@ -12,6 +12,7 @@ mod rest;
 mod sim;
 mod site;
 mod state;
+mod stream;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,7 @@ pub use rest::{beyond_first_order, rest};
 pub use sim::{Reading, Sim};
 pub use site::Site;
 pub use state::State;
+pub use stream::{Stream, is_stream};
 
 /// The arm at rest at the readings `q` (n, rad; m if prismatic) under `wrench` (base axes, tool
 /// origin, N and N·m) and its weights.

@@ -1,5 +1,8 @@
 //! When a row was measured: the move before it, the warmth, the time.
 
+use std::sync::Arc;
+
+use super::stream::Stream;
 use crate::measurement::Measurements;
 
 /// What the order of the rows, and the columns `temperature` and `time`, say of one row.
@@ -13,6 +16,15 @@ pub struct Moment {
     pub warming: f64,
     /// Time since the first row, s; without the column, the number of the row.
     pub clock: f64,
+    /// The readings of all rows over this time, where they are a stream.
+    pub stream: Option<Arc<Stream>>,
+}
+
+impl Moment {
+    /// Of a row by itself, at the beginning.
+    pub fn at_rest(last_move: Vec<f64>, warming: f64) -> Moment {
+        Moment { index: 0, last_move, warming, clock: 0.0, stream: None }
+    }
 }
 
 /// One for each row.
@@ -20,6 +32,7 @@ pub fn moments(data: &Measurements) -> Vec<Moment> {
     let first = data.rows.first();
     let start = |of: fn(&crate::measurement::Row) -> Option<f64>| first.and_then(of);
     let (t0, k0) = (start(|r| r.time), start(|r| r.temperature));
+    let stream = Stream::of(&data.rows).map(Arc::new);
     let mut before: Option<&Vec<f64>> = None;
     let mut moments = Vec::with_capacity(data.rows.len());
     for (index, row) in data.rows.iter().enumerate() {
@@ -29,6 +42,7 @@ pub fn moments(data: &Measurements) -> Vec<Moment> {
             last_move: row.q.iter().zip(last).map(|(now, then)| now - then).collect(),
             warming: row.temperature.zip(k0).map_or(0.0, |(now, first)| now - first),
             clock: row.time.zip(t0).map_or(index as f64, |(now, first)| now - first),
+            stream: stream.clone(),
         });
         before = Some(&row.q);
     }

@@ -1,6 +1,6 @@
 //! The arm at rest: where everything is and what acts on it.
 
-use nalgebra::{DVector, Isometry3, Matrix6, Matrix6xX, Vector3, Vector6};
+use nalgebra::{DVector, Isometry3, Matrix6, Matrix6xX, Point3, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 
 use super::actual::{Actual, axis};
@@ -122,6 +122,29 @@ impl State {
             let (at, change) = (self.load(*site), at_site(*site));
             let gives = (law(&(at + change * STEP)) - law(&(at - change * STEP))) / (2.0 * STEP);
             twist += self.carry(*site, &gives);
+        }
+        twist
+    }
+
+    /// Twist of the tool to first order as gravity changes by so much (base axes, m/s²): what the
+    /// weights of the links do.
+    pub fn weighed(&self, actual: &Actual<'_>, gravity: &Vector3<f64>) -> Vector6<f64> {
+        let none = Vector3::zeros();
+        let mut twist = Vector6::zeros();
+        for (row, joint) in actual.arm.joints.iter().enumerate() {
+            let site = Site::Link(row);
+            let frame = self.frame(site);
+            if joint.mass != 0.0 {
+                let (weight, at) = (gravity * joint.mass, frame * Point3::from(joint.com));
+                twist += self.yielding(actual, (&weight, &none, &at.coords), site);
+            }
+            let (before, behind) = actual.row(row);
+            if let Some(link) = actual.link(row, &(before * behind)) {
+                let (weight, at) = (link.weight(gravity), frame * Point3::from(link.middle()));
+                twist += self.yielding(actual, (&weight, &none, &at.coords), Site::Joint(row));
+                let own = frame.rotation.inverse() * weight;
+                twist += self.carry(site, &link.give(&Vector6::zeros(), &own));
+            }
         }
         twist
     }

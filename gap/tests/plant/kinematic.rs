@@ -2,6 +2,7 @@
 //! readings are changed by hand. The arm is rigid: all agree to rounding.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use stiffarm_gap::measurement::Row;
 use stiffarm_kernels::generic::Convention;
 
 use crate::arms::{
@@ -57,6 +58,62 @@ fn a_joint_lags_behind_its_last_move() {
     let found = measured(&arm, &["settling_lag@joint 2=1%"], &design);
     same_pose(&found[0], &arm.pose(&with(2, -0.3)), ROUNDING);
     same_pose(&found[1], &arm.pose(&with(2, -0.003)), ROUNDING);
+}
+
+#[test]
+fn a_joint_turns_as_it_warms_up() {
+    let arm = spatial(Convention::Standard);
+    let warm = |by: f64| Row { temperature: Some(21.0 + by), ..reading(&Q, [0.0; 6]) };
+    let design = rows(POSE, vec![warm(0.0), warm(8.0)]);
+    let truths = ["joint_warming@joint 2=20 urad/K", "joint_warming@joint 3=-5 um/K"];
+    let found = measured(&arm, &truths, &design);
+    same_pose(&found[0], &arm.pose(&Q), ROUNDING);
+    let mut q = with(2, 1.6e-4);
+    q[2] -= 4e-5;
+    same_pose(&found[1], &arm.pose(&q), ROUNDING);
+}
+
+/// Every joint follows a cubic, on which the plant's readings between the rows lie.
+#[test]
+fn what_is_measured_is_older_than_its_reading() {
+    let arm = spatial(Convention::Standard);
+    let at = |t: f64| Q.map(|q| q + (0.2 + 0.1 * q) * t - 0.3 * t * t + 0.1 * q * t.powi(3));
+    let row = |k: i32| {
+        let time = 0.08 * f64::from(k);
+        Row { time: Some(time), ..reading(&at(time), [0.0; 6]) }
+    };
+    let design = rows(POSE, (0..20).map(row).collect());
+    for delay in [0.05, 0.2, -0.11] {
+        let found = measured(&arm, &[&format!("latency={delay}")], &design);
+        for k in 4..16 {
+            same_pose(&found[k], &arm.pose(&at(0.08 * k as f64 - delay)), 10.0 * ROUNDING);
+        }
+    }
+    // Poses at rest have no delay.
+    let rested = rows(POSE, [0, 500].map(row).to_vec());
+    let found = measured(&arm, &["latency=0.2"], &rested);
+    assert_eq!(found, measured(&arm, &[], &rested));
+}
+
+/// An axis of the table is tilted by as much as it wobbles there: about x by `alpha` of a modified row.
+#[test]
+fn an_axis_wobbles_twice_in_a_turn() {
+    let arm = spatial(Convention::Modified);
+    let (sine, cosine) = (2.0 * Q[1]).sin_cos();
+    let tilt = 1e-3 * cosine - 2e-3 * sine;
+    let mut changed = arm.clone();
+    // Rx(alpha) Tx(a) is Tx(a) Rx(alpha): the tilt stands behind both.
+    changed.joints[1].alpha += tilt;
+    let found =
+        one(&arm, &["bearing_wobble@joint 2:cos_x=1mrad,sin_x=-2mrad"], reading(&Q, [0.0; 6]));
+    same_pose(&found, &changed.pose(&Q), ROUNDING);
+    // About y: what is behind the joint turns about the joint's own y.
+    let text = "bearing_wobble@joint 1:cos_y=1mrad,sin_y=2mrad";
+    let arm = spatial(Convention::Standard);
+    let found = one(&arm, &[text], reading(&Q, [0.0; 6]));
+    let (sine, cosine) = (2.0 * Q[0]).sin_cos();
+    let turn = shifted([0.0; 3], [0.0, 1e-3 * cosine + 2e-3 * sine, 0.0]);
+    same_pose(&found, &(turn * arm.pose(&Q)), ROUNDING);
 }
 
 #[test]

@@ -55,6 +55,39 @@ fn masses_add_up() {
 }
 
 #[test]
+fn masses_are_elsewhere() {
+    for convention in BOTH {
+        let arm = loaded(convention);
+        let mut file = arm.clone();
+        file.joints[3].com += Vector3::new(0.05, -0.02, 0.03);
+        against(&arm, "link_com@link 4:x=50mm,y=-20mm,z=30mm", &file);
+    }
+}
+
+/// A base that is not level: the weights, and a load that hangs, pull elsewhere; what a load cell
+/// measured does not.
+#[test]
+fn gravity_is_tilted() {
+    let text = "gravity_tilt:x=4mrad,y=-7mrad";
+    let turn = nalgebra::Rotation3::new(Vector3::new(4e-3, -7e-3, 0.0));
+    for convention in BOTH {
+        let arm = loaded(convention);
+        let mut file = arm.clone();
+        file.gravity = turn * arm.gravity;
+        against(&arm, text, &file);
+        // 30 kg, beside the tool and as high.
+        let (at, weight) = (Vector3::new(0.11, -0.06, 0.0), 30.0 * arm.gravity);
+        let load = |force: Vector3<f64>| {
+            let moment = at.cross(&force);
+            reading(&Q, [force.x, force.y, force.z, moment.x, moment.y, moment.z])
+        };
+        let found = one(&arm, &[text], load(weight));
+        same(&found, &one(&file, &[], load(turn * weight)), 1e-12);
+        assert!((found - one(&file, &[], load(weight))).amax() > 1e-6);
+    }
+}
+
+#[test]
 fn links_bend_like_beams_of_the_file() {
     for convention in BOTH {
         let mut arm = loaded(convention);

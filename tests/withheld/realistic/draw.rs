@@ -227,7 +227,11 @@ fn is_plausible(truth: &Truth, arm: &Arm) -> bool {
     truth.values.iter().all(|(name, value)| {
         let number = truth.effect.number(arm, truth.place, name);
         let most = match number.map(|(_, number)| number.quantity) {
-            Some(Quantity::Length) if truth.effect.identifier() == "payload_com" => 0.1,
+            Some(Quantity::Length)
+                if ["payload_com", "link_com"].contains(&truth.effect.identifier()) =>
+            {
+                0.1
+            }
             Some(Quantity::Length | Quantity::Angle) => 5e-3,
             Some(Quantity::Mass) => 0.3 * mass,
             Some(Quantity::PerKelvin) => 5e-5,

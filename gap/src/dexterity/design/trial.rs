@@ -91,7 +91,7 @@ impl Trial<'_> {
     }
 
     fn change(&self, line_up: &LineUp, kind: Kind, row: &Row) -> Result<Matrix6xX<f64>, Unstable> {
-        let when = Moment { index: 0, last_move: vec![0.0; row.q.len()], warming: 0.0, clock: 0.0 };
+        let when = Moment::at_rest(vec![0.0; row.q.len()], 0.0);
         let actual = |loaded: bool| {
             let wrench = if loaded { row.wrench } else { Vector6::zeros() };
             Actual::new(self.arm, &row.q, &wrench)

@@ -1,15 +1,11 @@
 //! A dead band: the joint rests at one side or the other by the direction of approach.
-//!
-//! The same size at every load. Confused with the joint's offset if every pose is approached from
-//! one side, and with friction if the joint's torque hardly changes: approach each pose from both
-//! sides, under more than one load.
 
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::scene::direction;
 use crate::effects::{
-    Carrier, Curve, Depends, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity,
-    Scene, Spot, Told, joints,
+    About, Carrier, Curve, Depends, Effect, Group, Over, Parameter, ParameterReport, Place,
+    Quantity, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -21,6 +17,17 @@ pub struct Backlash;
 impl Effect for Backlash {
     fn identifier(&self) -> &'static str {
         "backlash"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "A dead band: the joint rests at one side or the other by the direction of \
+                      approach.",
+            signature: "The same size at every load, of the sign of the last move.",
+            confused_with: "`joint_offset` if every pose is approached from one side; \
+                            `friction_hysteresis` if the joint's torque hardly changes.",
+            separated_by: "Each pose approached from both sides, under more than one load.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

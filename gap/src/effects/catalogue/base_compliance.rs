@@ -1,14 +1,13 @@
-//! The foundation gives under load.
+//! The foundation gives under load: it rocks about x and y by the moment about the base's origin, and
+//! shifts by the force.
 //!
-//! Rocking about x and y by the moment about the base's origin, and a shift by the force. Its turn
-//! about z is joint 1's compliance and is left to that. Under loads that hardly change only the
-//! rocking shows, which is a form of its own. Confused with the tilt of joint 1's bearing
-//! unless the joint turns under one load: then the tilt turns along and the rocking does not.
+//! Its turn about z is joint 1's compliance and is left to that. Under loads that hardly change only the
+//! rocking shows, which is a form of its own.
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{About, Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 
@@ -23,6 +22,19 @@ pub struct BaseCompliance;
 impl Effect for BaseCompliance {
     fn identifier(&self) -> &'static str {
         "base_compliance"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The foundation gives under load: it rocks about x and y by the moment about \
+                      the base's origin, and shifts by the force.",
+            signature: "The whole arm moves as one, by the load's moment about the base, however \
+                        the arm stands.",
+            confused_with: "`bearing_compliance` at joint 1, which turns with the joint; under \
+                            loads that hardly change only the rocking shows.",
+            separated_by: "One load with joint 1 turned through its range: the bearing's tilt \
+                           turns along, the rocking does not.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

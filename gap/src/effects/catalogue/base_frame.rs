@@ -1,14 +1,11 @@
 //! The robot stands elsewhere than the measuring frame believes.
-//!
-//! The same rigid motion at every pose. Its turn about the first axis is joint 1's offset. Where the
-//! frame is unknown from the start, name it a nuisance: it is then fitted and never a finding.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -20,6 +17,18 @@ pub struct BaseFrame;
 impl Effect for BaseFrame {
     fn identifier(&self) -> &'static str {
         "base_frame"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The robot stands elsewhere than the measuring frame believes.",
+            signature: "The same rigid motion at every pose.",
+            confused_with: "`joint_offset` at joint 1, which is its turn about the first axis; the \
+                            lengths and twist of row 1.",
+            separated_by: "None on the arm alone: a frame measured at its foot. Where it is \
+                           unknown from the start, name it a nuisance; it is then fitted and never \
+                           a finding.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

@@ -1,12 +1,9 @@
 //! The joint tilts off its axis under moment.
-//!
-//! Confused with the bending of the links beside it and, at joint 1, with the foundation's rocking:
-//! poses in which the joint turns while the load keeps its direction tell them apart.
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints};
+use crate::effects::{About, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -17,6 +14,17 @@ pub struct BearingCompliance;
 impl Effect for BearingCompliance {
     fn identifier(&self) -> &'static str {
         "bearing_compliance"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The joint tilts off its axis under moment.",
+            signature: "A turn about the axes across the joint's, in proportion to the moment \
+                        about these.",
+            confused_with: "`link_compliance` of the links beside it; at joint 1 \
+                            `base_compliance`.",
+            separated_by: "Poses in which the joint turns while the load keeps its direction.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,15 +1,11 @@
 //! The measuring frame creeps with time: a tripod that settles, a floor that warms.
-//!
-//! In proportion to `time`, or to the number of the row where there is no time. Confused with thermal
-//! growth where temperature rises evenly, and with whatever else the order of the poses follows:
-//! measure the first poses once more at the end.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    Carrier, Depends, Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told,
+    About, Carrier, Depends, Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told,
     displacement,
 };
 use crate::measurement::Row;
@@ -22,6 +18,18 @@ pub struct Drift;
 impl Effect for Drift {
     fn identifier(&self) -> &'static str {
         "drift"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The measuring frame creeps with time: a tripod that settles, a floor that \
+                      warms.",
+            signature: "A rigid motion of all poses in proportion to `time`, or to the number of \
+                        the row where there is no time.",
+            confused_with: "`thermal_growth` where temperature rises evenly; whatever else the \
+                            order of the poses follows.",
+            separated_by: "The first poses once more at the end.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

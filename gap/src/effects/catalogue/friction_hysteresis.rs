@@ -1,15 +1,12 @@
-//! A direction-dependent wind-up in proportion to torque.
-//!
-//! Friction that grows with the load holds the joint back on the way to its pose. Confused with
-//! backlash, whose size does not depend on the torque, and with the joint's compliance if every
-//! pose is approached from one side: approach from both sides under small and large loads.
+//! Friction that grows with the load holds the joint back on the way to its pose: a wind-up in
+//! proportion to torque.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::scene::direction;
 use crate::effects::{
-    Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+    About, Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, axis};
@@ -21,6 +18,17 @@ pub struct FrictionHysteresis;
 impl Effect for FrictionHysteresis {
     fn identifier(&self) -> &'static str {
         "friction_hysteresis"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Friction that grows with the load holds the joint back on the way to its \
+                      pose: a wind-up in proportion to torque.",
+            signature: "Of the sign of the last move, and larger under load.",
+            confused_with: "`backlash`, whose size does not depend on the torque; \
+                            `joint_compliance` if every pose is approached from one side.",
+            separated_by: "Approach from both sides under small and large loads.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,14 +1,12 @@
 //! The loaded geometry (K_C, large deflection) that a first-order sim leaves out.
 //!
-//! stiffarm's own model is at rest on the deformed geometry, so it matters only where the file has
-//! another simulator's predictions: what those lack, if they are of first order, is the exact
-//! deflection minus the one on the undeformed arm. Grows with the square of the load: more than one
-//! level of load tells it from compliance.
+//! What those predictions lack, if they are of first order, is the exact deflection minus the one on the
+//! undeformed arm.
 
 use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Draw, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{About, Draw, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, beyond_first_order};
 
@@ -19,6 +17,18 @@ pub struct GeometricStiffness;
 impl Effect for GeometricStiffness {
     fn identifier(&self) -> &'static str {
         "geometric_stiffness"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The loaded geometry (K_C, large deflection) that a first-order sim leaves \
+                      out.",
+            signature: "Grows with the square of the load. Only where the file has another \
+                        simulator's predictions: stiffarm's own model is at rest on the deformed \
+                        geometry.",
+            confused_with: "`joint_compliance` and `joint_hardening` at a single level of load.",
+            separated_by: "More than one level of load.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

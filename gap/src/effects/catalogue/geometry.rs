@@ -1,14 +1,10 @@
 //! Every zero, length and twist of the table is a little off: what ordinary calibration takes up.
-//!
-//! No arm is made to the last digit, so that these go together, each held to what makers tolerate.
-//! A number that is off by far more stands out of its row (`joint_offset`, `link_geometry`). Where
-//! the data see only a sum, of the `d` of parallel axes or of a zero and a frame, its parts share it.
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::{JointOffset, LinkGeometry};
-use crate::effects::{Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links};
+use crate::effects::{About, Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links};
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
@@ -26,6 +22,20 @@ fn parts(arm: &Arm) -> impl Iterator<Item = (&'static dyn Effect, Spot)> {
 impl Effect for Geometry {
     fn identifier(&self) -> &'static str {
         "geometry"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Every zero, length and twist of the table is a little off: what ordinary \
+                      calibration takes up.",
+            signature: "The same at every load, moment and direction, and small everywhere: each \
+                        number within what makers tolerate.",
+            confused_with: "A single number that is off by far more, which is `joint_offset` or \
+                            `link_geometry`.",
+            separated_by: "Poses that use the whole range of every joint. Where the data see only \
+                           a sum, of the `d` of parallel axes or of a zero and a frame, its parts \
+                           share it.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

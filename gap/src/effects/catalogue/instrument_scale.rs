@@ -1,12 +1,9 @@
 //! The instrument's length scale is off: a laser's wavelength in air that is warmer than it believes.
-//!
-//! Scales positions about the instrument's origin. Confused with all lengths of the arm being off
-//! by one factor; a length standard in the field of view tells.
 
 use nalgebra::{Matrix6xX, Point3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{About, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
 
@@ -17,6 +14,17 @@ pub struct InstrumentScale;
 impl Effect for InstrumentScale {
     fn identifier(&self) -> &'static str {
         "instrument_scale"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The instrument's length scale is off: a laser's wavelength in air that is \
+                      warmer than it believes.",
+            signature: "Positions are scaled about the instrument's origin.",
+            confused_with: "All lengths of the arm being off by one factor, as `thermal_growth` \
+                            makes them.",
+            separated_by: "A length standard in the field of view.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

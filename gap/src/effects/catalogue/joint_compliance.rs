@@ -1,14 +1,12 @@
-//! The joint twists in proportion to its torque (Dumas et al. 2011, eqs. 4 and 20-21).
+//! The joint twists in proportion to its torque.
 //!
-//! Confused with its link's bending, which moves the tool by almost the same twist when the load
-//! comes from beyond the link's end, with the foundation (joint 1), and with a wrong weight: loads
-//! in several directions at folded and at stretched poses tell them apart.
+//! Dumas et al. 2011, eqs. 4 and 20-21.
 
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile,
+    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile,
     Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
@@ -21,6 +19,18 @@ pub struct JointCompliance;
 impl Effect for JointCompliance {
     fn identifier(&self) -> &'static str {
         "joint_compliance"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The joint twists in proportion to its torque.",
+            signature: "A turn about the joint's axis, in proportion to the moment of loads and \
+                        weights about it.",
+            confused_with: "`link_compliance` of its link, which moves the tool by almost the same \
+                            twist when the load comes from beyond the link's end; \
+                            `base_compliance` (joint 1); a wrong weight.",
+            separated_by: "Loads in several directions at folded and at stretched poses.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

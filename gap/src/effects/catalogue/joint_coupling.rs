@@ -1,14 +1,12 @@
 //! Another joint's motion turns this one: wrists whose gears run through one another.
 //!
-//! Each other joint is a form of its own. Confused with the joint's own ratio where two joints move
-//! together, and with periodic errors of the other joint where axes are parallel: move the two
-//! independently.
+//! Each other joint is a form of its own.
 
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
-    Carrier, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+    About, Carrier, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -20,6 +18,17 @@ pub struct JointCoupling;
 impl Effect for JointCoupling {
     fn identifier(&self) -> &'static str {
         "joint_coupling"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Another joint's motion turns this one: wrists whose gears run through one \
+                      another.",
+            signature: "A joint is off in proportion to the reading of another.",
+            confused_with: "`joint_ratio` where two joints move together; `transmission_error` of \
+                            the other joint where axes are parallel.",
+            separated_by: "The two joints moved independently.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,14 +1,11 @@
-//! The joint's twist is nonlinear (cubic) in its torque.
-//!
-//! Strain-wave gears stiffen with load. Confused with the joint's compliance unless the torque
-//! takes several sizes: at least three levels of load at one pose, both signs if it can be.
+//! The joint's twist is nonlinear (cubic) in its torque: strain-wave gears stiffen with load.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
-    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene, Spot,
-    Told, joints,
+    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene,
+    Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, axis};
@@ -20,6 +17,16 @@ pub struct JointHardening;
 impl Effect for JointHardening {
     fn identifier(&self) -> &'static str {
         "joint_hardening"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The joint's twist is nonlinear (cubic) in its torque: strain-wave gears \
+                      stiffen with load.",
+            signature: "The twist per torque changes with the torque.",
+            confused_with: "`joint_compliance` unless the torque takes several sizes.",
+            separated_by: "At least three levels of load at one pose, both signs if it can be.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

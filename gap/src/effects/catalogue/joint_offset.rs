@@ -1,15 +1,11 @@
 //! The zero of the joint is off.
-//!
-//! The same at every load, moment and direction. Confused with the base frame (joint 1), the tool
-//! frame (the last joint), and with neighbours whose axes are parallel as long as these move
-//! little: poses in which the joint itself and the next one cover their ranges tell them apart.
 
 use stiffarm_codegen::robot;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -21,6 +17,16 @@ pub struct JointOffset;
 impl Effect for JointOffset {
     fn identifier(&self) -> &'static str {
         "joint_offset"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The zero of the joint is off.",
+            signature: "The same turn of the joint at every load, moment and direction.",
+            confused_with: "`base_frame` (joint 1), `tool_frame` (the last joint), and neighbours \
+                            whose axes are parallel as long as these move little.",
+            separated_by: "Poses in which the joint itself and the next one cover their ranges.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

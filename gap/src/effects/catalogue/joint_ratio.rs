@@ -1,14 +1,10 @@
-//! The joint turns more or less than its reading, in proportion.
-//!
-//! A wrong gear ratio or encoder count. Confused with the joint's offset where the joint moves
-//! little, and with a periodic error of low order over less than a turn: the whole range of the
-//! joint tells them apart.
+//! The joint turns more or less than its reading, in proportion: a wrong gear ratio or encoder count.
 
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
-    Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene, Spot,
-    Told, joints,
+    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene,
+    Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -20,6 +16,17 @@ pub struct JointRatio;
 impl Effect for JointRatio {
     fn identifier(&self) -> &'static str {
         "joint_ratio"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The joint turns more or less than its reading, in proportion: a wrong gear \
+                      ratio or encoder count.",
+            signature: "A joint is off in proportion to its own reading.",
+            confused_with: "`joint_offset` where the joint moves little; `transmission_error` of \
+                            low order over less than a turn.",
+            separated_by: "The whole range of the joint.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,9 +1,7 @@
-//! The link bends and twists under load (Lin et al. 1991, eqs. 18-21; one stiffness for both bending
-//! planes).
+//! The link bends and twists under load.
 //!
-//! The link is a beam from the previous frame's origin to its own. Confused with the compliance of
-//! the joints at its ends: a force at the link's end bends and shifts it in another proportion than
-//! a moment there, so that loads with and without a lever beyond the link tell them apart.
+//! Lin et al. 1991, eqs. 18-21; one stiffness for both bending planes. The link is a beam from the
+//! previous frame's origin to its own.
 
 use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
@@ -11,7 +9,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told,
+    About, Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
@@ -59,6 +57,17 @@ fn soften(row: &mut RobotRow<'_>, v: &[f64]) -> Option<&'static str> {
 impl Effect for LinkCompliance {
     fn identifier(&self) -> &'static str {
         "link_compliance"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The link bends and twists under load.",
+            signature: "A turn and a shift at the link's end, in the proportions of a \
+                        cantilever's.",
+            confused_with: "`joint_compliance` of the joints at its ends.",
+            separated_by: "Loads with and without a lever beyond the link: a force at its end \
+                           bends and shifts it in another proportion than a moment there.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,10 +1,8 @@
 //! The DH lengths or twist of the row are off.
 //!
-//! The same at every load, moment and direction. Between parallel axes `beta` takes the place of `d`
-//! (Hayati & Mirmirani 1985): it tilts what is parallel out of its plane, which the row's own numbers
-//! cannot say, and a shift along them is the next row's.
-//! Confused with its neighbours along common normals and parallel axes, with the base frame (row 1)
-//! and the tool frame (the last row): only sums of such numbers are seen.
+//! Between parallel axes `beta` takes the place of `d` (Hayati & Mirmirani 1985): it tilts what is
+//! parallel out of its plane, which the row's own numbers cannot say, and a shift along them is the
+//! next row's.
 
 use nalgebra::{Matrix6xX, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
@@ -12,7 +10,7 @@ use stiffarm_kernels::generic::{Arm, Convention};
 
 use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
+    About, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -51,6 +49,18 @@ fn entries(arm: &Arm, row: usize) -> &'static [&'static str] {
 impl Effect for LinkGeometry {
     fn identifier(&self) -> &'static str {
         "link_geometry"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The DH lengths or twist of the row are off.",
+            signature: "The same at every load, moment and direction.",
+            confused_with: "Its neighbours along common normals and parallel axes, `base_frame` \
+                            (row 1) and `tool_frame` (the last row): only sums of such numbers are \
+                            seen.",
+            separated_by: "Poses that turn the joints on both sides of the row through their \
+                           ranges.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

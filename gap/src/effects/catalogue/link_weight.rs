@@ -1,8 +1,4 @@
 //! A link is heavier or lighter than modelled and the compliant structure sags.
-//!
-//! Seen only where the model, or what has been found, gives under load. Confused with the
-//! compliance of the joints before the link, whose sag it scales, and with the weights of its
-//! neighbours: loads of known size tell compliance from weight.
 
 use nalgebra::{Matrix6xX, Point3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{Convention, Motion, Value};
@@ -10,7 +6,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::{decimals, significant};
 use crate::effects::{
-    Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links,
+    About, Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
@@ -57,6 +53,17 @@ fn weigh(row: &mut RobotRow<'_>, mass: f64) -> Option<&'static str> {
 impl Effect for LinkWeight {
     fn identifier(&self) -> &'static str {
         "link_weight"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "A link is heavier or lighter than modelled and the compliant structure sags.",
+            signature: "The sag of the joints before the link, at every load. Seen only where the \
+                        model, or what has been found, gives under load.",
+            confused_with: "The compliance of the joints before the link, whose sag it scales, and \
+                            the weights of its neighbours.",
+            separated_by: "Loads of known size, which tell compliance from weight.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -4,16 +4,21 @@ mod backlash;
 mod base_compliance;
 mod base_frame;
 mod bearing_compliance;
+mod bearing_wobble;
 mod drift;
 mod friction_hysteresis;
 mod geometric_stiffness;
 mod geometry;
+mod gravity_tilt;
 mod instrument_scale;
 mod joint_compliance;
 mod joint_coupling;
 mod joint_hardening;
 mod joint_offset;
 mod joint_ratio;
+mod joint_warming;
+mod latency;
+mod link_com;
 mod link_compliance;
 mod link_geometry;
 mod link_weight;
@@ -31,16 +36,21 @@ pub use backlash::Backlash;
 pub use base_compliance::BaseCompliance;
 pub use base_frame::BaseFrame;
 pub use bearing_compliance::BearingCompliance;
+pub use bearing_wobble::BearingWobble;
 pub use drift::Drift;
 pub use friction_hysteresis::FrictionHysteresis;
 pub use geometric_stiffness::GeometricStiffness;
 pub use geometry::Geometry;
+pub use gravity_tilt::GravityTilt;
 pub use instrument_scale::InstrumentScale;
 pub use joint_compliance::JointCompliance;
 pub use joint_coupling::JointCoupling;
 pub use joint_hardening::JointHardening;
 pub use joint_offset::JointOffset;
 pub use joint_ratio::JointRatio;
+pub use joint_warming::JointWarming;
+pub use latency::Latency;
+pub use link_com::LinkCom;
 pub use link_compliance::LinkCompliance;
 pub use link_geometry::LinkGeometry;
 pub use link_weight::LinkWeight;
@@ -53,12 +63,13 @@ pub use transmission_error::TransmissionError;
 pub use wrench_scale::WrenchScale;
 
 /// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 24] = [
+pub const CATALOGUE: [&dyn Effect; 29] = [
     &JointOffset,
     &JointCompliance,
     &Backlash,
     &JointRatio,
     &SettlingLag,
+    &Latency,
     &FrictionHysteresis,
     &JointHardening,
     &TransmissionError,
@@ -68,9 +79,13 @@ pub const CATALOGUE: [&dyn Effect; 24] = [
     &LinkWeight,
     &WrenchScale,
     &PayloadCom,
+    &LinkCom,
+    &GravityTilt,
     &BaseCompliance,
     &ThermalGrowth,
+    &JointWarming,
     &InstrumentScale,
+    &BearingWobble,
     &LinkGeometry,
     &Geometry,
     &BaseFrame,

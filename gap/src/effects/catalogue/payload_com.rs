@@ -1,12 +1,9 @@
 //! The load acts beside the tool origin.
-//!
-//! A moment that turns with the tool. Confused with the moment columns themselves and, where the
-//! tool keeps its attitude, with the wrist's offsets: load several attitudes of the tool.
 
 use nalgebra::{Matrix6xX, Vector3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{About, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -17,6 +14,16 @@ pub struct PayloadCom;
 impl Effect for PayloadCom {
     fn identifier(&self) -> &'static str {
         "payload_com"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The load acts beside the tool origin.",
+            signature: "A moment that turns with the tool and grows with the load.",
+            confused_with: "The moment columns themselves; where the tool keeps its attitude, \
+                            zeros of the wrist.",
+            separated_by: "One load in several attitudes of the tool.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

@@ -1,13 +1,9 @@
 //! The reading was taken before the joint came to rest: an error in proportion to the last move.
-//!
-//! Read from the order of the rows. Confused with backlash and friction where moves are alike in
-//! size, and with the joint's ratio where every move starts from one pose: moves of many sizes from
-//! many poses tell them apart; a longer wait makes it vanish.
 
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
-    Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
+    About, Carrier, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -19,6 +15,19 @@ pub struct SettlingLag;
 impl Effect for SettlingLag {
     fn identifier(&self) -> &'static str {
         "settling_lag"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The reading was taken before the joint came to rest: an error in proportion \
+                      to the last move.",
+            signature: "Of the sign and size of the last move, which is read from the order of the \
+                        rows.",
+            confused_with: "`backlash` and `friction_hysteresis` where moves are alike in size; \
+                            `joint_ratio` where every move starts from one pose; `latency` in a \
+                            stream.",
+            separated_by: "Moves of many sizes from many poses; a longer wait makes it vanish.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,15 +1,13 @@
 //! A frame jumps at one moment: a bumped base, a slipped reflector.
 //!
-//! The form is the number of rows before the jump. Left out, one jump invents several effects:
-//! whatever differs between the poses before and after it. Confused with drift where the jump is
-//! small: repeat an early pose now and then.
+//! The form is the number of rows before the jump.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    Carrier, Depends, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told,
+    About, Carrier, Depends, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told,
     displacement,
 };
 use crate::measurement::{Measurements, Row};
@@ -28,6 +26,17 @@ const LEAST: usize = 3;
 impl Effect for Slip {
     fn identifier(&self) -> &'static str {
         "slip"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "A frame jumps at one moment: a bumped base, a slipped reflector.",
+            signature: "Poses before and after one row differ by a rigid motion. Left out, one \
+                        jump invents several effects: whatever differs between the poses before \
+                        and after it.",
+            confused_with: "`drift` where the jump is small.",
+            separated_by: "An early pose repeated now and then.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

@@ -1,14 +1,13 @@
 //! Lengths grow with temperature: every length of the table and the tool, in proportion to the
 //! temperature's difference from the first row.
-//!
-//! Confused with the instrument's scale if the temperature hardly changes, and with drift if it
-//! rises evenly: let the arm cool down and measure again.
 
 use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{
+    About, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
@@ -19,6 +18,18 @@ pub struct ThermalGrowth;
 impl Effect for ThermalGrowth {
     fn identifier(&self) -> &'static str {
         "thermal_growth"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Lengths grow with temperature: every length of the table and the tool, in \
+                      proportion to the temperature's difference from the first row.",
+            signature: "The tool moves away from the base as the arm warms up, the farther the \
+                        more it is stretched.",
+            confused_with: "`instrument_scale` if the temperature hardly changes; `drift` if it \
+                            rises evenly.",
+            separated_by: "The arm measured again when it has cooled down.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

@@ -1,15 +1,11 @@
 //! The measured point is not where the tool frame says.
-//!
-//! The same in the tool's own axes at every pose. Its turn about the last axis is the last joint's
-//! offset, and its shift in that axis' plane the last link's lengths. Name it a nuisance where the
-//! reflector's place is unknown from the start.
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, displacement,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, SIX, Scene, Spot, Told, displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -21,6 +17,17 @@ pub struct ToolFrame;
 impl Effect for ToolFrame {
     fn identifier(&self) -> &'static str {
         "tool_frame"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The measured point is not where the tool frame says.",
+            signature: "The same in the tool's own axes at every pose.",
+            confused_with: "`joint_offset` at the last joint, which is its turn about that axis; \
+                            the lengths of the last row, which are its shift across it.",
+            separated_by: "None on the arm alone. Where the reflector's place is unknown from the \
+                           start, name it a nuisance.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {

@@ -1,16 +1,14 @@
 //! An error periodic in the joint's angle: an eccentric encoder (order 1), a wavy gear (order 2), the
 //! teeth of a stage (10 and more).
 //!
-//! Each order is a form of its own and may be found beside others. Orders 1 and 2 are confused with
-//! offset and ratio of the joint where it covers less than a turn, high orders with each other
-//! where poses are few: spread the joint's angles over its range, not on a grid.
+//! Each order is a form of its own and may be found beside others.
 
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
-    Carrier, Curve, Draw, Effect, Forms, Over, Parameter, ParameterReport, Place, Quantity, Scene,
-    Spot, Told,
+    About, Carrier, Curve, Draw, Effect, Forms, Over, Parameter, ParameterReport, Place, Quantity,
+    Scene, Spot, Told,
 };
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
@@ -41,6 +39,18 @@ fn waves(numbers: &[ParameterReport]) -> Vec<(usize, [f64; 2])> {
 impl Effect for TransmissionError {
     fn identifier(&self) -> &'static str {
         "transmission_error"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "An error periodic in the joint's angle: an eccentric encoder (order 1), a \
+                      wavy gear (order 2), the teeth of a stage (10 and more).",
+            signature: "A sine of the joint's reading, the same at every load.",
+            confused_with: "`joint_offset` and `joint_ratio` of the joint where it covers less \
+                            than a turn (orders 1 and 2); high orders with each other where poses \
+                            are few.",
+            separated_by: "The joint's angles spread over its range, not on a grid.",
+        }
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {

@@ -1,13 +1,9 @@
 //! The load is not what the load column says: a load cell out of calibration, a mass weighed wrong.
-//!
-//! Scales all that the load does and nothing that the weights do. Confused with the compliances that
-//! the load works on, if they are unknown as well: the arm's own weight, or a second load cell,
-//! tells them apart.
 
 use nalgebra::{Matrix6xX, Point3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::{Effect, Parameter, Place, Quantity, Scene, Spot, Told};
+use crate::effects::{About, Effect, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -18,6 +14,17 @@ pub struct WrenchScale;
 impl Effect for WrenchScale {
     fn identifier(&self) -> &'static str {
         "wrench_scale"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "The load is not what the load column says: a load cell out of calibration, a \
+                      mass weighed wrong.",
+            signature: "All that the load does is larger by one factor, and nothing that the \
+                        weights do.",
+            confused_with: "The compliances that the load works on, if they are unknown as well.",
+            separated_by: "The arm's own weight, or a second load cell.",
+        }
     }
 
     fn places(&self, _: &Arm) -> Vec<Place> {
