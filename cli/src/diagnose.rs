@@ -94,6 +94,8 @@ pub struct Args {
 struct Written<'a> {
     #[serde(flatten)]
     diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    doubts: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
 }
@@ -113,7 +115,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
     let data = data::read(&args.data, &layout, quiet)?;
+    let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
+    if let Some(other) = &other {
+        data::doubted(&arm, other, &options.nuisances, quiet);
+    }
     let stages = Stages::new(quiet);
     interrupt::ends(&options.stop);
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
@@ -123,7 +129,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
     if let Some(target) = &args.json {
-        target.write(&json::text(&Written { diagnosis: found, check: check.as_ref() })?)?;
+        target.write(&json::text(&Written { diagnosis: found, doubts, check: check.as_ref() })?)?;
     }
     if let Some(target) = &args.write_robot {
         target.write(&corrected::text(&source, &data, &diagnosed))?;

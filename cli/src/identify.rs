@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::identify::measured::{
     Answer, Parameter, Question, Status, Unknown, identify_measured,
 };
@@ -92,6 +93,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
     let data = data::read(&args.data, &data::layout(&source)?, quiet)?;
+    // Only what loads change is used, whatever frame it is in.
+    data::doubted(&arm, &data, &Nuisance::ALL, quiet);
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
