@@ -14,6 +14,7 @@
 mod angle;
 mod chain;
 mod document;
+mod from_robot;
 mod geometry;
 mod masses;
 mod read;
