@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
 use stiffarm_codegen::emit::{
-    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c, c_name, dot, flexible_latex,
-    flexible_rust, latex, mjcf, rust, urdf,
+    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c, c_name, dot,
+    flexible_latex, flexible_rust, latex, mjcf, rust, urdf,
 };
 use stiffarm_codegen::robot::Robot;
 
@@ -202,8 +202,8 @@ impl Args {
     /// The header and the source.
     fn c(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
         let options = self.c_options(source)?;
-        let CFiles { header, source: text } = c(&source.robot, &options)
-            .map_err(|error| symbolic(&source.robot, &error))?;
+        let CFiles { header, source: text } =
+            c(&source.robot, &options).map_err(|error| symbolic(&source.robot, &error))?;
         let file = |end: &str| Some(format!("{}.{end}", options.name));
         Ok(vec![(file("c"), text), (file("h"), header)])
     }

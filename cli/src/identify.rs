@@ -9,8 +9,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_gap::Measurements;
-use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::diagnose::Nuisance;
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{
     Answer, Parameter, Question, Status, Unknown, identify_measured,
 };

@@ -30,7 +30,8 @@ pub fn mjcf(robot: &Robot) -> Result<String, SymbolicTable> {
             Motion::Revolute => "hinge",
             Motion::Prismatic => "slide",
         };
-        let range = step.limits.map_or(String::new(), |[low, high]| format!(" range=\"{low} {high}\""));
+        let range =
+            step.limits.map_or(String::new(), |[low, high]| format!(" range=\"{low} {high}\""));
         let stiffness = robot.joints[k].stiffness.as_ref().and_then(Value::number);
         let spring = stiffness.map_or(String::new(), |k| format!(" stiffness=\"{}\"", k.to_f64()));
         let _ = write!(
