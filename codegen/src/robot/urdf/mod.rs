@@ -15,6 +15,8 @@ mod angle;
 mod chain;
 mod document;
 mod from_robot;
+#[cfg(test)]
+mod fuzz;
 mod geometry;
 mod masses;
 mod read;
