@@ -249,6 +249,7 @@ impl Column {
     fn law(&self) -> String {
         match (self.factor, self.offset) {
             (1.0, 0.0) => String::new(),
+            (f, 0.0) => format!(" = {f} · it"),
             (f, o) => format!(" = {f} · it + {o}"),
         }
     }
