@@ -97,6 +97,8 @@ pub struct Args {
 struct Written<'a> {
     #[serde(flatten)]
     diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    doubts: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
     /// The robot file with what was found: the whole is a robot to every command.
@@ -113,7 +115,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
     let data = data::read(&args.data, &layout, quiet)?;
+    let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
+    if let Some(other) = &other {
+        data::doubted(&arm, other, &options.nuisances, quiet);
+    }
     let stages = Stages::new(quiet);
     interrupt::ends(&options.stop);
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
@@ -124,8 +130,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let found = &diagnosed.diagnosis;
     let corrected = corrected::text(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        let check = check.as_ref();
-        target.write(&json::text(&Written { diagnosis: found, check, corrected: &corrected })?)?;
+        let (check, corrected) = (check.as_ref(), corrected.as_str());
+        target.write(&json::text(&Written { diagnosis: found, doubts, check, corrected })?)?;
     }
     if let Some(target) = &args.write_robot {
         target.write(&corrected)?;

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
 use stiffarm_codegen::emit::{
-    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, c, c_name, dot, flexible_latex,
-    flexible_rust, latex, rust,
+    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c, c_name, dot,
+    flexible_latex, flexible_rust, latex, mjcf, rust, urdf,
 };
+use stiffarm_codegen::robot::Robot;
 
 use super::Verdict;
 use crate::input::source::{self, Source};
@@ -24,10 +25,11 @@ Examples:
   stiffarm generate ur5 --emit c --precision f32 --check firmware/
   stiffarm generate arm.toml --emit latex --outputs jacobian,deflection > arm.tex
   stiffarm generate ur5 --emit rust --outputs pose,jacobian --out src/ur5.rs
+  stiffarm generate better.toml --emit urdf --out better.urdf
   stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
   stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
-/// The kernels as Rust or C, or the closed form as LaTeX or as a graph
+/// The kernels as Rust or C, the closed form as LaTeX or as a graph, the arm as URDF or MJCF
 ///
 /// The Rust text is what the macro `robot!` compiles, headed so that in a file of its own (`mod arm;`)
 /// rustfmt and lints leave it alone; the C text gives the same bits. The same table always gives the
@@ -87,6 +89,10 @@ enum Emit {
     Latex,
     /// The expression graph, for Graphviz
     Dot,
+    /// The arm as links and joints, for simulators and controllers
+    Urdf,
+    /// The arm as bodies with its joints' springs, for MuJoCo
+    Mjcf,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -162,6 +168,9 @@ impl Args {
             other if other != Emit::Rust && self.fused => {
                 Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
             }
+            Emit::Urdf | Emit::Mjcf if !self.outputs.is_empty() => Err(Failure::new(
+                "--outputs is for rust, c, latex and dot: urdf and mjcf are the arm itself",
+            )),
             Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
                 Err(Failure::with_help(
                     "found no folder to write into: C is two files, a header and a source",
@@ -183,6 +192,8 @@ impl Args {
                 [] => dot(robot, &[Output::Jacobian]),
                 outputs => dot(robot, outputs),
             },
+            (Emit::Urdf, None) => urdf(robot).map_err(|error| symbolic(robot, &error))?,
+            (Emit::Mjcf, None) => mjcf(robot).map_err(|error| symbolic(robot, &error))?,
             (Emit::Rust, None) => rust(robot, &self.options()),
         };
         let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };
@@ -192,10 +203,8 @@ impl Args {
     /// The header and the source.
     fn c(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
         let options = self.c_options(source)?;
-        let CFiles { header, source: text } = c(&source.robot, &options).map_err(|error| {
-            let message = format!("{}: {error}", source.robot.name);
-            Failure::with_help(message, "write the numbers into a copy of the robot file")
-        })?;
+        let CFiles { header, source: text } =
+            c(&source.robot, &options).map_err(|error| symbolic(&source.robot, &error))?;
         let file = |end: &str| Some(format!("{}.{end}", options.name));
         Ok(vec![(file("c"), text), (file("h"), header)])
     }
@@ -258,6 +267,11 @@ impl Args {
         print(&format!("{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"))?;
         Ok(Verdict::Failed)
     }
+}
+
+fn symbolic(robot: &Robot, error: &SymbolicTable) -> Failure {
+    let message = format!("{}: {error}", robot.name);
+    Failure::with_help(message, "write the numbers into a copy of the robot file")
 }
 
 /// The first line that differs, from 1, as it is in either text.

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{
     Answer, Parameter, Question, Status, Unknown, identify_measured,
@@ -95,6 +96,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             "seen from a [base] that is turned, all three or none are measured",
         )
     })?;
+    // Only what loads change is used, whatever frame it is in.
+    data::doubted(&arm, &data, &Nuisance::ALL, quiet);
     let progress = Progress::new(&source.given, PARTS, quiet);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);

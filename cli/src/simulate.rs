@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use stiffarm_gap::Measurements;
+use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::{Dimension, Kind};
 use stiffarm_gap::plant::design::{Design, Shape};
@@ -200,7 +201,12 @@ impl ExperimentArgs {
     ) -> Result<Measurements, Failure> {
         let layout = data::layout(source)?;
         match file {
-            Some(path) => data::read(path, &layout, quiet),
+            Some(path) => {
+                let design = data::read_plan(path, &layout, quiet)?;
+                // What the file measures is replaced, its frames with it.
+                data::doubted(arm, &design, &Nuisance::ALL, quiet);
+                Ok(design)
+            }
             None => Ok(self.design()?.rows(arm)),
         }
     }

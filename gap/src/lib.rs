@@ -15,6 +15,7 @@ pub mod dexterity;
 pub mod diagnose;
 pub mod dice;
 pub mod displacement;
+pub mod doubts;
 pub mod effects;
 #[cfg(test)]
 mod fixture;

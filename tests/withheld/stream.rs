@@ -1,9 +1,10 @@
 //! A tracker that follows a moving arm: positions that are older or younger than the readings beside
 //! them, which no design of poses at rest can show.
 
+use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
-use stiffarm_gap::{Nuisance, Options, diagnose};
+use stiffarm_gap::{Options, diagnose};
 
 use crate::arms::arm;
 

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use stiffarm_gap::diagnose::Nuisance;
+use stiffarm_gap::doubts::doubts;
 use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
 use stiffarm_gap::{Measurements, ReadError};
+use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
 use super::source::Source;
@@ -27,7 +30,11 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    let data = from_bytes(path, &bytes, layout)?;
+    told(from_bytes(path, &bytes, layout), quiet)
+}
+
+fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
+    let data = data?;
     let mut lines: Vec<u64> = data.skipped.iter().map(|mistake| mistake.line).collect();
     lines.dedup();
     if !lines.is_empty() {
@@ -44,16 +51,40 @@ pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, F
     Ok(data)
 }
 
+/// Reads the poses and loads of a file, of which nothing need be measured.
+///
+/// # Errors
+/// [`Failure`]: it cannot be read, or its mistakes.
+pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let file = path.display().to_string();
+    let data = Measurements::plan_from_bytes(&file, &bytes, layout);
+    told(data.map_err(|error| refused(&file, &bytes, &error)), quiet)
+}
+
+/// Says what is to be doubted of a file unless `quiet`, and returns it; `along` are the frames that
+/// are fitted along.
+pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], quiet: bool) -> Vec<String> {
+    let doubts = doubts(arm, data, along);
+    doubts.iter().for_each(|doubt| note(doubt, quiet));
+    doubts
+}
+
 /// Reads the bytes of a file.
 ///
 /// # Errors
 /// [`Failure`]: its mistakes.
 pub fn from_bytes(path: &Path, bytes: &[u8], layout: &Layout) -> Result<Measurements, Failure> {
     let file = path.display().to_string();
-    Measurements::from_bytes(&file, bytes, layout).map_err(|error| match &error {
+    let data = Measurements::from_bytes(&file, bytes, layout);
+    data.map_err(|error| refused(&file, bytes, &error))
+}
+
+fn refused(file: &str, bytes: &[u8], error: &ReadError) -> Failure {
+    match error {
         ReadError::Open { .. } => Failure::new(error.to_string()),
-        ReadError::Mistakes { mistakes, more, .. } => refusal(&file, bytes, mistakes, *more),
-    })
+        ReadError::Mistakes { mistakes, more, .. } => refusal(file, bytes, mistakes, *more),
+    }
 }
 
 /// Mistakes, each at its cell, and how many more there are.

@@ -61,6 +61,7 @@ impl Learnt {
             Options { noise_position: noise.transpose()?, known, ..Options::default() };
         options.fit_along(&args.nuisance).map_err(plain)?;
         let data = data::read(path, &data::layout(source)?, quiet)?;
+        data::doubted(arm, &data, &options.nuisances, quiet);
         let stages = Stages::new(quiet);
         stages.say(format!("diagnosing {}", path.display()));
         let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;

@@ -79,6 +79,21 @@ fn a_files_rows_are_measured_again() {
     assert!((last(&soft, 1) - last(&nominal, 1) - added).abs() < 1e-3 * added.abs());
 }
 
+/// A plan as `poses` writes it, nothing measured yet, is a design; a campaign it is not.
+#[test]
+fn a_plan_is_simulated_and_withheld_before_it_is_measured() {
+    let (arm, plan) = ("docs/workbench/arm.toml", "docs/workbench/plan.csv");
+    let run = stiffarm(&["simulate", arm, plan, "--csv", "-"]).good();
+    assert!(run.contains("15 rows at 15 poses"), "{run}");
+    let row = run.lines().filter(|line| !line.starts_with('#')).nth(1).expect("a row");
+    assert!(row.split(',').all(|cell| cell.parse::<f64>().is_ok()), "{row}");
+    let few = ["--cases", "2", "--effects", "joint_compliance", "--quiet"];
+    let found = stiffarm(&[&["withhold", arm, plan], &few[..]].concat()).good();
+    assert!(found.contains("15 measurements at 15 poses"), "{found}");
+    let err = stiffarm(&["diagnose", arm, plan]).refused();
+    assert!(err.contains("found an empty cell, expected a length in mm"), "{err}");
+}
+
 /// What is put in is what the diagnosis finds.
 #[test]
 fn the_diagnosis_finds_what_was_put_in() {

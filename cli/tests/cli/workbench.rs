@@ -87,7 +87,8 @@ fn the_page_shows_what_the_commands_do() {
         }
         commands += 1;
     }
-    assert_eq!(commands, 6, "import, poses, identify, simulate, diagnose, compensate");
+    let all = "import, poses, identify, simulate, diagnose, compensate, measurements";
+    assert_eq!(commands, 7, "{all}");
 }
 
 /// The arm that the page measures: joint 2 has little more than half of its file's stiffness.

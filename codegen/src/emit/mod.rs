@@ -1,6 +1,9 @@
-//! Printers of the derived graph: Rust, C, LaTeX, dot. Each is one file or folder.
+//! Printers of the derived graph (Rust, C, LaTeX, dot) and of the arm itself (URDF, MJCF). Each is one file
+//! or folder.
 
 mod angles;
+#[cfg(feature = "urdf")]
+mod bodies;
 mod c;
 mod constants;
 mod docs;
@@ -9,14 +12,22 @@ mod expression;
 mod latex;
 mod lines;
 mod literal;
+#[cfg(feature = "urdf")]
+mod mjcf;
 mod plan;
 mod posture;
 mod rust;
+#[cfg(feature = "urdf")]
+mod urdf;
 
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
+#[cfg(feature = "urdf")]
+pub use mjcf::mjcf;
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
+#[cfg(feature = "urdf")]
+pub use urdf::urdf;
 
 use crate::derive::Output;
 use crate::robot::Robot;

@@ -35,6 +35,7 @@ mod verdict;
 use stiffarm_kernels::generic::Arm;
 
 pub use crate::effects::ParameterReport;
+pub(crate) use fit::rigid;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};

@@ -4,8 +4,8 @@ use nalgebra::Matrix6xX;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::{
-    About, Carrier, Curve, Depends, Draw, Forms, Group, Parameter, ParameterReport, Place, RobotFile,
-    Scene, Spot, Told,
+    About, Carrier, Curve, Depends, Draw, Forms, Group, Parameter, ParameterReport, Place,
+    RobotFile, Scene, Spot, Told,
 };
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};

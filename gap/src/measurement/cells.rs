@@ -39,8 +39,14 @@ fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {
     if si.is_finite() { Ok(si) } else { Err(Fault::TooLarge { found, expected }) }
 }
 
-/// Reads one row, or its mistakes. Its `group` is filled in later.
-pub(crate) fn row(record: &Record, heads: &[Head], layout: &Layout) -> Result<Row, Vec<Mistake>> {
+/// Reads one row, or its mistakes. Its `group` is filled in later. Of a row that is planned what is
+/// measured may be empty.
+pub(crate) fn row(
+    record: &Record,
+    heads: &[Head],
+    layout: &Layout,
+    planned: bool,
+) -> Result<Row, Vec<Mistake>> {
     let (line, cells) = (record.line, &record.cells);
     let whole = |fault| Err(vec![Mistake { line, column: None, fault }]);
     if cells.len() != heads.len() {
@@ -51,7 +57,10 @@ pub(crate) fn row(record: &Record, heads: &[Head], layout: &Layout) -> Result<Ro
     }
     let mut row = Row::new(line, vec![0.0; layout.motions.len()]);
     let mut mistakes = Vec::new();
-    for (head, cell) in heads.iter().zip(cells) {
+    let open = |head: &Head, cell: &str| {
+        planned && cell.is_empty() && matches!(head.role, Some(Role::Measured(..) | Role::Sim(..)))
+    };
+    for (head, cell) in heads.iter().zip(cells).filter(|(head, cell)| !open(head, cell)) {
         if let Err(fault) = fill(&mut row, head, cell, layout) {
             mistakes.push(Mistake { line, column: Some(head.column.clone()), fault });
         }

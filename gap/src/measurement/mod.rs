@@ -57,6 +57,9 @@ pub struct Measurements {
 /// and then (a beam that was cut), not every tenth.
 pub const ONE_IN: usize = 10;
 
+/// Wrists turn ±700° at the most: a joint that reads more than two turns is not read in radians.
+pub(crate) const MOST_RADIANS: f64 = 4.0 * core::f64::consts::PI;
+
 /// What the file measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -209,8 +212,30 @@ impl Measurements {
         bytes: &[u8],
         layout: &Layout,
     ) -> Result<Measurements, ReadError> {
+        Measurements::of_bytes(file, bytes, layout, false)
+    }
+
+    /// The same of a file that is still to be measured, in which cells of what is measured may be
+    /// empty; they are 0.
+    ///
+    /// # Errors
+    /// As [`Measurements::from_bytes`].
+    pub fn plan_from_bytes(
+        file: &str,
+        bytes: &[u8],
+        layout: &Layout,
+    ) -> Result<Measurements, ReadError> {
+        Measurements::of_bytes(file, bytes, layout, true)
+    }
+
+    fn of_bytes(
+        file: &str,
+        bytes: &[u8],
+        layout: &Layout,
+        planned: bool,
+    ) -> Result<Measurements, ReadError> {
         let mut mistakes = Mistakes::default();
-        let read = read_into(&mut mistakes, file, bytes, layout);
+        let read = read_into(&mut mistakes, file, bytes, layout, planned);
         match read.filter(|_| mistakes.is_empty()) {
             Some(measurements) => Ok(measurements),
             None => Err(mistakes.into_error(file)),
@@ -229,6 +254,7 @@ fn read_into(
     file: &str,
     bytes: &[u8],
     layout: &Layout,
+    planned: bool,
 ) -> Option<Measurements> {
     let records = match table::records(bytes) {
         Ok(records) => records,
@@ -254,7 +280,7 @@ fn read_into(
     let mut whole = Vec::with_capacity(body.len());
     let mut skipped = Vec::new();
     for record in body {
-        match cells::row(record, &heads, layout) {
+        match cells::row(record, &heads, layout, planned) {
             Ok(row) => {
                 rows.push(row);
                 whole.push(record);

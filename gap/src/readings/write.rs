@@ -7,13 +7,10 @@ use super::map::{Convention, Map};
 use super::sheet::{Cells, Table};
 use super::turn::Turn;
 use super::{ImportError, Imported, names};
-use crate::measurement::{Dimension, Unit, WRENCH_NAMES};
+use crate::measurement::{Dimension, MOST_RADIANS, Unit, WRENCH_NAMES};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
-
-/// A joint that reads more than two turns is in degrees: wrists turn ±700° at the most.
-const MOST_RADIANS: f64 = 4.0 * core::f64::consts::PI;
 
 /// A tool that is farther away than any arm reaches is in millimetres.
 const MOST_METRES: f64 = 20.0;
@@ -252,6 +249,7 @@ impl Column {
     fn law(&self) -> String {
         match (self.factor, self.offset) {
             (1.0, 0.0) => String::new(),
+            (f, 0.0) => format!(" = {f} · it"),
             (f, o) => format!(" = {f} · it + {o}"),
         }
     }

@@ -79,7 +79,7 @@ pub struct SymbolicTable {
 impl fmt::Display for SymbolicTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = self.parameters.join(", ");
-        write!(f, "found no number for {names}, expected a table of numbers: C has no parameters")
+        write!(f, "found no number for {names}, expected a table of numbers")
     }
 }
 

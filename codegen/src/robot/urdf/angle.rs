@@ -63,6 +63,18 @@ pub fn roll_pitch_yaw([roll, pitch, yaw]: Vector) -> Frame {
     z.then(&y).then(&x)
 }
 
+impl Frame {
+    /// The angles that [`roll_pitch_yaw`] makes this frame's axes of: yaw first, and the others of what
+    /// is then left, so that none is lost where pitch is a right angle.
+    pub fn roll_pitch_yaw(&self) -> Vector {
+        let [x, ..] = self.axes;
+        let yaw = x[1].atan2(x[0]);
+        let left = roll_pitch_yaw([0.0, 0.0, yaw]).inverse().then(self);
+        let [x, y, z] = left.axes;
+        [(-z[1]).atan2(y[1]), (-x[2]).atan2(x[0]), yaw]
+    }
+}
+
 /// An angle of the table: the multiple of π that it is but for noise, else a decimal.
 pub fn angle(x: f64) -> Angle {
     for n in (1..=LARGEST).map(f64::from) {

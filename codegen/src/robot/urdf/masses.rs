@@ -15,6 +15,11 @@ pub struct Lump {
 }
 
 impl Lump {
+    /// A mass at a point.
+    pub fn new(mass: f64, centre: Vector) -> Lump {
+        Lump { mass, moment: times(centre, mass) }
+    }
+
     /// The centre of mass; none without mass.
     pub fn centre(&self) -> Option<Vector> {
         (self.mass > 0.0).then(|| times(self.moment, 1.0 / self.mass))

@@ -14,6 +14,9 @@
 mod angle;
 mod chain;
 mod document;
+mod from_robot;
+#[cfg(test)]
+mod fuzz;
 mod geometry;
 mod invoked;
 mod masses;

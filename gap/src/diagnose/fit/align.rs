@@ -44,7 +44,7 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
 }
 
 /// The rigid motion that takes `from` closest to `to`.
-fn rigid(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Isometry3<f64> {
+pub(crate) fn rigid(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Isometry3<f64> {
     let mean = |points: &[Vector3<f64>]| points.iter().sum::<Vector3<f64>>() / points.len() as f64;
     let (here, there) = (mean(from), mean(to));
     let moment = from.iter().zip(to).map(|(f, t)| (t - there) * (f - here).transpose());

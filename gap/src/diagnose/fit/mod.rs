@@ -15,7 +15,7 @@ mod bounded;
 mod model;
 mod refit;
 
-pub(crate) use align::aligned;
+pub(crate) use align::{aligned, rigid};
 pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};

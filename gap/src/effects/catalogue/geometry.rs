@@ -4,7 +4,9 @@ use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::{JointOffset, LinkGeometry};
-use crate::effects::{About, Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links};
+use crate::effects::{
+    About, Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links,
+};
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{Actual, Moment};
 

@@ -6,8 +6,8 @@ use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, RobotFile,
-    Scene, Spot, Told, joints,
+    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity,
+    RobotFile, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};

@@ -5,8 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::robot_file::shift;
 use crate::effects::{
-    About, Draw, Effect, Fate, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot,
-    Told, links,
+    About, Draw, Effect, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -72,16 +71,10 @@ impl Effect for LinkCom {
         format!("the centre of mass of {} is {beside} off", told.place)
     }
 
-    fn write(
-        &self,
-        file: &mut RobotFile<'_>,
-        place: Place,
-        numbers: &[ParameterReport],
-    ) -> Vec<Fate> {
-        file.at_row(place, numbers, |row, number| {
-            let along = AXES.iter().position(|name| *name == number.name);
-            shift(&mut row.joint.com[along.ok_or("no axis of this name")?], number.value);
-            Ok("com")
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
+        file.at_row(spot.place, |row| {
+            row.joint.com.iter_mut().zip(v).for_each(|(entry, by)| shift(entry, *by));
+            Some("com")
         })
     }
 

@@ -5,7 +5,8 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, SIX, Scene, Spot, Told, displacement,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told,
+    displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};

@@ -1,0 +1,74 @@
+//! The other way: what a robot file's table is as a chain of joints that turn about their own z.
+
+use super::angle::roll_pitch_yaw;
+use super::chain::{Chain, Step};
+use super::geometry::{Frame, norm, times};
+use super::masses::Lump;
+use crate::robot::{Angle, Convention, Joint, Robot, Value};
+
+impl Chain {
+    /// The chain of a robot whose cells are numbers; `None` if one is a symbol.
+    ///
+    /// A row of the modified convention is one fixed transform and a joint at its end. Of a standard
+    /// row `Tx(a) Rx(alpha)` stand behind the joint, and before the next.
+    pub fn from_robot(robot: &Robot) -> Option<Chain> {
+        let mut steps = Vec::new();
+        let mut end = Frame::IDENTITY;
+        for joint in &robot.joints {
+            let turn = roll_pitch_yaw([0.0, 0.0, joint.theta.radians()?]);
+            let along_z = turn.then(&Frame::moved([0.0, 0.0, number(&joint.d)?]));
+            let twist = roll_pitch_yaw([joint.alpha.radians()?, 0.0, 0.0]);
+            let along_x = Frame::moved([number(&joint.a)?, 0.0, 0.0]).then(&twist);
+            let com = vector(&joint.com)?;
+            let (before, behind) = match robot.convention {
+                Convention::Modified => (along_x.then(&along_z), Frame::IDENTITY),
+                Convention::Standard => (along_z, along_x),
+            };
+            let mass = joint.mass.as_ref().map_or(Some(0.0), number)?;
+            let lump = Lump::new(mass, behind.point(com));
+            steps.push(step(joint, end.then(&before), lump));
+            end = behind;
+        }
+        let rotation = angles(&robot.tool.rotation)?;
+        let tool = Frame { origin: vector(&robot.tool.translation)?, ..turned(rotation) };
+        Some(Chain {
+            name: robot.name.clone(),
+            base: "base".to_owned(),
+            tip: "tool".to_owned(),
+            steps,
+            end: end.then(&tool),
+            gravity: vector(&robot.gravity)?,
+            remarks: Vec::new(),
+        })
+    }
+}
+
+fn step(joint: &Joint, before: Frame, lump: Lump) -> Step {
+    Step {
+        name: joint.name.clone(),
+        motion: joint.motion,
+        before,
+        axis: [0.0, 0.0, 1.0],
+        limits: joint.limits,
+        lump,
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.number().map(crate::number::Number::to_f64)
+}
+
+fn vector(values: &[Value; 3]) -> Option<[f64; 3]> {
+    let [x, y, z] = values;
+    Some([number(x)?, number(y)?, number(z)?])
+}
+
+fn angles([x, y, z]: &[Angle; 3]) -> Option<[f64; 3]> {
+    Some([x.radians()?, y.radians()?, z.radians()?])
+}
+
+/// By a rotation vector.
+fn turned(rotation: [f64; 3]) -> Frame {
+    let angle = norm(rotation);
+    if angle == 0.0 { Frame::IDENTITY } else { Frame::turned(times(rotation, 1.0 / angle), angle) }
+}

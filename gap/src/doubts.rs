@@ -1,0 +1,278 @@
+//! What a file may mean otherwise than it says: nothing of it is wrong to the letter, and nobody's
+//! arm does this. A campaign in degrees that says radians would be diagnosed like any other.
+//!
+//! Each threshold is where no arm can be, so that a doubt is worth its sentence: it is told, and
+//! changes nothing.
+
+use core::f64::consts::{PI, TAU};
+
+use nalgebra::{Isometry3, Vector3};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::{Arm, Joint};
+
+use crate::diagnose::{Nuisance, rigid};
+use crate::gap::{rms, row_gap};
+use crate::measurement::{Kind, MOST_RADIANS, Measurements, Row};
+use crate::simulate::{Reading, simulate};
+
+/// Trackers see tens of metres and the smallest arms reach half of one; from millimetres to metres it
+/// is a factor of a thousand.
+const MOST_REACHES: f64 = 100.0;
+
+/// Springs are linear while the arm gives by little: a tenth of its reach is a tenth of a radian at
+/// its first joint.
+const MOST_GIVEN: f64 = 0.1;
+
+/// Of the reach: lengths are held to a thousandth and zeros marked to a few, also on a bad arm.
+const LARGE_GAP: f64 = 0.02;
+
+/// Part of the gap's square that a motion of a frame explains where it is all that is amiss.
+const NEARLY_ALL: f64 = 0.99;
+
+/// Poses below which a motion of both frames, nine numbers, explains too much by itself.
+const FEWEST_POSES: usize = 6;
+
+/// Rows by which a motion of a frame is judged, spread over the file.
+const ENOUGH_ROWS: usize = 500;
+
+/// A stiffness that no joint has, over the reach's cube, N/m². Arms of one shape and material stiffen
+/// with the cube of their size; of those with published springs the KUKA KR 240-2 is the stiffest, 6.6e6
+/// N·m/rad at 3 m or 2.4e5 N/m².
+const STIFFEST: f64 = 3e6;
+
+/// What is to be doubted of `data` as measured on `arm`, a sentence each; `along` are the frames that
+/// are fitted along.
+pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String> {
+    let reach = reach(arm);
+    let mut doubts = Vec::new();
+    doubts.extend(readings(arm, data));
+    doubts.extend(angles(data));
+    if reach > 0.0 {
+        doubts.extend(lengths(data, reach));
+        doubts.extend(loads(arm, data, reach));
+        // In other units no frame fits.
+        if doubts.is_empty() {
+            doubts.extend(frames(arm, data, along, reach));
+        }
+    }
+    doubts
+}
+
+/// All lengths laid end to end, m: no point of the tool is farther from the base.
+fn reach(arm: &Arm) -> f64 {
+    let slide = |joint: &Joint| match (joint.motion, joint.limits) {
+        (Motion::Prismatic, Some([low, high])) => low.abs().max(high.abs()),
+        _ => 0.0,
+    };
+    let link = |joint: &Joint| joint.a.abs() + joint.d.abs() + slide(joint);
+    arm.joints.iter().map(link).sum::<f64>() + arm.tool.translation.vector.norm()
+}
+
+/// More than half of the rows.
+fn most(data: &Measurements, is: impl Fn(&Row) -> bool) -> bool {
+    2 * data.rows.iter().filter(|row| is(row)).count() > data.rows.len()
+}
+
+fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
+    let limits = |joint: &Joint| match (joint.limits, joint.motion) {
+        (Some(limits), _) => limits,
+        (None, Motion::Revolute) => [-MOST_RADIANS, MOST_RADIANS],
+        (None, Motion::Prismatic) => [f64::NEG_INFINITY, f64::INFINITY],
+    };
+    let limits: Vec<[f64; 2]> = arm.joints.iter().map(limits).collect();
+    // Half a degree beyond is how a limit was rounded.
+    let inside = |j: usize, q: f64| limits[j][0] - 0.01 <= q && q <= limits[j][1] + 0.01;
+    let beyond: Vec<usize> =
+        (0..arm.dof()).filter(|&j| most(data, |row| !inside(j, row.q[j]))).collect();
+    let farthest = |j: usize| data.rows.iter().map(|row| row.q[j].abs()).fold(0.0, f64::max);
+    let first = *beyond.first()?;
+    let names: Vec<String> = beyond.iter().map(|j| format!("q{}", j + 1)).collect();
+    let largest = beyond.iter().map(|&j| farthest(j)).fold(0.0, f64::max);
+    let in_other = |j: usize| {
+        let factor = match arm.joints[j].motion {
+            Motion::Revolute => PI / 180.0,
+            Motion::Prismatic => 1e-3,
+        };
+        most(data, |row| inside(j, factor * row.q[j]))
+    };
+    let (unit, other, written) = match arm.joints[first].motion {
+        Motion::Revolute => ("rad", "degrees", "deg"),
+        Motion::Prismatic => ("m", "millimetres", "mm"),
+    };
+    let name = &names[0];
+    let help = if beyond.iter().all(|&j| in_other(j)) {
+        format!("are they in {other}? write {name}[{written}]")
+    } else {
+        "is it another robot's file, or are its limits not this arm's?".to_owned()
+    };
+    Some(format!(
+        "{}: {} {} {} {unit}, beyond the limits of the joint in most rows: {help}",
+        data.file,
+        names.join(", "),
+        if names.len() == 1 { "reaches" } else { "reach" },
+        shown(largest)
+    ))
+}
+
+/// Positions and displacements that are too large for metres.
+fn lengths(data: &Measurements, reach: f64) -> Option<String> {
+    let (most_metres, what) = match data.kind {
+        Kind::Pose { .. } => (MOST_REACHES * reach, "away"),
+        Kind::Displacement { .. } => (MOST_GIVEN * reach, "displaced"),
+    };
+    let size = |row: &Row| row.measured.fixed_rows::<3>(0).norm();
+    let mut sizes: Vec<f64> = data.rows.iter().map(size).collect();
+    sizes.sort_by(f64::total_cmp);
+    let middle = *sizes.get(sizes.len() / 2).filter(|m| **m > most_metres)?;
+    let name = data.kind.measured().into_iter().next()?;
+    Some(format!(
+        "{}: the tool is {} m {what} in most rows, and the arm reaches {} m: is it millimetres? \
+         write {name}[mm]",
+        data.file,
+        shown(middle),
+        shown(reach)
+    ))
+}
+
+/// Rotations that are too large for radians.
+fn angles(data: &Measurements) -> Option<String> {
+    let most_radians = match data.kind {
+        Kind::Pose { .. } => TAU,
+        Kind::Displacement { .. } => 1.0,
+    };
+    let size = |row: &Row| row.measured.fixed_rows::<3>(3).norm();
+    if !most(data, |row| size(row) > most_radians) {
+        return None;
+    }
+    let largest = data.rows.iter().map(size).fold(0.0, f64::max);
+    let name = data.kind.measured().into_iter().find(|name| name.contains('r'))?;
+    Some(format!(
+        "{}: rotations reach {} rad: are they in degrees? write {name}[deg]",
+        data.file,
+        shown(largest)
+    ))
+}
+
+/// Loads under which a joint would turn by more than a radian, or slide by more than the reach.
+fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
+    let stiffest = |joint: &Joint| match joint.motion {
+        Motion::Revolute => STIFFEST * reach.powi(3),
+        Motion::Prismatic => STIFFEST * reach,
+    };
+    let compliance = |j: &Joint| if j.compliance > 0.0 { j.compliance } else { 1.0 / stiffest(j) };
+    let most_given = |j: &Joint| if j.motion == Motion::Revolute { 1.0 } else { reach };
+    let given = |row: &Row| {
+        let torque = arm.joint_torque(&row.q, &row.wrench);
+        let each = arm.joints.iter().zip(&torque).enumerate();
+        let over = each.map(|(j, (joint, t))| (j, compliance(joint) * t.abs() / most_given(joint)));
+        over.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, over)| *over > 1.0)
+    };
+    let unbearable: Vec<(&Row, usize, f64)> = data
+        .rows
+        .iter()
+        .filter(|row| row.wrench.amax() > 0.0)
+        .filter_map(|row| given(row).map(|(j, over)| (row, j, over)))
+        .collect();
+    let (row, j, over) = unbearable.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let joint = &arm.joints[*j];
+    let at_least = if joint.compliance > 0.0 { "" } else { ", as stiff as any arm's is," };
+    let (does, unit) = match joint.motion {
+        Motion::Revolute => ("turn", "rad"),
+        Motion::Prismatic => ("slide", "m"),
+    };
+    Some(format!(
+        "{}: line {}: a load of {} N and {} N·m, under which joint {}{at_least} would {does} by {} \
+         {unit}{}: no arm bears it; is the unit of the load right?",
+        data.file,
+        row.line,
+        shown(row.wrench.fixed_rows::<3>(0).norm()),
+        shown(row.wrench.fixed_rows::<3>(3).norm()),
+        j + 1,
+        shown(over * most_given(joint)),
+        match unbearable.len() {
+            1 => String::new(),
+            n => format!(", and {} rows like it", n - 1),
+        }
+    ))
+}
+
+/// A gap that is large beside the arm and a motion of its frames.
+fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
+    if !matches!(data.kind, Kind::Pose { .. }) || data.poses < FEWEST_POSES {
+        return None;
+    }
+    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
+    let simulated = |row: &Row| match (row.sim, data.sim_given[..3] == [true; 3]) {
+        (Some(sim), true) => Some(Reading::from_vector(&sim)),
+        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
+    };
+    let rows = data.rows.iter().step_by(every);
+    let rows: Vec<(Reading, &Row)> =
+        rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect();
+    let is = |row: &Row| row.measured.fixed_rows::<3>(0).into_owned();
+    let size = |gaps: Vec<Vector3<f64>>| rms(&gaps.iter().map(Vector3::norm).collect::<Vec<_>>());
+    let gap = |(sim, row): &(Reading, &Row)| row_gap(data, row, sim).fixed_rows::<3>(0).into();
+    let before = size(rows.iter().map(gap).collect());
+    if rows.len() < FEWEST_POSES || before <= LARGE_GAP * reach {
+        return None;
+    }
+    let to: Vec<_> = rows.iter().map(|(_, row)| is(row)).collect();
+    let left = |free: &[Nuisance]| {
+        let (mut base, mut tool) = (Isometry3::identity(), Vector3::zeros());
+        // Each is exact where the other is; together they approach the best of both.
+        for _ in 0..20 {
+            if free.contains(&Nuisance::BaseFrame) {
+                let from: Vec<_> =
+                    rows.iter().map(|(sim, _)| sim.position + sim.rotation * tool).collect();
+                base = rigid(&from, &to);
+            }
+            if free.contains(&Nuisance::ToolFrame) {
+                let offset = |((sim, _), to): (&(Reading, &Row), &Vector3<f64>)| {
+                    let at = base.inverse() * nalgebra::Point3::from(*to);
+                    sim.rotation.inverse() * (at.coords - sim.position)
+                };
+                tool = rows.iter().zip(&to).map(offset).sum::<Vector3<f64>>() / rows.len() as f64;
+            }
+        }
+        let at = |sim: &Reading| base * nalgebra::Point3::from(sim.position + sim.rotation * tool);
+        size(rows.iter().zip(&to).map(|((sim, _), to)| to - at(sim).coords).collect())
+    };
+    let explained = |free: &[Nuisance]| 1.0 - (left(free) / before).powi(2);
+    if !along.is_empty() && explained(along) > NEARLY_ALL {
+        return None;
+    }
+    use Nuisance::{BaseFrame, ToolFrame};
+    let tried = [vec![BaseFrame], vec![ToolFrame], vec![BaseFrame, ToolFrame]];
+    let (free, part) = tried
+        .into_iter()
+        .map(|free| (explained(&free), free))
+        .map(|(part, free)| (free, part))
+        .find(|(_, part)| *part > NEARLY_ALL)?;
+    let names: Vec<&str> = free.iter().map(|frame| frame.identifier()).collect();
+    Some(format!(
+        "{}: the gap is {} m, and the arm reaches {} m; a rigid motion of {} explains {:.1} % of it: is \
+         the frame unknown? --nuisance {}",
+        data.file,
+        shown(before),
+        shown(reach),
+        names.join(" and ").replace('_', " "),
+        (1000.0 * part).floor() / 10.0,
+        names.join(",")
+    ))
+}
+
+/// Three significant digits.
+fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+        let digits = if x == 0.0 { 0.0 } else { (2.0 - x.abs().log10().floor()).max(0.0) };
+        let text = format!("{x:.*}", digits as usize);
+        return match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text,
+        };
+    }
+    format!("{x:.2e}")
+}
+
+#[cfg(test)]
+mod tests;
