@@ -86,7 +86,6 @@ impl Search<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{data, normal};
-    use super::*;
     use crate::diagnose::data::{Stream, generator};
     use crate::diagnose::{Options, diagnose};
     use crate::fixture::bent;
