@@ -29,16 +29,14 @@ use case::{Case, run};
 use draw::{Drawn, EVIDENCE, INSTRUMENT, RATIO, draw};
 use score::Score;
 
-/// Today it fails: the diagnosis misses most of these goals.
 #[test]
-#[ignore = "takes many minutes, and fails today: see the head of this file"]
+#[ignore = "takes minutes: see the head of this file"]
 fn tuning() {
     full(1..=100);
 }
 
-/// Today it fails: the diagnosis misses most of these goals.
 #[test]
-#[ignore = "takes many minutes, and fails today: see the head of this file"]
+#[ignore = "takes minutes: see the head of this file"]
 fn kept_apart() {
     full(1001..=1100);
 }

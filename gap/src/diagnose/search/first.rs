@@ -9,7 +9,7 @@ use crate::diagnose::sums::{Candidate, Gathered};
 pub(crate) struct First {
     /// The catalogue's effects, then the free forms.
     pub(crate) candidates: Vec<Candidate>,
-    /// Lengths, twists and zeros of the arm.
+    /// Lengths, twists and zeros of the arm, where they are not fitted along.
     pub(crate) geometry: Vec<Candidate>,
     /// The former with the latter along.
     pub(crate) gathered: Gathered,
@@ -18,8 +18,8 @@ pub(crate) struct First {
 impl Search<'_, '_> {
     /// Gathers what the data show before anything is found.
     pub(crate) fn first(&self, now: &Explained) -> First {
-        let geometry: Vec<Candidate> =
-            self.candidates.iter().filter(|c| is_one(c)).cloned().collect();
+        let apart = self.candidates.iter().filter(|c| is_one(c) && self.problem.along.is_none());
+        let geometry: Vec<Candidate> = apart.cloned().collect();
         let mut candidates = self.candidates.to_vec();
         candidates.extend(Candidate::probes(self.problem));
         let gathered = self.gather(now, &geometry, &candidates);

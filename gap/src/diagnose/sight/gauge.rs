@@ -7,6 +7,7 @@ use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::Gauge;
 use crate::diagnose::search::{First, Search};
 use crate::diagnose::sums::Candidate;
+use crate::effects::{Place, Spot};
 use crate::measurement::Kind;
 
 /// A number whose column has less than this part left beside those before it is one with them: the
@@ -44,7 +45,11 @@ impl Search<'_, '_> {
             let named = move |name: &str| format!("{name} of {}", spot.place);
             all.into_iter().map(move |p| named(&p.name)).collect::<Vec<_>>()
         });
-        frames.chain(markers).chain(each).collect()
+        let along = self.problem.along.into_iter().flat_map(|effect| {
+            let all = effect.parameters(self.problem.arm, Spot { place: Place::Arm, form: 0 });
+            all.into_iter().map(|p| p.name.into_owned()).collect::<Vec<_>>()
+        });
+        frames.chain(markers).chain(along).chain(each).collect()
     }
 }
 

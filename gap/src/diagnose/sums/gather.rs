@@ -153,6 +153,7 @@ mod tests {
     use crate::effects::CATALOGUE;
     use crate::fixture::{bent, row, table};
     use crate::measurement::{Measurements, Row};
+    use nalgebra::DVector;
     use std::sync::Arc;
 
     /// More rows than one chunk has.
