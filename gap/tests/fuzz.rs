@@ -111,7 +111,8 @@ fn layout(joints: usize) -> Layout {
     let mut motions = vec![Motion::Revolute; joints];
     motions[joints / 2] = Motion::Prismatic;
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
-    Layout { motions, markers: vec![marker("smr1", None), marker("smr2", Some([0.1, 0.2, 0.3]))] }
+    let markers = vec![marker("smr1", None), marker("smr2", Some([0.1, 0.2, 0.3]))];
+    Layout { motions, markers, readings: true }
 }
 
 /// What is read is finite, what is refused has a place.

@@ -41,17 +41,19 @@ fn completions_know_the_commands() {
 }
 
 /// In the order of the alphabet.
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 17] = [
     "check",
     "compensate",
     "completions",
     "diagnose",
+    "effects",
     "eval",
     "generate",
     "identify",
     "import",
     "man",
     "map",
+    "measurements",
     "papers",
     "poses",
     "robots",
