@@ -189,7 +189,7 @@ mod tests {
         for (shared, own) in sums(true).iter().zip(&sums(false)) {
             assert_eq!((&shared.zz, &shared.zr, shared.rr), (&own.zz, &own.zr, own.rr));
             // Sums of some hundred products, of periodic motions that have rounded forty times.
-            let sizes = nalgebra::DVector::from_iterator(
+            let sizes = DVector::from_iterator(
                 own.xr.len(),
                 own.xx.iter().flat_map(|xx| xx.diagonal().map(f64::sqrt).data.as_vec().clone()),
             );
