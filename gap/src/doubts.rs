@@ -198,7 +198,9 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
 
 /// A gap that is large beside the arm and a motion of its frames.
 fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
-    if !matches!(data.kind, Kind::Pose { .. }) || data.poses < FEWEST_POSES {
+    // Where a marker is unknown its place is fitted along in any case.
+    let unknown = data.rows.iter().any(|row| row.offset.is_none());
+    if !matches!(data.kind, Kind::Pose { .. }) || data.poses < FEWEST_POSES || unknown {
         return None;
     }
     let every = data.rows.len().div_ceil(ENOUGH_ROWS);
@@ -241,13 +243,12 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
     if !along.is_empty() && explained(along) > NEARLY_ALL {
         return None;
     }
-    use Nuisance::{BaseFrame, ToolFrame};
-    let tried = [vec![BaseFrame], vec![ToolFrame], vec![BaseFrame, ToolFrame]];
-    let (free, part) = tried
+    let [base, tool] = [Nuisance::BaseFrame, Nuisance::ToolFrame];
+    let tried = [vec![base], vec![tool], vec![base, tool]];
+    let (part, free) = tried
         .into_iter()
         .map(|free| (explained(&free), free))
-        .map(|(part, free)| (free, part))
-        .find(|(_, part)| *part > NEARLY_ALL)?;
+        .find(|(part, _)| *part > NEARLY_ALL)?;
     let names: Vec<&str> = free.iter().map(|frame| frame.identifier()).collect();
     Some(format!(
         "{}: the gap is {} m, and the arm reaches {} m; a rigid motion of {} explains {:.1} % of it: is \

@@ -132,7 +132,8 @@ fn announced_checked_and_written_are_one_number() {
         let data = measured(&everything[..count], Some(Frames::unknown(seed)), seed);
         let options = Options { nuisances: Nuisance::ALL.to_vec(), ..Options::default() };
         let (found, gaps) = three(&robot(), &data, &options);
-        assert!(found.diagnosis.findings.len() >= 3, "{count}");
+        // What calibration takes up is one finding.
+        assert!(found.diagnosis.findings.len() >= count - 3, "{count}");
         agree(&found, &data, gaps, &format!("{count} truths"));
         for finding in &found.diagnosis.findings {
             let along = finding.parameters.iter().find(|p| p.name == "d");

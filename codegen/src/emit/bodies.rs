@@ -76,10 +76,11 @@ mod tests {
             name = "<oblique> & \"odd\""
             convention = "standard"
             gravity = [1.0, 2.0, -9.0]
+            base = { translation = [0.3, -0.1, 0.2], rotation = [0.1, 0.2, -0.4] }
             joint = [
-                { type = "revolute", theta = "pi/2", d = 0.3, a = -0.2, alpha = "pi/2", mass = 3, com = [0.1, 0.2, 0.3] },
+                { type = "revolute", theta = "pi/2", d = 0.3, a = -0.2, alpha = "pi/2", beta = 0.02, mass = 3, com = [0.1, 0.2, 0.3] },
                 { type = "prismatic", theta = "pi/2", d = 0.1, a = 0.25, alpha = "-pi/2", stiffness = 1e5 },
-                { type = "prismatic", theta = -0.7, d = 0.1, a = 0.2, alpha = 0.4, limits = [-0.5, 0.7], mass = 2 },
+                { type = "prismatic", theta = -0.7, d = 0.1, a = 0.2, alpha = 0.4, beta = -0.3, limits = [-0.5, 0.7], mass = 2 },
                 { type = "revolute", theta = 3.0, d = 0.05, a = 0.3, alpha = "pi", limits = [-2.0, 1.0] },
             ]
             tool = { translation = [0.1, -0.2, 0.3], rotation = [0.5, -2.0, 1.0] }

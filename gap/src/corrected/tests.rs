@@ -67,7 +67,7 @@ fn data() -> Measurements {
         let q = [0.3 + 0.2 * at, -0.5, 0.2 + 0.05 * at, 1.1 - 0.3 * at, 0.4 * at];
         let mut row = row(&q, Vector6::new(150.0, -90.0, -400.0, 20.0, 30.0, -15.0));
         row.direction = Some(vec![1, -1, 1, -1, 1]);
-        (row.temperature, row.time) = (Some(20.0 + at), Some(60.0 * at));
+        (row.temperature, row.time) = (Some(20.0 + at), Some(0.6 * at));
         row
     });
     table(rows.collect(), Kind::Pose { orientation: true })
@@ -141,8 +141,10 @@ fn the_written_robot_does_what_the_effect_does() {
     in_the_table.sort_unstable();
     let entries = [
         "base_frame",
+        "geometry",
         "joint_compliance",
         "joint_offset",
+        "link_com",
         "link_compliance",
         "link_geometry",
         "link_weight",

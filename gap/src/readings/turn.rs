@@ -1,6 +1,6 @@
 //! Orientations of any convention into rotation vectors.
 
-use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::ImportError;
 use super::columns::{Column, Columns};
@@ -31,7 +31,7 @@ impl Convention {
 
     /// The rotation vector of its numbers, rad; `None` of a quaternion of no length.
     pub(super) fn rotation(self, n: &[f64]) -> Option<Vector3<f64>> {
-        let about = |axis: Vector3<f64>, angle: f64| Rotation3::new(axis * angle);
+        let about = |axis: Vector3<f64>, angle: f64| UnitQuaternion::new(axis * angle);
         let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
         let turned = match self {
             Convention::RotationVector => return Some(Vector3::new(n[0], n[1], n[2])),

@@ -1,6 +1,6 @@
 //! The plant on its design: how large an effect's gap is, in multiples of the noise.
 
-use nalgebra::{DMatrix, DVector, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3, Vector6};
 
 use super::draw::resized;
 use super::exact;
@@ -151,7 +151,8 @@ pub(super) fn difference(
 ) -> Vector6<f64> {
     let mut off = measured - predicted;
     if components[3..] == [true; 3] {
-        let turn = |v: &Vector6<f64>| Rotation3::from_scaled_axis(Vector3::new(v[3], v[4], v[5]));
+        // By quaternions: the angle of a matrix is not a number where rounding takes its trace above 3.
+        let turn = |v: &Vector6<f64>| UnitQuaternion::new(Vector3::new(v[3], v[4], v[5]));
         let between = (turn(measured) * turn(predicted).inverse()).scaled_axis();
         off.fixed_rows_mut::<3>(3).copy_from(&between);
     }

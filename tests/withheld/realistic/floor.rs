@@ -1,12 +1,10 @@
 //! What is left of the gap with the true values put in: the noise that was drawn.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_gap::effects::{Effect, Forms, Spot};
 use stiffarm_gap::gap::{Statistics, row_gap};
 use stiffarm_gap::measurement::{Measurements, Row};
 use stiffarm_gap::plant::Truth;
 use stiffarm_gap::simulate::{Actual, Reading, Sim, moments};
-use stiffarm_kernels::generic::Arm;
 
 use super::draw::Drawn;
 
@@ -31,8 +29,9 @@ impl Drawn {
                 let mut actual = Actual::new(&arm, &row.q, &row.wrench);
                 actual.base = self.frames.base;
                 for truth in &truths {
-                    for (effect, spot, values) in of_catalogue(&self.arm, &self.data, truth) {
-                        effect.alter(&mut actual, row, &when[number], spot, &values);
+                    for (spot, values) in truth.effect.spots(&self.arm, truth.place, &truth.values)
+                    {
+                        truth.effect.alter(&mut actual, row, &when[number], spot, &values);
                     }
                 }
                 actual
@@ -49,21 +48,4 @@ pub fn errors(data: &Measurements, exact: &Measurements) -> Vec<Vector6<f64>> {
     let error =
         |(row, exact): (&Row, &Row)| row_gap(data, row, &Reading::from_vector(&exact.measured));
     data.rows.iter().zip(&exact.rows).map(error).collect()
-}
-
-type Known = (&'static dyn Effect, Spot, Vec<f64>);
-
-/// A truth as the diagnosis has it: one entry for each form with a value.
-fn of_catalogue(arm: &Arm, data: &Measurements, truth: &Truth) -> Vec<Known> {
-    let (effect, place) = (truth.effect, truth.place);
-    let forms = match effect.forms_are() {
-        Forms::Rows => vec![truth.value("after") as usize],
-        _ => effect.forms(arm, place, data),
-    };
-    let each = forms.into_iter().map(|form| {
-        let spot = Spot { place, form };
-        let numbers = effect.parameters(arm, spot);
-        (effect, spot, numbers.iter().map(|number| truth.value(&number.name)).collect())
-    });
-    each.filter(|(_, _, values): &Known| values.iter().any(|v| *v != 0.0)).collect()
 }

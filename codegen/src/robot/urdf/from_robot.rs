@@ -4,43 +4,50 @@ use super::angle::roll_pitch_yaw;
 use super::chain::{Chain, Step};
 use super::geometry::{Frame, norm, times};
 use super::masses::Lump;
-use crate::robot::{Angle, Convention, Joint, Robot, Value};
+use crate::robot::{self, Angle, Convention, Joint, Robot, Value};
 
 impl Chain {
     /// The chain of a robot whose cells are numbers; `None` if one is a symbol.
     ///
     /// A row of the modified convention is one fixed transform and a joint at its end. Of a standard
-    /// row `Tx(a) Rx(alpha)` stand behind the joint, and before the next.
+    /// row `Tx(a) Rx(alpha) Ry(beta)` stand behind the joint, and before the next.
     pub fn from_robot(robot: &Robot) -> Option<Chain> {
         let mut steps = Vec::new();
-        let mut end = Frame::IDENTITY;
+        let base = fixed(&robot.base)?;
+        let mut end = base;
         for joint in &robot.joints {
             let turn = roll_pitch_yaw([0.0, 0.0, joint.theta.radians()?]);
             let along_z = turn.then(&Frame::moved([0.0, 0.0, number(&joint.d)?]));
             let twist = roll_pitch_yaw([joint.alpha.radians()?, 0.0, 0.0]);
-            let along_x = Frame::moved([number(&joint.a)?, 0.0, 0.0]).then(&twist);
+            let tilt = twist.then(&roll_pitch_yaw([0.0, joint.beta.radians()?, 0.0]));
+            let length = Frame::moved([number(&joint.a)?, 0.0, 0.0]);
             let com = vector(&joint.com)?;
             let (before, behind) = match robot.convention {
-                Convention::Modified => (along_x.then(&along_z), Frame::IDENTITY),
-                Convention::Standard => (along_z, along_x),
+                Convention::Modified => (tilt.then(&length).then(&along_z), Frame::IDENTITY),
+                Convention::Standard => (along_z, length.then(&tilt)),
             };
             let mass = joint.mass.as_ref().map_or(Some(0.0), number)?;
             let lump = Lump::new(mass, behind.point(com));
             steps.push(step(joint, end.then(&before), lump));
             end = behind;
         }
-        let rotation = angles(&robot.tool.rotation)?;
-        let tool = Frame { origin: vector(&robot.tool.translation)?, ..turned(rotation) };
+        let tool = fixed(&robot.tool)?;
+        // The table tells gravity in the base's axes, the chain in those of the world.
+        let turned = Frame { origin: [0.0; 3], ..base };
         Some(Chain {
             name: robot.name.clone(),
             base: "base".to_owned(),
             tip: "tool".to_owned(),
             steps,
             end: end.then(&tool),
-            gravity: vector(&robot.gravity)?,
+            gravity: turned.point(vector(&robot.gravity)?),
             remarks: Vec::new(),
         })
     }
+}
+
+fn fixed(frame: &robot::Frame) -> Option<Frame> {
+    Some(Frame { origin: vector(&frame.translation)?, ..turned(angles(&frame.rotation)?) })
 }
 
 fn step(joint: &Joint, before: Frame, lump: Lump) -> Step {

@@ -24,7 +24,7 @@ impl Search<'_, '_> {
         first: &First,
     ) -> Vec<CannotSee> {
         let screen = |along: usize| {
-            let kept = Kept { along, whole: true, ..Kept::default() };
+            let kept = Kept { along, whole: true, free: true, ..Kept::default() };
             self.screen_of(now, &first.gathered, kept, self.candidates)
         };
         let alone = screen(0);

@@ -43,6 +43,8 @@ pub(crate) struct Kept<'k> {
     /// Whether only sums over all rows are wanted: where nothing is held out, no signs are flipped
     /// and no halves drawn.
     pub(crate) whole: bool,
+    /// Whether the candidates' numbers are held to nothing: where it is asked what the data show.
+    pub(crate) free: bool,
 }
 
 impl Kept<'_> {
@@ -80,7 +82,10 @@ impl<'c> Screen<'c> {
     ) -> Self {
         let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let choice = kept.choice(problem, model, candidates);
-        let mut prior = held(problem, model, &choice, candidates);
+        let mut prior = held(problem, model, &choice, &sizes);
+        if !kept.free {
+            hold(&mut prior, candidates);
+        }
         let mut total = gathered.total.chosen(&choice);
         total.add(&prior);
         let basis = Basis::new(&total.zz);
@@ -120,16 +125,10 @@ impl<'c> Screen<'c> {
 }
 
 /// The products of a measurement of each parameter that stays, as 0 with the standard deviation to
-/// which it is held, and the same of the candidates' numbers.
-fn held(
-    problem: &Problem<'_>,
-    model: &Model,
-    choice: &Choice,
-    candidates: &[Candidate],
-) -> Products {
+/// which it is held, beside candidates of some sizes.
+fn held(problem: &Problem<'_>, model: &Model, choice: &Choice, sizes: &[usize]) -> Products {
     let (held, values) = (model.held(problem), model.values(problem));
-    let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
-    let mut products = Products::zeros(choice.kept.len(), &sizes);
+    let mut products = Products::zeros(choice.kept.len(), sizes);
     // Columns gathered along are free.
     for (at, &column) in choice.kept.iter().enumerate().filter(|(_, c)| **c < held.len()) {
         let weight = held[column].powi(2);
@@ -137,11 +136,13 @@ fn held(
         products.zr[at] = -weight * values[column];
         products.rr += weight * values[column].powi(2);
     }
-    for (own, candidate) in Arc::make_mut(&mut products.xx).iter_mut().zip(candidates) {
-        own.set_diagonal(&DVector::from_iterator(
-            candidate.size,
-            candidate.held.iter().map(|held| held * held),
-        ));
-    }
     products
+}
+
+/// Adds the same of the candidates' numbers.
+fn hold(products: &mut Products, candidates: &[Candidate]) {
+    for (own, candidate) in Arc::make_mut(&mut products.xx).iter_mut().zip(candidates) {
+        let squares = candidate.held.iter().map(|held| held * held);
+        own.set_diagonal(&DVector::from_iterator(candidate.size, squares));
+    }
 }
