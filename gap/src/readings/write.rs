@@ -15,10 +15,13 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
 /// A tool that is farther away than any arm reaches is in millimetres.
 const MOST_METRES: f64 = 20.0;
 
-/// One column of what is written: its header, and the cell of each row.
+/// What is written of a row in one column.
+type Cell<'a> = Box<dyn Fn(&Cells) -> Result<String, ImportError> + 'a>;
+
+/// One column of what is written.
 struct Output<'a> {
     header: String,
-    cell: Box<dyn Fn(&Cells) -> Result<String, ImportError> + 'a>,
+    cell: Cell<'a>,
 }
 
 pub(super) fn write(
@@ -51,7 +54,7 @@ pub(super) fn write(
         };
         let header = unit.map_or(name.clone(), |unit| format!("{name}[{unit}]"));
         said.push(format!("`{}` is {header}{}", column.header, column.law()));
-        let cell: Box<dyn Fn(&Cells) -> _> = match kind {
+        let cell: Cell<'_> = match kind {
             None => Box::new(|row: &Cells| Ok(column.text(row).to_owned())),
             Some(_) => Box::new(|row: &Cells| {
                 Ok(column.number(table, row)?.map_or_else(String::new, |x| x.to_string()))

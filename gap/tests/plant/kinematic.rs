@@ -85,8 +85,8 @@ fn what_is_measured_is_older_than_its_reading() {
     let design = rows(POSE, (0..20).map(row).collect());
     for delay in [0.05, 0.2, -0.11] {
         let found = measured(&arm, &[&format!("latency={delay}")], &design);
-        for k in 4..16 {
-            same_pose(&found[k], &arm.pose(&at(0.08 * k as f64 - delay)), 10.0 * ROUNDING);
+        for (k, found) in found.iter().enumerate().take(16).skip(4) {
+            same_pose(found, &arm.pose(&at(0.08 * k as f64 - delay)), 10.0 * ROUNDING);
         }
     }
     // Poses at rest have no delay.
