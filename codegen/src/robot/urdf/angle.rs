@@ -64,8 +64,8 @@ pub fn roll_pitch_yaw([roll, pitch, yaw]: Vector) -> Frame {
 }
 
 impl Frame {
-    /// The angles that [`roll_pitch_yaw`] makes this frame's axes of: yaw first, and the others of what
-    /// is then left, so that none is lost where pitch is a right angle.
+    /// Roll, pitch and yaw, rad, of this frame's axes, `Rz(yaw) Ry(pitch) Rx(roll)`: yaw first, and the
+    /// others of what is then left, so that none is lost where pitch is a right angle.
     pub fn roll_pitch_yaw(&self) -> Vector {
         let [x, ..] = self.axes;
         let yaw = x[1].atan2(x[0]);
