@@ -60,10 +60,14 @@ impl Screen<'_> {
         ]
     }
 
-    /// All numbers with their intervals, the joint's spring as a whole behind them.
+    /// All numbers with their intervals, the joint's spring as a whole behind them; of many those that
+    /// are told from zero.
     pub(super) fn numbers(&self, finding: &Finding) -> Vec<String> {
-        let all = finding.parameters.iter().map(|p| self.parameter(finding, p));
-        all.chain(self.stiffness(finding)).collect()
+        let few = finding.parameters.len() <= MOST_NUMBERS;
+        let is_told = |ci: [f64; 2]| ci[0] > 0.0 || ci[1] < 0.0;
+        let shown = finding.parameters.iter().filter(|p| few || is_told(p.ci95));
+        let shown = shown.map(|p| self.parameter(finding, p));
+        shown.chain(self.stiffness(finding)).collect()
     }
 
     fn details(&self, finding: &Finding) -> String {
