@@ -23,8 +23,8 @@ pub use role::{DISPLACEMENT_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX, WRENC
 pub use unit::{Dimension, UNITS, Unit};
 
 use mistake::Mistakes;
-use role::Role;
 
+pub(crate) use role::Role;
 pub(crate) use unit::nearest;
 
 /// A measurement file, in SI.

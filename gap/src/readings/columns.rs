@@ -6,7 +6,7 @@ use super::ImportError;
 use super::map::{Convention, Map, Theirs};
 use super::names::{self, Meaning};
 use super::sheet::Table;
-use crate::measurement::{Dimension, SIM_PREFIX, Unit, nearest};
+use crate::measurement::{Dimension, Layout, Role, SIM_PREFIX, Unit, nearest};
 
 /// One column, as it is to be read.
 #[derive(Clone, Debug)]
@@ -157,19 +157,13 @@ fn named(ours: &str) -> Option<Meaning> {
 /// The quantity of a column of ours; a joint's is an angle unless its unit is a length.
 pub(super) fn dimension(ours: &str, unit: Option<&str>) -> Option<Dimension> {
     let name = ours.strip_prefix(SIM_PREFIX).unwrap_or(ours);
-    match name {
-        "temperature" => Some(Dimension::Temperature),
-        "time" => Some(Dimension::Time),
-        "x" | "y" | "z" | "dx" | "dy" | "dz" => Some(Dimension::Length),
-        "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => Some(Dimension::Angle),
-        "fx" | "fy" | "fz" => Some(Dimension::Force),
-        "mx" | "my" | "mz" => Some(Dimension::Moment),
-        _ if name.starts_with('q') => {
-            let found = unit.and_then(Unit::named).map(|unit| unit.dimension);
-            Some(found.filter(|d| *d == Dimension::Length).unwrap_or(Dimension::Angle))
-        }
-        _ => None,
+    if name.starts_with('q') {
+        let found = unit.and_then(Unit::named).map(|unit| unit.dimension);
+        return Some(found.filter(|d| *d == Dimension::Length).unwrap_or(Dimension::Angle));
     }
+    // Of what is not a joint's the reader of measurements knows the quantity, whatever the arm.
+    let any = Layout { motions: Vec::new(), markers: Vec::new(), readings: false };
+    Role::of(name, &any).ok()?.dimension(&any)
 }
 
 fn position(table: &Table, theirs: &Theirs) -> Option<usize> {
