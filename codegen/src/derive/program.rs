@@ -2,7 +2,7 @@
 //! worked out.
 
 use num_traits::Float;
-use stiffarm_kernels::{Output, Unstable};
+use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
 use crate::expr::{Expr, Graph, OpCount, Symbol};
@@ -76,6 +76,12 @@ impl Program {
         systems.chain(blocks.flat_map(|b| &b.entries)).copied().collect()
     }
 
+    /// What is given to some output, in the order of arguments.
+    pub fn inputs(&self) -> impl Iterator<Item = Input> {
+        let taken = |input: &Input| self.blocks.iter().any(|b| b.output.takes(*input));
+        Input::EACH.into_iter().filter(taken)
+    }
+
     /// Operations beyond the solve itself.
     pub fn ops(&self) -> OpCount {
         self.graph.count(&self.roots())
@@ -90,19 +96,29 @@ impl Program {
         }
     }
 
-    /// Evaluates every block at joint values `q`, under `wrench`, with the parameters' values.
+    /// Evaluates every block at a state, under `wrench`, with the parameters' values. The state is the joint
+    /// values and behind them rates, accelerations and torques as far as some block takes them, in the
+    /// order of [`Input::EACH`].
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate<T: Float>(
         &self,
-        q: &[T],
+        state: &[T],
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
     ) -> Result<Vec<Vec<T>>, Unstable> {
         let mut solved: Vec<(Expr, T)> = Vec::new();
+        let taken: Vec<Input> = self.inputs().collect();
+        let joints = |input: Input| {
+            let at = taken.iter().position(|known| *known == input).unwrap_or(0);
+            &state[at * self.dof..]
+        };
         let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
-            Symbol::Joint(joint) => q[*joint],
+            Symbol::Joint(k) => joints(Input::Joints)[*k],
+            Symbol::Rate(k) => joints(Input::Rates)[*k],
+            Symbol::Acceleration(k) => joints(Input::Accelerations)[*k],
+            Symbol::Torque(k) => joints(Input::Torques)[*k],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
             // An undisplaced chain; no output of a table has displacements.

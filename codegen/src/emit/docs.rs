@@ -36,8 +36,8 @@ fn sides(rows: &str, columns: Side) -> String {
 }
 
 /// What goes into a function, each input with its unit; the joint values as a `posture` or as they are.
-pub(super) fn inputs(taken: &[Input], posture: bool) -> String {
-    let each = taken.iter().map(|input| match input {
+pub(super) fn inputs(taken: impl IntoIterator<Item = Input>, posture: bool) -> String {
+    let each = taken.into_iter().map(|input| match input {
         Input::Joints if posture => {
             "`posture`: sines and cosines of the joint values, displacements in m".to_string()
         }

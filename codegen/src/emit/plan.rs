@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use stiffarm_kernels::Input;
+
 use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
 use crate::derive::{COMPONENTS, Program};
@@ -35,10 +37,18 @@ pub(super) enum Target {
 }
 
 /// Names of the wrench's components.
-pub(super) const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// The name of a number of an input.
+pub(super) fn component(input: Input, k: usize) -> String {
+    match input {
+        Input::Wrench => WRENCH[k].to_string(),
+        of_joints => format!("{}{}", of_joints.name(), k + 1),
+    }
+}
 
 /// Names that generated functions use for other things.
-const RESERVED: [&str; 8] = ["out", "posture", "constants", "q", "wrench", "live", "fn", "as"];
+const RESERVED: [&str; 6] = ["out", "posture", "constants", "live", "fn", "as"];
 
 impl<'p> Plan<'p> {
     /// Plans the function that computes all of `program`; parameter-only values go to `constants`.
@@ -86,21 +96,32 @@ impl<'p> Plan<'p> {
 
     /// Force and moment below which a load of system `k` needs no test: only where the wrench is read.
     pub fn margin(&self, k: usize) -> Option<[Number; 2]> {
-        self.program.solves[k].margin.filter(|_| self.wrench().contains(&true))
+        self.program.solves[k].margin.filter(|_| self.reads(Input::Wrench))
     }
 
-    /// Components of the wrench that are read.
-    pub fn wrench(&self) -> [bool; 6] {
+    /// Which numbers of an input are among some nodes.
+    pub fn read<'n>(&self, of: Input, among: impl IntoIterator<Item = &'n usize>) -> Vec<bool> {
         let g = &self.program.graph;
-        let mut read = [false; 6];
-        for node in self.names.keys() {
+        let mut read = vec![false; of.side().count(self.program.dof)];
+        for node in among {
             if let Node::Symbol(s) = g.nodes()[*node]
-                && let Symbol::Wrench(k) = g.symbol_of(s)
+                && let Some((input, k)) = g.symbol_of(s).input()
+                && input == of
             {
-                read[*k] = true;
+                read[k] = true;
             }
         }
         read
+    }
+
+    /// Every node that has a name.
+    pub fn named(&self) -> impl Iterator<Item = &usize> {
+        self.names.keys()
+    }
+
+    /// Whether an input beside the posture is read.
+    pub fn reads(&self, input: Input) -> bool {
+        self.read(input, self.named()).contains(&true)
     }
 
     fn name_inputs(
@@ -129,7 +150,13 @@ impl<'p> Plan<'p> {
                     Symbol::Displacement { place, component } => {
                         self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
                     }
-                    Symbol::Wrench(k) => drop(self.names.insert(node, WRENCH[*k].to_string())),
+                    Symbol::Rate(_)
+                    | Symbol::Acceleration(_)
+                    | Symbol::Torque(_)
+                    | Symbol::Wrench(_) => {
+                        let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
+                        self.names.extend(named.map(|name| (node, name)));
+                    }
                     Symbol::Deflection { joint, weights } => {
                         let prefix = if *weights { "dqg" } else { "dq" };
                         self.names.insert(node, format!("{prefix}{}", joint + 1));
@@ -183,6 +210,7 @@ impl<'p> Plan<'p> {
     fn name_bindings(&mut self, g: &Graph) {
         let mut taken: HashSet<String> = self.names.values().cloned().collect();
         taken.extend(RESERVED.map(str::to_string));
+        taken.extend(Input::EACH.map(|input| input.name().to_string()));
         taken.extend(WRENCH.map(str::to_string));
         let mut anonymous = 0;
         for step in &self.schedule.steps {

@@ -1,9 +1,9 @@
 //! One function in C: from the joint values, and from the posture.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::{Input, Output, Side};
 
 use super::super::expression::{Printer, Style as _};
-use super::super::plan::{Plan, Target, WRENCH};
+use super::super::plan::{Plan, Target, component};
 use super::super::posture::Needs;
 use super::posture::statements;
 use super::solve::solve_name;
@@ -64,8 +64,14 @@ impl Function<'_> {
         let real = self.language.real();
         let returned =
             if self.fallible() { format!("{module}_status_t") } else { "void".to_string() };
-        let wrench =
-            if self.wrench() { format!(", const {real} wrench[6]") } else { String::new() };
+        let size = |input: Input| match input.side() {
+            Side::Joints => format!("{}_JOINTS", module.to_uppercase()),
+            side => side.count(0).to_string(),
+        };
+        let beside: String = self
+            .beside()
+            .map(|input| format!(", const {real} {}[{}]", input.name(), size(input)))
+            .collect();
         let out = match self.outputs {
             [output] => {
                 let size = format!("{module}_{}", output.name()).to_uppercase();
@@ -73,11 +79,12 @@ impl Function<'_> {
             }
             _ => format!("{module}_all_t *out"),
         };
-        format!("{returned} {name}({first}{wrench}, {out})")
+        format!("{returned} {name}({first}{beside}, {out})")
     }
 
-    fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.takes(Input::Wrench))
+    /// What it is given beside the posture.
+    fn beside(&self) -> impl Iterator<Item = Input> {
+        self.plan.program.inputs().filter(|input| *input != Input::Joints)
     }
 
     /// The function of the joint values.
@@ -95,8 +102,8 @@ impl Function<'_> {
                 statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
             let returned = if self.fallible() { "return " } else { "" };
-            let wrench = if self.wrench() { ", wrench" } else { "" };
-            out.code(&format!("{returned}{module}_given_{}(&own{wrench}, out);", self.name()));
+            let beside: String = self.beside().map(|i| format!(", {}", i.name())).collect();
+            out.code(&format!("{returned}{module}_given_{}(&own{beside}, out);", self.name()));
         });
     }
 
@@ -136,21 +143,24 @@ impl Function<'_> {
         });
     }
 
-    /// Whatever is read of the posture and the wrench, as locals.
+    /// Whatever is read of the posture and the other inputs, as locals.
     fn inputs(&self, out: &mut Lines) {
         let real = self.language.real();
         for (name, field) in &self.needs.reads {
             out.code(&format!("const {real} {name} = posture->{field};"));
         }
-        let components = self.plan.wrench();
-        for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
-            out.code(&format!("const {real} {name} = wrench[{k}];"));
+        for input in self.beside() {
+            let read = self.plan.read(input, self.plan.named());
+            for k in (0..read.len()).filter(|k| read[*k]) {
+                let name = component(input, k);
+                out.code(&format!("const {real} {name} = {}[{k}];", input.name()));
+            }
         }
         if self.needs.reads.is_empty() {
             out.code("(void)posture;");
         }
-        if self.wrench() && !components.contains(&true) {
-            out.code("(void)wrench;");
+        for input in self.beside().filter(|input| !self.plan.reads(*input)) {
+            out.code(&format!("(void){};", input.name()));
         }
     }
 

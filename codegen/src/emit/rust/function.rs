@@ -21,6 +21,11 @@ pub(super) struct Function<'p> {
     pub style: &'p Rust,
 }
 
+/// An input beside the posture as a parameter of an arm of `n` joints.
+pub(super) fn parameter(input: Input, n: usize) -> String {
+    format!("{}: &[S; {}]", input.name(), input.side().count(n))
+}
+
 impl<'p> Function<'p> {
     /// The output's name, or `all`.
     pub fn name(&self) -> &'static str {
@@ -40,15 +45,18 @@ impl<'p> Function<'p> {
         let constants = unread(!self.plan.constants.is_empty());
         let constants = format!("{constants}constants: &super::Constants<S>");
         let posture = format!("{}posture: &Posture<S>", unread(!self.needs.reads.is_empty()));
-        let wrench = format!("{}wrench: &[S; 6]", unread(self.plan.wrench().contains(&true)));
+        let beside = self.beside().map(|input| {
+            format!("{}{}", unread(self.plan.reads(input)), parameter(input, self.program().dof))
+        });
         let first = self.symbolic.then_some(constants).into_iter().chain([posture]);
-        first.chain(self.wrench().then_some(wrench)).collect()
+        first.chain(beside).collect()
     }
 
     /// What the kernel is called with, where the inputs are called so.
     pub fn arguments(&self, posture: &str) -> String {
         let first = self.symbolic.then_some("constants").into_iter().chain([posture]);
-        first.chain(self.wrench().then_some("wrench")).collect::<Vec<_>>().join(", ")
+        let beside = self.beside().map(|input| input.name());
+        first.chain(beside).collect::<Vec<&str>>().join(", ")
     }
 
     /// Whether it is `all`.
@@ -56,8 +64,9 @@ impl<'p> Function<'p> {
         self.outputs.len() > 1
     }
 
-    pub fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.takes(Input::Wrench))
+    /// What it is given beside the posture.
+    pub fn beside(&self) -> impl Iterator<Item = Input> {
+        self.program().inputs().filter(|input| *input != Input::Joints)
     }
 
     pub fn fallible(&self) -> bool {

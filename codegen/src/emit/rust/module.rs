@@ -4,7 +4,7 @@ use stiffarm_kernels::{Form, Input, Output};
 
 use super::RustOptions;
 use super::body::Body;
-use super::function::Function;
+use super::function::{Function, parameter};
 use super::posture::{INLINE, needs_constants, values};
 use super::shapes;
 use crate::emit::docs::{docs, inputs};
@@ -34,9 +34,7 @@ impl Function<'_> {
             parameters.push("constants: &Constants<S>".to_string());
         }
         parameters.push(format!("q: &[S; {}]", self.program().dof));
-        if self.wrench() {
-            parameters.push("wrench: &[S; 6]".to_string());
-        }
+        parameters.extend(self.beside().map(|input| parameter(input, self.program().dof)));
         let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
@@ -71,12 +69,6 @@ impl Function<'_> {
         }
     }
 
-    /// What goes into the function.
-    fn inputs(&self) -> Vec<Input> {
-        let taken = |input: &Input| self.outputs.iter().any(|output| output.takes(*input));
-        Input::EACH.into_iter().filter(taken).collect()
-    }
-
     /// The documentation of the kernel itself.
     pub fn kernel_docs(&self, out: &mut Lines) {
         if self.fused() {
@@ -84,14 +76,14 @@ impl Function<'_> {
         } else {
             self.output(out);
         }
-        let mut read = self.inputs();
+        let mut read: Vec<Input> = self.program().inputs().collect();
         read.retain(|input| match input {
             Input::Joints => !self.needs.reads.is_empty(),
-            _ => self.plan.wrench().contains(&true),
+            beside => self.plan.reads(*beside),
         });
         if !read.is_empty() {
             out.doc("");
-            out.doc(&inputs(&read, true));
+            out.doc(&inputs(read, true));
         }
         out.doc("");
         out.doc("Additions and multiplications only, where no load is to be solved for.");
@@ -115,7 +107,7 @@ impl Function<'_> {
             self.output(out);
         }
         out.doc("");
-        out.doc(&inputs(&self.inputs(), false));
+        out.doc(&inputs(self.program().inputs(), false));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
