@@ -76,15 +76,17 @@ impl<S: Scalar> Arm<S> {
     }
 
     /// Every output, then those of the fused function; `None` where there is no equilibrium.
-    pub fn outputs(&self, q: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
+    pub fn outputs(&self, state: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
         let single = |output: Output| {
             let (rows, columns) = output.shape(self.kernels.dof());
             let mut out = vec![S::lit(0.0); rows * columns];
-            let done = self.kernels.evaluate(output, q, wrench, &mut out);
+            let state = &state[..output.state(self.kernels.dof())];
+            let done = self.kernels.evaluate(output, state, wrench, &mut out);
             done.is_ok().then_some(out)
         };
-        let mut outputs: Vec<Option<Vec<S>>> = Output::EACH.into_iter().map(single).collect();
-        match (self.all)(q, wrench) {
+        let mut outputs: Vec<Option<Vec<S>>> =
+            self.kernels.outputs().iter().copied().map(single).collect();
+        match (self.all)(&state[..self.kernels.dof()], wrench) {
             Ok(all) => outputs.extend(all.into_iter().map(Some)),
             Err(_) => outputs.extend(Output::ALL.map(|_| None)),
         }
@@ -116,6 +118,6 @@ pub fn build<S: Scalar>(
     let files = c(&robot, &options).expect("numbers only");
     folder.write(&format!("{id}.h"), &files.header);
     folder.write(&format!("{id}.c"), &files.source);
-    folder.write("main.c", &program(id, robot.dof(), precision));
+    folder.write("main.c", &program(id, robot.dof(), &robot.generated(), precision));
     compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id]);
 }

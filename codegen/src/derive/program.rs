@@ -5,6 +5,7 @@ use num_traits::Float;
 use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
+use super::ways::by_link;
 use crate::expr::{Expr, Graph, OpCount, Symbol};
 use crate::number::Number;
 
@@ -89,6 +90,9 @@ impl Program {
 
     /// The working frame in words.
     pub fn frame(&self) -> String {
+        if self.blocks.iter().all(|block| by_link(block.output)) {
+            return "the links' own axes".to_string();
+        }
         match (self.cut / ROW, self.cut % ROW) {
             (0, 0) => "base axes".to_string(),
             (row, 0) => format!("the axes of frame {row}"),

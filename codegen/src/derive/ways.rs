@@ -1,7 +1,7 @@
 //! The way in which a set of outputs costs least: in which frame of the chain it is worked out, and
 //! whether twists are worked out run by run.
 
-use stiffarm_kernels::Output;
+use stiffarm_kernels::{Output, Part};
 
 use super::chain::{Chain, lay_out};
 use super::outputs::derived;
@@ -45,14 +45,16 @@ struct Way {
 /// The cheapest way for each set: every frame is laid out once, with all outputs in it; run by run only
 /// those that are then the cheapest of some set.
 fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
-    let cuts = if passes.frame { Chain::cuts(robot) } else { vec![0] };
+    // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
+    let somewhere = sets.iter().any(|set| !set.iter().all(|output| by_link(*output)));
+    let cuts = if passes.frame && somewhere { Chain::cuts(robot) } else { vec![0] };
     let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
     let plain = Passes { runs: false, ..passes };
     let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets.len()];
     for cut in cuts.into_iter().step_by(stride) {
         try_way(robot, sets, Way { cut, passes: plain }, &mut best);
     }
-    if passes.runs {
+    if passes.runs && somewhere {
         let mut cuts: Vec<usize> = best.iter().map(|(_, way)| way.cut).collect();
         cuts.sort_unstable();
         cuts.dedup();
@@ -67,17 +69,24 @@ fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
 /// Run by run is for the sets whose frame it is already, so that a set's way does not depend on the
 /// other sets.
 fn try_way(robot: &Robot, sets: &[&[Output]], way: Way, best: &mut [(u32, Way)]) {
+    let sets = sets.iter().map(|set| if set.iter().all(|o| by_link(*o)) { &[] } else { *set });
+    let sets: Vec<&[Output]> = sets.collect();
     let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
     wanted.sort_unstable();
     wanted.dedup();
     let laid_out = derive_by(robot, &wanted, way);
     let free = laid_out.graph.parameter_only();
-    for (set, best) in sets.iter().zip(best) {
+    for (set, best) in sets.into_iter().zip(best).filter(|(set, _)| !set.is_empty()) {
         let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
         if cost < best.0 && (!way.passes.runs || way.cut == best.1.cut) {
             *best = (cost, way);
         }
     }
+}
+
+/// Whether an output is worked out link by link, each in its own axes.
+pub(super) fn by_link(output: Output) -> bool {
+    output.depends_on(Part::Inertias)
 }
 
 fn derive_by(robot: &Robot, outputs: &[Output], Way { cut, passes }: Way) -> Program {

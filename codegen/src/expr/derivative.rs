@@ -35,6 +35,8 @@ impl Graph {
                     let inverse = self.recip(twice);
                     self.mul(da, inverse)
                 }
+                // Flat but for the step at zero.
+                Node::Sign(_) => Expr::ZERO,
                 Node::Sin(a) => {
                     let da = slope(a);
                     let cosine = self.cos(a);

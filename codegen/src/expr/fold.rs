@@ -78,6 +78,14 @@ impl Graph {
         }
     }
 
+    /// The sign of `a`, which is no constant but zero.
+    pub fn sign(&mut self, a: Expr) -> Expr {
+        if a.is_zero() {
+            return a;
+        }
+        self.intern(Node::Sign(a.abs())).signed(a.is_negative())
+    }
+
     /// `sin a` of an angle that depends on a symbol; [`Turn`](super::Turn) folds constants first.
     pub fn sin(&mut self, a: Expr) -> Expr {
         if a.is_zero() {

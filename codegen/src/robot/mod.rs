@@ -12,6 +12,7 @@ mod dimension;
 mod draft;
 #[cfg(all(test, feature = "macro"))]
 mod fuzz;
+mod inertia;
 mod lexeme;
 mod model;
 mod names;
@@ -32,7 +33,7 @@ mod validate;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use model::{
-    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
+    Angle, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
     Quantity, Robot, Section, Spot, Value,
 };
 #[cfg(feature = "macro")]
