@@ -230,11 +230,13 @@ mod tests {
             tool: Frame::default(),
             effects: Vec::new(),
             payloads: Vec::new(),
+            frames: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),
             }],
             outputs: Vec::new(),
+            at: Vec::new(),
         }
     }
 

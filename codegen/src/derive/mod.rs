@@ -9,12 +9,14 @@ mod displacements;
 mod flexible;
 mod outputs;
 mod passes;
+mod place;
 mod program;
 mod ways;
 
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
 pub use passes::Passes;
+pub use place::{derive_at, ending_at};
 pub use program::{Block, Program, Solve};
 pub use stiffarm_kernels::{Output, Unstable};
 pub use ways::{derive, derive_each, derive_in, derive_with};

@@ -29,13 +29,42 @@ pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 #[cfg(feature = "urdf")]
 pub use urdf::urdf;
 
-use crate::derive::Output;
+use crate::derive::{Output, Program, derive_at, derive_each};
 use crate::robot::Robot;
 
-/// How a command asks for the outputs of a robot, where they are not all of them.
+/// How a command asks for the outputs of a robot, where they are not all of its tool's.
 fn asked(robot: &Robot) -> String {
-    let names: Vec<&str> = robot.generated().into_iter().map(Output::name).collect();
-    if robot.outputs.is_empty() { String::new() } else { format!(" --outputs {}", names.join(",")) }
+    let names = robot.asked().join(",");
+    match (names.is_empty(), robot.at.is_empty()) {
+        (true, _) => String::new(),
+        (false, true) => format!(" --outputs {names}"),
+        // A name behind `at` makes spaces.
+        (false, false) => format!(" --outputs '{names}'"),
+    }
+}
+
+/// Functions of the tool, or of a frame or marker by its name.
+struct Functions {
+    place: Option<String>,
+    /// The outputs that have a function of their own.
+    outputs: Vec<Output>,
+    /// What each function computes.
+    sets: Vec<Vec<Output>>,
+    programs: Vec<Program>,
+}
+
+/// What is generated of a robot: the tool's functions, then those of each place at which some are asked for.
+fn functions(robot: &Robot) -> Vec<Functions> {
+    let outputs = robot.generated();
+    let sets = sets(&outputs);
+    let programs = derive_each(robot, &sets);
+    let mut all = vec![Functions { place: None, outputs, sets, programs }];
+    for (place, outputs) in robot.places() {
+        let derived = outputs.iter().filter_map(|o| Some((vec![*o], derive_at(robot, place, *o)?)));
+        let (sets, programs) = derived.unzip();
+        all.push(Functions { place: Some(place.to_owned()), outputs, sets, programs });
+    }
+    all
 }
 
 /// What the functions of a module compute: each of `outputs` by itself, and `all` what can be had together.

@@ -10,6 +10,7 @@ mod decimal;
 mod diagnostic;
 mod dimension;
 mod draft;
+mod frames;
 #[cfg(all(test, feature = "macro"))]
 mod fuzz;
 mod lexeme;
@@ -31,9 +32,10 @@ mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
+pub use frames::{Asked, Refused};
 pub use model::{
-    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
-    Quantity, Robot, Section, Spot, Value,
+    Angle, At, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame, Output,
+    Payload, Quantity, Robot, Section, Spot, Value,
 };
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

@@ -14,17 +14,20 @@ use crate::expr::Binding;
 /// A function to be printed: of one output, or of all of `Output::ALL`.
 pub(super) struct Function<'a> {
     pub plan: &'a Plan<'a>,
+    /// The frame or marker that it is of; `None` is the tool.
+    pub place: Option<&'a str>,
     pub outputs: &'a [Output],
     pub needs: &'a Needs,
     pub language: &'a C,
 }
 
 impl Function<'_> {
-    /// The output's name, or `all`.
-    pub fn name(&self) -> &'static str {
-        match self.outputs {
-            [output] => output.name(),
-            _ => "all",
+    /// The output's name, with the place that it is of: `at_elbow_jacobian`; or `all`.
+    pub fn name(&self) -> String {
+        match (self.outputs, self.place) {
+            ([output], None) => output.name().to_owned(),
+            ([output], Some(place)) => format!("at_{place}_{}", output.name()),
+            _ => "all".to_owned(),
         }
     }
 
@@ -67,8 +70,8 @@ impl Function<'_> {
         let wrench =
             if self.wrench() { format!(", const {real} wrench[6]") } else { String::new() };
         let out = match self.outputs {
-            [output] => {
-                let size = format!("{module}_{}", output.name()).to_uppercase();
+            [_] => {
+                let size = format!("{module}_{}", self.name()).to_uppercase();
                 format!("{real} out[{size}_SIZE]")
             }
             _ => format!("{module}_all_t *out"),

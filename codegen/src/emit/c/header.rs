@@ -164,6 +164,9 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
             vec![format!("Worked out together: {}.", names.join(", "))]
         }
     };
+    if let Some(place) = function.place {
+        text.push(format!("What is said of the tool here is of {place}: the tool is there."));
+    }
     text.push(format!("Worked out in {}.", function.plan.program.frame()));
     match function.outputs {
         [output] if output.is_fallible() => text.push(format!(
@@ -181,9 +184,10 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
         out.code(&format!("{};", function.by_joints(name)));
     }
     out.code(&format!("{};", function.by_posture(name)));
-    if let [output] = function.outputs {
-        let size = module.constant(&format!("{}_SIZE", output.name().to_uppercase()));
+    if let [_] = function.outputs {
+        let of = function.name();
+        let size = module.constant(&format!("{}_SIZE", of.to_uppercase()));
         out.comment(&["1 where an entry is not structurally zero.".to_string()]);
-        out.code(&format!("extern const uint8_t {name}_{}_sparsity[{size}];", output.name()));
+        out.code(&format!("extern const uint8_t {name}_{of}_sparsity[{size}];"));
     }
 }

@@ -23,8 +23,7 @@ use self::function::Function;
 use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
-use super::sets;
-use crate::derive::derive_each;
+use super::functions;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -94,18 +93,25 @@ pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
     if !symbols.is_empty() {
         return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
     }
-    let sets = sets(&robot.generated());
-    let programs = derive_each(robot, &sets);
-    let plans = programs.iter().map(|program| Plan::new(program, &mut Constants::default()));
+    let all = functions(robot);
+    let programs = all.iter().flat_map(|of| &of.programs);
+    let plans = programs.map(|program| Plan::new(program, &mut Constants::default()));
     let plans: Vec<Plan> = plans.collect();
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
+    let sets = all.iter().flat_map(|of| of.sets.iter().map(|outputs| (of.place.as_deref(), outputs)));
     let functions: Vec<Function> = plans
         .iter()
-        .zip(&sets)
+        .zip(sets)
         .zip(&needs)
-        .map(|((plan, outputs), needs)| Function { plan, outputs, needs, language: &language })
+        .map(|((plan, (place, outputs)), needs)| Function {
+            plan,
+            place,
+            outputs,
+            needs,
+            language: &language,
+        })
         .collect();
     let module = Module { robot, options, language: &language, posture, functions };
     let table = hash::table(robot);

@@ -10,6 +10,7 @@ mod function;
 mod inputs;
 mod interface;
 mod module;
+mod place;
 mod posture;
 mod shapes;
 mod style;
@@ -22,8 +23,7 @@ use self::style::Rust;
 use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
-use super::sets;
-use crate::derive::derive_each;
+use super::{Functions, functions};
 use crate::robot::Robot;
 
 /// What is a matter of the text and not of the robot.
@@ -57,10 +57,9 @@ pub const FILE_HEAD: &str = "\
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
-    let outputs = robot.generated();
-    let sets = sets(&outputs);
-    let programs = derive_each(robot, &sets);
-    let plans: Vec<Plan> = programs.iter().map(|p| Plan::new(p, &mut constants)).collect();
+    let all = functions(robot);
+    let programs = all.iter().flat_map(|of| &of.programs);
+    let plans: Vec<Plan> = programs.map(|p| Plan::new(p, &mut constants)).collect();
     let style = Rust { fused: options.fused, constants: "constants" };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
@@ -74,11 +73,20 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
         text.push_str(&table::parameters(robot, &constants));
     }
     text.push_str(&posture::module(&posture, &needs, robot.dof()));
-    for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
-        let function =
-            Function { plan, outputs, needs, posture: &posture, symbolic, style: &style };
-        text.push_str(&function.text(robot, options));
+    let mut each = plans.iter().zip(&needs);
+    let mut printed = |of: &Functions, depth: usize| {
+        let mut text = String::new();
+        for (outputs, (plan, needs)) in of.sets.iter().zip(each.by_ref()) {
+            let (posture, style) = (&posture, &style);
+            let function = Function { plan, outputs, needs, posture, symbolic, style, depth };
+            text.push_str(&function.text(robot, options));
+        }
+        text + &interface::interface(robot, &posture, of, depth)
+    };
+    let (tool, places) = all.split_at(1);
+    tool.iter().for_each(|of| text.push_str(&printed(of, 0)));
+    if !places.is_empty() {
+        text.push_str(&place::module(robot, options, places, printed));
     }
-    text.push_str(&interface::interface(robot, &posture, &outputs));
     text
 }
