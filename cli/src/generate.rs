@@ -130,7 +130,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         let robot = &mut source.robot;
         (robot.outputs, robot.at) = (Vec::new(), Vec::new());
         for asked in &args.outputs {
-            let refused = |no: Refused| Failure::with_help(format!("--outputs: {}", no.message), no.help);
+            let refused =
+                |no: Refused| Failure::with_help(format!("--outputs: {}", no.message), no.help);
             robot.ask(asked).map_err(refused)?;
         }
     }

@@ -100,7 +100,8 @@ impl Robot {
         let symbolic = self.tool.translation.iter().any(|length| length.number().is_none());
         if marker.translation.is_none() || symbolic {
             let what = if symbolic { "the tool that it stands on" } else { "its place" };
-            let message = format!("nothing can be told of the marker `{place}`: {what} is no number");
+            let message =
+                format!("nothing can be told of the marker `{place}`: {what} is no number");
             return Err(refused(message, "give it numbers, or leave the marker out of `outputs`"));
         }
         Ok(self.dof() - 1)

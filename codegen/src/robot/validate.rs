@@ -4,8 +4,8 @@ use super::draft::{Cell, Draft, DraftBeam, DraftFrame, DraftJoint, DraftPayload,
 use super::model::{
     Angle, Beam, Convention, Frame, Joint, Marker, Motion, Payload, Robot, Section, Value,
 };
-use super::{frames, names};
 use super::problem::{Place, Problem, Report};
+use super::{frames, names};
 use crate::number::Number;
 
 /// More joints than any arm has; a bound on the work that a file can ask for.

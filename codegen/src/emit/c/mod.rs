@@ -21,9 +21,9 @@ use core::fmt;
 
 use self::function::Function;
 use super::constants::Constants;
+use super::functions;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
-use super::functions;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -100,7 +100,8 @@ pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
-    let sets = all.iter().flat_map(|of| of.sets.iter().map(|outputs| (of.place.as_deref(), outputs)));
+    let sets =
+        all.iter().flat_map(|of| of.sets.iter().map(|outputs| (of.place.as_deref(), outputs)));
     let functions: Vec<Function> = plans
         .iter()
         .zip(sets)

@@ -40,21 +40,23 @@ pub(super) fn module(
 
 /// Where the place is.
 fn docs(out: &mut Lines, robot: &Robot, place: &str) {
-    out.doc(&format!("The arm whose tool is `{place}`: what is said of the tool here is of"));
-    match robot.frames.iter().find(|named| named.name == place) {
+    let place_is = match robot.frames.iter().find(|named| named.name == place) {
         Some(named) => {
             let joint = &robot.joints[named.row].name;
             let list = |cells: [String; 3]| cells.join(", ");
             let at = list(named.frame.translation.each_ref().map(value));
             let turned = list(named.frame.rotation.each_ref().map(angle));
-            out.doc(&format!(
-                "the frame at [{at}] m, turned by the rotation vector [{turned}], on the link of {joint} (frame {}). \
+            format!(
+                "the frame at [{at}] m, turned by the rotation vector [{turned}], in frame {}, that of {joint}. \
                  Joints beyond it do not enter.",
                 named.row + 1
-            ));
+            )
         }
-        None => out.doc("the marker on the tool, in the tool's axes."),
-    }
+        None => "the marker on the tool, in the tool's axes.".to_owned(),
+    };
+    out.doc(&format!(
+        "The arm whose tool is `{place}`: what is said of the tool here is of {place_is}"
+    ));
 }
 
 /// What the items of the module need.

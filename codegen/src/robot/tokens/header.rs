@@ -119,7 +119,8 @@ impl Settings {
             report.error(problem.help(advice(&word, &KEYS)));
             return;
         };
-        if !["frame", "marker"].contains(&known) && self.seen.iter().any(|(seen, _)| *seen == known) {
+        if !["frame", "marker"].contains(&known) && self.seen.iter().any(|(seen, _)| *seen == known)
+        {
             report.error(Problem::new(at, format!("`{known}` stands here for the second time")));
             return;
         }
@@ -256,14 +257,15 @@ fn convention(cell: &Raw, report: &mut Report<Spot>) -> Cell<Convention, Spot> {
     Cell { value: choice, at: cell.at }
 }
 
-/// `name joint 3 translation [x, y, z] rotation [rx, ry, rz]`, either part of the frame or neither.
+/// `name on 3 translation [x, y, z] rotation [rx, ry, rz]`, either part of the frame or neither.
 fn named_frame(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftNamedFrame<Spot>> {
     let (name, joint, rest) = match cell.tokens.as_slice() {
-        [TokenTree::Ident(name), word, joint, rest @ ..] if is_word(word, "joint") => {
+        [TokenTree::Ident(name), word, joint, rest @ ..] if is_word(word, "on") => {
             (name, joint, rest)
         }
         _ => {
-            let message = "`name joint 3 translation [x, y, z] rotation [rx, ry, rz]` is expected here";
+            let message =
+                "`name on 3 translation [x, y, z] rotation [rx, ry, rz]` is expected here";
             report.error(Problem::new(cell.at, message));
             return None;
         }

@@ -9,7 +9,7 @@
 //! gravity: [0, 0, -9.80665];            // optional
 //! base: translation [1, 0, 0] rotation [0, 0, pi/2];           // optional, either part
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
-//! frame: elbow joint 3 translation [0, 0, 100 mm];   // optional, any number: on the link of a joint, as tool
+//! frame: elbow on 3 translation [0, 0, 100 mm];   // optional, any number: on the link of a joint, as tool
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
 //! outputs: pose, jacobian at elbow;     // optional: what is generated, every output of the tool if absent
 //! products: fused;                      // optional: into sums, or separate

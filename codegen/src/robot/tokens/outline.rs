@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn rows_and_names_show_through_mistakes() {
         let outline = table(
-            "gravity: [0, g_y, 0]; frame: elbow jiont 3; marker: smr1 [0, 1]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
+            "gravity: [0, g_y, 0]; frame: elbow no 3; marker: smr1 [0, 1]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
              joint | theta  | d      | alhpa | kind | stiffness | com | beam\n\
              a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, colour: red, section: tube }\n\
              a2 | q      | d2/2 | 0 | - | type | - | -\n\

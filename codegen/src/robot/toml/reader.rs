@@ -6,10 +6,10 @@ use ::toml::Spanned;
 use ::toml::de::{DeArray, DeValue};
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, Vector, broken};
-use super::super::lexeme::{Lexeme, lex};
 use super::super::draft::JointName;
+use super::super::draft::{Cell, Vector, broken};
 use super::super::frames::Asked;
+use super::super::lexeme::{Lexeme, lex};
 use super::super::model::{Angle, Motion, Spot, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::advice;
