@@ -8,13 +8,18 @@ mod chain;
 mod displacements;
 mod flexible;
 mod outputs;
+mod own;
 mod passes;
 mod program;
 mod ways;
 
+pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
+pub(crate) use outputs::derived;
+pub use own::{Held, Input, Own, Quantity, Size};
 pub use passes::Passes;
 pub use program::{Block, Program, Solve};
 pub use stiffarm_kernels::{Output, Unstable};
+pub(crate) use ways::{Way, cheapest};
 pub use ways::{derive, derive_each, derive_in, derive_with};

@@ -5,6 +5,7 @@ use num_traits::Float;
 use stiffarm_kernels::{Output, Unstable};
 
 use super::chain::ROW;
+use super::own::{Held, Own};
 use crate::expr::{Expr, Graph, OpCount, Symbol};
 use crate::number::Number;
 
@@ -21,13 +22,15 @@ pub struct Program {
     pub cut: usize,
     /// Number of joints.
     pub dof: usize,
+    /// What it says of itself, where it is a function of one's own.
+    pub own: Option<Own>,
 }
 
-/// One output's entries, column-major in [`Output::shape`].
+/// The entries of one output or result, column-major in [`Held::shape`].
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Which output.
-    pub output: Output,
+    /// Which one.
+    pub held: Held,
     /// Its entries.
     pub entries: Vec<Expr>,
 }
@@ -49,6 +52,11 @@ pub struct Solve {
 }
 
 impl Solve {
+    /// Matrix and right-hand side.
+    pub fn inputs(&self) -> impl Iterator<Item = &Expr> {
+        self.matrix.iter().chain(&self.right)
+    }
+
     /// Size of the leading block, whose unknowns are solved for together: nothing depends on the others,
     /// so that each follows from its own row. A tool on the axis of the last joint is not moved by it.
     pub fn leading(&self) -> usize {
@@ -64,16 +72,16 @@ impl Solve {
 impl Program {
     /// Every expression that the program computes.
     pub fn roots(&self) -> Vec<Expr> {
-        let outputs: Vec<Output> = self.blocks.iter().map(|b| b.output).collect();
-        self.roots_of(&outputs)
+        let systems = self.solves.iter().flat_map(Solve::inputs);
+        systems.chain(self.blocks.iter().flat_map(|b| &b.entries)).copied().collect()
     }
 
     /// What it computes for some of its outputs.
     pub(super) fn roots_of(&self, outputs: &[Output]) -> Vec<Expr> {
         let solves = self.solves.iter().filter(|s| outputs.contains(&s.output));
-        let blocks = self.blocks.iter().filter(|b| outputs.contains(&b.output));
-        let systems = solves.flat_map(|s| s.matrix.iter().chain(&s.right));
-        systems.chain(blocks.flat_map(|b| &b.entries)).copied().collect()
+        let asked = |block: &&Block| block.held.output().is_some_and(|o| outputs.contains(&o));
+        let blocks = self.blocks.iter().filter(asked);
+        solves.flat_map(Solve::inputs).chain(blocks.flat_map(|b| &b.entries)).copied().collect()
     }
 
     /// Operations beyond the solve itself.
@@ -105,8 +113,8 @@ impl Program {
             Symbol::Joint(joint) => q[*joint],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
-            // An undisplaced chain; no output of a table has displacements.
-            Symbol::Displacement { .. } => T::zero(),
+            // An undisplaced chain; no output of a table has displacements or inputs of one's own.
+            Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
             Symbol::Deflection { .. } => {
                 let known = solved.iter().find(|(e, _)| {
                     matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)
@@ -116,7 +124,7 @@ impl Program {
             }
         };
         for solve in &self.solves {
-            let inputs: Vec<Expr> = solve.matrix.iter().chain(&solve.right).copied().collect();
+            let inputs: Vec<Expr> = solve.inputs().copied().collect();
             let mut values = self.graph.evaluate(&inputs, |s| value(s, &solved));
             let right = values.split_off(solve.matrix.len());
             let x = eliminate(values, right)?;

@@ -20,11 +20,13 @@ mod rust;
 #[cfg(feature = "urdf")]
 mod urdf;
 
+pub(crate) use c::c_with;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
 #[cfg(feature = "urdf")]
 pub use mjcf::mjcf;
+pub(crate) use rust::rust_with;
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 #[cfg(feature = "urdf")]
 pub use urdf::urdf;

@@ -80,6 +80,13 @@ pub enum Symbol {
         /// Whether the links' weights are part of the load.
         weights: bool,
     },
+    /// An entry of an input that a program of one's own declares.
+    Own {
+        /// Which input, in the order of declaration.
+        input: usize,
+        /// Which of its entries.
+        entry: usize,
+    },
 }
 
 /// A node of the graph. Operands are handles of earlier nodes.

@@ -8,28 +8,43 @@ use super::super::posture::Needs;
 use super::posture::statements;
 use super::solve::solve_name;
 use super::style::C;
+use crate::derive::{Block, Own};
 use crate::emit::lines::Lines;
 use crate::expr::Binding;
 
-/// A function to be printed: of one output, or of all of `Output::ALL`.
+/// A function to be printed: of one output, of those of `all`, or of one's own.
 pub(super) struct Function<'a> {
     pub plan: &'a Plan<'a>,
-    pub outputs: &'a [Output],
     pub needs: &'a Needs,
     pub language: &'a C,
 }
 
-impl Function<'_> {
-    /// The output's name, or `all`.
-    pub fn name(&self) -> &'static str {
-        match self.outputs {
-            [output] => output.name(),
+impl<'a> Function<'a> {
+    /// The output's name, or `all`, or its own.
+    pub fn name(&self) -> &'a str {
+        match (self.own(), self.blocks()) {
+            (Some(own), _) => &own.name,
+            (None, [block]) => block.held.name(),
             _ => "all",
         }
     }
 
-    fn fallible(&self) -> bool {
-        self.outputs.iter().any(|o| o.is_fallible())
+    pub fn blocks(&self) -> &'a [Block] {
+        &self.plan.program.blocks
+    }
+
+    /// What it says of itself, where it is one's own.
+    pub fn own(&self) -> Option<&'a Own> {
+        self.plan.program.own.as_ref()
+    }
+
+    /// Whether a block can be left without a value.
+    fn may_fail(block: &Block) -> bool {
+        block.held.output().is_some_and(Output::is_fallible)
+    }
+
+    pub fn fallible(&self) -> bool {
+        self.blocks().iter().any(Self::may_fail)
     }
 
     /// Sizes of the linear systems, and of their leading blocks.
@@ -66,18 +81,27 @@ impl Function<'_> {
             if self.fallible() { format!("{module}_status_t") } else { "void".to_string() };
         let wrench =
             if self.wrench() { format!(", const {real} wrench[6]") } else { String::new() };
-        let out = match self.outputs {
-            [output] => {
-                let size = format!("{module}_{}", output.name()).to_uppercase();
+        let own = self.own().into_iter().flat_map(|own| &own.inputs);
+        let own: String = own
+            .map(|input| match input.size {
+                None => format!(", {real} {}", input.name),
+                Some(size) => format!(", const {real} {}[{size}]", input.name),
+            })
+            .collect();
+        let out = match self.blocks() {
+            [_] => {
+                let size = format!("{module}_{}", self.name()).to_uppercase();
                 format!("{real} out[{size}_SIZE]")
             }
-            _ => format!("{module}_all_t *out"),
+            _ => format!("{module}_{}_t *out", self.name()),
         };
-        format!("{returned} {name}({first}{wrench}, {out})")
+        format!("{returned} {name}({first}{wrench}{own}, {out})")
     }
 
     fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.takes(Input::Wrench))
+        let read = self.own().is_some() && self.plan.wrench().contains(&true);
+        let takes = |block: &Block| block.held.output().is_some_and(|o| o.takes(Input::Wrench));
+        read || self.blocks().iter().any(takes)
     }
 
     /// The function of the joint values.
@@ -96,7 +120,10 @@ impl Function<'_> {
             }
             let returned = if self.fallible() { "return " } else { "" };
             let wrench = if self.wrench() { ", wrench" } else { "" };
-            out.code(&format!("{returned}{module}_given_{}(&own{wrench}, out);", self.name()));
+            let inputs = self.own().into_iter().flat_map(|own| &own.inputs);
+            let inputs: String = inputs.map(|input| format!(", {}", input.name)).collect();
+            let name = self.name();
+            out.code(&format!("{returned}{module}_given_{name}(&own{wrench}{inputs}, out);"));
         });
     }
 
@@ -111,7 +138,7 @@ impl Function<'_> {
                 out.code(&format!("{module}_status_t status = {upper}_OK;"));
             }
             out.blank();
-            self.zeros(out, |output| !output.is_fallible());
+            self.zeros(out, |block| !Self::may_fail(block));
             let mut depth = 0;
             for step in &self.plan.schedule.steps {
                 match step {
@@ -122,10 +149,11 @@ impl Function<'_> {
                             self.solve(out, k, module);
                             depth += 1;
                         }
+                        Target::Angles(k) => self.angles(out, k),
                     },
                 }
             }
-            self.zeros(out, Output::is_fallible);
+            self.zeros(out, Self::may_fail);
             for _ in 0..depth {
                 out.dedent();
                 out.code("}");
@@ -146,6 +174,19 @@ impl Function<'_> {
         for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
             out.code(&format!("const {real} {name} = wrench[{k}];"));
         }
+        for (k, input) in self.own().into_iter().flat_map(|own| &own.inputs).enumerate() {
+            let reads = |entry: &usize| self.plan.reads_own(k, *entry);
+            match input.size {
+                Some(size) => (0..size).filter(reads).for_each(|entry| {
+                    let (name, own) = (input.entry(entry), &input.name);
+                    out.code(&format!("const {real} {name} = {own}[{entry}];"));
+                }),
+                None => {}
+            }
+            if !(0..input.size.unwrap_or(1)).any(|entry| reads(&entry)) {
+                out.code(&format!("(void){};", input.name));
+            }
+        }
         if self.needs.reads.is_empty() {
             out.code("(void)posture;");
         }
@@ -161,9 +202,9 @@ impl Function<'_> {
     }
 
     fn place(&self, block: usize, entry: usize) -> String {
-        match self.outputs {
+        match self.blocks() {
             [_] => format!("out[{entry}]"),
-            _ => format!("out->{}[{entry}]", self.plan.program.blocks[block].output.name()),
+            blocks => format!("out->{}[{entry}]", blocks[block].held.name()),
         }
     }
 
@@ -173,12 +214,21 @@ impl Function<'_> {
     }
 
     /// Entries that are structurally zero.
-    fn zeros(&self, out: &mut Lines, of: impl Fn(Output) -> bool) {
-        let blocks = self.plan.program.blocks.iter().enumerate();
-        for (at, block) in blocks.filter(|(_, b)| of(b.output)) {
+    fn zeros(&self, out: &mut Lines, of: impl Fn(&Block) -> bool) {
+        for (at, block) in self.blocks().iter().enumerate().filter(|(_, block)| of(block)) {
             for (entry, _) in block.entries.iter().enumerate().filter(|(_, e)| e.is_zero()) {
                 out.code(&format!("{} = {};", self.place(at, entry), self.language.zero()));
             }
+        }
+    }
+
+    /// Sines and cosines of angles that are not the posture's.
+    fn angles(&self, out: &mut Lines, k: usize) {
+        let real = self.language.real();
+        for angle in &self.plan.own_angles[k] {
+            let (suffix, sum) = (&angle.suffix, self.printer().print(angle.sum));
+            out.code(&format!("{real} s{suffix}, c{suffix};"));
+            out.code(&format!("sin_cos({sum}, &s{suffix}, &c{suffix});"));
         }
     }
 

@@ -24,7 +24,7 @@ use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
 use super::sets;
-use crate::derive::derive_each;
+use crate::derive::{Program, derive_each};
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -90,23 +90,30 @@ impl core::error::Error for SymbolicTable {}
 /// # Errors
 /// [`SymbolicTable`] where a cell of the table is no number.
 pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
+    c_with(robot, &[], options)
+}
+
+/// The same with functions of one's own.
+pub(crate) fn c_with(
+    robot: &Robot,
+    own: &[&Program],
+    options: &COptions,
+) -> Result<CFiles, SymbolicTable> {
     let symbols = robot.symbols();
     if !symbols.is_empty() {
         return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
     }
     let sets = sets(&robot.generated());
     let programs = derive_each(robot, &sets);
-    let plans = programs.iter().map(|program| Plan::new(program, &mut Constants::default()));
+    let programs = programs.iter().chain(own.iter().copied());
+    let plans = programs.map(|program| Plan::new(program, &mut Constants::default()));
     let plans: Vec<Plan> = plans.collect();
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
-    let functions: Vec<Function> = plans
-        .iter()
-        .zip(&sets)
-        .zip(&needs)
-        .map(|((plan, outputs), needs)| Function { plan, outputs, needs, language: &language })
-        .collect();
+    let functions = plans.iter().zip(&needs);
+    let functions: Vec<Function> =
+        functions.map(|(plan, needs)| Function { plan, needs, language: &language }).collect();
     let module = Module { robot, options, language: &language, posture, functions };
     let table = hash::table(robot);
     let source = source::source(&module, &table);

@@ -34,10 +34,8 @@ pub(super) fn open_solve_inputs(out: &mut Lines, function: &Function) {
 
 fn item_inputs(plan: &Plan, item: usize) -> Vec<usize> {
     match plan.targets[item] {
-        Target::Solve(k) => {
-            let solve = &plan.program.solves[k];
-            solve.matrix.iter().chain(&solve.right).map(|e| e.node()).collect()
-        }
+        Target::Solve(k) => plan.program.solves[k].inputs().map(|e| e.node()).collect(),
+        Target::Angles(k) => plan.own_angles[k].iter().map(|angle| angle.sum.node()).collect(),
         Target::Entry { block, entry } => {
             vec![plan.program.blocks[block].entries[entry].node()]
         }
@@ -52,9 +50,13 @@ fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
     let g = &plan.program.graph;
     let mut names = HashSet::new();
     let mut wrench = [false; 6];
+    let mut own: HashSet<(usize, usize)> = HashSet::new();
     for node in &inputs {
         match g.nodes()[*node] {
             Node::Symbol(s) if let Symbol::Wrench(k) = g.symbol_of(s) => wrench[*k] = true,
+            Node::Symbol(s) if let Symbol::Own { input, entry } = g.symbol_of(s) => {
+                own.insert((*input, *entry));
+            }
             _ => names.extend(plan.name(*node)),
         }
     }
@@ -70,5 +72,13 @@ fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
         let names: Vec<&str> =
             WRENCH.iter().zip(wrench).map(|(n, used)| if used { *n } else { "_" }).collect();
         out.code(&format!("let [{}] = *wrench;", names.join(", ")));
+    }
+    for (k, input) in function.own().into_iter().flat_map(|own| &own.inputs).enumerate() {
+        let Some(size) = input.size.filter(|_| own.iter().any(|(input, _)| *input == k)) else {
+            continue;
+        };
+        let entry = |e| if own.contains(&(k, e)) { input.entry(e) } else { "_".to_string() };
+        let names: Vec<String> = (0..size).map(entry).collect();
+        out.code(&format!("let [{}] = *{};", names.join(", "), input.name));
     }
 }

@@ -5,6 +5,7 @@ use stiffarm_kernels::{Input, Output, Side};
 use super::posture::{INLINE, needs_constants};
 use super::shapes::{flat, ty};
 use super::table::numeric;
+use crate::derive::Held;
 use crate::emit::lines::Lines;
 use crate::emit::posture::Posture;
 use crate::robot::Robot;
@@ -114,7 +115,7 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.blank();
     out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
     out.indent();
-    let (name, mut ty) = (output.name(), ty(output, n));
+    let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
     if output.columns() == Side::Entries {
         out.code(&format!("type Columns = {ty};"));
         ty = "Self::Columns".to_string();

@@ -23,7 +23,7 @@ use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
 use super::sets;
-use crate::derive::derive_each;
+use crate::derive::{Program, derive_each};
 use crate::robot::Robot;
 
 /// What is a matter of the text and not of the robot.
@@ -55,12 +55,18 @@ pub const FILE_HEAD: &str = "\
 /// The items of a robot's module, ready to stand between the braces of a `mod`, to be included there, or,
 /// after [`FILE_HEAD`], to stand in a file of its own. The same table always gives the same bytes.
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
+    rust_with(robot, &[], options)
+}
+
+/// The same with functions of one's own.
+pub(crate) fn rust_with(robot: &Robot, own: &[&Program], options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
     let outputs = robot.generated();
     let sets = sets(&outputs);
     let programs = derive_each(robot, &sets);
-    let plans: Vec<Plan> = programs.iter().map(|p| Plan::new(p, &mut constants)).collect();
+    let programs = programs.iter().chain(own.iter().copied());
+    let plans: Vec<Plan> = programs.map(|p| Plan::new(p, &mut constants)).collect();
     let style = Rust { fused: options.fused, constants: "constants" };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
@@ -69,14 +75,13 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
         posture.admit_displacement(0);
     }
 
-    let mut text = table::header(robot, options);
+    let mut text = table::header(robot, own.is_empty(), options);
     if symbolic {
         text.push_str(&table::parameters(robot, &constants));
     }
-    text.push_str(&posture::module(&posture, &needs, robot.dof()));
-    for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
-        let function =
-            Function { plan, outputs, needs, posture: &posture, symbolic, style: &style };
+    text.push_str(&posture::module(&posture, &needs, robot));
+    for (plan, needs) in plans.iter().zip(&needs) {
+        let function = Function { plan, needs, posture: &posture, symbolic, style: &style };
         text.push_str(&function.text(robot, options));
     }
     text.push_str(&interface::interface(robot, &posture, &outputs));
