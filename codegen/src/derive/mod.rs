@@ -17,7 +17,7 @@ pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
 pub(crate) use outputs::derived;
-pub use own::{Held, Input, Own, Quantity, Size};
+pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;
 pub use program::{Block, Program, Solve};
 pub use stiffarm_kernels::{Output, Unstable};

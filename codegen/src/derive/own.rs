@@ -10,12 +10,12 @@ pub struct Own {
     /// What it computes.
     pub sentence: String,
     /// Its inputs beside the joint values, in the order of arguments.
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<OwnInput>,
 }
 
 /// An input beside the joint values.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Input {
+pub struct OwnInput {
     /// The argument's name.
     pub name: String,
     /// Its unit, `1` if it has none.
@@ -26,7 +26,7 @@ pub struct Input {
     pub size: Option<usize>,
 }
 
-impl Input {
+impl OwnInput {
     /// What generated code calls one of its entries.
     pub fn entry(&self, entry: usize) -> String {
         match self.size {

@@ -2,11 +2,11 @@
 //! worked out.
 
 use num_traits::Float;
-use stiffarm_kernels::{Output, Unstable};
+use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
 use super::own::{Held, Own};
-use crate::expr::{Expr, Graph, OpCount, Symbol};
+use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
 use crate::number::Number;
 
 /// Expressions for a set of outputs of one arm.
@@ -84,6 +84,24 @@ impl Program {
         solves.flat_map(Solve::inputs).chain(blocks.flat_map(|b| &b.entries)).copied().collect()
     }
 
+    /// What is given to some output, or enters a function of one's own, in the order of arguments.
+    pub fn inputs(&self) -> impl Iterator<Item = Input> {
+        let reached = self.own.as_ref().map(|_| self.graph.reachable(&self.roots()));
+        let entered = reached.map(|reached| {
+            let nodes = self.graph.nodes().iter().zip(reached).filter(|(_, reached)| *reached);
+            let inputs = nodes.filter_map(|(node, _)| match node {
+                Node::Symbol(s) => Some(self.graph.symbol_of(*s).input()?.0),
+                _ => None,
+            });
+            inputs.chain([Input::Joints]).collect::<Vec<Input>>()
+        });
+        let taken = move |input: &Input| match &entered {
+            Some(entered) => entered.contains(input),
+            None => self.blocks.iter().any(|b| b.held.output().is_some_and(|o| o.takes(*input))),
+        };
+        Input::EACH.into_iter().filter(taken)
+    }
+
     /// Operations beyond the solve itself.
     pub fn ops(&self) -> OpCount {
         self.graph.count(&self.roots())
@@ -98,26 +116,36 @@ impl Program {
         }
     }
 
-    /// Evaluates every block at joint values `q`, under `wrench`, with the parameters' values.
+    /// Evaluates every block at a state, under `wrench`, with the parameters' values. The state is the joint
+    /// values and behind them rates, accelerations and torques as far as some block takes them, in the
+    /// order of [`Input::EACH`].
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate<T: Float>(
         &self,
-        q: &[T],
+        state: &[T],
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
     ) -> Result<Vec<Vec<T>>, Unstable> {
         let mut solved: Vec<(Expr, T)> = Vec::new();
+        let taken: Vec<Input> = self.inputs().collect();
+        let joints = |input: Input| {
+            let at = taken.iter().position(|known| *known == input).unwrap_or(0);
+            &state[at * self.dof..]
+        };
         let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
-            Symbol::Joint(joint) => q[*joint],
+            Symbol::Joint(k) => joints(Input::Joints)[*k],
+            Symbol::Rate(k) => joints(Input::Rates)[*k],
+            Symbol::Acceleration(k) => joints(Input::Accelerations)[*k],
+            Symbol::Torque(k) => joints(Input::Torques)[*k],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
             // An undisplaced chain; no output of a table has displacements or inputs of one's own.
             Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
             Symbol::Deflection { .. } => {
                 let known = solved.iter().find(|(e, _)| {
-                    matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)
+                    matches!(self.graph.node(*e), Node::Symbol(s)
                         if self.graph.symbol_of(s) == symbol)
                 });
                 known.map_or_else(T::zero, |(_, x)| *x)

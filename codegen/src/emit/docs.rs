@@ -54,10 +54,14 @@ fn sides(rows: &str, columns: Side) -> String {
 }
 
 /// What goes into a function, each input with its unit; the joint values as a `posture` or as they are.
-pub(super) fn inputs(taken: &[Input], posture: bool, own: Option<&Own>) -> String {
+pub(super) fn inputs(
+    taken: impl IntoIterator<Item = Input>,
+    posture: bool,
+    own: Option<&Own>,
+) -> String {
     let own = own.into_iter().flat_map(|own| &own.inputs);
     let own = own.map(|input| format!("`{}`: {}, in {}", input.name, input.sentence, input.unit));
-    let each = taken.iter().map(|input| match input {
+    let each = taken.into_iter().map(|input| match input {
         Input::Joints if posture => {
             "`posture`: sines and cosines of the joint values, displacements in m".to_string()
         }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::plan::component;
 use crate::derive::{COMPONENTS, Output, derive};
 use crate::expr::{Expr, Graph, Node, Symbol};
 use crate::robot::Robot;
@@ -54,7 +55,10 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Number(n) => (n.to_string(), "plaintext"),
         Node::Symbol(s) => match g.symbol_of(s) {
             Symbol::Joint(joint) => (format!("q{}", joint + 1), "box"),
-            Symbol::Wrench(k) => (super::plan::WRENCH[*k].to_string(), "box"),
+            Symbol::Rate(_) | Symbol::Acceleration(_) | Symbol::Torque(_) | Symbol::Wrench(_) => {
+                let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
+                (named.unwrap_or_default(), "box")
+            }
             Symbol::Parameter(name) => (name.clone(), "box"),
             Symbol::Displacement { place, component } => {
                 (format!("{}{place}", COMPONENTS[*component]), "box")

@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use stiffarm_kernels::Input;
+
 use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
 use crate::derive::{COMPONENTS, Program};
@@ -38,12 +40,37 @@ pub(super) enum Target {
     Angles(usize),
 }
 
+/// What a function is given beside the posture.
+pub(super) struct Argument {
+    pub name: String,
+    /// How many numbers; `None` is one by itself.
+    pub size: Option<usize>,
+    pub of: Given,
+}
+
+/// Whose an argument is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Given {
+    /// The arm's.
+    Arm(Input),
+    /// One's own: which one.
+    Own(usize),
+}
+
 /// Names of the wrench's components.
-pub(super) const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// The name of a number of an input.
+pub(super) fn component(input: Input, k: usize) -> String {
+    match input {
+        Input::Wrench => WRENCH[k].to_string(),
+        of_joints => format!("{}{}", of_joints.name(), k + 1),
+    }
+}
 
 /// Names that generated functions use for other things.
-const RESERVED: [&str; 10] =
-    ["out", "posture", "constants", "q", "wrench", "live", "zero", "status", "fn", "as"];
+const RESERVED: [&str; 8] =
+    ["out", "posture", "constants", "live", "zero", "status", "fn", "as"];
 
 impl<'p> Plan<'p> {
     /// Plans the function that computes all of `program`; parameter-only values go to `constants`.
@@ -92,29 +119,67 @@ impl<'p> Plan<'p> {
 
     /// Force and moment below which a load of system `k` needs no test: only where the wrench is read.
     pub fn margin(&self, k: usize) -> Option<[Number; 2]> {
-        self.program.solves[k].margin.filter(|_| self.wrench().contains(&true))
+        let wrench = |argument: &Argument| argument.of == Given::Arm(Input::Wrench);
+        let read = self.arguments().iter().any(|argument| wrench(argument) && self.reads(argument));
+        self.program.solves[k].margin.filter(|_| read)
     }
 
-    /// Whether an entry of own input number `input` is read.
-    pub fn reads_own(&self, input: usize, entry: usize) -> bool {
-        let g = &self.program.graph;
-        let wanted = Symbol::Own { input, entry };
-        let is_it = |node: &usize| matches!(g.nodes()[*node], Node::Symbol(s) if *g.symbol_of(s) == wanted);
-        self.names.keys().any(is_it)
+    /// What the function is given beside the posture.
+    pub fn arguments(&self) -> Vec<Argument> {
+        let (program, n) = (self.program, self.program.dof);
+        let of_arm = program.inputs().filter(|input| *input != Input::Joints).map(|input| {
+            let size = Some(input.side().count(n));
+            Argument { name: input.name().to_string(), size, of: Given::Arm(input) }
+        });
+        let own = program.own.iter().flat_map(|own| &own.inputs).enumerate();
+        let own = own.map(|(k, input)| Argument {
+            name: input.name.clone(),
+            size: input.size,
+            of: Given::Own(k),
+        });
+        of_arm.chain(own).collect()
     }
 
-    /// Components of the wrench that are read.
-    pub fn wrench(&self) -> [bool; 6] {
+    /// Which numbers of an argument are among some nodes.
+    pub fn read<'n>(
+        &self,
+        argument: &Argument,
+        among: impl IntoIterator<Item = &'n usize>,
+    ) -> Vec<bool> {
         let g = &self.program.graph;
-        let mut read = [false; 6];
-        for node in self.names.keys() {
-            if let Node::Symbol(s) = g.nodes()[*node]
-                && let Symbol::Wrench(k) = g.symbol_of(s)
+        let mut read = vec![false; argument.size.unwrap_or(1)];
+        for node in among {
+            let Node::Symbol(s) = g.nodes()[*node] else { continue };
+            let given = match g.symbol_of(s) {
+                Symbol::Own { input, entry } => Some((Given::Own(*input), *entry)),
+                symbol => symbol.input().map(|(input, k)| (Given::Arm(input), k)),
+            };
+            if let Some((of, k)) = given
+                && of == argument.of
             {
-                read[*k] = true;
+                read[k] = true;
             }
         }
         read
+    }
+
+    /// What the text calls a number of an argument.
+    pub fn entry(&self, argument: &Argument, k: usize) -> String {
+        match (argument.of, &self.program.own) {
+            (Given::Arm(input), _) => component(input, k),
+            (Given::Own(which), Some(own)) => own.inputs[which].entry(k),
+            (Given::Own(_), None) => argument.name.clone(),
+        }
+    }
+
+    /// Every node that has a name.
+    pub fn named(&self) -> impl Iterator<Item = &usize> {
+        self.names.keys()
+    }
+
+    /// Whether anything of an argument is read.
+    pub fn reads(&self, argument: &Argument) -> bool {
+        self.read(argument, self.named()).contains(&true)
     }
 
     fn name_inputs(
@@ -143,7 +208,13 @@ impl<'p> Plan<'p> {
                     Symbol::Displacement { place, component } => {
                         self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
                     }
-                    Symbol::Wrench(k) => drop(self.names.insert(node, WRENCH[*k].to_string())),
+                    Symbol::Rate(_)
+                    | Symbol::Acceleration(_)
+                    | Symbol::Torque(_)
+                    | Symbol::Wrench(_) => {
+                        let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
+                        self.names.extend(named.map(|name| (node, name)));
+                    }
                     Symbol::Deflection { joint, weights } => {
                         let prefix = if *weights { "dqg" } else { "dq" };
                         self.names.insert(node, format!("{prefix}{}", joint + 1));
@@ -205,6 +276,7 @@ impl<'p> Plan<'p> {
     fn name_bindings(&mut self, g: &Graph) {
         let mut taken: HashSet<String> = self.names.values().cloned().collect();
         taken.extend(RESERVED.map(str::to_string));
+        taken.extend(Input::EACH.map(|input| input.name().to_string()));
         taken.extend(WRENCH.map(str::to_string));
         let own = self.program.own.iter().flat_map(|own| &own.inputs);
         taken.extend(own.map(|input| input.name.clone()));

@@ -6,7 +6,7 @@ use core::mem::swap;
 use super::geometry::{Frame, Point, Vector};
 use super::term::{Sheet, Term};
 use crate::derive::{
-    Chain, Input, Levers, Point as Place, Quantity, ROW, Size, derived, tool_offsets, twists,
+    Chain, Levers, OwnInput, Point as Place, Quantity, ROW, Size, derived, tool_offsets, twists,
 };
 use crate::expr::{Expr, Node, Symbol, Twist, Vec3};
 use crate::robot::Output;
@@ -16,7 +16,7 @@ pub struct Formulas<'r> {
     pub(super) sheet: Sheet,
     /// Its graph is the sheet's while it is asked.
     chain: RefCell<Chain<'r>>,
-    pub(super) inputs: RefCell<Vec<Input>>,
+    pub(super) inputs: RefCell<Vec<OwnInput>>,
     pub(super) results: RefCell<Vec<(Quantity, Vec<Expr>)>>,
     /// Variations declared so far.
     variations: Cell<usize>,
@@ -74,7 +74,7 @@ impl<'r> Formulas<'r> {
         let mut inputs = self.inputs.borrow_mut();
         let input = inputs.len();
         let [name, unit, sentence] = [name, unit, sentence].map(str::to_owned);
-        inputs.push(Input { name, unit, sentence, size });
+        inputs.push(OwnInput { name, unit, sentence, size });
         move |entry| Symbol::Own { input, entry }
     }
 
@@ -99,8 +99,22 @@ impl<'r> Formulas<'r> {
 
     /// The joint values, rad (prismatic joint: m): what to differentiate by.
     pub fn joints(&self) -> Vec<Term<'_>> {
+        self.of_joints(Symbol::Joint)
+    }
+
+    /// The joints' rates, rad/s (m/s): an input like that of the arm's outputs.
+    pub fn rates(&self) -> Vec<Term<'_>> {
+        self.of_joints(Symbol::Rate)
+    }
+
+    /// The joints' accelerations, rad/s² (m/s²): an input like that of the arm's outputs.
+    pub fn accelerations(&self) -> Vec<Term<'_>> {
+        self.of_joints(Symbol::Acceleration)
+    }
+
+    fn of_joints(&self, symbol: fn(usize) -> Symbol) -> Vec<Term<'_>> {
         let n = self.chain.borrow().dof();
-        (0..n).map(|joint| self.symbol(Symbol::Joint(joint))).collect()
+        (0..n).map(|joint| self.symbol(symbol(joint))).collect()
     }
 
     /// The wrench on the tool, N and N·m, base axes, at the tool's origin: an input like that of the arm's outputs.

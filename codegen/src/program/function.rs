@@ -2,7 +2,7 @@
 
 use super::formulas::Formulas;
 use super::mistake::{Mistake, Refused};
-use crate::derive::{Block, Held, Input, Own, Passes, Program, Quantity, Way, cheapest};
+use crate::derive::{Block, Held, Own, OwnInput, Passes, Program, Quantity, Way, cheapest};
 use crate::expr::{OpCount, Symbol};
 use crate::robot::Robot;
 
@@ -69,7 +69,7 @@ impl Function {
     }
 
     /// Its inputs beside the joint values.
-    pub fn inputs(&self) -> &[Input] {
+    pub fn inputs(&self) -> &[OwnInput] {
         &self.own.inputs
     }
 
@@ -91,24 +91,21 @@ impl Function {
         self.program.frame()
     }
 
-    /// The value of each result, column by column, by evaluation of the graph: nothing is shared with the printed text. Of
-    /// each input as many numbers as it has; `wrench` and `parameter` where the formulas take them. An entry that is not
-    /// given is NaN.
+    /// The value of each result, column by column, by evaluation of the graph, which shares nothing with the printed
+    /// text. Of each of its own inputs as many numbers as it has; `given` tells what the arm's are: rates, wrench,
+    /// parameters. An entry that is missing is NaN.
     pub fn evaluate(
         &self,
         q: &[f64],
         inputs: &[&[f64]],
-        wrench: &[f64; 6],
-        parameter: impl Fn(&str) -> f64,
+        given: impl Fn(&Symbol) -> f64,
     ) -> Vec<Vec<f64>> {
         let value = |symbol: &Symbol| match symbol {
             Symbol::Joint(joint) => q.get(*joint).copied().unwrap_or(f64::NAN),
-            Symbol::Wrench(k) => wrench[*k],
-            Symbol::Parameter(name) => parameter(name),
             Symbol::Own { input, entry } => {
                 inputs.get(*input).and_then(|input| input.get(*entry)).copied().unwrap_or(f64::NAN)
             }
-            Symbol::Displacement { .. } | Symbol::Deflection { .. } => f64::NAN,
+            symbol => given(symbol),
         };
         let blocks = self.program.blocks.iter();
         blocks.map(|block| self.program.graph.evaluate(&block.entries, value)).collect()

@@ -6,7 +6,7 @@ mod mistake;
 mod module;
 mod term;
 
-pub use crate::derive::{Input, Quantity, Size};
+pub use crate::derive::{OwnInput, Quantity, Size};
 pub use formulas::{Entries, Formulas};
 pub use function::Function;
 pub use geometry::{Frame, Point, Vector, quaternion, roll_pitch_yaw};

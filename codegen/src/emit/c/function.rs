@@ -1,9 +1,9 @@
 //! One function in C: from the joint values, and from the posture.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::{Output, Side};
 
 use super::super::expression::{Printer, Style as _};
-use super::super::plan::{Plan, Target, WRENCH};
+use super::super::plan::{Argument, Given, Plan, Target};
 use super::super::posture::Needs;
 use super::posture::statements;
 use super::solve::solve_name;
@@ -79,13 +79,16 @@ impl<'a> Function<'a> {
         let real = self.language.real();
         let returned =
             if self.fallible() { format!("{module}_status_t") } else { "void".to_string() };
-        let wrench =
-            if self.wrench() { format!(", const {real} wrench[6]") } else { String::new() };
-        let own = self.own().into_iter().flat_map(|own| &own.inputs);
-        let own: String = own
-            .map(|input| match input.size {
-                None => format!(", {real} {}", input.name),
-                Some(size) => format!(", const {real} {}[{size}]", input.name),
+        let size = |argument: &Argument| match argument.of {
+            Given::Arm(input) if input.side() == Side::Joints => {
+                format!("[{}_JOINTS]", module.to_uppercase())
+            }
+            _ => argument.size.map_or(String::new(), |size| format!("[{size}]")),
+        };
+        let beside: String = (self.plan.arguments().iter())
+            .map(|argument| {
+                let constant = if argument.size.is_some() { "const " } else { "" };
+                format!(", {constant}{real} {}{}", argument.name, size(argument))
             })
             .collect();
         let out = match self.blocks() {
@@ -95,13 +98,7 @@ impl<'a> Function<'a> {
             }
             _ => format!("{module}_{}_t *out", self.name()),
         };
-        format!("{returned} {name}({first}{wrench}{own}, {out})")
-    }
-
-    fn wrench(&self) -> bool {
-        let read = self.own().is_some() && self.plan.wrench().contains(&true);
-        let takes = |block: &Block| block.held.output().is_some_and(|o| o.takes(Input::Wrench));
-        read || self.blocks().iter().any(takes)
+        format!("{returned} {name}({first}{beside}, {out})")
     }
 
     /// The function of the joint values.
@@ -119,11 +116,9 @@ impl<'a> Function<'a> {
                 statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
             let returned = if self.fallible() { "return " } else { "" };
-            let wrench = if self.wrench() { ", wrench" } else { "" };
-            let inputs = self.own().into_iter().flat_map(|own| &own.inputs);
-            let inputs: String = inputs.map(|input| format!(", {}", input.name)).collect();
-            let name = self.name();
-            out.code(&format!("{returned}{module}_given_{name}(&own{wrench}{inputs}, out);"));
+            let beside: String =
+                self.plan.arguments().iter().map(|argument| format!(", {}", argument.name)).collect();
+            out.code(&format!("{returned}{module}_given_{}(&own{beside}, out);", self.name()));
         });
     }
 
@@ -164,34 +159,24 @@ impl<'a> Function<'a> {
         });
     }
 
-    /// Whatever is read of the posture and the wrench, as locals.
+    /// Whatever is read of the posture and the other inputs, as locals.
     fn inputs(&self, out: &mut Lines) {
         let real = self.language.real();
         for (name, field) in &self.needs.reads {
             out.code(&format!("const {real} {name} = posture->{field};"));
         }
-        let components = self.plan.wrench();
-        for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
-            out.code(&format!("const {real} {name} = wrench[{k}];"));
-        }
-        for (k, input) in self.own().into_iter().flat_map(|own| &own.inputs).enumerate() {
-            let reads = |entry: &usize| self.plan.reads_own(k, *entry);
-            match input.size {
-                Some(size) => (0..size).filter(reads).for_each(|entry| {
-                    let (name, own) = (input.entry(entry), &input.name);
-                    out.code(&format!("const {real} {name} = {own}[{entry}];"));
-                }),
-                None => {}
+        for argument in &self.plan.arguments() {
+            let read = self.plan.read(argument, self.plan.named());
+            if !read.contains(&true) {
+                out.code(&format!("(void){};", argument.name));
             }
-            if !(0..input.size.unwrap_or(1)).any(|entry| reads(&entry)) {
-                out.code(&format!("(void){};", input.name));
+            for k in (0..read.len()).filter(|k| read[*k] && argument.size.is_some()) {
+                let name = self.plan.entry(argument, k);
+                out.code(&format!("const {real} {name} = {}[{k}];", argument.name));
             }
         }
         if self.needs.reads.is_empty() {
             out.code("(void)posture;");
-        }
-        if self.wrench() && !components.contains(&true) {
-            out.code("(void)wrench;");
         }
     }
 

@@ -7,8 +7,6 @@ use super::hash::{Table, fnv1a};
 use super::posture::declaration;
 use super::source::posture_head;
 use super::{Module, Precision, Sines};
-use stiffarm_kernels::Input;
-
 use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
@@ -182,7 +180,7 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
         }
     }
     if function.own().is_some() {
-        text.push(inputs(&[Input::Joints], false, function.own()));
+        text.push(inputs(function.plan.program.inputs(), false, function.own()));
     }
     let mut text: Vec<String> = text.iter().map(|text| plain(text)).collect();
     text.push(format!("Worked out in {}.", function.plan.program.frame()));

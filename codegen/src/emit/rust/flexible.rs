@@ -225,6 +225,6 @@ fn symbol(symbol: &Symbol) -> Option<String> {
         Symbol::Joint(joint) => Some(format!("q[{joint}]")),
         Symbol::Parameter(name) => Some(format!("parameters.{name}")),
         Symbol::Displacement { place, component } => Some(format!("e[{place}][{component}]")),
-        Symbol::Wrench(_) | Symbol::Deflection { .. } | Symbol::Own { .. } => None,
+        _ => None,
     }
 }

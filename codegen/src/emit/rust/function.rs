@@ -1,8 +1,8 @@
 //! One function of a generated module: what it returns and where its entries go.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::Output;
 
-use super::super::plan::Plan;
+use super::super::plan::{Argument, Plan};
 use super::super::posture::{Needs, Posture};
 use super::shapes;
 use super::style::Rust;
@@ -18,6 +18,14 @@ pub(super) struct Function<'p> {
     pub symbolic: bool,
     /// How its text is spelt.
     pub style: &'p Rust,
+}
+
+/// An input beside the posture as a parameter: so many numbers, or one by itself.
+pub(super) fn parameter(name: &str, size: Option<usize>) -> String {
+    match size {
+        Some(size) => format!("{name}: &[S; {size}]"),
+        None => format!("{name}: S"),
+    }
 }
 
 impl<'p> Function<'p> {
@@ -54,40 +62,25 @@ impl<'p> Function<'p> {
         let constants = unread(!self.plan.constants.is_empty());
         let constants = format!("{constants}constants: &super::Constants<S>");
         let posture = format!("{}posture: &Posture<S>", unread(!self.needs.reads.is_empty()));
-        let wrench = format!("{}wrench: &[S; 6]", unread(self.plan.wrench().contains(&true)));
-        let first = self.symbolic.then_some(constants).into_iter().chain([posture]);
-        let given = first.chain(self.wrench().then_some(wrench));
-        let inputs = self.own().map_or(&[][..], |own| &own.inputs);
-        let read = |k: usize| (0..inputs[k].size.unwrap_or(1)).any(|e| self.plan.reads_own(k, e));
-        let own = self.own_inputs().into_iter().enumerate();
-        given.chain(own.map(|(k, input)| format!("{}{input}", unread(read(k))))).collect()
-    }
-
-    /// The parameters of one's own, with their types.
-    pub fn own_inputs(&self) -> Vec<String> {
-        let inputs = self.own().map_or(&[][..], |own| &own.inputs);
-        let typed = inputs.iter().map(|input| match input.size {
-            None => format!("{}: S", input.name),
-            Some(size) => format!("{}: &[S; {size}]", input.name),
+        let beside = self.plan.arguments();
+        let beside = beside.iter().map(|argument| {
+            let Argument { name, size, .. } = argument;
+            format!("{}{}", unread(self.plan.reads(argument)), parameter(name, *size))
         });
-        typed.collect()
+        let first = self.symbolic.then_some(constants).into_iter().chain([posture]);
+        first.chain(beside).collect()
     }
 
     /// What the kernel is called with, where the inputs are called so.
     pub fn arguments(&self, posture: &str) -> String {
         let first = self.symbolic.then_some("constants").into_iter().chain([posture]);
-        let own = self.own().into_iter().flat_map(|own| &own.inputs).map(|i| i.name.as_str());
-        first.chain(self.wrench().then_some("wrench")).chain(own).collect::<Vec<_>>().join(", ")
+        let beside = self.plan.arguments().into_iter().map(|argument| argument.name);
+        first.map(str::to_string).chain(beside).collect::<Vec<String>>().join(", ")
     }
 
     /// Whether it computes several things.
     pub fn fused(&self) -> bool {
         self.blocks().len() > 1
-    }
-
-    pub fn wrench(&self) -> bool {
-        let read = self.own().is_some() && self.plan.wrench().contains(&true);
-        read || self.outputs().any(|o| o.takes(Input::Wrench))
     }
 
     pub fn fallible(&self) -> bool {

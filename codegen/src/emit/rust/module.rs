@@ -2,9 +2,10 @@
 
 use stiffarm_kernels::{Form, Input};
 
+use super::super::plan::Given;
 use super::RustOptions;
 use super::body::Body;
-use super::function::Function;
+use super::function::{Function, parameter};
 use super::posture::{INLINE, needs_constants, values};
 use super::shapes;
 use crate::derive::Block;
@@ -35,10 +36,8 @@ impl Function<'_> {
             parameters.push("constants: &Constants<S>".to_string());
         }
         parameters.push(format!("q: &[S; {}]", self.program().dof));
-        if self.wrench() {
-            parameters.push("wrench: &[S; 6]".to_string());
-        }
-        parameters.extend(self.own_inputs());
+        let arguments = self.plan.arguments();
+        parameters.extend(arguments.iter().map(|a| parameter(&a.name, a.size)));
         let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
@@ -79,15 +78,6 @@ impl Function<'_> {
         }
     }
 
-    /// What goes into the function.
-    fn inputs(&self) -> Vec<Input> {
-        let taken = |input: &Input| match input {
-            Input::Wrench => self.wrench(),
-            input => self.own().is_some() || self.outputs().any(|output| output.takes(*input)),
-        };
-        Input::EACH.into_iter().filter(taken).collect()
-    }
-
     /// The documentation of the kernel itself.
     pub fn kernel_docs(&self, out: &mut Lines) {
         if self.fused() {
@@ -95,14 +85,15 @@ impl Function<'_> {
         } else {
             self.output(out);
         }
-        let mut read = self.inputs();
+        let mut read: Vec<Input> = self.program().inputs().collect();
+        let arguments = self.plan.arguments();
         read.retain(|input| match input {
             Input::Joints => !self.needs.reads.is_empty(),
-            _ => self.plan.wrench().contains(&true),
+            beside => arguments.iter().any(|a| a.of == Given::Arm(*beside) && self.plan.reads(a)),
         });
         if !read.is_empty() || self.own().is_some_and(|own| !own.inputs.is_empty()) {
             out.doc("");
-            out.doc(&inputs(&read, true, self.own()));
+            out.doc(&inputs(read, true, self.own()));
         }
         if self.own().is_none() {
             out.doc("");
@@ -128,7 +119,7 @@ impl Function<'_> {
             self.output(out);
         }
         out.doc("");
-        out.doc(&inputs(&self.inputs(), false, self.own()));
+        out.doc(&inputs(self.program().inputs(), false, self.own()));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
