@@ -3,7 +3,7 @@
 use core::cell::{Cell, RefCell};
 use core::mem::swap;
 
-use super::geometry::{Frame, Point, Vector};
+use super::geometry::{Frame, Point, Vector, cross, plus};
 use super::term::{Sheet, Term};
 use crate::derive::{
     Chain, Levers, OwnInput, Point as Place, Quantity, ROW, Size, derived, tool_offsets, twists,
@@ -143,7 +143,8 @@ impl<'r> Formulas<'r> {
             let unit = |k| if k == axis { Expr::ONE } else { Expr::ZERO };
             self.vector_of(self.ask(|chain| chain.in_frame([0, 1, 2].map(unit))))
         });
-        let frame = Frame { axes, origin: self.at(0, [(Expr::ZERO, [Expr::ZERO; 3]); 3]) };
+        let origin = self.at(0, [(Expr::ZERO, [Expr::ZERO; 3]); 3]);
+        let frame = Frame { axes, origin, displaced: None };
         let stands = self.ask(|chain| {
             let base = chain.robot.base.translation.clone();
             base.map(|length| -chain.value(&length))
@@ -160,14 +161,15 @@ impl<'r> Formulas<'r> {
             return self.base();
         }
         let axes = self.ask(|chain| chain.axes(ROW * row)).map(|axis| self.vector_of(axis));
-        Frame { axes, origin: self.at(ROW * row, [(Expr::ZERO, [Expr::ZERO; 3]); 3]) }
+        let origin = self.at(ROW * row, [(Expr::ZERO, [Expr::ZERO; 3]); 3]);
+        Frame { axes, origin, displaced: None }
     }
 
     /// The tool's frame.
     pub fn tool(&self) -> Frame<'_> {
         let (end, offsets) = self.ask(|chain| (chain.steps().len(), tool_offsets(chain)));
         let axes = self.chain.borrow().tool_axes().map(|axis| self.vector_of(axis));
-        Frame { axes, origin: self.at(end, offsets) }
+        Frame { axes, origin: self.at(end, offsets), displaced: None }
     }
 
     fn at(&self, boundary: usize, offsets: [(Expr, Vec3); 3]) -> Point<'_> {
@@ -186,6 +188,18 @@ impl<'r> Formulas<'r> {
             levers.extended(&mut chain.g, Place::Boundary(from.boundary), &inwards, None)
         });
         self.vector_of(outer) - from.beyond
+    }
+
+    /// Coordinates of a point in a frame, m.
+    pub fn coordinates<'f>(&'f self, point: Point<'f>, frame: Frame<'f>) -> [Term<'f>; 3] {
+        let undisplaced = frame.axes.map(|axis| axis.dot(self.lever(frame.origin, point)));
+        match frame.displaced {
+            None => undisplaced,
+            Some([shift, turn]) => {
+                let moved = plus(undisplaced, shift.map(|c| -c));
+                plus(moved, cross(moved, turn))
+            }
+        }
     }
 
     /// By joint, the velocity of a point of the arm and the angular velocity of the frame that it moves with, per unit

@@ -111,42 +111,92 @@ impl<'f> Add<Vector<'f>> for Point<'f> {
 /// A frame: of the chain, of the tool, of the base, or one that is told from one of them.
 #[derive(Clone, Copy)]
 pub struct Frame<'f> {
-    /// Unit vectors along x, y, z.
-    pub axes: [Vector<'f>; 3],
-    /// Where it stands.
-    pub origin: Point<'f>,
+    pub(super) axes: [Vector<'f>; 3],
+    pub(super) origin: Point<'f>,
+    /// A small displacement along the axes and turn about them: it acts on components, so that nobody has to know that
+    /// axes are perpendicular.
+    pub(super) displaced: Option<[[Term<'f>; 3]; 2]>,
 }
 
 impl<'f> Frame<'f> {
+    /// Unit vectors along x, y, z.
+    pub fn axes(&self) -> [Vector<'f>; 3] {
+        match self.displaced {
+            None => self.axes,
+            Some([_, turn]) => {
+                let turn = self.along(turn);
+                self.axes.map(|axis| axis + turn.cross(axis))
+            }
+        }
+    }
+
+    /// Where it stands.
+    pub fn origin(&self) -> Point<'f> {
+        match self.displaced {
+            None => self.origin,
+            Some([shift, _]) => self.origin + self.along(shift),
+        }
+    }
+
     /// The vector with these components along the axes.
     pub fn vector(&self, components: [Term<'f>; 3]) -> Vector<'f> {
-        let [x, y, z] = self.axes;
-        x * components[0] + y * components[1] + z * components[2]
+        match self.displaced {
+            None => self.along(components),
+            Some([_, turn]) => self.along(plus(components, cross(turn, components))),
+        }
     }
 
     /// The point with these coordinates, m.
     pub fn point(&self, coordinates: [Term<'f>; 3]) -> Point<'f> {
+        let coordinates = match self.displaced {
+            None => coordinates,
+            Some([shift, turn]) => plus(plus(shift, coordinates), cross(turn, coordinates)),
+        };
         let along = coordinates.into_iter().zip(self.axes);
         along.fold(self.origin, |point, (length, axis)| point.along(length, axis))
     }
 
     /// Components of a vector along the axes.
     pub fn components(&self, v: Vector<'f>) -> [Term<'f>; 3] {
-        self.axes.map(|axis| axis.dot(v))
+        let components = self.axes.map(|axis| axis.dot(v));
+        match self.displaced {
+            None => components,
+            Some([_, turn]) => plus(components, cross(components, turn)),
+        }
     }
 
     /// The frame whose origin has these coordinates, m, and whose axes have these components.
     pub fn then(&self, origin: [Term<'f>; 3], axes: [[Term<'f>; 3]; 3]) -> Frame<'f> {
-        Frame { axes: axes.map(|axis| self.vector(axis)), origin: self.point(origin) }
+        let axes = axes.map(|axis| self.vector(axis));
+        Frame { axes, origin: self.point(origin), displaced: None }
     }
 
-    /// The frame displaced along and turned about its own axes by so little that squares do not count: `T (I + [v, ω])`
-    /// of a displacement v, m, and a rotation vector ω, rad. Derivatives by
-    /// [variations](super::Formulas::variation) are then those on the group of displacements.
+    /// The frame displaced along and turned about its own axes by so little that squares do not count: by v, m, and a
+    /// rotation vector ω, rad. Derivatives by [variations](super::Formulas::variation) v and ω are those on the group of
+    /// displacements, six for a frame, however its place is written.
     pub fn displaced(&self, v: [Term<'f>; 3], turn: [Term<'f>; 3]) -> Frame<'f> {
-        let turn = self.vector(turn);
-        Frame { axes: self.axes.map(|axis| axis + turn.cross(axis)), origin: self.point(v) }
+        match self.displaced {
+            None => Frame { displaced: Some([v, turn]), ..*self },
+            Some(_) => Frame { axes: self.axes(), origin: self.origin(), displaced: Some([v, turn]) },
+        }
     }
+
+    fn along(&self, components: [Term<'f>; 3]) -> Vector<'f> {
+        let [x, y, z] = self.axes;
+        x * components[0] + y * components[1] + z * components[2]
+    }
+}
+
+/// Sum of components along the same axes.
+pub(super) fn plus<'f>(a: [Term<'f>; 3], b: [Term<'f>; 3]) -> [Term<'f>; 3] {
+    core::array::from_fn(|k| a[k] + b[k])
+}
+
+pub(super) fn cross<'f>(a: [Term<'f>; 3], b: [Term<'f>; 3]) -> [Term<'f>; 3] {
+    core::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        a[i] * b[j] - a[j] * b[i]
+    })
 }
 
 /// Axes of a frame turned by a quaternion w, x, y, z, which need not be of length 1 (and must not be 0).
