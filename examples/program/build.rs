@@ -1,4 +1,4 @@
-//! Writes the kernels of a KUKA KR 240-2 to `OUT_DIR`, with two functions of its own.
+//! Writes the kernels of a KUKA KR 240-2 to `OUT_DIR`, with functions of its own.
 
 use stiffarm_codegen::emit::RustOptions;
 use stiffarm_codegen::program::Module;
@@ -13,6 +13,11 @@ fn main() -> Result<(), BuildError> {
     Module::new(&robot)
         .function("hand_eye", "Reprojection error of a camera on the tool", formulas::hand_eye)?
         .function("clearance", "Distance of the tool's corner from a plane", formulas::clearance)?
+        .function(
+            "height",
+            "Height of the tool on a vehicle that rolls and pitches",
+            formulas::height,
+        )?
         .to_out_dir("kr240", &options)?;
     Ok(())
 }

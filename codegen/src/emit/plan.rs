@@ -69,8 +69,7 @@ pub(super) fn component(input: Input, k: usize) -> String {
 }
 
 /// Names that generated functions use for other things.
-const RESERVED: [&str; 8] =
-    ["out", "posture", "constants", "live", "zero", "status", "fn", "as"];
+const RESERVED: [&str; 8] = ["out", "posture", "constants", "live", "zero", "status", "fn", "as"];
 
 impl<'p> Plan<'p> {
     /// Plans the function that computes all of `program`; parameter-only values go to `constants`.

@@ -70,7 +70,13 @@ impl<'r> Formulas<'r> {
         core::array::from_fn(|entry| self.symbol(symbol(entry)))
     }
 
-    fn input(&self, name: &str, unit: &str, sentence: &str, size: Option<usize>) -> impl Fn(usize) -> Symbol {
+    fn input(
+        &self,
+        name: &str,
+        unit: &str,
+        sentence: &str,
+        size: Option<usize>,
+    ) -> impl Fn(usize) -> Symbol {
         let mut inputs = self.inputs.borrow_mut();
         let input = inputs.len();
         let [name, unit, sentence] = [name, unit, sentence].map(str::to_owned);
@@ -231,10 +237,13 @@ impl<'r> Formulas<'r> {
         for (k, term) in by.iter().enumerate() {
             match g.node(term.e) {
                 Node::Symbol(s) if !term.e.is_negative() => symbols.push(g.symbol_of(s).clone()),
-                _ => self.sheet.mistake(format!(
-                    "found an expression as number {k} (from 0) of what to differentiate by, expected an input, a \
-                     joint value or a variation"
-                )),
+                _ => {
+                    self.sheet.mistake(format!(
+                        "found an expression as number {k} (from 0) of what to differentiate by, expected an \
+                         input, a joint value or a variation"
+                    ));
+                    symbols.push(Symbol::Own { input: VARIATION, entry: VARIATION });
+                }
             }
         }
         let of: Vec<Expr> = of.iter().map(|term| term.e).collect();

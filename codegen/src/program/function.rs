@@ -124,7 +124,9 @@ fn names<'a>(
     }
     let of_results: Vec<&str> = results.map(|quantity| quantity.name.as_str()).collect();
     let of_inputs: Vec<&str> = own.inputs.iter().map(|input| input.name.as_str()).collect();
-    for (what, names) in [("function", &[own.name.as_str()][..]), ("input", &of_inputs), ("result", &of_results)] {
+    for (what, names) in
+        [("function", &[own.name.as_str()][..]), ("input", &of_inputs), ("result", &of_results)]
+    {
         for (k, name) in names.iter().enumerate() {
             if let Some(why) = refused(name) {
                 wrong(format!("found the {what} name `{name}`, {why}"));
@@ -138,8 +140,27 @@ fn names<'a>(
 
 /// Names that the generated text gives to other things.
 const TAKEN: [&str; 21] = [
-    "all", "arm", "constants", "double", "fx", "fy", "fz", "given", "int", "live", "long", "mx", "my", "mz", "out", "own",
-    "posture", "q", "status", "wrench", "zero",
+    "all",
+    "arm",
+    "constants",
+    "double",
+    "fx",
+    "fy",
+    "fz",
+    "given",
+    "int",
+    "live",
+    "long",
+    "mx",
+    "my",
+    "mz",
+    "out",
+    "own",
+    "posture",
+    "q",
+    "status",
+    "wrench",
+    "zero",
 ];
 
 /// Why a name cannot be one.
@@ -148,12 +169,15 @@ fn refused(name: &str) -> Option<&'static str> {
     let plain = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(letters);
     // `s23`, `c4`, `q2`, `dq3`, `sa1`: sines, cosines, joint values and what they are worked out from.
     let stem = name.split(|c: char| c.is_ascii_digit()).next().unwrap_or_default();
-    let of_arm = stem.len() < name.len() && ["s", "c", "q", "dq", "dqg", "sa", "ca"].contains(&stem);
+    let of_arm =
+        stem.len() < name.len() && ["s", "c", "q", "dq", "dqg", "sa", "ca"].contains(&stem);
     if !plain {
         Some("expected lower-case letters, digits and `_`, a letter first")
     } else if of_arm || TAKEN.contains(&name) {
         Some("which the generated text gives to something else: expected another one")
-    } else if crate::robot::is_keyword(name) || ["char", "float", "short", "signed", "switch", "void"].contains(&name) {
+    } else if crate::robot::is_keyword(name)
+        || ["char", "float", "short", "signed", "switch", "void"].contains(&name)
+    {
         Some("a keyword: expected another one")
     } else {
         None

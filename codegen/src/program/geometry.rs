@@ -177,7 +177,9 @@ impl<'f> Frame<'f> {
     pub fn displaced(&self, v: [Term<'f>; 3], turn: [Term<'f>; 3]) -> Frame<'f> {
         match self.displaced {
             None => Frame { displaced: Some([v, turn]), ..*self },
-            Some(_) => Frame { axes: self.axes(), origin: self.origin(), displaced: Some([v, turn]) },
+            Some(_) => {
+                Frame { axes: self.axes(), origin: self.origin(), displaced: Some([v, turn]) }
+            }
         }
     }
 

@@ -52,7 +52,9 @@ impl<'f> Term<'f> {
     pub fn sqrt(self) -> Self {
         let mut g = self.sheet.graph.borrow_mut();
         if let Some(n) = g.number_of(self.e).filter(|n| n.is_negative()) {
-            self.sheet.mistake(format!("found the square root of {n}, expected one of what is not negative"));
+            self.sheet.mistake(format!(
+                "found the square root of {n}, expected one of what is not negative"
+            ));
             return self;
         }
         self.sheet.term(g.sqrt(self.e))

@@ -31,11 +31,11 @@ mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub(crate) use names::is_keyword;
 pub use model::{
     Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
     Quantity, Robot, Section, Spot, Value,
 };
+pub(crate) use names::is_keyword;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;

@@ -74,7 +74,10 @@ fn tool(q: &[f64; 6]) -> Isometry3<f64> {
         let inclined = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), row.alpha);
         let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), row.theta + q);
         let before = Isometry3::from_parts(Translation3::identity(), inclined);
-        pose * before * Translation3::new(row.a, 0.0, 0.0) * turned * Translation3::new(0.0, 0.0, row.d)
+        pose * before
+            * Translation3::new(row.a, 0.0, 0.0)
+            * turned
+            * Translation3::new(0.0, 0.0, row.d)
     })
 }
 
@@ -118,10 +121,8 @@ fn the_reprojection_is_that_of_a_pinhole_and_its_jacobian_the_interaction_matrix
         let [fx, fy] = case.focal;
         let residual =
             [fx * x + case.centre[0] - case.seen[0], fy * y + case.centre[1] - case.seen[1]];
-        let rows = [
-            [-z, 0.0, x * z, x * y, -(1.0 + x * x), y],
-            [0.0, -z, y * z, 1.0 + y * y, -x * y, -x],
-        ];
+        let rows =
+            [[-z, 0.0, x * z, x * y, -(1.0 + x * x), y], [0.0, -z, y * z, 1.0 + y * y, -x * y, -x]];
         let columns = (0..6).flat_map(|k| [fx * rows[0][k], fy * rows[1][k]]);
         let expected: Vec<f64> = residual.into_iter().chain(columns).collect();
         assert_near(&hand_eye::<f64>(&case), &expected, ROUNDED);
@@ -143,6 +144,31 @@ fn the_clearance_is_a_points_distance_and_its_gradient_that_of_dual_numbers() {
     }
 }
 
+/// Sines of an input of one's own.
+#[test]
+fn the_height_is_that_of_the_turned_tool_and_its_slopes_those_of_dual_numbers() {
+    for case in cases() {
+        let [roll, pitch] = [case.normal[0], case.normal[1]];
+        let turned =
+            UnitQuaternion::from_euler_angles(roll, pitch, 0.0) * tool(&case.q).translation.vector;
+        let found = kr240::height(&case.q, &[roll, pitch]);
+        let mut slopes = [0.0; 8];
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            let mut values = [case.q.as_slice(), &[roll, pitch]]
+                .concat()
+                .into_iter()
+                .map(Dual::lit)
+                .collect::<Vec<_>>();
+            values[k].0.eps = 1.0;
+            let (q, attitude) = values.split_at(6);
+            let q = q.try_into().expect("six");
+            *slope = kr240::height(q, &[attitude[0], attitude[1]]).height.0.eps;
+        }
+        let got = [&[found.height][..], &found.by_joints, &found.by_attitude].concat();
+        assert_near(&got, &[&[turned.z][..], &slopes].concat(), ROUNDED);
+    }
+}
+
 fn robot() -> Robot {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/arms/kuka_kr240.toml");
     let text = std::fs::read_to_string(path).expect("the arm is in the collection");
@@ -154,16 +180,25 @@ fn printed_text_is_the_graph() {
     let robot = robot();
     let eye = Function::new(&robot, "hand_eye", "", formulas::hand_eye).expect("no mistakes");
     let clear = Function::new(&robot, "clearance", "", formulas::clearance).expect("no mistakes");
-    let counted = [kr240::hand_eye::OPS, kr240::clearance::OPS].map(|ops| (ops.flops(), ops.div, ops.sin_cos));
+    let counted = [kr240::hand_eye::OPS, kr240::clearance::OPS]
+        .map(|ops| (ops.flops(), ops.div, ops.sin_cos));
     let of_graph = [&eye, &clear].map(|function| function.ops());
     assert_eq!(counted, of_graph.map(|ops| (ops.flops(), ops.div, ops.sin_cos)));
     for case in cases() {
         let none = |_: &_| f64::NAN;
         let inputs: [&[f64]; 6] =
             [&case.mount, &case.turned, &case.focal, &case.centre, &case.marker, &case.seen];
-        assert_near(&hand_eye::<f64>(&case), &eye.evaluate(&case.q, &inputs, none).concat(), ROUNDED);
+        assert_near(
+            &hand_eye::<f64>(&case),
+            &eye.evaluate(&case.q, &inputs, none).concat(),
+            ROUNDED,
+        );
         let inputs: [&[f64]; 3] = [&case.mount, &case.normal, &[case.height]];
-        assert_near(&clearance(&case, &case.q), &clear.evaluate(&case.q, &inputs, none).concat(), ROUNDED);
+        assert_near(
+            &clearance(&case, &case.q),
+            &clear.evaluate(&case.q, &inputs, none).concat(),
+            ROUNDED,
+        );
     }
 }
 
@@ -175,7 +210,9 @@ fn single_precision_and_lanes_agree() {
             // Inputs rounded to 6e-8, magnified by depths down to half a metre of an arm of four.
             assert_near(&single, &hand_eye::<f64>(case), 2e-5);
         }
-        let q = core::array::from_fn(|joint| f64x4::from([0, 1, 2, 3].map(|k: usize| four[k].q[joint])));
+        let q = core::array::from_fn(|joint| {
+            f64x4::from([0, 1, 2, 3].map(|k: usize| four[k].q[joint]))
+        });
         let lanes = clearance(&four[0], &q);
         for (k, case) in four.iter().enumerate() {
             let lane: Vec<f64> = lanes.iter().map(|x| x.to_array()[k]).collect();
@@ -223,9 +260,13 @@ int main(void)
         kr240_hand_eye_t eye;
         kr240_clearance_t clear;
         kr240_posture_t posture;
+        kr240_height_t height;
         kr240_hand_eye(in, in + 6, in + 9, in + 13, in + 15, in + 17, in + 20, &eye);
         kr240_posture(in, &posture);
         kr240_given_clearance(&posture, in + 6, in + 22, in[25], &clear);
+        kr240_given_height(&posture, in + 22, &height);
+        print(height.height, KR240_HEIGHT_HEIGHT_SIZE);
+        print(height.by_attitude, KR240_HEIGHT_BY_ATTITUDE_SIZE);
         print(eye.residual, KR240_HAND_EYE_RESIDUAL_SIZE);
         print(eye.jacobian, KR240_HAND_EYE_JACOBIAN_SIZE);
         print(clear.distance, KR240_CLEARANCE_DISTANCE_SIZE);
@@ -242,7 +283,8 @@ fn c_has_the_bits_of_rust() {
     let robot = robot();
     let module = Module::new(&robot)
         .function("hand_eye", "Reprojection error", formulas::hand_eye)
-        .and_then(|module| module.function("clearance", "Distance", formulas::clearance));
+        .and_then(|module| module.function("clearance", "Distance", formulas::clearance))
+        .and_then(|module| module.function("height", "Height", formulas::height));
     let options =
         COptions { name: "kr240".into(), precision: Precision::F64, sines: Sines::Polynomial };
     let files = module.expect("no mistakes").c(&options).expect("numbers only");
@@ -254,7 +296,14 @@ fn c_has_the_bits_of_rust() {
     let mut input = String::new();
     for case in cases() {
         let parts: [&[f64]; 9] = [
-            &case.q, &case.mount, &case.turned, &case.focal, &case.centre, &case.marker, &case.seen, &case.normal,
+            &case.q,
+            &case.mount,
+            &case.turned,
+            &case.focal,
+            &case.centre,
+            &case.marker,
+            &case.seen,
+            &case.normal,
             &[case.height],
         ];
         parts.concat().iter().for_each(|x| write!(input, "{:x} ", x.to_bits()).expect("written"));
@@ -262,7 +311,9 @@ fn c_has_the_bits_of_rust() {
     let printed = compiler::run(&folder, "program", &input);
     assert_eq!(printed.lines().count(), cases().len());
     for (line, case) in printed.lines().zip(cases()) {
-        let rust = [hand_eye::<f64>(&case), clearance(&case, &case.q)].concat();
+        let height = kr240::height(&case.q, &[case.normal[0], case.normal[1]]);
+        let height = [&[height.height][..], &height.by_attitude].concat();
+        let rust = [height, hand_eye::<f64>(&case), clearance(&case, &case.q)].concat();
         let bits: Vec<String> = rust.iter().map(|x| format!("{:x}", x.to_bits())).collect();
         assert_eq!(line.trim_end(), bits.join(" "));
     }

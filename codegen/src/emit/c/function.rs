@@ -116,8 +116,12 @@ impl<'a> Function<'a> {
                 statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
             let returned = if self.fallible() { "return " } else { "" };
-            let beside: String =
-                self.plan.arguments().iter().map(|argument| format!(", {}", argument.name)).collect();
+            let beside: String = self
+                .plan
+                .arguments()
+                .iter()
+                .map(|argument| format!(", {}", argument.name))
+                .collect();
             out.code(&format!("{returned}{module}_given_{}(&own{beside}, out);", self.name()));
         });
     }

@@ -5,7 +5,12 @@ use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
 /// The struct.
-pub(super) fn declaration(posture: &Posture, out: &mut Lines, robot: &Robot, (name, real): (&str, &str)) {
+pub(super) fn declaration(
+    posture: &Posture,
+    out: &mut Lines,
+    robot: &Robot,
+    (name, real): (&str, &str),
+) {
     out.comment(&[
         "The joint values as the kernels need them: sines, cosines, displacements.".to_string()
     ]);

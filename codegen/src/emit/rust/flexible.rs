@@ -139,10 +139,7 @@ impl Writer<'_> {
         }
         inputs.iter().for_each(|line| out.code(line));
         out.code("let zero = S::lit(0.0);");
-        out.code(&format!(
-            "let mut out = {};",
-            shapes::zero(&self.plan.program.blocks[0].held, n)
-        ));
+        out.code(&format!("let mut out = {};", shapes::zero(&self.plan.program.blocks[0].held, n)));
         let schedule = &self.plan.schedule;
         let all = 0..schedule.steps.len();
         match schedule.blocks(all.clone(), BLOCK, |_| false).as_slice() {

@@ -121,7 +121,8 @@ impl<'p> Function<'p> {
         if let [block] = self.blocks() {
             return shapes::zero(&block.held, n);
         }
-        let field = |Block { held, .. }: &Block| format!("{}: {}", held.name(), shapes::zero(held, n));
+        let field =
+            |Block { held, .. }: &Block| format!("{}: {}", held.name(), shapes::zero(held, n));
         let fields: Vec<String> = self.blocks().iter().map(field).collect();
         format!("{} {{ {} }}", self.structure(), fields.join(", "))
     }

@@ -129,8 +129,10 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
         ty = format!("Result<{ty}, Unstable>");
     }
     let constants = if symbolic { "&self.constants, " } else { "" };
-    let parameters: String =
-        output.beside().map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n))))).collect();
+    let parameters: String = output
+        .beside()
+        .map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n)))))
+        .collect();
     let arguments: String = output.beside().map(|input| format!(", {}", input.name())).collect();
     out.code(INLINE);
     let head = format!("fn {name}(&self, posture: &Posture<S>{parameters}) -> {ty} {{");
