@@ -1,7 +1,7 @@
 //! A C program around generated kernels: joint values and a wrench as the bits of numbers from standard
 //! input, every output as bits to standard output.
 
-use stiffarm::kernels::{Input, Output};
+use stiffarm::kernels::Output;
 use stiffarm_codegen::emit::Precision;
 use stiffarm_codegen::robot::Robot;
 
@@ -24,7 +24,7 @@ pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
     for (function, output) in tool.into_iter().chain(places) {
         let (rows, columns) = output.shape(n);
         let size = rows * columns;
-        let wrench = if output.takes(Input::Wrench) { "wrench, " } else { "" };
+        let beside: String = output.beside().map(|i| format!("{}, ", i.name())).collect();
         let assigned = |to: &str| if output.is_fallible() { to.to_owned() } else { String::new() };
         calls.push_str(&format!(
             "
@@ -33,8 +33,8 @@ pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
             static {real} again[{size}];
             int status = 0;
             int second = 0;
-            {first}{name}_{function}(q, {wrench}out);
-            {repeat}{name}_given_{function}(&posture, {wrench}again);
+            {first}{name}_{function}(q, {beside}out);
+            {repeat}{name}_given_{function}(&posture, {beside}again);
             put(status, out, {size}U);
             if ((status != second) || (same(out, again, {size}U) == 0))
             {{

@@ -57,13 +57,13 @@ fn on_tool(tool: &Frame, point: &[Value; 3]) -> Option<[Value; 3]> {
 
 /// The block of an arm of `from` joints as that of one of `to`.
 fn padded(block: &Block, from: usize, to: usize) -> Block {
-    let output = block.output;
-    let ((rows, _), (more, columns)) = (output.shape(from), output.shape(to));
+    let held = &block.held;
+    let ((rows, _), (more, columns)) = (held.shape(from), held.shape(to));
     let mut entries = Vec::with_capacity(more * columns);
     for column in block.entries.chunks(rows) {
         entries.extend_from_slice(column);
         entries.resize(entries.len() + more - rows, Expr::ZERO);
     }
     entries.resize(more * columns, Expr::ZERO);
-    Block { output, entries }
+    Block { held: held.clone(), entries }
 }

@@ -1,6 +1,7 @@
 //! The arena: nodes are stored once, handles carry a sign.
 
 use rustc_hash::FxHashMap;
+use stiffarm_kernels::Input;
 
 use crate::number::Number;
 
@@ -62,6 +63,12 @@ impl core::ops::Neg for Expr {
 pub enum Symbol {
     /// `q_i`, rad or m; joints count from 0 here.
     Joint(usize),
+    /// `q̇_i`, rad/s or m/s.
+    Rate(usize),
+    /// `q̈_i`, rad/s² or m/s².
+    Acceleration(usize),
+    /// The torque of motor i, N·m or N.
+    Torque(usize),
     /// Component 0..6 of the wrench.
     Wrench(usize),
     /// A parameter of the table that stays symbolic.
@@ -80,6 +87,30 @@ pub enum Symbol {
         /// Whether the links' weights are part of the load.
         weights: bool,
     },
+    /// An entry of an input that a program of one's own declares.
+    Own {
+        /// Which input, in the order of declaration.
+        input: usize,
+        /// Which of its entries.
+        entry: usize,
+    },
+}
+
+impl Symbol {
+    /// Which number of which input it is, if it is one.
+    pub fn input(&self) -> Option<(Input, usize)> {
+        match self {
+            Symbol::Joint(k) => Some((Input::Joints, *k)),
+            Symbol::Rate(k) => Some((Input::Rates, *k)),
+            Symbol::Acceleration(k) => Some((Input::Accelerations, *k)),
+            Symbol::Torque(k) => Some((Input::Torques, *k)),
+            Symbol::Wrench(k) => Some((Input::Wrench, *k)),
+            Symbol::Parameter(_)
+            | Symbol::Displacement { .. }
+            | Symbol::Deflection { .. }
+            | Symbol::Own { .. } => None,
+        }
+    }
 }
 
 /// A node of the graph. Operands are handles of earlier nodes.

@@ -37,6 +37,7 @@ pub use model::{
     Angle, At, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame, Output,
     Payload, Quantity, Robot, Section, Spot, Value,
 };
+pub(crate) use names::is_keyword;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;
