@@ -201,7 +201,8 @@ impl Args {
         if let Some(target) = &self.write_robot {
             target.write(&corrected.text())?;
         }
-        for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)] {
+        for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
+        {
             if let Some(target) = target {
                 let (text, lost) = corrected.exported(format)?;
                 target.write(&text)?;

@@ -65,10 +65,8 @@ impl<'a> Corrections<'a> {
             Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "MJCF"),
         };
         let text = written.map_err(|error| Failure::new(error.to_string()))?;
-        let sentence = format!(
-            "a {name} has no place for {}: --write-robot keeps all of it",
-            lost.join(", ")
-        );
+        let sentence =
+            format!("a {name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
         Ok((text, (!lost.is_empty()).then_some(sentence)))
     }
 

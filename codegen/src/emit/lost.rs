@@ -11,9 +11,10 @@ pub fn lost_in_urdf(robot: &Robot) -> Vec<String> {
 /// The same of an MJCF, which has the joints' springs.
 pub fn lost_in_mjcf(robot: &Robot) -> Vec<String> {
     let beams = joints(robot, "the bending links", |joint| joint.beam.is_some());
-    let effects = robot.effects.iter().map(|effect| {
-        format!("{} at {}", effect.id.value.replace('_', " "), effect.place.value)
-    });
+    let effects = robot
+        .effects
+        .iter()
+        .map(|effect| format!("{} at {}", effect.id.value.replace('_', " "), effect.place.value));
     beams.into_iter().chain(effects).collect()
 }
 
