@@ -13,6 +13,8 @@ mod latex;
 mod lines;
 mod literal;
 #[cfg(feature = "urdf")]
+mod lost;
+#[cfg(feature = "urdf")]
 mod mjcf;
 mod plan;
 mod posture;
@@ -24,6 +26,8 @@ pub(crate) use c::c_with;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
+#[cfg(feature = "urdf")]
+pub use lost::{lost_in_mjcf, lost_in_urdf};
 #[cfg(feature = "urdf")]
 pub use mjcf::mjcf;
 pub(crate) use rust::rust_with;
