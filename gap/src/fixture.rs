@@ -89,5 +89,10 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
 
 /// A robot of revolute joints without markers.
 pub(crate) fn layout(joints: usize) -> Layout {
-    Layout { motions: vec![Motion::Revolute; joints], readings: true, markers: Vec::new() }
+    Layout {
+        motions: vec![Motion::Revolute; joints],
+        readings: true,
+        markers: Vec::new(),
+        payloads: None,
+    }
 }

@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
-use crate::measurement::{Layout, Marker};
+use crate::measurement::{Body, Layout, Marker, Payloads};
 
 /// A robot whose parameters are not all known cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -120,10 +120,11 @@ fn text(value: &Value) -> String {
 /// What the reader of measurement files must know of the robot.
 ///
 /// # Errors
-/// [`RobotError::Symbolic`] names every marker coordinate that is still a symbol.
+/// [`RobotError::Symbolic`] names every number of a marker or payload that is still a symbol;
+/// [`RobotError`] of the arm where there are payloads.
 pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
     let mut read = Reader::default();
-    let markers = robot
+    let markers: Vec<Marker> = robot
         .markers
         .iter()
         .map(|m| Marker {
@@ -134,8 +135,23 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
             }),
         })
         .collect();
+    let body = |p: &robot::Payload| {
+        let at = || format!("payload {}", p.name);
+        Body {
+            name: p.name.clone(),
+            mass: read.value(at, &p.mass),
+            com: read.vector(&at(), &p.com),
+        }
+    };
+    let bodies: Vec<Body> = robot.payloads.iter().map(body).collect();
     refuse_symbols(robot, read)?;
-    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), readings: true, markers })
+    let carried = (!bodies.is_empty()).then(|| Ok(Payloads { bodies, arm: arm(robot)? }));
+    Ok(Layout {
+        motions: robot.joints.iter().map(|j| j.motion).collect(),
+        readings: true,
+        markers,
+        payloads: carried.transpose()?,
+    })
 }
 
 fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
@@ -256,11 +272,13 @@ mod tests {
             tool: Frame::default(),
             effects: Vec::new(),
             payloads: Vec::new(),
+            frames: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),
             }],
             outputs: Vec::new(),
+            at: Vec::new(),
         }
     }
 

@@ -3,20 +3,27 @@
 
 use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::Precision;
+use stiffarm_codegen::robot::Robot;
 
-/// The program for the kernels called `name` with `n` joints.
+/// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
+/// order, then those of the fused function.
 ///
 /// Every function of the joint values is called, and every function of the posture after it: where the
 /// two differ in a bit of a number, the program ends with status 2.
-pub fn program(name: &str, n: usize, outputs: &[Output], precision: Precision) -> String {
+pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
+    let n = robot.dof();
     let (real, word, scan, print) = match precision {
         Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
     };
     let mut calls = String::new();
-    for &output in outputs {
+    let tool = robot.generated().into_iter().map(|output| (output.name().to_owned(), output));
+    let places = robot.places().into_iter().flat_map(|(place, outputs)| {
+        outputs.into_iter().map(move |output| (format!("at_{place}_{}", output.name()), output))
+    });
+    for (function, output) in tool.into_iter().chain(places) {
         let (rows, columns) = output.shape(n);
-        let (function, size) = (output.name(), rows * columns);
+        let size = rows * columns;
         // The wrench, and what stands behind the joint values.
         let beside: String = output
             .beside()

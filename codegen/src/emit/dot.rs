@@ -32,11 +32,11 @@ pub fn dot(robot: &Robot, outputs: &[Output]) -> String {
         }
     }
     for block in &program.blocks {
-        let rows = block.output.shape(program.dof).0;
+        let rows = block.held.shape(program.dof).0;
         for (entry, e) in block.entries.iter().enumerate().filter(|(_, e)| !e.is_zero()) {
             let (row, column) = (entry % rows + 1, entry / rows + 1);
-            let name = format!("{}_{row}_{column}", block.output.name());
-            let label = format!("{} {row},{column}", block.output.name());
+            let name = format!("{}_{row}_{column}", block.held.name());
+            let label = format!("{} {row},{column}", block.held.name());
             let _ = writeln!(text, "  {name} [label=\"{label}\", shape=doubleoctagon];");
             edge(&mut text, *e, &name);
         }
@@ -64,6 +64,7 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
                 (format!("{}{place}", COMPONENTS[*component]), "box")
             }
             Symbol::Deflection { joint, .. } => (format!("dq{}", joint + 1), "box"),
+            Symbol::Own { input, entry } => (format!("input {input}, {entry}"), "box"),
         },
         Node::Add(..) => ("+".to_string(), "circle"),
         Node::Mul(..) => ("×".to_string(), "circle"),

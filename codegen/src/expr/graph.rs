@@ -87,6 +87,13 @@ pub enum Symbol {
         /// Whether the links' weights are part of the load.
         weights: bool,
     },
+    /// An entry of an input that a program of one's own declares.
+    Own {
+        /// Which input, in the order of declaration.
+        input: usize,
+        /// Which of its entries.
+        entry: usize,
+    },
 }
 
 impl Symbol {
@@ -98,7 +105,10 @@ impl Symbol {
             Symbol::Acceleration(k) => Some((Input::Accelerations, *k)),
             Symbol::Torque(k) => Some((Input::Torques, *k)),
             Symbol::Wrench(k) => Some((Input::Wrench, *k)),
-            Symbol::Parameter(_) | Symbol::Displacement { .. } | Symbol::Deflection { .. } => None,
+            Symbol::Parameter(_)
+            | Symbol::Displacement { .. }
+            | Symbol::Deflection { .. }
+            | Symbol::Own { .. } => None,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A table as read: every cell with its place, so that the one validator can point at it.
 
 use super::dimension::Dimension;
-use super::model::{Angle, Convention, Effect, Motion, Output, Value};
+use super::frames::Asked;
+use super::model::{Angle, Convention, Effect, Motion, Value};
 use super::symbols::Symbolic;
 
 /// What a cell holds, and where. A cell that could not be read has no value and has already been
@@ -29,10 +30,11 @@ pub(crate) struct Draft<L> {
     pub joints: Vec<DraftJoint<L>>,
     pub base: DraftFrame<L>,
     pub tool: DraftFrame<L>,
+    pub frames: Vec<DraftNamedFrame<L>>,
     pub markers: Vec<DraftMarker<L>>,
     pub effects: Vec<Effect>,
     pub payloads: Vec<DraftPayload<L>>,
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<Cell<Asked, L>>,
 }
 
 /// A fixed transform.
@@ -46,6 +48,23 @@ impl<L> Default for DraftFrame<L> {
     fn default() -> Self {
         DraftFrame { translation: None, rotation: None }
     }
+}
+
+/// A frame with a name.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftNamedFrame<L> {
+    pub name: Cell<String, L>,
+    pub joint: Cell<JointName, L>,
+    pub frame: DraftFrame<L>,
+}
+
+/// How a joint is told.
+#[derive(Clone, Debug)]
+pub(crate) enum JointName {
+    /// Counted from 1 at the base.
+    Number(usize),
+    /// By the label of its row.
+    Label(String),
 }
 
 /// A load with a name.

@@ -24,14 +24,18 @@ pub struct Robot {
     pub base: Frame,
     /// The fixed transform from the last frame to the tool; the identity if the file has none.
     pub tool: Frame,
+    /// Frames with names, on any link.
+    pub frames: Vec<NamedFrame>,
     /// Measured points other than the tool origin.
     pub markers: Vec<Marker>,
     /// What the real arm does beyond the table.
     pub effects: Vec<Effect>,
     /// Loads that rows of data name.
     pub payloads: Vec<Payload>,
-    /// The outputs that are generated of it; every one if there are none.
+    /// The outputs that are generated of its tool; every one if there are none.
     pub outputs: Vec<Output>,
+    /// The outputs that are generated of named frames and markers.
+    pub at: Vec<At>,
 }
 
 /// One row of the table, with what hangs on it.
@@ -120,6 +124,26 @@ pub struct Frame {
     pub translation: [Value; 3],
     /// Rotation vector (axis × angle).
     pub rotation: [Angle; 3],
+}
+
+/// A frame with a name, fixed in the frame of a row as a link's mass is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFrame {
+    /// Its name, which becomes a module's.
+    pub name: String,
+    /// The row, from 0.
+    pub row: usize,
+    /// The frame in the row's own; numbers, no parameters.
+    pub frame: Frame,
+}
+
+/// An output of a named frame or a marker: that of the arm whose tool is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct At {
+    /// The name of the frame or of the marker.
+    pub place: String,
+    /// The output.
+    pub output: Output,
 }
 
 /// A measured point on the tool.

@@ -5,8 +5,8 @@ use super::inertia;
 use super::model::{
     Angle, Beam, Convention, Drive, Frame, Joint, Marker, Motion, Payload, Robot, Section, Value,
 };
-use super::names;
 use super::problem::{Place, Problem, Report};
+use super::{frames, names};
 use crate::number::Number;
 
 /// More joints than any arm has; a bound on the work that a file can ask for.
@@ -26,11 +26,13 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         report.error(Problem::new(joint.at.clone(), message));
     }
     names::check(draft, report);
-    let joints = draft.joints.iter().enumerate().map(|(i, row)| joint(i, row, report)).collect();
-    Robot {
+    let joints: Vec<Joint> =
+        draft.joints.iter().enumerate().map(|(i, row)| joint(i, row, report)).collect();
+    let mut robot = Robot {
         name: content(&draft.name).unwrap_or_default(),
         convention: content(&draft.convention).unwrap_or(Convention::Standard),
         gravity: draft.gravity.as_ref().map_or_else(standard_gravity, vector),
+        frames: draft.frames.iter().filter_map(|f| frames::named(f, &joints, report)).collect(),
         joints,
         base: frame(&draft.base),
         tool: frame(&draft.tool),
@@ -44,11 +46,14 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
             .collect(),
         effects: draft.effects.clone(),
         payloads: draft.payloads.iter().map(|p| payload(p, report)).collect(),
-        outputs: draft.outputs.clone(),
-    }
+        outputs: Vec::new(),
+        at: Vec::new(),
+    };
+    frames::ask(&mut robot, &draft.outputs, report);
+    robot
 }
 
-fn frame<L>(frame: &DraftFrame<L>) -> Frame {
+pub(crate) fn frame<L>(frame: &DraftFrame<L>) -> Frame {
     let none = Frame::default();
     Frame {
         translation: frame.translation.as_ref().map_or(none.translation, vector),

@@ -34,10 +34,12 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         joints: joints.collect(),
         base: Default::default(),
         tool: Default::default(),
+        frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
         payloads: Vec::new(),
         outputs: Vec::new(),
+        at: Vec::new(),
     }
 }
 

@@ -84,6 +84,13 @@ pub fn loaded(convention: Convention) -> Arm {
     arm
 }
 
+/// The same without beams: plant and model then agree to the rounding.
+pub fn sprung(convention: Convention) -> Arm {
+    let mut arm = loaded(convention);
+    arm.joints.iter_mut().for_each(|joint| joint.beam = None);
+    arm
+}
+
 pub fn reading(q: &[f64], wrench: [f64; 6]) -> Row {
     Row { wrench: wrench.into(), ..Row::new(1, q.to_vec()) }
 }

@@ -164,6 +164,20 @@ outputs! {
         fallible: false,
         fused: false,
     }
+    JacobianSpatial {
+        name: jacobian_spatial,
+        sentence: "Geometric Jacobian, base axes, at the base's origin (of the world, in which the base stands): the \
+                   spatial Jacobian.",
+        formula: "[p_j × z_j; z_j] of a revolute joint, [z_j; 0] of a prismatic one",
+        source: "Murray, Li & Sastry 1994, eq. 3.54",
+        symbol: "J^{s}",
+        rows: Twist ["m/rad (prismatic joint: 1)", "rad/rad (prismatic joint: 0)"],
+        columns: Joints,
+        inputs: [Joints],
+        parts: [],
+        fallible: false,
+        fused: false,
+    }
     ComplementaryStiffness {
         name: complementary_stiffness,
         sentence: "K_C: how the joint torques of a wrench that is constant in base axes change with the \

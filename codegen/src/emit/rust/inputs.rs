@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::super::plan::{Plan, Target, component};
+use super::super::plan::{Plan, Target};
 use super::function::Function;
 use crate::emit::lines::Lines;
 use crate::expr::{Binding, Expr};
@@ -34,10 +34,8 @@ pub(super) fn open_solve_inputs(out: &mut Lines, function: &Function) {
 
 fn item_inputs(plan: &Plan, item: usize) -> Vec<usize> {
     match plan.targets[item] {
-        Target::Solve(k) => {
-            let solve = &plan.program.solves[k];
-            solve.matrix.iter().chain(&solve.right).map(|e| e.node()).collect()
-        }
+        Target::Solve(k) => plan.program.solves[k].inputs().map(|e| e.node()).collect(),
+        Target::Angles(k) => plan.own_angles[k].iter().map(|angle| angle.sum.node()).collect(),
         Target::Entry { block, entry } => {
             vec![plan.program.blocks[block].entries[entry].node()]
         }
@@ -49,8 +47,7 @@ fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
     let plan = function.plan;
     nodes.retain(|node| !plan.schedule.bound[*node]);
     let inputs: HashSet<usize> = plan.inputs_of(nodes);
-    let mut names = HashSet::new();
-    names.extend(inputs.iter().filter_map(|node| plan.name(*node)));
+    let names: HashSet<&str> = inputs.iter().filter_map(|node| plan.name(*node)).collect();
     let read = function.needs.reads.iter().filter(|(name, _)| names.contains(name.as_str()));
     let fields: Vec<String> = read
         .map(|(name, field)| if name == field { name.clone() } else { format!("{field}: {name}") })
@@ -59,12 +56,12 @@ fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
         let rest = if fields.len() < function.posture.fields().len() { ", .." } else { "" };
         out.code(&format!("let Posture {{ {}{rest} }} = *posture;", fields.join(", ")));
     }
-    for input in function.beside() {
-        let read = plan.read(input, &inputs);
+    for argument in plan.arguments().iter().filter(|argument| argument.size.is_some()) {
+        let read = plan.read(argument, &inputs);
         if read.contains(&true) {
-            let name = |(k, read)| if read { component(input, k) } else { "_".to_string() };
+            let name = |(k, read)| if read { plan.entry(argument, k) } else { "_".to_string() };
             let names: Vec<String> = read.into_iter().enumerate().map(name).collect();
-            out.code(&format!("let [{}] = *{};", names.join(", "), input.name()));
+            out.code(&format!("let [{}] = *{};", names.join(", "), argument.name));
         }
     }
 }

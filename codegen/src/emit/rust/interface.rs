@@ -2,23 +2,30 @@
 
 use stiffarm_kernels::{Input, Output, Side};
 
+use super::super::Functions;
 use super::function::parameter;
 use super::posture::{INLINE, needs_constants};
 use super::shapes::{flat, ty};
 use super::table::numeric;
+use crate::derive::Held;
 use crate::emit::lines::Lines;
 use crate::emit::posture::Posture;
 use crate::robot::Robot;
 
 /// The struct `Robot` and its traits.
-pub(super) fn interface(robot: &Robot, posture: &Posture, outputs: &[Output]) -> String {
-    let mut out = Lines::at(0);
+pub(super) fn interface(
+    robot: &Robot,
+    posture: &Posture,
+    Functions { place, outputs, .. }: &Functions,
+    depth: usize,
+) -> String {
+    let mut out = Lines::at(depth);
     let symbolic = !robot.symbols().is_empty();
     definition(&mut out, symbolic);
     let target = if symbolic { "Robot<S>" } else { "Robot" };
     kernels(&mut out, target, symbolic, outputs);
     arm(&mut out, target, robot, posture);
-    if !symbolic {
+    if !symbolic && place.is_none() {
         numeric(&mut out, robot);
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
@@ -119,7 +126,7 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.blank();
     out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
     out.indent();
-    let (name, mut ty) = (output.name(), ty(output, n));
+    let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
     if output.columns() == Side::Entries {
         out.code(&format!("type Columns = {ty};"));
         ty = "Self::Columns".to_string();
@@ -128,8 +135,10 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
         ty = format!("Result<{ty}, Unstable>");
     }
     let constants = if symbolic { "&self.constants, " } else { "" };
-    let parameters: String =
-        output.beside().map(|input| format!(", {}", parameter(input, n))).collect();
+    let parameters: String = output
+        .beside()
+        .map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n)))))
+        .collect();
     let arguments: String = output.beside().map(|input| format!(", {}", input.name())).collect();
     out.code(INLINE);
     let head = format!("fn {name}(&self, posture: &Posture<S>{parameters}) -> {ty} {{");

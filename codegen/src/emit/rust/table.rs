@@ -10,7 +10,7 @@ use crate::number::Number;
 use crate::robot::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
 
 /// Imports, name, number of joints, table.
-pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
+pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> String {
     let mut out = Lines::at(0);
     let n = robot.dof();
     out.code(&format!(
@@ -19,9 +19,12 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     ));
     let fused = if options.fused { " --fused" } else { "" };
     let asked = asked(robot);
-    out.code(&format!(
-        "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
-    ));
+    out.code(&match alone {
+        true => format!(
+            "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
+        ),
+        false => "// Not to be edited: a build script writes it, with functions of its own.".to_owned(),
+    });
     let outputs = robot.generated();
     let used = |name: &'static str, used: bool| used.then_some(name);
     let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));

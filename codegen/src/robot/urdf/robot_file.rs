@@ -20,10 +20,12 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         joints,
         base: Fixed::default(),
         tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
         payloads: Vec::new(),
         outputs: Vec::new(),
+        at: Vec::new(),
     }
 }
 
