@@ -2,7 +2,7 @@
 //! cosines are one polynomial.
 
 use stiffarm::kernels::lanes::{f32x8, f64x4, f64x8};
-use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm::kernels::{Kernels, Scalar};
 
 use crate::compare::Draws;
 use crate::fixtures;

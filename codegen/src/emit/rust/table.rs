@@ -54,13 +54,6 @@ pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> Strin
     out.doc("Number of joints.");
     out.code(&format!("pub const N: usize = {n};"));
     out.blank();
-    out.doc("What the module computes.");
-    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
-    out.indent();
-    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
-    out.dedent();
-    out.code("];");
-    out.blank();
     out.doc("The Denavit-Hartenberg table that every function of this module was derived from:");
     out.doc(match robot.convention {
         Convention::Standard => "each row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta).",
