@@ -11,6 +11,7 @@ use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
 
 pub use check::Check;
+use corrected::{Corrections, Format};
 
 use super::Verdict;
 use super::screen::Screen;
@@ -84,6 +85,12 @@ pub struct Args {
     /// Write the robot file with what was found put into it
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
+    /// Write the arm with what was found as a URDF, as far as one can hold it; what is lost is said
+    #[arg(long, value_name = "OUT.urdf")]
+    write_urdf: Option<Target>,
+    /// The same as an MJCF model for MuJoCo, with the joints' springs
+    #[arg(long, value_name = "OUT.xml")]
+    write_mjcf: Option<Target>,
     /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
@@ -102,7 +109,7 @@ struct Written<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
     /// The robot file with what was found: the whole is a robot to every command.
-    corrected: &'a str,
+    corrected: String,
 }
 
 /// Runs the command.
@@ -128,20 +135,12 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
-    let corrected = corrected::text(&source, &data, &diagnosed);
+    let corrected = Corrections::new(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        let (check, corrected) = (check.as_ref(), corrected.as_str());
+        let (check, corrected) = (check.as_ref(), corrected.text());
         target.write(&json::text(&Written { diagnosis: found, doubts, check, corrected })?)?;
     }
-    if let Some(target) = &args.write_robot {
-        target.write(&corrected)?;
-        if data.sim_given.contains(&true) {
-            note(
-                "the robot file is corrected by what the simulator of the sim_ columns lacks",
-                quiet,
-            );
-        }
-    }
+    args.write_arm(&corrected, quiet)?;
     let screen = Screen {
         found,
         data: &data,
@@ -166,7 +165,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         target.write(&page)?;
     }
     let written: Vec<_> =
-        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
+        [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
         print(&screen.text())?;
@@ -193,6 +192,29 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
+    /// Where the corrected arm goes.
+    fn arms(&self) -> [&Option<Target>; 3] {
+        [&self.write_robot, &self.write_urdf, &self.write_mjcf]
+    }
+
+    fn write_arm(&self, corrected: &Corrections<'_>, quiet: bool) -> Result<(), Failure> {
+        if let Some(target) = &self.write_robot {
+            target.write(&corrected.text())?;
+        }
+        for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
+        {
+            if let Some(target) = target {
+                let (text, lost) = corrected.exported(format)?;
+                target.write(&text)?;
+                lost.iter().for_each(|lost| note(lost, quiet));
+            }
+        }
+        if self.arms().iter().any(|target| target.is_some()) {
+            corrected.caveats().iter().for_each(|caveat| note(caveat, quiet));
+        }
+        Ok(())
+    }
+
     fn options(&self, source: &Source) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()

@@ -54,6 +54,7 @@ fn layout() -> Layout {
         readings: true,
         motions: vec![Motion::Revolute, Motion::Prismatic],
         markers: vec![Marker { name: "smr".to_owned(), translation: None }],
+        payloads: None,
     }
 }
 

@@ -30,6 +30,7 @@ use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
 use experiment::{Experiment, Share};
+pub use page::capital;
 pub use words::{Told, Unit, Words};
 
 /// What a report is made of.

@@ -38,7 +38,7 @@ struct Page<'a> {
     unexplained: Option<Left<'a>>,
     hidden: &'a [String],
     covers: Vec<String>,
-    frames: Vec<Frame<'a>>,
+    frames: Vec<Frame>,
     rivals: Vec<Compared<'a>>,
     method: &'static str,
     facts: Vec<(&'static str, String)>,
@@ -78,8 +78,8 @@ struct Left<'a> {
 }
 
 /// A frame that was fitted along.
-struct Frame<'a> {
-    name: &'a str,
+struct Frame {
+    name: String,
     translation: String,
     rotation: String,
 }
@@ -202,10 +202,13 @@ fn covers(report: &Report<'_>) -> Vec<String> {
     lines
 }
 
-fn frame(found: &NuisanceReport) -> Frame<'_> {
+fn frame(found: &NuisanceReport) -> Frame {
     let list = |v: [f64; 3]| v.map(|x| format!("{:.3}", 1e3 * x).replacen('-', "−", 1)).join(", ");
     Frame {
-        name: &found.name,
+        name: match &found.session {
+            Some(session) => format!("{} in session {session}", found.name),
+            None => found.name.clone(),
+        },
         translation: list(found.translation),
         rotation: list(found.rotation),
     }
@@ -233,7 +236,7 @@ pub(super) fn percent(part: f64) -> String {
 }
 
 /// With a capital letter at its beginning.
-pub(super) fn capital(text: &str) -> String {
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()

@@ -86,6 +86,15 @@ impl Screen<'_> {
         let poses = counted(data.poses, "pose");
         let facts =
             format!("{}: {rows} of {} at {poses}, {held_out}", data.file, measured.join(" "));
+        let sittings = data.sessions().count();
+        let each = match self.found.nuisances.iter().any(|frame| frame.session.is_some()) {
+            true => ", each with a frame of its own",
+            false => "",
+        };
+        let sessions = match sittings {
+            0 | 1 => String::new(),
+            _ => format!(", in {sittings} sessions{each}"),
+        };
         let own = match data.sim_given.contains(&true) {
             true => ", against the simulator of its sim_ columns",
             false => "",
@@ -93,7 +102,7 @@ impl Screen<'_> {
         format!(
             "{}\n{}\n",
             bold(&found.robot),
-            dim(wrapped(&format!("{facts}{own}"), WIDTH, 2).trim_end())
+            dim(wrapped(&format!("{facts}{sessions}{own}"), WIDTH, 2).trim_end())
         )
     }
 

@@ -10,6 +10,7 @@ mod flexible;
 mod outputs;
 mod own;
 mod passes;
+mod place;
 mod program;
 mod ways;
 
@@ -19,6 +20,7 @@ pub use flexible::{Form, flexible};
 pub(crate) use outputs::derived;
 pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;
+pub use place::{derive_at, ending_at};
 pub use program::{Block, Program, Solve};
 pub use stiffarm_kernels::{Output, Unstable};
 pub(crate) use ways::{Way, cheapest};

@@ -6,6 +6,7 @@ use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
 use super::own::{Held, Own};
+use super::ways::by_link;
 use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
 use crate::number::Number;
 
@@ -109,6 +110,9 @@ impl Program {
 
     /// The working frame in words.
     pub fn frame(&self) -> String {
+        if self.blocks.iter().all(|block| block.held.output().is_some_and(by_link)) {
+            return "the links' own axes".to_string();
+        }
         match (self.cut / ROW, self.cut % ROW) {
             (0, 0) => "base axes".to_string(),
             (row, 0) => format!("the axes of frame {row}"),

@@ -1,7 +1,7 @@
 //! The way in which a set of outputs costs least: in which frame of the chain it is worked out, and
 //! whether twists are worked out run by run.
 
-use stiffarm_kernels::Output;
+use stiffarm_kernels::{Output, Part};
 
 use super::chain::{Chain, lay_out};
 use super::outputs::derived;
@@ -60,14 +60,23 @@ impl Way {
 
 /// The cheapest way for each set: every frame is laid out once, with all outputs in it.
 fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
-    let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
+    // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
+    let own: Vec<bool> = sets.iter().map(|set| set.iter().all(|output| by_link(*output))).collect();
+    let framed = sets.iter().zip(&own).filter(|(_, own)| !**own);
+    let mut wanted: Vec<Output> = framed.flat_map(|(set, _)| set.iter().copied()).collect();
     wanted.sort_unstable();
     wanted.dedup();
+    if wanted.is_empty() {
+        return vec![Way::PLAIN; sets.len()];
+    }
     cheapest(robot, sets.len(), passes, |way| {
         let laid_out = derive_by(robot, &wanted, way);
         let free = laid_out.graph.parameter_only();
-        let roots = sets.iter().map(|set| laid_out.roots_of(set));
-        roots.map(|roots| laid_out.graph.count_without(&free, &roots).cost()).collect()
+        let cost = |(set, own): (&&[Output], &bool)| match own {
+            true => 0,
+            false => laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost(),
+        };
+        sets.iter().zip(&own).map(cost).collect()
     })
 }
 
@@ -100,6 +109,11 @@ pub(crate) fn cheapest(
         cuts.into_iter().for_each(|cut| attempt(&mut best, Way { cut, passes }));
     }
     best.into_iter().map(|(_, way)| way).collect()
+}
+
+/// Whether an output is worked out link by link, each in its own axes.
+pub(super) fn by_link(output: Output) -> bool {
+    output.depends_on(Part::Inertias)
 }
 
 fn derive_by(robot: &Robot, outputs: &[Output], way: Way) -> Program {

@@ -69,6 +69,7 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Add(..) => ("+".to_string(), "circle"),
         Node::Mul(..) => ("×".to_string(), "circle"),
         Node::Recip(_) => ("1/x".to_string(), "circle"),
+        Node::Sign(_) => ("sign".to_string(), "circle"),
         Node::Sqrt(_) => ("√".to_string(), "circle"),
         Node::Sin(_) => ("sin".to_string(), "ellipse"),
         Node::Cos(_) => ("cos".to_string(), "ellipse"),

@@ -213,6 +213,11 @@ impl Style for Latex {
             return displacement(place, component);
         }
         let name = name.strip_prefix("constants.").unwrap_or(name);
+        for (word, letter) in [("qdd", "\\ddot q"), ("qd", "\\dot q"), ("tau", "\\tau")] {
+            if let Some(joint) = name.strip_prefix(word).filter(|k| k.parse::<u32>().is_ok()) {
+                return format!("{letter}_{{{joint}}}");
+            }
+        }
         let split = name.find(|c: char| c.is_ascii_digit() || c == '_').unwrap_or(name.len());
         let axis = name.len() == 2 && "fmnoap".contains(&name[..1]);
         let (letters, rest) = name.split_at(if axis { 1 } else { split });
@@ -240,6 +245,10 @@ impl Style for Latex {
 
     fn sqrt(&self, a: &str) -> String {
         format!("\\sqrt{{{a}}}")
+    }
+
+    fn sign(&self, a: &str) -> String {
+        format!("\\operatorname{{sign}}({a})")
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) fn stub(
     let parameters = symbolic.then(|| parameters(&symbols));
     let all = all(constants.as_ref());
     let robot = robot(symbolic);
+    let places = outline.places.iter().filter_map(|name| syn::parse_str::<Ident>(name).ok());
+    let places = places.map(|name| quote!(pub mod #name { pub use super::super::*; }));
     quote! {
         #(#attrs)*
         #[allow(unused, missing_docs, clippy::all, clippy::pedantic)]
@@ -49,6 +51,7 @@ pub(super) fn stub(
             #(#functions)*
             #all
             #robot
+            pub mod at { #(#places)* }
         }
     }
 }

@@ -90,7 +90,8 @@ impl Graph {
                 Node::Add(..) => count.add += 1,
                 Node::Mul(..) => count.mul += 1,
                 Node::Recip(_) | Node::Sqrt(_) => count.div += 1,
-                Node::Number(_) | Node::Symbol(_) => {}
+                // A comparison: neither a sum nor a product.
+                Node::Sign(_) | Node::Number(_) | Node::Symbol(_) => {}
             }
             for operand in self.nodes()[at].operands() {
                 used[operand.node()] = true;

@@ -35,6 +35,8 @@ impl Graph {
                     let inverse = self.recip(twice);
                     self.mul(da, inverse)
                 }
+                // Flat but for the step at zero.
+                Node::Sign(_) => Expr::ZERO,
                 Node::Sin(a) => {
                     let da = slope(a);
                     let cosine = self.cos(a);
@@ -64,7 +66,8 @@ impl Graph {
             }
             let here = Expr::new(at, false);
             let parts = match self.nodes()[at] {
-                Node::Number(_) | Node::Symbol(_) => continue,
+                // A sign is flat but for its step at zero.
+                Node::Number(_) | Node::Symbol(_) | Node::Sign(_) => continue,
                 Node::Add(a, b) => [Some((a, adjoint)), Some((b, adjoint))],
                 Node::Mul(a, b) => {
                     [Some((a, self.mul(adjoint, b))), Some((b, self.mul(adjoint, a)))]
@@ -135,6 +138,7 @@ impl Graph {
                 Node::Recip(a) if of(a).is_zero() => return None,
                 Node::Recip(a) => self.recip(of(a)),
                 Node::Sqrt(a) => self.sqrt(of(a)),
+                Node::Sign(a) => self.sign(of(a)),
                 Node::Sin(a) => self.sin(of(a)),
                 Node::Cos(a) => self.cos(of(a)),
             });

@@ -78,6 +78,14 @@ impl Graph {
         }
     }
 
+    /// The sign of `a`, which is no constant but zero.
+    pub fn sign(&mut self, a: Expr) -> Expr {
+        if a.is_zero() {
+            return a;
+        }
+        self.intern(Node::Sign(a.abs())).signed(a.is_negative())
+    }
+
     /// `sin a`; [`Turn`](super::Turn) folds multiples of π exactly before.
     pub fn sin(&mut self, a: Expr) -> Expr {
         match self.number_of(a) {

@@ -128,6 +128,8 @@ pub enum Node {
     Recip(Expr),
     /// `√a`.
     Sqrt(Expr),
+    /// 1, 0 or −1 as `a`, unsigned, is above, at or below zero.
+    Sign(Expr),
     /// `sin a`, `a` unsigned.
     Sin(Expr),
     /// `cos a`, `a` unsigned.
@@ -139,7 +141,9 @@ impl Node {
     pub fn operands(self) -> impl DoubleEndedIterator<Item = Expr> {
         let (a, b) = match self {
             Node::Number(_) | Node::Symbol(_) => (None, None),
-            Node::Recip(a) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => (Some(a), None),
+            Node::Recip(a) | Node::Sqrt(a) | Node::Sign(a) | Node::Sin(a) | Node::Cos(a) => {
+                (Some(a), None)
+            }
             Node::Add(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)

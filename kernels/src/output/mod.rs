@@ -74,6 +74,8 @@ pub enum Part {
     Beams,
     /// Gravity, the links' masses and the distributed weight of beams.
     Weights,
+    /// The links' masses and moments of inertia, motors, gears and friction.
+    Inertias,
 }
 
 impl Output {

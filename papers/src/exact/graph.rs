@@ -53,6 +53,7 @@ impl Reading {
             Node::Mul(a, b) => of(a)?.times(&of(b)?),
             Node::Recip(a) => of(a)?.reciprocal(),
             Node::Sqrt(a) => of(a)?.root(),
+            Node::Sign(_) => Err(Inexact::Rounded),
             Node::Sin(a) => self.trig(graph, Function::Sin, a),
             Node::Cos(a) => self.trig(graph, Function::Cos, a),
         }

@@ -15,17 +15,20 @@ use crate::expr::Binding;
 /// A function to be printed: of one output, of those of `all`, or of one's own.
 pub(super) struct Function<'a> {
     pub plan: &'a Plan<'a>,
+    /// The frame or marker that it is of; `None` is the tool.
+    pub place: Option<&'a str>,
     pub needs: &'a Needs,
     pub language: &'a C,
 }
 
 impl<'a> Function<'a> {
-    /// The output's name, or `all`, or its own.
-    pub fn name(&self) -> &'a str {
-        match (self.own(), self.blocks()) {
-            (Some(own), _) => &own.name,
-            (None, [block]) => block.held.name(),
-            _ => "all",
+    /// The output's name, with the place that it is of: `at_elbow_jacobian`; or `all`, or its own.
+    pub fn name(&self) -> String {
+        match (self.own(), self.blocks(), self.place) {
+            (Some(own), ..) => own.name.clone(),
+            (None, [block], None) => block.held.name().to_owned(),
+            (None, [block], Some(place)) => format!("at_{place}_{}", block.held.name()),
+            _ => "all".to_owned(),
         }
     }
 

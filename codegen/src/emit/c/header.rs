@@ -179,6 +179,9 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
             text.push(format!("Worked out together: {}.", names.join(", ")));
         }
     }
+    if let Some(place) = function.place {
+        text.push(format!("What is said of the tool here is of {place}: the tool is there."));
+    }
     if function.own().is_some() {
         text.push(inputs(function.plan.program.inputs(), false, function.own()));
     }
@@ -201,8 +204,9 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
     }
     out.code(&format!("{};", function.by_posture(name)));
     if let [_] = function.blocks() {
-        let size = module.constant(&format!("{}_SIZE", function.name().to_uppercase()));
+        let of = function.name();
+        let size = module.constant(&format!("{}_SIZE", of.to_uppercase()));
         out.comment(&["1 where an entry is not structurally zero.".to_string()]);
-        out.code(&format!("extern const uint8_t {name}_{}_sparsity[{size}];", function.name()));
+        out.code(&format!("extern const uint8_t {name}_{of}_sparsity[{size}];"));
     }
 }

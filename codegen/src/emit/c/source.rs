@@ -86,11 +86,8 @@ fn sparsity(module: &Module, out: &mut Lines) {
         let [block] = function.blocks() else { continue };
         let size = module.constant(&format!("{}_SIZE", function.name().to_uppercase()));
         out.blank();
-        out.code(&format!(
-            "const uint8_t {}_{}_sparsity[{size}] = {{",
-            module.name(),
-            function.name()
-        ));
+        let (robot, name) = (module.name(), function.name());
+        out.code(&format!("const uint8_t {robot}_{name}_sparsity[{size}] = {{"));
         out.indent();
         let rows = block.held.shape(module.robot.dof()).0;
         for column in block.entries.chunks(rows) {

@@ -18,6 +18,8 @@ pub(super) struct Function<'p> {
     pub symbolic: bool,
     /// How its text is spelt.
     pub style: &'p Rust,
+    /// How many modules the text stands in, below the arm's.
+    pub depth: usize,
 }
 
 /// An input beside the posture as a parameter: so many numbers, or one by itself.

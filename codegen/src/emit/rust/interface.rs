@@ -2,6 +2,7 @@
 
 use stiffarm_kernels::{Input, Output, Side};
 
+use super::super::Functions;
 use super::function::parameter;
 use super::posture::{INLINE, needs_constants};
 use super::shapes::{flat, ty};
@@ -12,14 +13,19 @@ use crate::emit::posture::Posture;
 use crate::robot::Robot;
 
 /// The struct `Robot` and its traits.
-pub(super) fn interface(robot: &Robot, posture: &Posture, outputs: &[Output]) -> String {
-    let mut out = Lines::at(0);
+pub(super) fn interface(
+    robot: &Robot,
+    posture: &Posture,
+    Functions { place, outputs, .. }: &Functions,
+    depth: usize,
+) -> String {
+    let mut out = Lines::at(depth);
     let symbolic = !robot.symbols().is_empty();
     definition(&mut out, symbolic);
     let target = if symbolic { "Robot<S>" } else { "Robot" };
     kernels(&mut out, target, symbolic, outputs);
     arm(&mut out, target, robot, posture);
-    if !symbolic {
+    if !symbolic && place.is_none() {
         numeric(&mut out, robot);
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));

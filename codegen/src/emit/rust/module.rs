@@ -17,7 +17,7 @@ impl Function<'_> {
     /// The function and its module.
     pub fn text(&self, robot: &Robot, options: &RustOptions) -> String {
         let body = Body::new(self);
-        let mut out = Lines::at(0);
+        let mut out = Lines::at(self.depth);
         out.blank();
         self.entry(&mut out, robot);
         out.blank();
