@@ -18,7 +18,7 @@ use wide::f64x4;
 mod compiler;
 #[path = "../formulas.rs"]
 mod formulas;
-#[allow(dead_code)]
+#[allow(dead_code, clippy::all)]
 mod kr240 {
     include!(concat!(env!("OUT_DIR"), "/kr240.rs"));
 }
