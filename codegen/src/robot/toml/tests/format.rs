@@ -153,10 +153,7 @@ fn frames_are_on_joints_and_outputs_are_asked_for_at_them() {
         refused("2"),
         [format!("8:9 joint 2 {known} | its joints are 1 to 1, or their names")]
     );
-    assert_eq!(
-        refused("-1"),
-        [format!("8:9 joint 0 {known} | its joints are 1 to 1, or their names")]
-    );
+    assert_eq!(refused("-1"), [format!("8:9 `-1` {known} | known here: pan")]);
     assert_eq!(refused("\"pam\""), [format!("8:9 `pam` {known} | did you mean `pan`?")]);
     assert_eq!(
         errors(&file("[\"pose at elbwo\"]")),
