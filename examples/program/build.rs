@@ -1,14 +1,16 @@
-//! Writes the kernels of a KUKA KR 240-2 to `OUT_DIR`, with functions of its own.
+//! Writes the pose of a KUKA KR 240-2 to `OUT_DIR`, with functions of its own.
 
 use stiffarm_codegen::emit::RustOptions;
 use stiffarm_codegen::program::Module;
+use stiffarm_codegen::robot::Output;
 use stiffarm_codegen::{BuildError, read_robot};
 
 mod formulas;
 
 fn main() -> Result<(), BuildError> {
     println!("cargo::rerun-if-changed=formulas.rs");
-    let robot = read_robot("../../robots/arms/kuka_kr240.toml")?;
+    let mut robot = read_robot("../../robots/arms/kuka_kr240.toml")?;
+    robot.outputs = vec![Output::Pose];
     let options = RustOptions { kernels: "::stiffarm_kernels".to_owned(), fused: false };
     Module::new(&robot)
         .function("hand_eye", "Reprojection error of a camera on the tool", formulas::hand_eye)?

@@ -123,14 +123,13 @@ impl Graph {
         outputs: &[Expr],
         zero: impl Fn(&Symbol) -> bool,
     ) -> Option<Vec<Expr>> {
-        let last = outputs.iter().map(|e| e.node()).max().unwrap_or(0);
         let reached = self.reachable(outputs);
-        let mut values: Vec<Expr> = Vec::with_capacity(last + 1);
-        for at in 0..=last {
+        let mut values: Vec<Expr> = Vec::with_capacity(reached.len());
+        for (at, reached) in reached.into_iter().enumerate() {
             let here = Expr::new(at, false);
             let of = |e: Expr| values[e.node()].signed(e.is_negative());
             values.push(match self.nodes()[at] {
-                _ if !reached[at] => here,
+                _ if !reached => here,
                 Node::Number(_) => here,
                 Node::Symbol(s) if zero(self.symbol_of(s)) => Expr::ZERO,
                 Node::Symbol(_) => here,

@@ -8,7 +8,7 @@
 use nalgebra::{Quaternion, SMatrix, SVector, UnitQuaternion, Vector3};
 
 /// The arm of `robots/arms/kuka_kr240.toml`.
-#[allow(dead_code)]
+#[allow(dead_code, clippy::all)]
 mod kr240 {
     include!(concat!(env!("OUT_DIR"), "/kr240.rs"));
 }

@@ -63,13 +63,6 @@ fn definition(out: &mut Lines, symbolic: bool) {
 
 fn kernels(out: &mut Lines, target: &str, symbolic: bool, outputs: &[Output]) {
     out.blank();
-    out.doc("What the module computes.");
-    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
-    out.indent();
-    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
-    out.dedent();
-    out.code("];");
-    out.blank();
     out.code(&format!("impl<S: Scalar> Kernels<S> for {target} {{"));
     out.indent();
     method(out, "fn name(&self) -> &'static str {", "NAME");
