@@ -1,5 +1,6 @@
 //! A diagnosis on one screen.
 
+mod campaign;
 mod effect;
 mod finding;
 mod hidden;
@@ -17,7 +18,7 @@ use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{Diagnosis, Measurements};
 use stiffarm_kernels::generic::Arm;
 
-use super::diagnose::Check;
+use super::diagnose::{Accepted, Check, Compared};
 use crate::input::quantity::counted;
 use crate::terminal::text::{
     Align, bad, bar, bold, dim, fixed, good, indented, minus, table, wrapped,
@@ -46,6 +47,10 @@ pub struct Screen<'a> {
     pub rivals: &'a [String],
     /// Another file, predicted.
     pub check: Option<&'a Check>,
+    /// Against a tolerance.
+    pub accepted: Option<&'a Accepted>,
+    /// Against an earlier diagnosis.
+    pub compared: Option<&'a Compared>,
 }
 
 impl Screen<'_> {
@@ -56,9 +61,11 @@ impl Screen<'_> {
             self.head(),
             self.stopped(),
             format!("\n{sentence}\n"),
+            self.verdict_on_tolerance(),
             self.gap(),
             self.findings(),
             self.compared(),
+            self.campaigns(),
         ];
         let mut text = parts.concat();
         text.push_str(&self.notes(text.lines().count()));

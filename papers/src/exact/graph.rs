@@ -76,7 +76,12 @@ impl Reading {
             Symbol::Displacement { place, component } => {
                 Ok(Polynomial::symbol(&displacement(*place, *component)).into())
             }
-            Symbol::Deflection { .. } => Err(Inexact::Root),
+            // None of the papers' equations has these.
+            Symbol::Deflection { .. }
+            | Symbol::Rate(_)
+            | Symbol::Acceleration(_)
+            | Symbol::Torque(_)
+            | Symbol::Own { .. } => Err(Inexact::Root),
         }
     }
 

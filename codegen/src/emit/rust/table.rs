@@ -1,6 +1,6 @@
 //! The head of a generated module: the table as constants, and its symbolic parameters.
 
-use stiffarm_kernels::Form;
+use stiffarm_kernels::{Form, Output};
 
 use super::super::asked;
 use super::super::constants::Constants;
@@ -54,12 +54,7 @@ pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> Strin
     out.doc("Number of joints.");
     out.code(&format!("pub const N: usize = {n};"));
     out.blank();
-    out.doc("What the module computes.");
-    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
-    out.indent();
-    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
-    out.dedent();
-    out.code("];");
+    listed(&mut out, &outputs);
     out.blank();
     out.doc("The Denavit-Hartenberg table that every function of this module was derived from:");
     out.doc(match robot.convention {
@@ -232,4 +227,14 @@ pub(super) fn angle(angle: &Angle) -> String {
             if d == 1 { multiple } else { format!("{multiple}/{d}") }
         }
     }
+}
+
+/// The outputs of a module.
+pub(super) fn listed(out: &mut Lines, outputs: &[Output]) {
+    out.doc("What the module computes.");
+    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
+    out.indent();
+    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
+    out.dedent();
+    out.code("];");
 }

@@ -35,13 +35,15 @@ impl Outline {
     /// The outline of an inline table and of the settings before it.
     pub(super) fn of_table(settings: &[TokenTree], table: &[TokenTree]) -> Self {
         let mut outline = Outline::default();
+        // Where a frame is on its link is told in numbers.
+        let mut numbers = false;
         for (i, token) in settings.iter().enumerate() {
             let behind = |word: &str, back: usize| i >= back && is_word(&settings[i - back], word);
-            if behind("translation", 1) || (behind("gravity", 2) && is_sign(&settings[i - 1], ':'))
-            {
+            let set = |word: &str| behind(word, 2) && is_sign(&settings[i - 1], ':');
+            numbers = (numbers || set("frame")) && !is_sign(token, ';');
+            if !numbers && (behind("translation", 1) || set("gravity")) {
                 outline.cell(std::slice::from_ref(token));
             }
-            let set = |word: &str| behind(word, 2) && is_sign(&settings[i - 1], ':');
             if set("frame") || set("marker") {
                 outline.place(&token.to_string());
             }

@@ -239,8 +239,10 @@ impl<'a> Reader<'a> {
     pub fn joint(&mut self, value: &Node<'_>) -> Cell<JointName, At> {
         let at = value.span();
         if let DeValue::Integer(number) = value.get_ref() {
-            let number = usize::from_str_radix(number.as_str(), number.radix());
-            return Cell::new(JointName::Number(number.unwrap_or(0)), at);
+            let text = number.as_str();
+            let told = usize::from_str_radix(text, number.radix());
+            let told = told.map_or_else(|_| JointName::Label(text.to_owned()), JointName::Number);
+            return Cell::new(told, at);
         }
         let Cell { value, at } = self.string(value);
         Cell { value: value.map(JointName::Label), at }

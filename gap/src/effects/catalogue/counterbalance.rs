@@ -15,8 +15,8 @@ use crate::simulate::{Actual, Moment};
 #[derive(Clone, Copy, Debug)]
 pub struct Counterbalance;
 
-/// An axis that leans no more than this is level.
-const LEVEL: f64 = 1e-6;
+/// An axis that leans no more than this (the sine) is level: a base may stand askew.
+const LEVEL: f64 = 0.15;
 
 /// Joint values in whose postures axes are looked at: none is special.
 const POSTURES: [f64; 3] = [0.0, 0.7, -1.9];
