@@ -111,6 +111,7 @@ impl Output {
             Side::Frame => Form::Pose,
             Side::Frames => Form::Poses,
             Side::One => Form::Vector,
+            Side::JointsByJoints | Side::WrenchByJoints => Form::Stack,
             _ => Form::Matrix,
         }
     }
