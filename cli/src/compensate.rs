@@ -134,10 +134,16 @@ fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure
     let refused = |text: &str, help: &str| {
         Err(Failure::with_help(format!("{}: {text}", path.display()), help))
     };
-    if let Kind::Displacement { .. } = targets.kind {
+    if !targets.kind.is_pose() {
         return refused(
-            "found displacements, expected poses: x, y, z",
+            "found no poses, expected x, y, z",
             "a target is a place in the base frame",
+        );
+    }
+    if targets.rows.iter().any(|row| row.payload.is_some()) {
+        return refused(
+            "found a column of payloads, expected loads: fx, fy, fz, mx, my, mz",
+            "what a payload pulls at the tool depends on the posture that is looked for",
         );
     }
     if targets.rows.iter().any(|row| row.marker.is_some()) {

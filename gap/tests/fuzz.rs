@@ -102,7 +102,7 @@ fn layout(joints: usize) -> Layout {
     motions[joints / 2] = Motion::Prismatic;
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     let markers = vec![marker("smr1", None), marker("smr2", Some([0.1, 0.2, 0.3]))];
-    Layout { motions, markers, readings: true }
+    Layout { motions, markers, readings: true, payloads: None }
 }
 
 /// What is read is finite, what is refused has a place.

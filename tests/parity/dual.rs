@@ -50,6 +50,9 @@ impl Scalar for Dual {
     fn sqrt(self) -> Self {
         Dual(self.0.sqrt())
     }
+    fn sign(self) -> Self {
+        Dual(Dual64::from(if self.0.re == 0.0 { 0.0 } else { self.0.re.signum() }))
+    }
     fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
         (angles.map(|a| Dual(a.0.sin())), angles.map(|a| Dual(a.0.cos())))
     }

@@ -33,7 +33,7 @@ pub struct Source {
     /// The effects that are left.
     pub known: Vec<Known>,
     /// The file's text.
-    pub(super) text: String,
+    pub text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
 }

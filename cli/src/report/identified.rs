@@ -8,7 +8,6 @@ use serde_json::Value;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{Answer, Parameter};
-use stiffarm_gap::measurement::Kind;
 use stiffarm_kernels::generic::Arm;
 
 use super::corrections::{corrected, curve, shares};
@@ -149,7 +148,7 @@ impl Identified<'_> {
             waterfall,
             places,
             drawn: drawn_of(self.data.rows.len()),
-            poses_alone: matches!(self.data.kind, Kind::Pose { .. }),
+            poses_alone: !self.data.kind.is_difference(),
             method: METHOD,
             facts: &self.facts,
             style: include_str!("style.css"),

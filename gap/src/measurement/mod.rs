@@ -2,18 +2,25 @@
 //!
 //! A header row, then one row per measurement; `#` begins a comment line. A column is `name` or
 //! `name[unit]`; the order is free. A file measures *either* poses (`x y z`, and all or none of `rx
-//! ry rz`) *or* displacements (any subset of `dx dy dz drx dry drz`). Nothing is guessed: an angle
-//! without a unit is in radians, and a column that is not known is kept as it is and reported.
+//! ry rz`) *or* some coordinates of positions (a touch probe's `x` alone) *or* displacements (any
+//! subset of `dx dy dz drx dry drz`) *or* distances from a fixed point (`distance`: a ball bar, a
+//! wire). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
+//! kept as it is and reported.
+//!
+//! Rows of one `session` are one sitting of the instrument, and stand together: its frame is its own,
+//! and nothing that happens in time reaches from one into another.
 
 mod cells;
 mod group;
 mod header;
 mod mistake;
+mod payload;
 mod role;
 mod seen;
 mod table;
 mod unit;
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -21,7 +28,11 @@ use std::path::Path;
 use nalgebra::Vector6;
 
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
-pub use role::{DISPLACEMENT_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX, WRENCH_NAMES};
+pub use payload::{Body, Hung, Payloads};
+pub use role::{
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX,
+    WRENCH_NAMES,
+};
 pub use unit::{Dimension, UNITS, Unit};
 
 use mistake::Mistakes;
@@ -81,14 +92,32 @@ pub enum Kind {
         /// Which of `dx dy dz drx dry drz` are there.
         components: [bool; 6],
     },
+    /// Some coordinates of the tool's position in the base frame: a touch probe's.
+    Coordinates {
+        /// Which of `x y z` are there; not all three.
+        components: [bool; 3],
+    },
+    /// How far the measured point is from a fixed one: a ball bar's.
+    Distance,
 }
 
 impl Kind {
+    /// Whether it is the difference of two states, loaded minus unloaded.
+    pub fn is_difference(self) -> bool {
+        matches!(self, Kind::Displacement { .. })
+    }
+
+    /// Whether all three coordinates of a position are measured.
+    pub fn is_pose(self) -> bool {
+        matches!(self, Kind::Pose { .. })
+    }
+
     /// The names of the six components.
     pub fn names(self) -> [&'static str; 6] {
         match self {
-            Kind::Pose { .. } => POSE_NAMES,
+            Kind::Pose { .. } | Kind::Coordinates { .. } => POSE_NAMES,
             Kind::Displacement { .. } => DISPLACEMENT_NAMES,
+            Kind::Distance => DISTANCE_NAMES,
         }
     }
 
@@ -103,6 +132,8 @@ impl Kind {
         match self {
             Kind::Pose { orientation: o } => [true, true, true, o, o, o],
             Kind::Displacement { components } => components,
+            Kind::Coordinates { components: [x, y, z] } => [x, y, z, false, false, false],
+            Kind::Distance => [true, false, false, false, false, false],
         }
     }
 }
@@ -134,7 +165,17 @@ pub struct Row {
     pub marker: Option<String>,
     /// Where the measured point is in the tool frame, m; `None` is unknown. Zero without a marker.
     pub offset: Option<[f64; 3]>,
-    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured.
+    /// What the `session` column calls the sitting of the instrument; all one without a column.
+    pub session: Option<String>,
+    /// What the `payload` column hangs on the tool; its weight is part of the wrench.
+    pub payload: Option<Box<Hung>>,
+    /// Of a distance the point from which it is measured, in the measuring frame, m; `None` is
+    /// unknown.
+    pub from: Option<[f64; 3]>,
+    /// The name of such a point; unknown ones of one name and session are one point.
+    pub from_point: Option<String>,
+    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. A distance
+    /// is the first of them.
     pub measured: Vector6<f64>,
     /// The same by the user's own simulator; 0 where [`Measurements::sim_given`] is false.
     pub sim: Option<Vector6<f64>>,
@@ -154,6 +195,10 @@ impl Row {
             group: 0,
             marker: None,
             offset: Some([0.0; 3]),
+            session: None,
+            payload: None,
+            from: None,
+            from_point: None,
             measured: Vector6::zeros(),
             sim: None,
         }
@@ -192,6 +237,11 @@ impl Measurements {
             measured_in: [None; 6],
             wrench_in: [None; 6],
         }
+    }
+
+    /// The rows of each session, in the order of measuring; at least one where there are rows.
+    pub fn sessions(&self) -> impl Iterator<Item = &[Row]> {
+        self.rows.chunk_by(|a, b| a.session == b.session)
     }
 
     /// Whether every row has a time.
@@ -319,6 +369,7 @@ fn read_into(
             Err(found) => mistakes.extend(found),
         }
     }
+    sessions_stand_together(mistakes, &rows, &heads);
     if count == 0 {
         mistakes.add(top.line, None, Fault::NoRows);
     }
@@ -330,10 +381,7 @@ fn read_into(
     let measured = kind.components();
     let unused = |h: &&header::Head| matches!(h.role, Some(Role::Sim(_, k)) if !measured[k]);
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
-    let family = match kind {
-        Kind::Pose { .. } => role::Family::Pose,
-        Kind::Displacement { .. } => role::Family::Displacement,
-    };
+    let family = header::family(kind);
     Some(Measurements {
         file: file.to_owned(),
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
@@ -346,6 +394,20 @@ fn read_into(
         sim_given,
         poses,
     })
+}
+
+fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[header::Head]) {
+    let column = heads.iter().find(|head| head.role == Some(Role::Session));
+    let Some(column) = column.map(|head| &head.column) else { return };
+    let mut ended: HashMap<&str, u64> = HashMap::new();
+    for session in rows.chunk_by(|a, b| a.session == b.session) {
+        let ([first, .., last] | [first @ last]) = session else { continue };
+        let Some(name) = first.session.as_deref() else { continue };
+        if let Some(ended) = ended.insert(name, last.line) {
+            let fault = Fault::SessionAgain { found: name.to_owned(), ended };
+            mistakes.add(first.line, Some(column.clone()), fault);
+        }
+    }
 }
 
 /// A first row that is no header at all.

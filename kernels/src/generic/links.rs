@@ -62,11 +62,24 @@ impl<'a> Link<'a> {
     }
 
     /// The beam's weight per unit length, base axes, N/m.
-    pub(super) fn load(&self, gravity: &Vector3<f64>) -> Vector3<f64> {
+    fn load(&self, gravity: &Vector3<f64>) -> Vector3<f64> {
+        self.mass_per_length() * gravity
+    }
+
+    fn mass_per_length(&self) -> f64 {
         match self.motion {
-            Motion::Revolute => self.beam.density * self.beam.area * gravity,
-            Motion::Prismatic => Vector3::zeros(),
+            Motion::Revolute => self.beam.density * self.beam.area,
+            Motion::Prismatic => 0.0,
         }
+    }
+
+    /// Its mass, kg, and its tensor of inertia about its middle in base axes as a thin rod's.
+    pub(super) fn rod(&self) -> (f64, Matrix3<f64>) {
+        let chord = self.rotation * Vector3::x() * self.length;
+        let mass = self.mass_per_length() * self.length;
+        let across =
+            Matrix3::from_diagonal_element(chord.norm_squared()) - chord * chord.transpose();
+        (mass, across * (mass / 12.0))
     }
 
     /// The middle of the chord, in the base frame, m.

@@ -42,6 +42,7 @@
 mod arm;
 mod beam;
 mod deflection;
+mod dynamics;
 mod evaluate;
 mod jacobian;
 mod kinematics;
@@ -54,4 +55,4 @@ mod tests;
 mod textbook;
 mod weight;
 
-pub use arm::{Arm, Beam, Convention, Joint};
+pub use arm::{Arm, Beam, Convention, Drive, Joint};

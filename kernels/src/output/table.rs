@@ -164,6 +164,20 @@ outputs! {
         fallible: false,
         fused: false,
     }
+    JacobianSpatial {
+        name: jacobian_spatial,
+        sentence: "Geometric Jacobian, base axes, at the base's origin (of the world, in which the base stands): the \
+                   spatial Jacobian.",
+        formula: "[p_j × z_j; z_j] of a revolute joint, [z_j; 0] of a prismatic one",
+        source: "Murray, Li & Sastry 1994, eq. 3.54",
+        symbol: "J^{s}",
+        rows: Twist ["m/rad (prismatic joint: 1)", "rad/rad (prismatic joint: 0)"],
+        columns: Joints,
+        inputs: [Joints],
+        parts: [],
+        fallible: false,
+        fused: false,
+    }
     ComplementaryStiffness {
         name: complementary_stiffness,
         sentence: "K_C: how the joint torques of a wrench that is constant in base axes change with the \
@@ -298,6 +312,47 @@ outputs! {
         columns: Joints,
         inputs: [Joints, Wrench],
         parts: [Tool],
+        fallible: false,
+        fused: false,
+    }
+    InverseDynamics {
+        name: inverse_dynamics,
+        sentence: "Torques of the joints' motors for a motion, at the joints.",
+        formula: "τ = M(q) q̈ + b(q, q̇), b with the weights, with centrifugal and Coriolis forces and with \
+                  friction; sign(0) = 0 of a joint at rest",
+        source: "Luh, Walker & Paul 1980, eqs. 6 to 15",
+        symbol: "\\tau",
+        rows: Joints ["N·m (prismatic joint: N)"],
+        columns: One,
+        inputs: [Joints, Rates, Accelerations],
+        parts: [Weights, Inertias],
+        fallible: false,
+        fused: false,
+    }
+    Bias {
+        name: bias,
+        sentence: "Torques of the joints' motors where no joint accelerates: weights, centrifugal and \
+                   Coriolis forces, friction; at rest g(q), the opposite of the weight torque.",
+        formula: "b(q, q̇) = τ(q, q̇, 0)",
+        source: "Walker & Orin 1982",
+        symbol: "b",
+        rows: Joints ["N·m (prismatic joint: N)"],
+        columns: One,
+        inputs: [Joints, Rates],
+        parts: [Weights, Inertias],
+        fallible: false,
+        fused: false,
+    }
+    MassMatrix {
+        name: mass_matrix,
+        sentence: "Mass matrix: torques of the joints' motors per unit of each joint's acceleration.",
+        formula: "M_ji = ∂τ_j/∂q̈_i; twice the kinetic energy is q̇ᵀ M q̇",
+        source: "Walker & Orin 1982",
+        symbol: "M",
+        rows: Joints ["kg·m² (prismatic joint: kg·m, two of them: kg)"],
+        columns: Joints,
+        inputs: [Joints],
+        parts: [Inertias],
         fallible: false,
         fused: false,
     }

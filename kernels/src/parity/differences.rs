@@ -24,6 +24,14 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
             };
             twists(arm, q).iter().flat_map(in_tool_axes).collect()
         }
+        Output::JacobianSpatial => {
+            let p = arm.pose(q).translation.vector;
+            let at_origin = |t: [f64; 6]| {
+                let v = p.cross(&Vector3::new(t[3], t[4], t[5]));
+                [t[0] + v.x, t[1] + v.y, t[2] + v.z, t[3], t[4], t[5]]
+            };
+            twists(arm, q).into_iter().flat_map(at_origin).collect()
+        }
         Output::JointTorque => {
             let work = |t: &[f64; 6]| t.iter().zip(w).map(|(t, w)| t * w).sum();
             twists(arm, q).iter().map(work).collect()

@@ -35,6 +35,8 @@ pub struct Derivatives {
     jacobian: Vec<[f64; 6]>,
     /// The tool's axes as columns.
     rotation: [[f64; 3]; 3],
+    /// Its origin.
+    origin: [f64; 3],
     joint_torque: Vec<f64>,
     complementary_stiffness: Vec<f64>,
     weight_torque: Vec<f64>,
@@ -50,6 +52,7 @@ impl Derivatives {
         let mut found = Derivatives {
             jacobian: vec![[0.0; 6]; n],
             rotation: std::array::from_fn(|c| std::array::from_fn(|r| real[r][c])),
+            origin: origin(&real),
             joint_torque: vec![0.0; n],
             complementary_stiffness: vec![0.0; n * n],
             weight_torque: vec![0.0; n],
@@ -72,6 +75,14 @@ impl Derivatives {
                 let along = |t: &[f64]| self.rotation.map(|axis| dot(&axis, t));
                 let turned = |t: &[f64; 6]| [along(&t[..3]), along(&t[3..])].concat();
                 self.jacobian.iter().flat_map(turned).collect()
+            }
+            Output::JacobianSpatial => {
+                let [x, y, z] = self.origin;
+                let moved = |t: &[f64; 6]| {
+                    let [a, b, c] = [t[3], t[4], t[5]];
+                    [t[0] + y * c - z * b, t[1] + z * a - x * c, t[2] + x * b - y * a, a, b, c]
+                };
+                self.jacobian.iter().flat_map(moved).collect()
             }
             Output::JointTorque => self.joint_torque.clone(),
             Output::ComplementaryStiffness => self.complementary_stiffness.clone(),

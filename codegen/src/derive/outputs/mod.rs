@@ -3,6 +3,7 @@
 mod beam;
 mod compliance;
 mod deflection;
+mod dynamics;
 mod frames;
 mod jacobian;
 mod margin;
@@ -38,6 +39,7 @@ pub type Derivation = fn(&mut Chain) -> Derived;
 const DERIVATIONS: [Derivation; Output::EACH.len()] = Output::one_each(&[
     compliance::DERIVED,
     deflection::DERIVED,
+    dynamics::DERIVED,
     frames::DERIVED,
     jacobian::DERIVED,
     parameters::DERIVED,

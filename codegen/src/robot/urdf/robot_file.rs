@@ -4,7 +4,7 @@ use super::angle::{angle, value};
 use super::chain::{Chain, Step};
 use super::geometry::Frame;
 use super::table::Table;
-use crate::robot::{Angle, Convention, Frame as Fixed, Joint, Robot, Value};
+use crate::robot::{Angle, Convention, Drive, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
 pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
@@ -20,10 +20,12 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         joints,
         base: Fixed::default(),
         tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
         payloads: Vec::new(),
         outputs: Vec::new(),
+        at: Vec::new(),
     }
 }
 
@@ -45,6 +47,8 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
         com: com.map(length),
+        inertia: None,
+        drive: Drive::default(),
         limits: step.limits,
         source: None,
         beam: None,

@@ -13,7 +13,7 @@ use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
 use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
-use crate::simulate::{Actual, Sim, Site, State};
+use crate::simulate::{Actual, Sim, Site, State, origin};
 
 /// An effect with its values.
 #[derive(Clone)]
@@ -39,10 +39,12 @@ pub(crate) struct Model {
     /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
     /// loads act.
     pub(crate) arm: Arm,
-    /// Where the base stands in the measuring frame.
-    pub(crate) instrument: Isometry3<f64>,
+    /// Where the base stands in the measuring frame of each session.
+    pub(crate) bases: Vec<Isometry3<f64>>,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
+    /// Where the unknown points are from which distances are measured, measuring frame, m.
+    pub(crate) centres: Vec<Vector3<f64>>,
     pub(crate) found: Vec<Fitted>,
 }
 
@@ -70,8 +72,9 @@ impl Model {
         });
         Self {
             arm: problem.arm.clone(),
-            instrument: problem.arm.base,
+            bases: vec![problem.arm.base; problem.sessions.len()],
             markers: vec![Vector3::zeros(); problem.markers.len()],
+            centres: vec![Vector3::zeros(); problem.centres.len()],
             found: along.into_iter().collect(),
         }
     }
@@ -86,7 +89,7 @@ impl Model {
         let (data, when) = (&problem.data.rows[row], &problem.moments[row]);
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
-        actual.base = self.instrument;
+        actual.base = self.bases[problem.session_of[row]];
         problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
             found.effect.alter(&mut actual, data, when, found.spot, &found.values);
@@ -113,7 +116,9 @@ impl Model {
         let measured = self.measured(problem, row);
         let at_rest =
             Sim::of(problem.data.kind, measured, near, |loaded| self.actual(problem, row, loaded));
-        at_rest.map_err(|_| problem.unstable(row))
+        let from = origin(problem.data.kind, &problem.data.rows[row]);
+        let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
+        Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_from(from))
     }
 
     /// Brings every row to rest; `near` is where to begin.
@@ -191,7 +196,7 @@ impl Model {
 
     /// Number of nuisance parameters.
     pub(crate) fn nuisances(problem: &Problem<'_>) -> usize {
-        6 * problem.nuisances.len() + 3 * problem.markers.len()
+        6 * problem.frames().count() + 3 * (problem.markers.len() + problem.centres.len())
     }
 
     /// Number of parameters: of the nuisances first, then of each effect found.
@@ -208,8 +213,9 @@ impl Model {
             column += part.ncols();
         };
         let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
-        for frame in &problem.nuisances {
+        for (frame, session) in problem.frames() {
             put(&match frame {
+                Nuisance::BaseFrame if problem.session_of[row] != session => Matrix6xX::zeros(6),
                 Nuisance::BaseFrame => s.state.base_moved(),
                 Nuisance::ToolFrame => s.carried(Site::Tool, &units),
             });
@@ -219,6 +225,16 @@ impl Model {
             if problem.marker_of[row] == Some(marker) {
                 let turn = s.state.tool.rotation.to_rotation_matrix();
                 shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
+            }
+            put(&shifts);
+        }
+        for centre in 0..problem.centres.len() {
+            let mut shifts = Matrix6xX::zeros(3);
+            if problem.centre_of[row] == Some(centre) {
+                // The tool's way in base axes that reads as much as the point's way back.
+                let back = s.base.rotation.inverse().to_rotation_matrix();
+                let shift = back.matrix() * (-1.0 / s.actual.metre);
+                shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(&shift);
             }
             put(&shifts);
         }
@@ -248,16 +264,17 @@ impl Model {
     pub(crate) fn moved(&self, problem: &Problem<'_>, step: &[f64]) -> Self {
         let mut model = self.clone();
         let (nuisances, effects) = step.split_at(Self::nuisances(problem));
-        let (frames, markers) = nuisances.split_at(6 * problem.nuisances.len());
-        for (frame, step) in problem.nuisances.iter().zip(frames.chunks_exact(6)) {
+        let (frames, points) = nuisances.split_at(6 * problem.frames().count());
+        for ((frame, session), step) in problem.frames().zip(frames.chunks_exact(6)) {
             let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
             match frame {
-                Nuisance::BaseFrame => model.instrument *= by,
+                Nuisance::BaseFrame => model.bases[session] *= by,
                 Nuisance::ToolFrame => model.arm.tool *= by,
             }
         }
-        for (marker, step) in model.markers.iter_mut().zip(markers.chunks_exact(3)) {
-            *marker += Vector3::from_column_slice(step);
+        let all = model.markers.iter_mut().chain(&mut model.centres);
+        for (point, step) in all.zip(points.chunks_exact(3)) {
+            *point += Vector3::from_column_slice(step);
         }
         let mut steps = effects.iter();
         for found in &mut model.found {

@@ -15,7 +15,6 @@ use super::products::{Choice, Products};
 use super::stack::{Seen, Stack, Sum};
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Fit;
-use crate::measurement::Kind;
 
 /// Rows whose columns stand beside each other before their products are taken: few enough for a
 /// cache.
@@ -46,7 +45,7 @@ pub(crate) struct Wanted<'w> {
 impl Gathered {
     pub(crate) fn new(wanted: &Wanted<'_>, folds: &Folds, weights: &Vector6<f64>) -> Self {
         let problem = wanted.problem;
-        let shared = matches!(problem.data.kind, Kind::Pose { .. });
+        let shared = !problem.data.kind.is_difference();
         let layout = Layout::of(wanted.candidates, shared);
         let first = if problem.measures_position() { 0 } else { 3 };
         let (main, other): (Vec<usize>, Vec<usize>) =
@@ -155,7 +154,7 @@ mod tests {
     use crate::diagnose::options::Options;
     use crate::effects::CATALOGUE;
     use crate::fixture::{bent, row, table};
-    use crate::measurement::{Measurements, Row};
+    use crate::measurement::{Kind, Measurements, Row};
     use nalgebra::DVector;
     use std::sync::Arc;
 
