@@ -3,12 +3,14 @@
 mod effect;
 mod finding;
 mod hidden;
+mod log;
 mod notes;
 mod sentence;
 mod size;
 mod unit;
 mod words;
 
+pub use log::text as log_text;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;
