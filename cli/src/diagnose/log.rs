@@ -95,7 +95,7 @@ impl LogArgs {
 /// # Errors
 /// [`Failure`]: a file that cannot be read, options of a log beside one that is none.
 pub fn files(args: &Args) -> Result<Option<Vec<(String, Vec<u8>)>>, Failure> {
-    let read = |path: &PathBuf| {
+    let read = |path: &PathBuf| -> Result<(String, Vec<u8>), Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         Ok((path.display().to_string(), bytes))
     };

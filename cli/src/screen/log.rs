@@ -203,10 +203,12 @@ fn notes(found: &LogDiagnosis) -> String {
     }
     let mut told: Vec<(&str, &str, Vec<&str>)> = Vec::new();
     for hidden in &found.cannot_see {
-        let same = |t: &&mut (&str, &str, Vec<&str>)| (t.0, t.1) == (hidden.effect, &hidden.reason);
+        let same = |t: &&mut (&str, &str, Vec<&str>)| {
+            (t.0, t.1) == (hidden.effect, hidden.reason.as_str())
+        };
         match told.iter_mut().find(same) {
             Some((.., places)) => places.push(&hidden.place),
-            None => told.push((hidden.effect, &hidden.reason, vec![&hidden.place])),
+            None => told.push((hidden.effect, &hidden.reason, vec![hidden.place.as_str()])),
         }
     }
     for (k, (effect, reason, places)) in told.into_iter().enumerate() {

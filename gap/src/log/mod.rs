@@ -20,7 +20,7 @@ pub mod signal;
 mod verdict;
 
 pub use options::{LogOptions, Refused};
-pub use read::{Log, LogError, Names, Signal, TorqueSide, is_log};
+pub use read::{Log, LogError, Names, Run, Signal, TorqueSide, is_log};
 pub use report::LogDiagnosis;
 pub use scene::Domain;
 pub use verdict::diagnose;
