@@ -119,13 +119,14 @@ struct Written<'a> {
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
-    if let Some(files) = log::files(args)? {
-        return log::run(args, &source, &files, quiet);
-    }
+    let bytes = match log::files(args)? {
+        log::Files::Log(files) => return log::run(args, &source, &files, quiet),
+        log::Files::Measurements(bytes) => bytes,
+    };
     let options = args.options(&source)?;
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
-    let data = data::read(&args.data[0], &layout, quiet)?;
+    let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
     let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
     if let Some(other) = &other {

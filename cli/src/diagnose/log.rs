@@ -90,41 +90,53 @@ impl LogArgs {
     }
 }
 
-/// The files' bytes, if they are a log's; one that is no log must stand alone.
+/// What the files are.
+pub enum Files {
+    /// A joint log: names and bytes.
+    Log(Vec<(String, Vec<u8>)>),
+    /// The bytes of a measurement file.
+    Measurements(Vec<u8>),
+}
+
+/// Reads the files, and knows by their columns what they are.
 ///
 /// # Errors
-/// [`Failure`]: a file that cannot be read, options of a log beside one that is none.
-pub fn files(args: &Args) -> Result<Option<Vec<(String, Vec<u8>)>>, Failure> {
+/// [`Failure`]: a file that cannot be read, several that are no log, options of a log beside one that is
+/// none.
+pub fn files(args: &Args) -> Result<Files, Failure> {
     let read = |path: &PathBuf| -> Result<(String, Vec<u8>), Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         Ok((path.display().to_string(), bytes))
     };
-    let files: Vec<(String, Vec<u8>)> =
+    let mut files: Vec<(String, Vec<u8>)> =
         args.data.iter().map(read).collect::<Result<_, Failure>>()?;
-    let logged = |(_, bytes): &(String, Vec<u8>)| {
-        let mut lines = bytes.split(|b| *b == b'\n').map(String::from_utf8_lossy);
-        let header = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
-        let header = header.unwrap_or_default();
-        let names: Vec<&str> = header.trim().split([',', ';', '\t', ' ']).map(str::trim).collect();
-        is_log(&names)
+    if args.log.map.is_some() || files.iter().any(|(_, bytes)| logged(bytes)) {
+        return Ok(Files::Log(files));
+    }
+    let refused = |what: String, help| {
+        let first = &args.data[0].display();
+        Err(Failure::with_help(format!("{what}, and {first} is no joint log by its columns"), help))
     };
-    if args.log.map.is_some() || files.iter().any(logged) {
-        return Ok(Some(files));
-    }
     if let Some(option) = args.log.given() {
-        return Err(Failure::with_help(
-            format!("{option} is for joint logs, and {} is none by its columns", files[0].0),
-            "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them",
-        ));
+        let help =
+            "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
+        return refused(format!("{option} is for joint logs"), help);
     }
-    match &files[..] {
-        [_] => Ok(None),
-        [first, ..] => Err(Failure::with_help(
-            format!("found {} files, and {} is no joint log by its columns", files.len(), first.0),
-            "measurements are diagnosed file by file",
-        )),
-        [] => Ok(None),
+    match (files.pop(), files.len()) {
+        (Some((_, bytes)), 0) => Ok(Files::Measurements(bytes)),
+        (_, more) => {
+            refused(format!("found {} files", more + 1), "measurements are diagnosed file by file")
+        }
     }
+}
+
+/// Whether the columns are those of a log.
+fn logged(bytes: &[u8]) -> bool {
+    let mut lines = bytes.split(|b| *b == b'\n').map(String::from_utf8_lossy);
+    let header = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let header = header.unwrap_or_default();
+    let names: Vec<&str> = header.trim().split([',', ';', '\t', ' ']).map(str::trim).collect();
+    is_log(&names)
 }
 
 /// Diagnoses a log.

@@ -167,7 +167,11 @@ fn details(finding: &Finding) -> String {
             listed(&names, MOST)
         ));
     }
-    wrapped(&text, WIDTH, 7)
+    let mut text = wrapped(&text, WIDTH, 7);
+    if let Some(advice) = finding.to_separate {
+        text.push_str(&wrapped(&format!("     to tell them apart: {advice}"), WIDTH, 7));
+    }
+    text
 }
 
 /// `viscous 8.13 [8.01 to 8.25] N·m·s/rad`.

@@ -105,6 +105,9 @@ pub struct Finding {
     pub p_value: f64,
     /// What would do instead, as far as these blocks tell.
     pub alternatives: Vec<Alternative>,
+    /// What to record for them to be told apart; `None` where nothing else would do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to_separate: Option<&'static str>,
 }
 
 /// A number of an effect.

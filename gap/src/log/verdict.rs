@@ -215,6 +215,7 @@ impl Told<'_> {
                 held_out_after: left[round + 1],
                 p_value: judged.chance,
                 alternatives: judged.rivals.iter().map(alternative).collect(),
+                to_separate: (!judged.rivals.is_empty()).then(|| term.effect.about().separated_by),
             }
         };
         verdict.findings.iter().map(tell).collect()

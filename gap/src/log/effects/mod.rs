@@ -131,6 +131,24 @@ pub static CATALOGUE: [&dyn LogEffect; 14] = [
     &backlash::Backlash,
 ];
 
+/// The catalogue as a table in Markdown, as it stands in `docs/logs.md`.
+pub fn markdown() -> String {
+    let mut text = String::from(
+        "| effect | rows | numbers | what the arm does | confused with | what separates them |\n\
+         |---|---|---|---|---|---|\n",
+    );
+    for effect in CATALOGUE {
+        let about = effect.about();
+        let rows = if effect.domain() == Domain::Torque { "torque" } else { "position" };
+        let numbers = effect.numbers().iter().map(|(name, unit)| format!("{name} ({unit})"));
+        let numbers: Vec<String> = numbers.collect();
+        let cells = [about.reality, about.confused_with, about.separated_by].join(" | ");
+        let (name, numbers) = (effect.identifier(), numbers.join(", "));
+        text.push_str(&format!("| `{name}` | {rows} | {numbers} | {cells} |\n"));
+    }
+    text
+}
+
 /// All joints.
 fn joints(scene: &Scene<'_>) -> Vec<Spot> {
     (0..scene.signals.joints()).map(Spot::Joint).collect()
