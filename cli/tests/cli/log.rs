@@ -1,5 +1,7 @@
 //! `stiffarm diagnose` of joint logs.
 
+mod real;
+
 use std::fmt::Write as _;
 
 use serde_json::Value;

@@ -13,6 +13,8 @@
 
 mod band;
 pub mod filter;
+#[cfg(test)]
+mod tests;
 
 use core::ops::Range;
 
