@@ -77,7 +77,7 @@ fn the_last_campaign_is_compared_with() {
     let out = flat(&bench.diagnosed(&second, &["--compare", &last]).good());
     assert!(out.contains("new: backlash at joint 3"), "{out}");
     assert!(out.contains("no longer found: joint offset at joint 3"), "{out}");
-    assert!(out.contains("joint compliance at joint 2: compliance 6."), "{out}");
+    assert!(out.contains("joint compliance at joint 2: compliance "), "{out}");
     assert!(out.contains("] µrad/(N·m), changed"), "{out}");
     assert!(!out.contains("same measurements"), "{out}");
     let page = bench.path("page.html");
@@ -106,8 +106,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     assert!(said.contains(lost), "{said}");
     assert!(said.contains("an MJCF has no place for backlash at joint 3: "), "{said}");
     // The zero that was found is in the URDF: read back, its tool is that of the corrected robot file.
-    let back = bench.path("back.toml");
-    stiffarm(&["import", &urdf, "--out", &back]).good();
+    let back = bench.folder.file("back.toml", stiffarm(&["import", &urdf]).good());
     let position = |robot: &str| -> Vec<f64> {
         let out = stiffarm(&["eval", robot, "--q", "0.3,-0.8,1.1", "--json", "-"]).good();
         let found: Value = serde_json::from_str(&out).expect("JSON");
