@@ -18,6 +18,8 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
         compliance: 0.0,
         mass: 12.0,
         com: Vector3::new(-a / 2.0, 0.0, 0.02),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     }

@@ -2,10 +2,10 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Beam, Joint};
+use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
 use crate::measurement::{Body, Layout, Marker, Payloads};
 
@@ -190,8 +190,32 @@ fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
         },
         mass: read.optional(at("mass"), joint.mass.as_ref()),
         com: read.vector(&at("com")(), &joint.com),
+        inertia: inertia(read, joint),
+        drive: drive(read, joint),
         limits: joint.limits,
         beam: joint.beam.as_ref().map(|b| beam(read, b, &joint.name)),
+    }
+}
+
+fn inertia(read: &mut Reader, joint: &robot::Joint) -> Matrix3<f64> {
+    let entry = |value| read.value(|| format!("inertia of {}", joint.name), value);
+    let Some([xx, xy, xz, yy, yz, zz]) = joint.inertia.as_ref().map(|i| i.each_ref().map(entry))
+    else {
+        return Matrix3::zeros();
+    };
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+fn drive(read: &mut Reader, joint: &robot::Joint) -> Drive {
+    let mut number = |what: &str, value: &Option<Value>| {
+        read.optional(|| format!("{what} of {}", joint.name), value.as_ref())
+    };
+    let drive = &joint.drive;
+    Drive {
+        gear: drive.gear.as_ref().map_or(1.0, |_| number("gear", &drive.gear)),
+        rotor_inertia: number("rotor_inertia", &drive.rotor_inertia),
+        coulomb: number("coulomb", &drive.coulomb),
+        viscous: number("viscous", &drive.viscous),
     }
 }
 
@@ -233,6 +257,8 @@ mod tests {
             stiffness: Some(number("2e5")),
             mass: None,
             com: [const { Value::ZERO }; 3],
+            inertia: None,
+            drive: Default::default(),
             limits: None,
             source: None,
             beam: None,
@@ -246,11 +272,13 @@ mod tests {
             tool: Frame::default(),
             effects: Vec::new(),
             payloads: Vec::new(),
+            frames: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),
             }],
             outputs: Vec::new(),
+            at: Vec::new(),
         }
     }
 

@@ -28,6 +28,8 @@ fn arm() -> Arm {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: Some(Beam {
             youngs_modulus: 10e6 * PSI,

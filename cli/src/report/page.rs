@@ -3,6 +3,7 @@
 use askama::Template;
 use stiffarm_gap::diagnose::{Finding, NuisanceReport};
 
+use super::experiment::drawn_of;
 use super::performance::{Figures, figures};
 use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
@@ -53,6 +54,8 @@ struct Page<'a> {
     style: &'static str,
     script: &'static str,
     data: String,
+    /// Which rows are drawn, where these are not all.
+    drawn: String,
 }
 
 /// A finding.
@@ -143,6 +146,7 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         facts: method::facts(report),
         style: include_str!("style.css"),
         script: SCRIPT,
+        drawn: drawn_of(report.data.rows.len()),
         data: embedded::json(report).map_err(askama::Error::custom)?,
     };
     page.render()

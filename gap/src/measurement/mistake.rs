@@ -227,6 +227,11 @@ pub enum Fault {
     )]
     NoRows,
     #[error(
+        "found more than {} rows, expected no more: thin the file out, or split it",
+        super::MOST_ROWS
+    )]
+    TooManyRows,
+    #[error(
         "found {found} cells, expected {expected} as in the header: {}",
         if found > expected {
             "remove the surplus (a decimal comma makes one: write 1.5, not 1,5)"

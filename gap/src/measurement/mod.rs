@@ -21,6 +21,8 @@ mod table;
 mod unit;
 
 use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use nalgebra::Vector6;
@@ -63,6 +65,12 @@ pub struct Measurements {
     /// The unit in which the file has each component of the wrench; `None` where it has no column.
     pub wrench_in: [Option<Unit>; 6],
 }
+
+/// Largest file that is read, bytes.
+pub const MOST_BYTES: u64 = 512 << 20;
+
+/// Most rows that are read: with all that is worked out about them they take some two gigabytes.
+pub const MOST_ROWS: usize = 2_000_000;
 
 /// A file of which more than one row in so many has holes is refused: a campaign loses a reading now
 /// and then (a beam that was cut), not every tenth.
@@ -247,7 +255,7 @@ impl Measurements {
     /// [`ReadError`]: the file cannot be opened, or all its mistakes.
     pub fn read(path: &Path, layout: &Layout) -> Result<Measurements, ReadError> {
         let file = path.display().to_string();
-        match std::fs::read(path) {
+        match bytes(path) {
             Ok(bytes) => Measurements::from_bytes(&file, &bytes, layout),
             Err(source) => Err(ReadError::Open { file, source }),
         }
@@ -298,6 +306,27 @@ impl Measurements {
     }
 }
 
+/// The bytes of a file, which are held in memory.
+///
+/// # Errors
+/// What the system says, and more than [`MOST_BYTES`].
+pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let large = || {
+        let most = MOST_BYTES >> 20;
+        let fault =
+            format!("it has more than the {most} MB that are read: thin it out or split it");
+        io::Error::new(io::ErrorKind::FileTooLarge, fault)
+    };
+    // A device or a pipe has no length, and may have no end.
+    if file.metadata()?.len() > MOST_BYTES {
+        return Err(large());
+    }
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES { Err(large()) } else { Ok(bytes) }
+}
+
 /// `None` only if there is a mistake.
 fn read_into(
     mistakes: &mut Mistakes,
@@ -306,41 +335,45 @@ fn read_into(
     layout: &Layout,
     planned: bool,
 ) -> Option<Measurements> {
-    let records = match table::records(bytes) {
+    let mut records = match table::records(bytes) {
         Ok(records) => records,
         Err(not) => {
             mistakes.add(not.line, not.column, not.fault);
             return None;
         }
     };
-    let Some((top, body)) = records.split_first() else {
+    let Some(top) = records.next() else {
         mistakes.add(1, None, Fault::EmptyFile);
         return None;
     };
-    if let Some(fault) = no_header(top) {
+    if let Some(fault) = no_header(&top) {
         mistakes.add(top.line, None, fault);
         return None;
     }
-    let heads = header::read(top, layout, mistakes);
+    let heads = header::read(&top, layout, mistakes);
     let kind = header::kind(&heads, top.line, layout, mistakes);
-    if body.is_empty() {
-        mistakes.add(top.line, None, Fault::NoRows);
-    }
-    let mut rows = Vec::with_capacity(body.len());
-    let mut whole = Vec::with_capacity(body.len());
-    let mut skipped = Vec::new();
-    for record in body {
-        match cells::row(record, &heads, layout, planned) {
+    let mut extra = extra(&heads, layout);
+    let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
+    for record in records {
+        count += 1;
+        if count > MOST_ROWS {
+            mistakes.add(record.line, None, Fault::TooManyRows);
+            return None;
+        }
+        match cells::row(&record, &heads, layout, planned) {
             Ok(row) => {
                 rows.push(row);
-                whole.push(record);
+                extra.iter_mut().for_each(|extra| extra.take(&record));
             }
             Err(found) if found.iter().all(|m| m.fault.is_hole()) => skipped.push(found),
             Err(found) => mistakes.extend(found),
         }
     }
     sessions_stand_together(mistakes, &rows, &heads);
-    if skipped.len() * ONE_IN > body.len() {
+    if count == 0 {
+        mistakes.add(top.line, None, Fault::NoRows);
+    }
+    if skipped.len() * ONE_IN > count {
         skipped.drain(..).for_each(|found| mistakes.extend(found));
     }
     let (kind, sim_given) = kind.filter(|_| mistakes.is_empty())?;
@@ -354,7 +387,7 @@ fn read_into(
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
-        extra: extra(&heads, &whole, layout),
+        extra: extra.into_iter().map(ExtraColumn::with_values).collect(),
         skipped: skipped.into_iter().flatten().collect(),
         rows,
         kind,
@@ -388,23 +421,30 @@ fn no_header(top: &table::Record) -> Option<Fault> {
     Some(Fault::Separator { separator })
 }
 
-fn extra(heads: &[header::Head], body: &[&table::Record], layout: &Layout) -> Vec<ExtraColumn> {
+/// The columns without a meaning, still without cells.
+fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
     let unknown = heads.iter().filter(|h| h.role == Some(Role::Extra));
-    unknown
-        .map(|head| {
-            let index = head.column.number - 1;
-            let cells: Vec<String> =
-                body.iter().map(|r| r.cells.get(index).unwrap_or_default().to_owned()).collect();
-            ExtraColumn {
-                column: head.column.clone(),
-                name: head.name.clone(),
-                unit: head.unit_text.clone(),
-                values: cells.iter().map(|c| cells::number(c, "a number").ok()).collect(),
-                cells,
-                suggestion: role::nearest_name(&head.name, layout),
-            }
-        })
-        .collect()
+    let column = |head: &header::Head| ExtraColumn {
+        column: head.column.clone(),
+        name: head.name.clone(),
+        unit: head.unit_text.clone(),
+        values: None,
+        cells: Vec::new(),
+        suggestion: role::nearest_name(&head.name, layout),
+    };
+    unknown.map(column).collect()
+}
+
+impl ExtraColumn {
+    fn take(&mut self, record: &table::Record) {
+        let cell = record.cells.get(self.column.number - 1).unwrap_or_default();
+        self.cells.push(cell.to_owned());
+    }
+
+    fn with_values(self) -> ExtraColumn {
+        let values = self.cells.iter().map(|c| cells::number(c, "a number").ok()).collect();
+        ExtraColumn { values, ..self }
+    }
 }
 
 #[cfg(test)]

@@ -495,3 +495,17 @@ fn a_file_that_is_not_there_is_named() {
         "{text}"
     );
 }
+
+#[test]
+fn more_than_memory_holds_is_refused() {
+    let row = "0,0,0,1\n";
+    let text = format!("q1,q2,q3,dz\n{}", row.repeat(MOST_ROWS + 1));
+    let error = read(&text).unwrap_err().to_string();
+    assert!(error.starts_with("run.csv: line 2000002: found more than 2000000 rows"), "{error}");
+    // A file of zeros that takes no room on the disk.
+    let large = std::env::temp_dir().join(format!("stiffarm-large-{}.csv", std::process::id()));
+    let made = std::fs::File::create(&large).and_then(|file| file.set_len(MOST_BYTES + 1));
+    let error = made.and_then(|()| bytes(&large)).unwrap_err().to_string();
+    std::fs::remove_file(&large).unwrap();
+    assert!(error.starts_with("it has more than the 512 MB"), "{error}");
+}

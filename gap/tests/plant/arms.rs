@@ -22,6 +22,8 @@ pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     }

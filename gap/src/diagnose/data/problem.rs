@@ -1,5 +1,7 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
@@ -19,7 +21,7 @@ pub(crate) const LARGEST: f64 = 1e50;
 pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
-    pub(crate) moments: Vec<Moment>,
+    pub(crate) moments: Arc<Vec<Moment>>,
     /// 1 where a component is measured, else 0.
     pub(crate) mask: Vector6<f64>,
     /// The components that are measured.
@@ -92,7 +94,7 @@ impl<'a> Problem<'a> {
         }
         let known: Vec<Known> =
             options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
-        let moments = moments(data);
+        let moments = Arc::new(moments(data));
         let seen = |(row, when): (&Row, &Moment)| -> Result<(Reading, f64), DiagnoseError> {
             let line = row.line;
             let [x, y, z] = row.offset.unwrap_or_default();
@@ -114,7 +116,7 @@ impl<'a> Problem<'a> {
         };
         // The first row's error is told, however many rows are worked on at once.
         let all: Vec<Result<(Reading, f64), DiagnoseError>> =
-            data.rows.par_iter().zip(&moments).map(seen).collect();
+            data.rows.par_iter().zip(&*moments).map(seen).collect();
         let (readings, reaches): (Vec<Reading>, Vec<f64>) =
             all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let reach = reaches.into_iter().fold(0.0, f64::max);
@@ -141,6 +143,11 @@ impl<'a> Problem<'a> {
             reach,
             stop: options.stop.clone(),
         })
+    }
+
+    /// A row in which the arm comes to no rest.
+    pub(crate) fn unstable(&self, row: usize) -> DiagnoseError {
+        DiagnoseError::Unstable { file: self.data.file.clone(), line: self.data.rows[row].line }
     }
 
     /// What there is one of for each row, of the rows that are counted.

@@ -1,6 +1,8 @@
 //! The explanation so far: the frames as they were fitted and the effects that have been found, as
 //! an exact model of every row.
 
+use std::borrow::Cow;
+
 use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
@@ -46,9 +48,14 @@ pub(crate) struct Model {
     pub(crate) found: Vec<Fitted>,
 }
 
+/// Of more rows the states are worked out again wherever they are asked for: they would be most of the
+/// memory, and to find one again is less than what is done with it.
+const MOST_KEPT: usize = 10_000;
+
 /// What a model makes of the data.
 #[derive(Clone)]
 pub(crate) struct Predicted {
+    /// The states of each row; of very many rows, none.
     pub(crate) sims: Vec<Sim>,
     /// Measured minus predicted, one per row, less the mean of the rows that share a constant; 0 of
     /// rows that are left out.
@@ -99,33 +106,41 @@ impl Model {
         Isometry3::translation(offset.x, offset.y, offset.z)
     }
 
+    /// Brings one row to rest; `near` is where to begin.
+    fn sim(
+        &self,
+        problem: &Problem<'_>,
+        row: usize,
+        near: Option<&Sim>,
+    ) -> Result<Sim, DiagnoseError> {
+        let measured = self.measured(problem, row);
+        let at_rest =
+            Sim::of(problem.data.kind, measured, near, |loaded| self.actual(problem, row, loaded));
+        let from = origin(problem.data.kind, &problem.data.rows[row]);
+        let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
+        Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_from(from))
+    }
+
     /// Brings every row to rest; `near` is where to begin.
     pub(crate) fn predict(
         &self,
         problem: &Problem<'_>,
         near: Option<&[Sim]>,
     ) -> Result<Predicted, DiagnoseError> {
-        let rows = 0..problem.data.rows.len();
-        let each = rows.into_par_iter().map(|row| {
-            let near = near.map(|n| &n[row]);
-            let measured = self.measured(problem, row);
-            let sim = Sim::of(problem.data.kind, measured, near, |loaded| {
-                self.actual(problem, row, loaded)
-            });
-            let unstable = || DiagnoseError::Unstable {
-                file: problem.data.file.clone(),
-                line: problem.data.rows[row].line,
-            };
-            let from = origin(problem.data.kind, &problem.data.rows[row]);
-            let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
-            let sim = sim.map_err(|_| unstable())?.seen_from(from);
+        let rows = problem.data.rows.len();
+        let each = (0..rows).into_par_iter().map(|row| {
+            let sim = self.sim(problem, row, near.and_then(|near| near.get(row)))?;
             let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
             let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
             let gap = if problem.fits[row] { gap } else { Vector6::zeros() };
-            if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
+            let is_small = gap.iter().all(|g| g.abs() < LARGEST);
+            if is_small { Ok((sim, gap)) } else { Err(problem.unstable(row)) }
         });
-        let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;
-        let (sims, mut gaps): (_, Vec<Vector6<f64>>) = both.into_iter().unzip();
+        let (sims, mut gaps): (Vec<Sim>, Vec<Vector6<f64>>) = if rows <= MOST_KEPT {
+            each.collect::<Result<Vec<_>, _>>()?.into_iter().unzip()
+        } else {
+            (Vec::new(), each.map(|both| both.map(|(_, gap)| gap)).collect::<Result<_, _>>()?)
+        };
         for rows in &problem.constants {
             let mean = rows.iter().map(|&row| gaps[row]).sum::<Vector6<f64>>() / rows.len() as f64;
             rows.iter().for_each(|&row| gaps[row] -= mean);
@@ -133,15 +148,27 @@ impl Model {
         Ok(Predicted { sims, gaps })
     }
 
+    /// The states of a row that was predicted. There is an error only where there was one then.
+    pub(crate) fn state<'s>(
+        &self,
+        problem: &Problem<'_>,
+        predicted: &'s Predicted,
+        row: usize,
+    ) -> Result<Cow<'s, Sim>, DiagnoseError> {
+        match predicted.sims.get(row) {
+            Some(sim) => Ok(Cow::Borrowed(sim)),
+            None => self.sim(problem, row, None).map(Cow::Owned),
+        }
+    }
+
     /// Change of one row's reading, 6×p, by what `twists` gives for a scene.
     pub(crate) fn change(
         &self,
         problem: &Problem<'_>,
-        sims: &[Sim],
+        sim: &Sim,
         row: usize,
         twists: impl Fn(&Scene<'_>) -> Matrix6xX<f64>,
     ) -> Matrix6xX<f64> {
-        let sim = &sims[row];
         sim.change(|state, loaded| {
             let actual = self.actual(problem, row, loaded);
             twists(&self.scene(problem, row, sim, state, &actual))

@@ -64,7 +64,8 @@ impl Explanation {
         let (without, with) = (before.predict(&problem, None)?, after.predict(&problem, None)?);
         let first = if problem.measures_position() { 0 } else { 3 };
         let shift = (without.gaps[0] - with.gaps[0]).component_mul(&problem.mask);
-        let block = after.change(&problem, &with.sims, 0, |s| after.block(&problem, 0, s));
+        let sim = after.state(&problem, &with, 0)?;
+        let block = after.change(&problem, &sim, 0, |s| after.block(&problem, 0, s));
         let mut left = block * &self.spread.root;
         for mut column in left.column_iter_mut() {
             column.component_mul_assign(&problem.mask);

@@ -91,7 +91,7 @@ impl Search<'_, '_> {
             let mut reports = Vec::new();
             if let Some(form) = found.effect.form_number() {
                 let (name, unit) = (form.name.into_owned(), form.quantity.unit());
-                let value = found.spot.form as f64;
+                let value = found.effect.forms_are().number(found.spot.form);
                 reports.push(ParameterReport { name, value, unit, ci95: [value, value] });
             }
             let parameters = found.effect.parameters(self.problem.arm, found.spot);

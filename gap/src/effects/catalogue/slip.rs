@@ -63,7 +63,7 @@ impl Effect for Slip {
     }
 
     fn forms_are(&self) -> Forms {
-        Forms::Rows
+        Forms::Searched { key: "after", quantity: Quantity::Row, steps: 1 }
     }
 
     fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
