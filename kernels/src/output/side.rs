@@ -21,6 +21,9 @@ pub enum Side {
     /// The entries of the table: theta, d, a, alpha of each row, then the tool's translation and its
     /// rotation vector.
     Entries,
+    /// The moments of mass of links 1 to n, ten each: mass, first moments x, y, z, and xx, xy, yy, xz, yz, zz of the
+    /// tensor of inertia.
+    Moments,
 }
 
 impl Side {
@@ -34,6 +37,7 @@ impl Side {
             Side::Twist | Side::Wrench => 6,
             Side::Joints => n,
             Side::Entries => 4 * n + 6,
+            Side::Moments => 10 * n,
         }
     }
 
@@ -50,6 +54,7 @@ impl Side {
             Side::Entries => {
                 &["theta, d, a, alpha of each row, the tool's translation, its rotation vector"]
             }
+            Side::Moments => &["m, m c_x, m c_y, m c_z, xx, xy, yy, xz, yz, zz of each link"],
         }
     }
 }
