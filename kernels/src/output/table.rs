@@ -136,6 +136,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     Frames {
         name: frames,
@@ -149,6 +150,7 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Jacobian {
         name: jacobian,
@@ -162,6 +164,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     JacobianTool {
         name: jacobian_tool,
@@ -175,6 +178,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     JacobianSpatial {
         name: jacobian_spatial,
@@ -189,6 +193,7 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     ComplementaryStiffness {
         name: complementary_stiffness,
@@ -203,6 +208,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     JointTorque {
         name: joint_torque,
@@ -216,6 +222,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     WeightTorque {
         name: weight_torque,
@@ -230,6 +237,7 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     WeightStiffness {
         name: weight_stiffness,
@@ -244,6 +252,7 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Compliance {
         name: compliance,
@@ -257,6 +266,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     DeflectionFirstOrder {
         name: deflection_first_order,
@@ -271,6 +281,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Deflection {
         name: deflection,
@@ -285,6 +296,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: true,
         fused: true,
+        on_request: false,
     }
     DeflectionWithGravity {
         name: deflection_with_gravity,
@@ -299,6 +311,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams, Weights],
         fallible: true,
         fused: false,
+        on_request: false,
     }
     ParameterJacobian {
         name: parameter_jacobian,
@@ -312,6 +325,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     ComplianceRegressor {
         name: compliance_regressor,
@@ -326,6 +340,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     InverseDynamics {
         name: inverse_dynamics,
@@ -340,6 +355,7 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Bias {
         name: bias,
@@ -354,6 +370,7 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     MassMatrix {
         name: mass_matrix,
@@ -367,6 +384,7 @@ outputs! {
         parts: [Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Hessian {
         name: hessian,
@@ -453,5 +471,35 @@ outputs! {
         fallible: false,
         fused: false,
         on_request: true,
+    }
+    ForwardDynamics {
+        name: forward_dynamics,
+        sentence: "Accelerations of the joints under their motors' torques.",
+        formula: "q̈ = M(q)⁻¹ (τ − b(q, q̇)); none where a joint moves no mass and M is not positive definite",
+        source: "Walker & Orin 1982",
+        symbol: "\\ddot q",
+        rows: Joints ["rad/s² (prismatic joint: m/s²)"],
+        columns: One,
+        inputs: [Joints, Rates, Torques],
+        parts: [Weights, Inertias],
+        fallible: true,
+        fused: false,
+        on_request: false,
+    }
+    TorqueRegressor {
+        name: torque_regressor,
+        sentence: "Torques of the joints' motors for a motion per unit of each link's moments of mass; rotors and \
+                   friction apart.",
+        formula: "Y_k = ∂τ/∂π_k and τ = Y π; π of a link: m, m c_x, m c_y, m c_z, and xx, xy, yy, xz, yz, zz of its \
+                  tensor of inertia about the row's origin, all in the row's axes",
+        source: "Atkeson, An & Hollerbach 1986, eq. 11",
+        symbol: "Y",
+        rows: Joints ["m/s² (first moments: m/s²·m, tensor: 1/s²; times m of a revolute joint)"],
+        columns: Moments,
+        inputs: [Joints, Rates, Accelerations],
+        parts: [Weights],
+        fallible: false,
+        fused: false,
+        on_request: false,
     }
 }
