@@ -4,3 +4,7 @@
 
 pub use stiffarm_kernels as kernels;
 pub use stiffarm_macros::robot;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/program.md")]
+mod program {}

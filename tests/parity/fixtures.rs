@@ -1,6 +1,6 @@
 //! Fixtures: everything a row may hold, in combinations that no catalogue arm has.
 
-use stiffarm::kernels::{Kernels, Output};
+use stiffarm::kernels::Kernels;
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 

@@ -3,8 +3,8 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
+use stiffarm::kernels::Motion;
 use stiffarm::kernels::generic::{Arm, Convention};
-use stiffarm::kernels::{Motion, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 

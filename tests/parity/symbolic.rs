@@ -1,7 +1,7 @@
 //! The collection's symbolic arms, with numbers put in: against the textbook, and against the same arm
 //! with the paper's numbers in its table.
 
-use stiffarm::kernels::{Kernels, Output};
+use stiffarm::kernels::Kernels;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{SYMBOLIC, lin_planar_symbolic};
 
