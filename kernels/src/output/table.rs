@@ -25,6 +25,9 @@ macro_rules! outputs {
         /// The quantities that a robot module computes; [`Kernels::evaluate`](crate::Kernels::evaluate)
         /// writes each as one column-major block of [`Output::shape`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
         #[non_exhaustive]
         pub enum Output {
             $(

@@ -11,16 +11,16 @@ use crate::{Motion, Output};
 use num_dual::{Dual64, DualNum, HyperDual64};
 
 /// A number with derivatives.
-trait Number: DualNum<Primitive = f64> + Copy {}
+pub(super) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
 
 /// Rows of a homogeneous matrix without the last: rotation, then the origin.
-type Frame<T> = [[T; 4]; 3];
+pub(super) type Frame<T> = [[T; 4]; 3];
 
 /// The table's entries as numbers with derivatives.
-struct Table<T> {
+pub(super) struct Table<T> {
     /// theta, d, a, alpha, joint values included.
-    rows: Vec<[T; 4]>,
+    pub(super) rows: Vec<[T; 4]>,
     /// beta of each row.
     tilts: Vec<T>,
     /// The base in the world.
@@ -157,7 +157,7 @@ fn parameter_jacobian(arm: &Arm, q: &[f64]) -> Vec<f64> {
     columns
 }
 
-fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T> {
+pub(super) fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T> {
     let rows = arm.joints.iter().zip(q).map(|(joint, q)| {
         let (theta, d) = match joint.motion {
             Motion::Revolute => (joint.theta + q, joint.d),
@@ -174,7 +174,7 @@ fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T>
 }
 
 /// Frames 1 to n, and the tool's frame after them.
-fn frames<T: Number>(convention: Convention, table: &Table<T>) -> Vec<Frame<T>> {
+pub(super) fn frames<T: Number>(convention: Convention, table: &Table<T>) -> Vec<Frame<T>> {
     let mut frames = Vec::with_capacity(table.rows.len() + 1);
     let mut frame = table.base;
     for ([theta, d, a, alpha], beta) in table.rows.iter().zip(&table.tilts) {
@@ -259,7 +259,7 @@ fn energy<T: Number>(arm: &Arm, frames: &[Frame<T>]) -> T {
     energy
 }
 
-fn origin<T: Copy>(frame: &Frame<T>) -> [T; 3] {
+pub(super) fn origin<T: Copy>(frame: &Frame<T>) -> [T; 3] {
     frame.map(|row| row[3])
 }
 

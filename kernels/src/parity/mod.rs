@@ -8,6 +8,7 @@
 mod differences;
 pub mod draw;
 mod dual;
+mod motion;
 pub mod scale;
 
 use std::num::NonZero;
@@ -27,7 +28,7 @@ pub enum Comparison {
     Single,
     /// Central differences of another output of the textbook.
     Differences,
-    /// Derivatives of the forward kinematics by dual numbers.
+    /// Derivatives of the forward kinematics by dual numbers, and what d'Alembert's principle makes of them.
     Dual,
 }
 
@@ -187,7 +188,7 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { state, w }: &Sample, result
         if let Some(slopes) = differences::of(arm, output, q, w) {
             line.note(2, fine(&generated, &slopes));
         }
-        if let Some(slopes) = dual.of(output) {
+        if let Some(slopes) = dual.of(output).or_else(|| motion::of(arm, output, q)) {
             line.note(3, fine(&generated, &slopes));
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use stiffarm::kernels::Output;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_firmware_arms::outputs::ARMS;
+use stiffarm_firmware_arms::outputs::{ARMS, EACH};
 
 use crate::Failure;
 use crate::tools::{Tools, succeed};
@@ -96,7 +96,7 @@ fn calls(arms: &[(&str, usize)]) -> String {
     let (mut includes, mut cases) = (String::new(), String::new());
     for (index, (arm, n)) in arms.iter().enumerate() {
         includes.push_str(&format!("#include \"{arm}.h\"\n"));
-        for (k, output) in Output::EACH.into_iter().enumerate() {
+        for (k, output) in Output::EACH.into_iter().enumerate().take(EACH) {
             let (rows, columns) = output.shape(*n);
             let beside: String = output.beside().map(|i| format!("{}, ", i.name())).collect();
             let call = format!("{arm}_{}(q, {beside}out)", output.name());
@@ -119,7 +119,7 @@ fn calls(arms: &[(&str, usize)]) -> String {
         }}
         break;
 ",
-                32 * index + Output::EACH.len() + k,
+                32 * index + EACH + k,
                 output.name(),
                 rows * columns
             ));
