@@ -19,7 +19,7 @@ macro_rules! outputs {
             parts: [$($part:ident),*],
             fallible: $fallible:tt,
             fused: $fused:literal,
-            $(on_request: $on_request:literal,)?
+            $(on_request: $like:ident,)?
         }
     )+) => {
         /// The quantities that a robot module computes; [`Kernels::evaluate`](crate::Kernels::evaluate)
@@ -105,10 +105,12 @@ macro_rules! outputs {
         }
 
         impl Output {
-            /// Whether it is generated only where it is asked for by its name: second derivatives, whose text is as long as that of
-            /// all other outputs together.
-            pub const fn is_on_request(self) -> bool {
-                match self { $(Output::$output => false $(|| $on_request)?,)+ }
+            /// Of an output that is generated on request the one in whose working frame it is worked out.
+            pub(super) const fn on_request(self) -> Option<Output> {
+                match self {
+                    $($(Output::$output => Some(Output::$like),)?)+
+                    _ => None,
+                }
             }
         }
 
@@ -398,7 +400,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: true,
+        on_request: Hessian,
     }
     JacobianRate {
         name: jacobian_rate,
@@ -412,7 +414,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: true,
+        on_request: JacobianRate,
     }
     ComplianceByJoints {
         name: compliance_by_joints,
@@ -426,7 +428,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: false,
-        on_request: true,
+        on_request: Compliance,
     }
     DeflectionByJoints {
         name: deflection_by_joints,
@@ -441,7 +443,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: true,
         fused: false,
-        on_request: true,
+        on_request: Deflection,
     }
     Manipulability {
         name: manipulability,
@@ -456,7 +458,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: true,
+        on_request: Manipulability,
     }
     ManipulabilityByJoints {
         name: manipulability_by_joints,
@@ -470,7 +472,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: true,
+        on_request: Manipulability,
     }
     ForwardDynamics {
         name: forward_dynamics,
