@@ -25,6 +25,7 @@ pub mod gap;
 pub mod identify;
 pub mod log;
 pub mod measurement;
+pub mod performance;
 pub mod plant;
 pub mod random;
 pub mod readings;

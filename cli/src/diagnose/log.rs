@@ -105,7 +105,8 @@ pub enum Files {
 /// none.
 pub fn files(args: &Args) -> Result<Files, Failure> {
     let read = |path: &PathBuf| -> Result<(String, Vec<u8>), Failure> {
-        let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+        let bytes = stiffarm_gap::measurement::bytes(path)
+            .map_err(|error| Failure::io("read", path, &error))?;
         Ok((path.display().to_string(), bytes))
     };
     let mut files: Vec<(String, Vec<u8>)> =
