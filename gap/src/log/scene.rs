@@ -117,11 +117,26 @@ impl Scene<'_> {
         (0..self.signals.joints()).map(counts).collect()
     }
 
+    /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is
+    /// one that has them in it.
+    fn modelled(&self, joint: usize, k: usize) -> f64 {
+        if !matches!(self.side, Some(TorqueSide::Motor | TorqueSide::Commanded)) {
+            return 0.0;
+        }
+        let (drive, signals) = (&self.arm.joints[joint].drive, self.signals);
+        let rotor = drive.gear * drive.gear * drive.rotor_inertia * signals.qdd[joint][k];
+        rotor + drive.viscous * signals.qd[joint][k] + drive.coulomb * self.sign(joint, k)
+    }
+
     /// What is to be explained, of each joint.
     pub fn target(&self) -> Vec<Vec<f64>> {
         let signals = self.signals;
         let of = |joint: usize| match self.domain {
-            Domain::Torque => signals.filtered(&signals.drive[joint]),
+            Domain::Torque => {
+                let given = signals.drive[joint].iter().enumerate();
+                let left = given.map(|(k, torque)| torque - self.modelled(joint, k));
+                signals.filtered(&left.collect::<Vec<f64>>())
+            }
             Domain::Position => {
                 let pairs = signals.measured[joint].iter().zip(&signals.command[joint]);
                 let gaps: Vec<f64> = pairs.map(|(is, was_to_be)| is - was_to_be).collect();

@@ -59,6 +59,7 @@ fn friction_is_found_where_it_is_with_its_numbers() {
     assert_eq!(found.findings.len(), 3, "{found:#?}");
     // What is left is the noise: its part below 8 Hz of a spectrum that falls from 3 Hz on.
     for gap in &found.gap {
+        eprintln!("{gap:?}");
         assert!(gap.after < 0.3 && gap.after > 0.1 && gap.before > 3.0 * gap.after, "{gap:?}");
     }
 }
@@ -66,6 +67,7 @@ fn friction_is_found_where_it_is_with_its_numbers() {
 #[test]
 fn nothing_is_found_where_nothing_is() {
     let found = diagnosed(&recorded(2, [[0.0; 2]; 2], 1.0));
+    eprintln!("{:?} {:?}", found.gap, found.evidence);
     assert!(found.findings.is_empty(), "{found:#?}");
 }
 
