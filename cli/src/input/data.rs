@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
 use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake, bytes};
@@ -29,8 +30,21 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
+    hashed(path, layout, quiet).map(|(data, _)| data)
+}
+
+/// The same, and the SHA-256 of its bytes.
+///
+/// # Errors
+/// As [`read`].
+pub fn hashed(
+    path: &Path,
+    layout: &Layout,
+    quiet: bool,
+) -> Result<(Measurements, Sha256), Failure> {
     let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-    told(from_bytes(path, &bytes, layout), quiet)
+    let data = told(from_bytes(path, &bytes, layout), quiet)?;
+    Ok((data, Sha256::new_with_prefix(&bytes)))
 }
 
 fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
