@@ -110,7 +110,7 @@ pub struct DhRow {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Error {
-    /// `q` or `out` is not of the robot's and output's length.
+    /// The state or `out` is not of the robot's and output's length.
     Length,
     /// The arm is not stable under the load.
     Unstable,
@@ -147,8 +147,12 @@ pub trait Kernels<S: Scalar> {
     /// Number of joints.
     fn dof(&self) -> usize;
 
-    /// Writes `output` at the joint values `q` (rad, m) under `wrench` (N, N·m; base axes, at the
-    /// tool origin) into `out`, column by column. Outputs that take no wrench ignore it.
+    /// The outputs that it was generated with.
+    fn outputs(&self) -> &'static [Output];
+
+    /// Writes `output` at `state` under `wrench` (N, N·m; base axes, at the tool origin) into `out`, column
+    /// by column. The state is the joint values (rad, m), and behind them what more of the joints the
+    /// output takes, as [`Output::state`] says. Outputs that take no wrench ignore it.
     ///
     /// # Errors
     /// [`Error::Length`] where a slice has the wrong length, [`Error::Unstable`] where the deflection
@@ -157,7 +161,7 @@ pub trait Kernels<S: Scalar> {
     fn evaluate(
         &self,
         output: Output,
-        q: &[S],
+        state: &[S],
         wrench: &[S; 6],
         out: &mut [S],
     ) -> Result<(), Error>;

@@ -85,20 +85,18 @@ impl<S: Scalar> Arm<S> {
 
     /// Every output, then those of the places, then those of the fused function; `None` where there is no
     /// equilibrium.
-    pub fn outputs(&self, q: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
+    pub fn outputs(&self, state: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
         let single = |kernels: &dyn Kernels<S>, output: Output| {
             let (rows, columns) = output.shape(kernels.dof());
             let mut out = vec![S::lit(0.0); rows * columns];
-            match kernels.evaluate(output, q, wrench, &mut out) {
-                Err(Error::Absent) => None,
-                done => Some(done.is_ok().then_some(out)),
-            }
+            let state = &state[..output.state(kernels.dof())];
+            kernels.evaluate(output, state, wrench, &mut out).is_ok().then_some(out)
         };
         let kernels = [self.kernels].into_iter().chain(self.places.iter().copied());
         let mut outputs: Vec<Option<Vec<S>>> = kernels
-            .flat_map(|of| Output::EACH.into_iter().filter_map(move |output| single(of, output)))
+            .flat_map(|of| of.outputs().iter().map(move |output| single(of, *output)))
             .collect();
-        match (self.all)(q, wrench) {
+        match (self.all)(&state[..self.kernels.dof()], wrench) {
             Ok(all) => outputs.extend(all.into_iter().map(Some)),
             Err(_) => outputs.extend(Output::ALL.map(|_| None)),
         }

@@ -13,6 +13,8 @@ mod latex;
 mod lines;
 mod literal;
 #[cfg(feature = "urdf")]
+mod lost;
+#[cfg(feature = "urdf")]
 mod mjcf;
 mod plan;
 mod posture;
@@ -20,11 +22,15 @@ mod rust;
 #[cfg(feature = "urdf")]
 mod urdf;
 
+pub(crate) use c::c_with;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
 #[cfg(feature = "urdf")]
+pub use lost::{lost_in_mjcf, lost_in_urdf};
+#[cfg(feature = "urdf")]
 pub use mjcf::mjcf;
+pub(crate) use rust::rust_with;
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 #[cfg(feature = "urdf")]
 pub use urdf::urdf;
@@ -48,23 +54,21 @@ struct Functions {
     place: Option<String>,
     /// The outputs that have a function of their own.
     outputs: Vec<Output>,
-    /// What each function computes.
-    sets: Vec<Vec<Output>>,
+    /// Of each function what it computes.
     programs: Vec<Program>,
 }
 
 /// What is generated of a robot: the tool's functions, then those of each place at which some are asked for.
 fn functions(robot: &Robot) -> Vec<Functions> {
     let outputs = robot.generated();
-    let sets = sets(&outputs);
-    let programs = derive_each(robot, &sets);
-    let mut all = vec![Functions { place: None, outputs, sets, programs }];
-    for (place, outputs) in robot.places() {
-        let derived = outputs.iter().filter_map(|o| Some((vec![*o], derive_at(robot, place, *o)?)));
-        let (sets, programs) = derived.unzip();
-        all.push(Functions { place: Some(place.to_owned()), outputs, sets, programs });
-    }
-    all
+    let programs = derive_each(robot, &sets(&outputs));
+    let tool = Functions { place: None, outputs, programs };
+    let at = robot.places().into_iter().map(|(place, outputs)| {
+        let programs =
+            outputs.iter().filter_map(|output| derive_at(robot, place, *output)).collect();
+        Functions { place: Some(place.to_owned()), outputs, programs }
+    });
+    core::iter::once(tool).chain(at).collect()
 }
 
 /// What the functions of a module compute: each of `outputs` by itself, and `all` what can be had together.

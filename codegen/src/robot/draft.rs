@@ -15,6 +15,9 @@ pub(crate) struct Cell<T, L> {
     pub at: L,
 }
 
+/// How the entries of a tensor of inertia stand.
+pub(crate) const INERTIA: &str = "[xx, xy, xz, yy, yz, zz]";
+
 /// Three cells.
 pub(crate) type Vector<T, L> = [Cell<T, L>; 3];
 
@@ -87,9 +90,21 @@ pub(crate) struct DraftJoint<L> {
     pub mass: Option<Cell<Value, L>>,
     /// The place of the whole vector, and its entries.
     pub com: Option<(L, Vector<Value, L>)>,
+    /// The place of the whole tensor, and its entries.
+    pub inertia: Option<(L, [Cell<Value, L>; 6])>,
+    pub drive: DraftDrive<L>,
     pub limits: Option<Cell<[f64; 2], L>>,
     pub source: Option<Cell<String, L>>,
     pub beam: Option<DraftBeam<L>>,
+}
+
+/// Motor, gear and friction.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftDrive<L> {
+    pub gear: Option<Cell<Value, L>>,
+    pub rotor_inertia: Option<Cell<Value, L>>,
+    pub coulomb: Option<Cell<Value, L>>,
+    pub viscous: Option<Cell<Value, L>>,
 }
 
 /// A link as a beam.
@@ -155,6 +170,12 @@ impl<L> DraftJoint<L> {
         visit_cell(visit, stiffness, &self.stiffness);
         visit_cell(visit, Dimension::Mass, &self.mass);
         visit_cell(visit, Dimension::Length, self.com.iter().flat_map(|(_, com)| com));
+        visit_cell(visit, Dimension::Inertia, self.inertia.iter().flat_map(|(_, i)| i));
+        let motion = self.motion.value.unwrap_or(Motion::Revolute);
+        visit_cell(visit, Dimension::gear(motion), &self.drive.gear);
+        visit_cell(visit, Dimension::Inertia, &self.drive.rotor_inertia);
+        visit_cell(visit, Dimension::load(motion), &self.drive.coulomb);
+        visit_cell(visit, Dimension::damping(motion), &self.drive.viscous);
         if let Some(beam) = &self.beam {
             visit_cell(visit, Dimension::Pressure, [&beam.youngs_modulus, &beam.shear_modulus]);
             let [area, moments @ ..] = &beam.section;

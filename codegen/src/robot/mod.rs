@@ -13,6 +13,7 @@ mod draft;
 mod frames;
 #[cfg(all(test, feature = "macro"))]
 mod fuzz;
+mod inertia;
 mod lexeme;
 mod model;
 mod names;
@@ -34,9 +35,10 @@ pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused};
 pub use model::{
-    Angle, At, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame, Output,
-    Payload, Quantity, Robot, Section, Spot, Value,
+    Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
+    Output, Payload, Quantity, Robot, Section, Spot, Value,
 };
+pub(crate) use names::is_keyword;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;

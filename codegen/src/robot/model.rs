@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use num_rational::Ratio;
+use stiffarm_kernels::Part;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use crate::number::Number;
@@ -60,12 +61,30 @@ pub struct Joint {
     pub mass: Option<Value>,
     /// Its centre of mass in the row's own frame, m.
     pub com: [Value; 3],
+    /// Its moments of inertia about that centre in the row's own axes: xx, xy, xz, yy, yz, zz of the
+    /// tensor, kg·m²; `None` is a point mass.
+    pub inertia: Option<[Value; 6]>,
+    /// What turns the joint, and what holds it back.
+    pub drive: Drive,
     /// Joint limits, rad or m.
     pub limits: Option<[f64; 2]>,
     /// Where the row's numbers come from.
     pub source: Option<String>,
     /// The link as a beam from the previous frame's origin to this one's.
     pub beam: Option<Beam>,
+}
+
+/// Motor, gear and friction of a joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drive {
+    /// Turns of the motor per turn of the joint; rad/m of a prismatic joint. `None` is 1.
+    pub gear: Option<Value>,
+    /// Moment of inertia of all that turns with the motor, at the motor, kg·m².
+    pub rotor_inertia: Option<Value>,
+    /// Friction that knows the direction alone, at the joint: N·m, N of a prismatic joint.
+    pub coulomb: Option<Value>,
+    /// Friction in proportion to the rate, at the joint: N·m·s/rad, N·s/m of a prismatic joint.
+    pub viscous: Option<Value>,
 }
 
 /// A prismatic elastic beam.
@@ -269,9 +288,15 @@ impl Robot {
         self.joints.len()
     }
 
-    /// What is generated: the outputs that are asked for, each once, in the order of [`Output::EACH`].
+    /// What is generated, each output once, in the order of [`Output::EACH`]: what is asked for, or else
+    /// every output but those that are [on request](Output::is_on_request), those of dynamics where the file says of
+    /// some link more than its mass.
     pub fn generated(&self) -> Vec<Output> {
-        let asked = |output: &Output| self.outputs.is_empty() || self.outputs.contains(output);
+        let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
+        let asked = |output: &Output| match self.outputs.as_slice() {
+            [] => !output.is_on_request() && (moves || !output.depends_on(Part::Inertias)),
+            asked => asked.contains(output),
+        };
         Output::EACH.into_iter().filter(asked).collect()
     }
 }

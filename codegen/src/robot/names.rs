@@ -102,8 +102,12 @@ fn refused(name: &str) -> Option<(String, &'static str)> {
         let help = "a name is a letter, then letters, digits and `_`, without accents";
         return Some((format!("`{name}` cannot be a parameter's name"), help));
     }
-    let keyword = KEYWORDS.contains(&name);
-    keyword.then(|| (format!("`{name}` is a keyword of Rust"), help))
+    is_keyword(name).then(|| (format!("`{name}` is a keyword of Rust"), help))
+}
+
+/// Whether Rust means something else by a name.
+pub(crate) fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
 }
 
 /// The keywords of every edition of Rust, reserved ones included (The Rust Reference, 2.3).

@@ -19,6 +19,9 @@ macro_rules! scalar {
             fn sqrt(self) -> Self {
                 DualNum::sqrt(&self)
             }
+            fn sign(self) -> Self {
+                Scalar::sign(self.re()).into()
+            }
             fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
                 crate::scalar::each(angles, |angle| angle.sin_cos())
             }

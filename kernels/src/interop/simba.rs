@@ -55,6 +55,12 @@ impl<T: SimdRealField + Copy> Scalar for Field<T> {
     fn sqrt(self) -> Self {
         Field(self.0.simd_sqrt())
     }
+    fn sign(self) -> Self {
+        let (zero, one) = (T::zero(), T::one());
+        let above = one.select(self.0.simd_gt(zero), zero);
+        let below = one.select(self.0.simd_lt(zero), zero);
+        Field(above - below)
+    }
     fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
         crate::scalar::each(angles, |Field(angle)| {
             let (sine, cosine) = angle.simd_sin_cos();

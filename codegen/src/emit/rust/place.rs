@@ -4,7 +4,7 @@ use stiffarm_kernels::Form;
 
 use super::super::Functions;
 use super::RustOptions;
-use super::table::{angle, value};
+use super::table::{angle, listed, value};
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -78,4 +78,6 @@ fn imports(out: &mut Lines, robot: &Robot, options: &RustOptions, of: &Functions
     out.code(&format!("use {}::{{{imports}}};", options.kernels));
     let symbolic = if robot.symbols().is_empty() { "" } else { "Constants, Parameters, " };
     out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture}};"));
+    out.blank();
+    listed(out, &of.outputs);
 }

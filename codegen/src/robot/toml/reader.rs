@@ -7,7 +7,7 @@ use ::toml::de::{DeArray, DeValue};
 
 use super::super::dimension::Dimension;
 use super::super::draft::JointName;
-use super::super::draft::{Cell, Vector, broken};
+use super::super::draft::{Cell, INERTIA, Vector, broken};
 use super::super::frames::Asked;
 use super::super::lexeme::{Lexeme, lex};
 use super::super::model::{Angle, Motion, Spot, Value};
@@ -183,6 +183,14 @@ impl<'a> Reader<'a> {
     pub fn values(&mut self, value: &Node<'_>, dimension: Dimension) -> Vector<Value, At> {
         match self.array::<3>(value, "[x, y, z]") {
             Some(entries) => entries.map(|entry| self.value(entry, dimension)),
+            None => broken(&value.span()),
+        }
+    }
+
+    /// The six entries of a tensor of inertia.
+    pub fn inertia(&mut self, value: &Node<'_>) -> [Cell<Value, At>; 6] {
+        match self.array::<6>(value, INERTIA) {
+            Some(entries) => entries.map(|entry| self.value(entry, Dimension::Inertia)),
             None => broken(&value.span()),
         }
     }

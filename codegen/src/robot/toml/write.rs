@@ -4,7 +4,8 @@ use core::fmt::Write as _;
 
 use super::super::decimal;
 use super::super::model::{
-    Angle, Beam, Convention, Effect, Frame, Joint, Motion, NamedFrame, Quantity, Robot, Value,
+    Angle, Beam, Convention, Drive, Effect, Frame, Joint, Motion, NamedFrame, Quantity, Robot,
+    Value,
 };
 use super::super::pi::spell;
 
@@ -107,6 +108,21 @@ fn write_joint(text: &mut String, index: usize, joint: &Joint) -> core::fmt::Res
     if let Some(mass) = &joint.mass {
         writeln!(text, "mass = {}", value(mass))?;
         writeln!(text, "com = {}", list(joint.com.iter().map(value)))?;
+    }
+    if let Some(inertia) = &joint.inertia {
+        writeln!(text, "inertia = {}", list(inertia.iter().map(value)))?;
+    }
+    let Drive { gear, rotor_inertia, coulomb, viscous } = &joint.drive;
+    let drive = [
+        ("gear", gear),
+        ("rotor_inertia", rotor_inertia),
+        ("coulomb", coulomb),
+        ("viscous", viscous),
+    ];
+    for (key, number) in drive {
+        if let Some(number) = number {
+            writeln!(text, "{key} = {}", value(number))?;
+        }
     }
     if let Some(limits) = &joint.limits {
         writeln!(text, "limits = {}", list(limits.iter().map(|x| limit(joint.motion, *x))))?;
