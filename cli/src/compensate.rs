@@ -136,7 +136,7 @@ fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure
     };
     if !targets.kind.is_pose() {
         return refused(
-            "found no poses, expected x, y, z",
+            &format!("found {}, expected poses: x, y, z", targets.kind.measured().join(", ")),
             "a target is a place in the base frame",
         );
     }

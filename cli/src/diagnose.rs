@@ -4,11 +4,13 @@ mod accepted;
 mod check;
 mod compared;
 mod corrected;
+mod log;
 mod provenance;
 
 use std::path::PathBuf;
 
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 use stiffarm_gap::diagnose::{Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
@@ -37,23 +39,30 @@ Examples:
   stiffarm diagnose arm.toml run1.csv
   stiffarm diagnose arm.toml run1.csv --nuisance base_frame,tool_frame --noise-position 30um
   stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
+  stiffarm diagnose arm.toml run2.csv --compare run1.json --accept 0.2mm --report run2.html
+  stiffarm diagnose arm.toml log.csv --torque-side motor
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
-mz; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz]; and optionally pose, marker,
-s1 … sn, temperature, time, and your own simulator's sim_x … or sim_dx ….";
+mz, or a payload by name; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz] or a distance
+[from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, and your own
+simulator's sim_x … or sim_dx ….
 
-/// Why the real arm is not where the model says
+A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more.";
+
+/// Why the real arm is not where the model says, at rest or in motion
 ///
-/// The gap between robot file and measurements, which unmodelled effects cause it and how far it
-/// shrinks with them, judged on poses that no fit has seen.
+/// The gap between robot file and measurements, or a log of joint values with torques, currents or
+/// commands; which unmodelled effects cause it and how far it shrinks with them, judged on poses, or
+/// on time, that no fit has seen.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The measurement file (CSV)
-    data: PathBuf,
+    /// The measurement file (CSV), or a joint log of one or several files
+    #[arg(required = true)]
+    data: Vec<PathBuf>,
     /// What is known to be unknown, fitted along and never a finding: base_frame, tool_frame,
     /// geometry (zeros, lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]
@@ -110,6 +119,8 @@ pub struct Args {
     /// Write the diagnosis as one self-contained page
     #[arg(long, value_name = "OUT.html")]
     report: Option<Target>,
+    #[command(flatten)]
+    log: log::LogArgs,
 }
 
 /// The diagnosis as it is written.
@@ -137,12 +148,18 @@ struct Written<'a> {
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
+    let bytes = match log::files(args)? {
+        log::Files::Log(files) => return log::run(args, &source, &files, quiet),
+        log::Files::Measurements(bytes) => bytes,
+    };
     let options = args.options(&source)?;
     let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
     let tolerance = args.accept.as_ref().map(length).transpose()?;
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
-    let data = data::read(&args.data, &layout, quiet)?;
+    let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
+    let hash = Sha256::new_with_prefix(&bytes);
+    drop(bytes);
     let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
     if let Some(other) = &other {
@@ -156,7 +173,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
-    let made = Provenance::of(&args.data, &source.text)?;
+    let made = Provenance::of(&args.data[0], hash, &source.text)?;
     let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
     let compared = compared.transpose()?;
     let has_positions = data.kind.components()[..3].contains(&true);
@@ -254,6 +271,29 @@ impl Args {
             corrected.caveats().iter().for_each(|caveat| note(caveat, quiet));
         }
         Ok(())
+    }
+
+    /// The first option that is given and speaks of measurement files alone.
+    fn of_measurements(&self) -> Option<&'static str> {
+        [
+            (!self.nuisance.is_empty(), "--nuisance"),
+            (self.tolerance.is_some(), "--tolerance"),
+            (self.noise_position.is_some(), "--noise-position"),
+            (self.noise_rotation.is_some(), "--noise-rotation"),
+            (self.keep_all, "--keep-all"),
+            (self.folds.is_some(), "--folds"),
+            (self.nested, "--nested"),
+            (!self.rivals.is_empty(), "--rival"),
+            (self.check.is_some(), "--check"),
+            (self.write_robot.is_some(), "--write-robot"),
+            (self.write_urdf.is_some(), "--write-urdf"),
+            (self.write_mjcf.is_some(), "--write-mjcf"),
+            (self.accept.is_some(), "--accept"),
+            (self.compare.is_some(), "--compare"),
+            (self.report.is_some(), "--report"),
+        ]
+        .into_iter()
+        .find_map(|(given, name)| given.then_some(name))
     }
 
     fn options(&self, source: &Source) -> Result<Options, Failure> {

@@ -253,16 +253,18 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
         };
         size(rows.iter().zip(&to).enumerate().map(left).collect())
     };
-    let explained = |free: &[Nuisance]| 1.0 - (left(free) / before).powi(2);
-    if !along.is_empty() && explained(along) > NEARLY_ALL {
+    let explains = |left: f64| 1.0 - (left / before).powi(2);
+    let [base, tool] = [Nuisance::BaseFrame, Nuisance::ToolFrame];
+    if !along.is_empty() && explains(left(along)) > NEARLY_ALL {
         return None;
     }
-    let [base, tool] = [Nuisance::BaseFrame, Nuisance::ToolFrame];
-    let tried = [vec![base], vec![tool], vec![base, tool]];
-    let (part, free) = tried
-        .into_iter()
-        .map(|free| (explained(&free), free))
-        .find(|(part, _)| *part > NEARLY_ALL)?;
+    let tried = [vec![base], vec![tool], vec![base, tool]].map(|free| (left(&free), free));
+    let nearly: Vec<_> =
+        tried.into_iter().filter(|(left, _)| explains(*left) > NEARLY_ALL).collect();
+    // One frame is enough where what it leaves is not large in turn.
+    let enough = nearly.iter().find(|(left, _)| *left <= LARGE_GAP * reach);
+    let (left, free) = enough.or(nearly.first())?;
+    let part = explains(*left);
     let names: Vec<&str> = free.iter().map(|frame| frame.identifier()).collect();
     Some(format!(
         "{}: the gap is {} m, and the arm reaches {} m; a rigid motion of {} explains {:.1} % of it: is \

@@ -29,6 +29,8 @@ use crate::Scalar;
 ///
 /// Of forward dynamics: the mass matrix is not positive definite, as a joint moves no mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unstable;
 
 impl fmt::Display for Unstable {

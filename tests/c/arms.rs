@@ -17,6 +17,23 @@ stiffarm::robot! {
     pub mod framed from "tests/c/framed.toml";
 }
 
+stiffarm::robot! {
+    /// What is generated on request, beside what `all` needs.
+    pub mod by_joints from "tests/c/arm.toml";
+    outputs: pose, jacobian, complementary_stiffness, joint_torque, compliance, deflection, hessian,
+             jacobian_rate, compliance_by_joints, deflection_by_joints, manipulability,
+             manipulability_by_joints;
+}
+
+/// The outputs of the module above, as a robot file asks for them.
+macro_rules! on_request {
+    () => {
+        "outputs = ['pose', 'jacobian', 'complementary_stiffness', 'joint_torque', 'compliance', 'deflection', \
+         'hessian', 'jacobian_rate', 'compliance_by_joints', 'deflection_by_joints', 'manipulability', \
+         'manipulability_by_joints']\n"
+    };
+}
+
 /// What a fused function computes, output by output in its order, or that there is no equilibrium.
 pub type All<S> = Result<Vec<Vec<S>>, Error>;
 
@@ -60,6 +77,7 @@ macro_rules! arms {
         vec![
             $(arm!($id, stiffarm_robots::$id, toml(stringify!($id)), $scalar),)*
             arm!(various, various, include_str!("arm.toml"), $scalar),
+            arm!(by_joints, by_joints, concat!(on_request!(), include_str!("arm.toml")), $scalar),
             arm!(framed, framed, include_str!("framed.toml"), $scalar, elbow, camera, smr1),
         ]
     };
@@ -129,5 +147,5 @@ pub fn build<S: Scalar>(
     folder.write(&format!("{id}.h"), &files.header);
     folder.write(&format!("{id}.c"), &files.source);
     folder.write("main.c", &program(id, &robot, precision));
-    compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id]);
+    compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id, "-lm"]);
 }

@@ -7,6 +7,7 @@
 
 mod batch;
 mod boundary;
+mod by_joints;
 #[macro_use]
 mod compare;
 mod dual;

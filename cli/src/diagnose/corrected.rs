@@ -61,12 +61,12 @@ impl<'a> Corrections<'a> {
     pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
         let robot = &self.found().robot;
         let (written, lost, name) = match format {
-            Format::Urdf => (urdf(robot), lost_in_urdf(robot), "URDF"),
-            Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "MJCF"),
+            Format::Urdf => (urdf(robot), lost_in_urdf(robot), "a URDF"),
+            Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "an MJCF"),
         };
         let text = written.map_err(|error| Failure::new(error.to_string()))?;
         let sentence =
-            format!("a {name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
+            format!("{name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
         Ok((text, (!lost.is_empty()).then_some(sentence)))
     }
 

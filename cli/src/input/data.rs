@@ -30,7 +30,20 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
     let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-    told(from_bytes(path, &bytes, layout), quiet)
+    read_bytes(path, &bytes, layout, quiet)
+}
+
+/// The same of a file whose bytes are there.
+///
+/// # Errors
+/// [`Failure`]: its mistakes.
+pub fn read_bytes(
+    path: &Path,
+    bytes: &[u8],
+    layout: &Layout,
+    quiet: bool,
+) -> Result<Measurements, Failure> {
+    told(from_bytes(path, bytes, layout), quiet)
 }
 
 fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {

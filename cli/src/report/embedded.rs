@@ -145,10 +145,10 @@ fn parameters(report: &Report<'_>) -> Table {
 
 /// The frames that were fitted along.
 fn frames(report: &Report<'_>) -> Table {
-    let heads = ["frame", "x[m]", "y[m]", "z[m]", "rx[rad]", "ry[rad]", "rz[rad]"];
+    let heads = ["frame", "session", "x[m]", "y[m]", "z[m]", "rx[rad]", "ry[rad]", "rz[rad]"];
     let mut table = Table::new(&heads);
     for frame in &report.found.nuisances {
-        let mut row = vec![frame.name.as_str().into()];
+        let mut row = vec![frame.name.as_str().into(), frame.session.clone().into()];
         row.extend(frame.translation.into_iter().chain(frame.rotation).map(number));
         table.rows.push(row);
     }

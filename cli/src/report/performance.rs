@@ -35,7 +35,7 @@ pub fn figures(report: &Report<'_>) -> Figures {
     ];
     let [least, most] = found.visits;
     let visits = if least == most { format!("{least}") } else { format!("{least} to {most}") };
-    let poses = if found.poses == 1 { "pose" } else { "poses" };
+    let poses = if found.poses == 1 { "pose and load" } else { "poses and loads" };
     let asked = match found.is_standard() {
         true => "as many as the standard asks for".to_owned(),
         false => format!("the standard asks for {POSES} poses and {VISITS} visits"),

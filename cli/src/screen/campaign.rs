@@ -102,8 +102,11 @@ impl Screen<'_> {
 
     pub(super) fn campaigns(&self) -> String {
         let Some(compared) = self.compared else { return String::new() };
-        let lines: Vec<String> =
-            self.changes().iter().map(|line| wrapped(line, WIDTH - 2, 2)).collect();
+        let lines: Vec<String> = self
+            .changes()
+            .iter()
+            .map(|line| wrapped(line, WIDTH - 2, 2).trim_end().to_owned())
+            .collect();
         format!(
             "\n{}  since {}, then → now\n{}\n",
             bold("Changed"),

@@ -4,12 +4,14 @@ mod campaign;
 mod effect;
 mod finding;
 mod hidden;
+mod log;
 mod notes;
 mod sentence;
 mod size;
 mod unit;
 mod words;
 
+pub use log::text as log_text;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;

@@ -58,8 +58,11 @@ impl Way {
     }
 }
 
-/// The cheapest way for each set: every frame is laid out once, with all outputs in it.
+/// The cheapest way for each set: every frame is laid out once, with all outputs in it. A long derivative is
+/// worked out where what is differentiated costs least.
 fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
+    let like = |set: &&[Output]| set.iter().map(|output| output.worked_out_like()).collect();
+    let sets: Vec<Vec<Output>> = sets.iter().map(like).collect();
     // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
     let own: Vec<bool> =
         sets.iter().map(|set| set.iter().all(|output| output.is_of_motion())).collect();
@@ -73,7 +76,7 @@ fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
     cheapest(robot, sets.len(), passes, |way| {
         let laid_out = derive_by(robot, &wanted, way);
         let free = laid_out.graph.parameter_only();
-        let cost = |(set, own): (&&[Output], &bool)| match own {
+        let cost = |(set, own): (&Vec<Output>, &bool)| match own {
             true => 0,
             false => laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost(),
         };

@@ -46,6 +46,11 @@ fn shape(output: Output, n: usize, order: &str) -> String {
             format!("{rows}×{columns}: {}.", sides(&parts, output.columns()))
         }
         Form::Matrix => format!("{rows}×{columns}{order}: {}.", sides(&parts, output.columns())),
+        Form::Stack => {
+            let each = output.columns().each().count(n);
+            let order = order.replace("[column]", "[joint][column]");
+            format!("{n} of {rows}×{each}{order}: {}.", sides(&parts, output.columns()))
+        }
     }
 }
 

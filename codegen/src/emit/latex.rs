@@ -143,6 +143,10 @@ fn place(output: Output, n: usize, entry: usize) -> String {
         Form::Poses => pose(column % 4, &(column / 4 + 1).to_string()),
         Form::Vector => format!("[{symbol}]_{{{i}}}"),
         Form::Matrix => format!("[{symbol}]_{{{i}{comma}{j}}}"),
+        Form::Stack => {
+            let each = output.columns().each().count(n);
+            format!("[{symbol}_{{{}}}]_{{{i}{comma}{}}}", column / each + 1, column % each + 1)
+        }
     }
 }
 

@@ -67,6 +67,10 @@ fn ty(output: Output) -> TokenStream {
         Form::Poses => quote!([Pose<S>; M]),
         Form::Vector => quote!([S; #rows]),
         Form::Matrix => quote!([[S; #rows]; #columns]),
+        Form::Stack => {
+            let each = size(output.columns().each(), &quote!(M), &quote!(N));
+            quote!([[[S; #rows]; #each]; M])
+        }
     }
 }
 
@@ -74,6 +78,7 @@ fn ty(output: Output) -> TokenStream {
 fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
     match (side, side.count(0), side.count(1)) {
         (Side::Joints, ..) => joints.clone(),
+        (Side::JointsByJoints, ..) => quote!(#joints * #joints),
         (_, none, one) if none == one => quote!(#one),
         (_, none, one) => {
             let slope = one - none;

@@ -5,6 +5,11 @@ use super::graph::{Expr, Graph, Node, Symbol};
 impl Graph {
     /// `∂e/∂symbol` of each expression, shared subexpressions differentiated once.
     pub fn derivative(&mut self, outputs: &[Expr], symbol: &Symbol) -> Vec<Expr> {
+        self.slopes(outputs, |of| if of == symbol { Expr::ONE } else { Expr::ZERO })
+    }
+
+    /// The derivative of each expression along a direction: `along` tells how fast each symbol changes.
+    pub fn slopes(&mut self, outputs: &[Expr], along: impl Fn(&Symbol) -> Expr) -> Vec<Expr> {
         let last = outputs.iter().map(|e| e.node()).max().unwrap_or(0);
         let mut slopes: Vec<Expr> = Vec::with_capacity(last + 1);
         for at in 0..=last {
@@ -13,8 +18,7 @@ impl Graph {
             let slope = |e: Expr| slopes[e.node()].signed(e.is_negative());
             let d = match node {
                 Node::Number(_) => Expr::ZERO,
-                Node::Symbol(s) if self.symbol_of(s) == symbol => Expr::ONE,
-                Node::Symbol(_) => Expr::ZERO,
+                Node::Symbol(s) => along(self.symbol_of(s)),
                 Node::Add(a, b) => {
                     let (da, db) = (slope(a), slope(b));
                     self.add(da, db)

@@ -288,11 +288,12 @@ impl Robot {
     }
 
     /// What is generated, each output once, in the order of [`Output::EACH`]: what is asked for, or else
-    /// every output, those of dynamics where the file says of some link more than its mass.
+    /// every output but those that are [on request](Output::is_on_request), those of dynamics where the file says of
+    /// some link more than its mass.
     pub fn generated(&self) -> Vec<Output> {
         let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
         let asked = |output: &Output| match self.outputs.as_slice() {
-            [] => moves || !output.is_of_motion(),
+            [] => !output.is_on_request() && (moves || !output.is_of_motion()),
             asked => asked.contains(output),
         };
         Output::EACH.into_iter().filter(asked).collect()

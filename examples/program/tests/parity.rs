@@ -2,10 +2,9 @@
 //! and in every kind of number; in C bit for bit.
 
 use core::fmt::Write as _;
-use core::ops::{Add, Mul, Neg, Sub};
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use num_dual::{Dual64, DualNum};
+use num_dual::Dual64;
 use stiffarm_codegen::emit::{COptions, Precision, Sines};
 use stiffarm_codegen::program::{Function, Module};
 use stiffarm_codegen::robot::Robot;
@@ -136,9 +135,9 @@ fn the_clearance_is_a_points_distance_and_its_gradient_that_of_dual_numbers() {
         let distance = corner.coords.dot(&Vector3::from(case.normal)) - case.height;
         let mut expected = vec![distance];
         for joint in 0..6 {
-            let mut q = case.q.map(Dual::lit);
-            q[joint].0.eps = 1.0;
-            expected.push(clearance(&case, &q)[0].0.eps);
+            let mut q = case.q.map(Dual64::lit);
+            q[joint].eps = 1.0;
+            expected.push(clearance(&case, &q)[0].eps);
         }
         assert_near(&clearance(&case, &case.q), &expected, ROUNDED);
     }
@@ -157,12 +156,12 @@ fn the_height_is_that_of_the_turned_tool_and_its_slopes_those_of_dual_numbers() 
             let mut values = [case.q.as_slice(), &[roll, pitch]]
                 .concat()
                 .into_iter()
-                .map(Dual::lit)
+                .map(Dual64::lit)
                 .collect::<Vec<_>>();
-            values[k].0.eps = 1.0;
+            values[k].eps = 1.0;
             let (q, attitude) = values.split_at(6);
             let q = q.try_into().expect("six");
-            *slope = kr240::height(q, &[attitude[0], attitude[1]]).height.0.eps;
+            *slope = kr240::height(q, &[attitude[0], attitude[1]]).height.eps;
         }
         let got = [&[found.height][..], &found.by_joints, &found.by_attitude].concat();
         assert_near(&got, &[&[turned.z][..], &slopes].concat(), ROUNDED);
@@ -316,58 +315,5 @@ fn c_has_the_bits_of_rust() {
         let rust = [height, hand_eye::<f64>(&case), clearance(&case, &case.q)].concat();
         let bits: Vec<String> = rust.iter().map(|x| format!("{:x}", x.to_bits())).collect();
         assert_eq!(line.trim_end(), bits.join(" "));
-    }
-}
-
-/// num-dual's number as a scalar of kernels.
-#[derive(Clone, Copy)]
-struct Dual(Dual64);
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Dual(self.0 + other.0)
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Dual(self.0 - other.0)
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Dual(self.0 * other.0)
-    }
-}
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Dual(-self.0)
-    }
-}
-
-impl Scalar for Dual {
-    fn lit(x: f64) -> Self {
-        Dual(Dual64::from(x))
-    }
-    fn recip(self) -> Self {
-        Dual(self.0.recip())
-    }
-    fn sqrt(self) -> Self {
-        Dual(self.0.sqrt())
-    }
-    fn sign(self) -> Self {
-        Dual(Dual64::from(f64::from(self.0.re > 0.0) - f64::from(self.0.re < 0.0)))
-    }
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        (angles.map(|a| Dual(a.0.sin())), angles.map(|a| Dual(a.0.cos())))
-    }
-    fn is_positive(self) -> bool {
-        self.0.re > 0.0
     }
 }

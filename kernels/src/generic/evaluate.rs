@@ -6,11 +6,12 @@ use nalgebra::Vector6;
 
 use super::arm::Arm;
 use super::textbook::Textbook;
-use super::{deflection, dynamics, jacobian, kinematics, parameters, stiffness, weight};
+use super::{by_joints, deflection, dynamics, jacobian, kinematics, parameters, stiffness, weight};
 use crate::{Output, Unstable};
 
 /// By output, from the tables beside the definitions; an output without one does not compile.
 const TEXTBOOK: [Textbook; Output::EACH.len()] = Output::one_each(&[
+    by_joints::TEXTBOOK,
     deflection::TEXTBOOK,
     dynamics::TEXTBOOK,
     jacobian::TEXTBOOK,

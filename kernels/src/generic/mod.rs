@@ -41,6 +41,7 @@
 
 mod arm;
 mod beam;
+mod by_joints;
 mod deflection;
 mod dynamics;
 mod evaluate;

@@ -105,6 +105,17 @@ impl Output {
         self.parts().contains(&part)
     }
 
+    /// Whether it is generated only where it is asked for by its name: derivatives by the joints, which make the text of an
+    /// arm with springs nearly twice as long.
+    pub const fn is_on_request(self) -> bool {
+        self.on_request().is_some()
+    }
+
+    /// The output in whose cheapest frame it is worked out: of a long derivative what is differentiated, else itself.
+    pub fn worked_out_like(self) -> Output {
+        self.on_request().unwrap_or(self)
+    }
+
     /// Rows and columns for an arm of `n` joints.
     pub const fn shape(self, n: usize) -> (usize, usize) {
         (self.rows().count(n), self.columns().count(n))
@@ -116,6 +127,7 @@ impl Output {
             Side::Frame => Form::Pose,
             Side::Frames => Form::Poses,
             Side::One => Form::Vector,
+            Side::JointsByJoints | Side::WrenchByJoints => Form::Stack,
             _ => Form::Matrix,
         }
     }

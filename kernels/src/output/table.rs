@@ -19,11 +19,15 @@ macro_rules! outputs {
             parts: [$($part:ident),*],
             fallible: $fallible:tt,
             fused: $fused:literal,
+            $(on_request: $like:ident,)?
         }
     )+) => {
         /// The quantities that a robot module computes; [`Kernels::evaluate`](crate::Kernels::evaluate)
         /// writes each as one column-major block of [`Output::shape`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
         #[non_exhaustive]
         pub enum Output {
             $(
@@ -100,6 +104,16 @@ macro_rules! outputs {
             }
         }
 
+        impl Output {
+            /// Of an output that is generated on request the one in whose working frame it is worked out.
+            pub(super) const fn on_request(self) -> Option<Output> {
+                match self {
+                    $($(Output::$output => Some(Output::$like),)?)+
+                    _ => None,
+                }
+            }
+        }
+
         /// A trait for each output, implemented by the arms whose modules were generated with it: what asks for an
         /// output that an arm does not have does not compile.
         pub mod has {
@@ -124,6 +138,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     Frames {
         name: frames,
@@ -137,6 +152,7 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Jacobian {
         name: jacobian,
@@ -150,6 +166,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     JacobianTool {
         name: jacobian_tool,
@@ -163,6 +180,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     JacobianSpatial {
         name: jacobian_spatial,
@@ -177,6 +195,7 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     ComplementaryStiffness {
         name: complementary_stiffness,
@@ -191,6 +210,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     JointTorque {
         name: joint_torque,
@@ -204,6 +224,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     WeightTorque {
         name: weight_torque,
@@ -218,6 +239,7 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     WeightStiffness {
         name: weight_stiffness,
@@ -232,6 +254,7 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Compliance {
         name: compliance,
@@ -245,6 +268,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: true,
+        on_request: false,
     }
     DeflectionFirstOrder {
         name: deflection_first_order,
@@ -259,6 +283,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Deflection {
         name: deflection,
@@ -273,6 +298,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: true,
         fused: true,
+        on_request: false,
     }
     DeflectionWithGravity {
         name: deflection_with_gravity,
@@ -287,6 +313,7 @@ outputs! {
         parts: [Tool, Stiffness, Beams, Weights],
         fallible: true,
         fused: false,
+        on_request: false,
     }
     ParameterJacobian {
         name: parameter_jacobian,
@@ -300,6 +327,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     ComplianceRegressor {
         name: compliance_regressor,
@@ -314,6 +342,7 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     InverseDynamics {
         name: inverse_dynamics,
@@ -328,6 +357,7 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     Bias {
         name: bias,
@@ -342,6 +372,7 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
     }
     MassMatrix {
         name: mass_matrix,
@@ -355,6 +386,93 @@ outputs! {
         parts: [Inertias],
         fallible: false,
         fused: false,
+        on_request: false,
+    }
+    Hessian {
+        name: hessian,
+        sentence: "Kinematic Hessian: how the geometric Jacobian, base axes, at the tool origin, changes by each joint.",
+        formula: "H_i = ∂J/∂q_i",
+        source: "Haviland & Corke 2023, part 2",
+        symbol: "H",
+        rows: Twist ["m/rad² (a prismatic joint: m/rad)", "rad/rad²"],
+        columns: JointsByJoints,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: Hessian,
+    }
+    JacobianRate {
+        name: jacobian_rate,
+        sentence: "Rate of the geometric Jacobian, base axes, at the tool origin: the tool accelerates by J q̈ + J̇ q̇.",
+        formula: "J̇ = Σ_i ∂J/∂q_i q̇_i",
+        source: "",
+        symbol: "\\dot{J}",
+        rows: Twist ["m/(rad s) (prismatic joint: 1/s)", "1/s"],
+        columns: Joints,
+        inputs: [Joints, Rates],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: JacobianRate,
+    }
+    ComplianceByJoints {
+        name: compliance_by_joints,
+        sentence: "How the compliance of the tool, base axes, at the tool origin, changes by each joint.",
+        formula: "∂C/∂q_i",
+        source: "",
+        symbol: "\\partial C",
+        rows: Twist ["m/N and m/(N·m), per rad (prismatic joint: m)", "rad/N and rad/(N·m), per rad (m)"],
+        columns: WrenchByJoints,
+        inputs: [Joints],
+        parts: [Tool, Stiffness, Beams],
+        fallible: false,
+        fused: false,
+        on_request: Compliance,
+    }
+    DeflectionByJoints {
+        name: deflection_by_joints,
+        sentence: "How the displacement of the tool under the wrench, base axes, at the tool origin, changes by each \
+                   joint, with the stiffness of the loaded geometry.",
+        formula: "∂δd/∂q_i, of J x with (K_θ − K_C) ∂x/∂q_i = ∂τ/∂q_i + ∂K_C/∂q_i x",
+        source: "",
+        symbol: "\\partial \\delta d",
+        rows: Twist ["m/rad (prismatic joint: 1)", "rad/rad (prismatic joint: rad/m)"],
+        columns: Joints,
+        inputs: [Joints, Wrench],
+        parts: [Tool, Stiffness, Beams],
+        fallible: true,
+        fused: false,
+        on_request: Deflection,
+    }
+    Manipulability {
+        name: manipulability,
+        sentence: "Manipulability at the tool origin: the product of the Jacobian's singular values, zero where the tool \
+                   cannot move in some direction.",
+        formula: "w = √det(J Jᵀ); of fewer than six joints √det(Jᵀ J)",
+        source: "Yoshikawa 1985",
+        symbol: "w",
+        rows: One ["m per rad for each singular value of a translation"],
+        columns: One,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: Manipulability,
+    }
+    ManipulabilityByJoints {
+        name: manipulability_by_joints,
+        sentence: "Gradient of the manipulability by the joints; zero at a singular posture, where there is none.",
+        formula: "∂w/∂q_i = w tr(J⁺ ∂J/∂q_i)",
+        source: "Haviland & Corke 2023, part 2",
+        symbol: "\\partial w",
+        rows: Joints ["that of the manipulability, per rad (prismatic joint: m)"],
+        columns: One,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: Manipulability,
     }
     ForwardDynamics {
         name: forward_dynamics,
@@ -368,6 +486,7 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: true,
         fused: false,
+        on_request: false,
     }
     TorqueRegressor {
         name: torque_regressor,
@@ -383,5 +502,6 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
+        on_request: false,
     }
 }

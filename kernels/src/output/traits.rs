@@ -10,6 +10,8 @@ macro_rules! value {
     (false [Joints One] $S:ident $N:ident) => { [$S; $N] };
     (false [Twist Wrench] $S:ident $N:ident) => { [[$S; 6]; 6] };
     (false [Twist Joints] $S:ident $N:ident) => { [[$S; 6]; $N] };
+    (false [Twist JointsByJoints] $S:ident $N:ident) => { [[[$S; 6]; $N]; $N] };
+    (false [Twist WrenchByJoints] $S:ident $N:ident) => { [[[$S; 6]; 6]; $N] };
     (false [Joints Joints] $S:ident $N:ident) => { [[$S; $N]; $N] };
 }
 

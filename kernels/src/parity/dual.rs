@@ -42,6 +42,8 @@ pub struct Derivatives {
     weight_torque: Vec<f64>,
     weight_stiffness: Vec<f64>,
     parameter_jacobian: Vec<f64>,
+    /// By the joint differentiated by, column by column.
+    hessian: Vec<[f64; 6]>,
 }
 
 impl Derivatives {
@@ -58,6 +60,7 @@ impl Derivatives {
             weight_torque: vec![0.0; n],
             weight_stiffness: vec![0.0; n * n],
             parameter_jacobian: parameter_jacobian(arm, q),
+            hessian: vec![[0.0; 6]; n * n],
         };
         for i in 0..n {
             for j in 0..=i {
@@ -89,6 +92,7 @@ impl Derivatives {
             Output::WeightTorque => self.weight_torque.clone(),
             Output::WeightStiffness => self.weight_stiffness.clone(),
             Output::ParameterJacobian => self.parameter_jacobian.clone(),
+            Output::Hessian => self.hessian.concat(),
             _ => return None,
         })
     }
@@ -110,15 +114,17 @@ impl Derivatives {
         let part = |of: fn(&HyperDual64) -> f64| tool.map(|row| row.map(|x| of(&x)));
         let (r, by_j, by_i) = (part(|x| x.re), part(|x| x.eps1), part(|x| x.eps2));
         let both = part(|x| x.eps1eps2);
-        // K_C at row `of`, column `by`: f · ∂²p + m · vee(∂²R Rᵀ + ∂_of R (∂_by R)ᵀ).
+        // How the column of joint `of` changes by joint `by`: ∂²p and vee(∂²R Rᵀ + ∂_of R (∂_by R)ᵀ). K_C is that
+        // times the wrench, at row `of`, column `by`.
         let curved = origin(&both);
-        let entry = |of: &Frame<f64>, by: &Frame<f64>| {
-            let (own, cross) = (vee(&both, &r), vee(of, by));
+        for ([of, by], [of_slope, by_slope]) in [([j, i], [&by_j, &by_i]), ([i, j], [&by_i, &by_j])]
+        {
+            let (own, cross) = (vee(&both, &r), vee(of_slope, by_slope));
             let spin: [f64; 3] = std::array::from_fn(|k| own[k] + cross[k]);
-            dot(&w[..3], &curved) + dot(&w[3..], &spin)
-        };
-        self.complementary_stiffness[i * n + j] = entry(&by_j, &by_i);
-        self.complementary_stiffness[j * n + i] = entry(&by_i, &by_j);
+            let column = [curved[0], curved[1], curved[2], spin[0], spin[1], spin[2]];
+            self.hessian[by * n + of] = column;
+            self.complementary_stiffness[by * n + of] = dot(&column, w);
+        }
         let energy = energy(arm, &frames);
         self.weight_stiffness[i * n + j] = energy.eps1eps2;
         self.weight_stiffness[j * n + i] = energy.eps1eps2;

@@ -14,7 +14,7 @@ pub(super) const DERIVED: &[(Output, Derivation)] = &[
 ];
 
 /// 6×n, base axes, at the tool origin.
-fn jacobian(chain: &mut Chain) -> Derived {
+pub(super) fn jacobian(chain: &mut Chain) -> Derived {
     let twists = base_twists(chain);
     flatten(twists).into()
 }

@@ -15,6 +15,8 @@ enum Shape {
     Scalar,
     Vector(usize),
     Matrix(usize, usize),
+    /// Rows, columns of each, how many.
+    Stack(usize, usize, usize),
 }
 
 fn shape(held: &Held, n: usize) -> Shape {
@@ -25,6 +27,7 @@ fn shape(held: &Held, n: usize) -> Shape {
             Form::Poses => Shape::Poses(n),
             Form::Vector => Shape::Vector(rows),
             Form::Matrix => Shape::Matrix(rows, columns),
+            Form::Stack => Shape::Stack(rows, output.columns().each().count(n), n),
         },
         Held::Own(quantity) => match quantity.size {
             Size::Scalar => Shape::Scalar,
@@ -42,6 +45,7 @@ pub(super) fn ty(held: &Held, n: usize) -> String {
         Shape::Scalar => "S".to_string(),
         Shape::Vector(rows) => format!("[S; {rows}]"),
         Shape::Matrix(rows, columns) => format!("[[S; {rows}]; {columns}]"),
+        Shape::Stack(rows, columns, n) => format!("[[[S; {rows}]; {columns}]; {n}]"),
     }
 }
 
@@ -54,6 +58,7 @@ pub(super) fn zero(held: &Held, n: usize) -> String {
         Shape::Scalar => "zero".to_string(),
         Shape::Vector(rows) => format!("[zero; {rows}]"),
         Shape::Matrix(rows, columns) => format!("[[zero; {rows}]; {columns}]"),
+        Shape::Stack(rows, columns, n) => format!("[[[zero; {rows}]; {columns}]; {n}]"),
     }
 }
 
@@ -71,6 +76,7 @@ pub(super) fn place(held: &Held, n: usize, entry: usize) -> String {
         Shape::Scalar => String::new(),
         Shape::Vector(_) => format!("[{row}]"),
         Shape::Matrix(..) => format!("[{column}][{row}]"),
+        Shape::Stack(_, each, _) => format!("[{}][{}][{row}]", column / each, column % each),
     }
 }
 
@@ -81,5 +87,6 @@ pub(super) fn flat(output: Output, value: &str) -> String {
         Form::Poses => format!("{value}.map(Pose::columns).as_flattened().as_flattened()"),
         Form::Vector => format!("&{value}"),
         Form::Matrix => format!("{value}.as_flattened()"),
+        Form::Stack => format!("{value}.as_flattened().as_flattened()"),
     }
 }

@@ -42,6 +42,7 @@ macro_rules! arm {
             see(Ok($arm::frames(&q).map(|f| f.columns()).as_flattened().as_flattened()));
             see(Ok($arm::jacobian(&q).as_flattened()));
             see(Ok($arm::jacobian_tool(&q).as_flattened()));
+            see(Ok($arm::jacobian_spatial(&q).as_flattened()));
             see(Ok($arm::complementary_stiffness(&q, &w).as_flattened()));
             see(Ok(&$arm::joint_torque(&q, &w)));
             see(Ok(&$arm::weight_torque(&q)));
