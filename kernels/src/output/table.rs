@@ -138,7 +138,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
-        on_request: false,
     }
     Frames {
         name: frames,
@@ -152,7 +151,6 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     Jacobian {
         name: jacobian,
@@ -166,7 +164,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
-        on_request: false,
     }
     JacobianTool {
         name: jacobian_tool,
@@ -180,7 +177,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     JacobianSpatial {
         name: jacobian_spatial,
@@ -195,7 +191,6 @@ outputs! {
         parts: [],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     ComplementaryStiffness {
         name: complementary_stiffness,
@@ -210,7 +205,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
-        on_request: false,
     }
     JointTorque {
         name: joint_torque,
@@ -224,7 +218,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: true,
-        on_request: false,
     }
     WeightTorque {
         name: weight_torque,
@@ -239,7 +232,6 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     WeightStiffness {
         name: weight_stiffness,
@@ -254,7 +246,6 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     Compliance {
         name: compliance,
@@ -268,7 +259,6 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: true,
-        on_request: false,
     }
     DeflectionFirstOrder {
         name: deflection_first_order,
@@ -283,7 +273,6 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     Deflection {
         name: deflection,
@@ -298,7 +287,6 @@ outputs! {
         parts: [Tool, Stiffness, Beams],
         fallible: true,
         fused: true,
-        on_request: false,
     }
     DeflectionWithGravity {
         name: deflection_with_gravity,
@@ -313,7 +301,6 @@ outputs! {
         parts: [Tool, Stiffness, Beams, Weights],
         fallible: true,
         fused: false,
-        on_request: false,
     }
     ParameterJacobian {
         name: parameter_jacobian,
@@ -327,7 +314,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     ComplianceRegressor {
         name: compliance_regressor,
@@ -342,7 +328,6 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     InverseDynamics {
         name: inverse_dynamics,
@@ -357,7 +342,6 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     Bias {
         name: bias,
@@ -372,7 +356,6 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     MassMatrix {
         name: mass_matrix,
@@ -386,7 +369,6 @@ outputs! {
         parts: [Inertias],
         fallible: false,
         fused: false,
-        on_request: false,
     }
     Hessian {
         name: hessian,
@@ -486,7 +468,6 @@ outputs! {
         parts: [Weights, Inertias],
         fallible: true,
         fused: false,
-        on_request: false,
     }
     TorqueRegressor {
         name: torque_regressor,
@@ -502,6 +483,5 @@ outputs! {
         parts: [Weights],
         fallible: false,
         fused: false,
-        on_request: false,
     }
 }
