@@ -101,17 +101,19 @@ impl Scene<'_> {
         ways
     }
 
-    /// Rows that count, of each joint: no contact, and for torques no standstill, where friction takes any
+    /// Rows that count, of each joint: away from the ends of the filters, no contact, and for torques no standstill, where friction takes any
     /// value up to Coulomb's.
     pub fn rows(&self) -> Vec<Vec<bool>> {
         let touches = self.signals.kept(&self.signals.contact);
+        let free = self.signals.settled().into_iter().zip(touches).map(|(s, touch)| s && !touch);
+        let free: Vec<bool> = free.collect();
         let counts = |joint: usize| {
             let speeds = self.signals.kept(&self.signals.qd[joint]);
             let moves = |speed: f64| speed.abs() > self.still[joint];
             speeds
                 .into_iter()
-                .zip(&touches)
-                .map(|(speed, touch)| !touch && (self.domain == Domain::Position || moves(speed)))
+                .zip(&free)
+                .map(|(speed, free)| *free && (self.domain == Domain::Position || moves(speed)))
                 .collect()
         };
         (0..self.signals.joints()).map(counts).collect()

@@ -41,15 +41,16 @@ fn delay_droop_and_play_are_told_apart() {
         finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}")).parameters[0].value
     };
     assert_eq!(found.findings[0].effect, "latency", "{found:#?}");
-    // Where the joint stands between its teeth the effect holds the last way, or turns early: a few
-    // hundredths of the time, and of the numbers.
-    for (effect, place, expected) in [
-        ("latency", "the interface", DELAY),
-        ("servo_droop", "joint 1", COMPLIANCE),
-        ("backlash", "joint 2", HALF_WIDTH),
+    // At a reversal the joint stands until it meets the other tooth, where the effect is still the last
+    // way's: about 0.2 s (the root of four half widths over 0.8 rad/s²) of every 2 s.
+    for (effect, place, expected, part) in [
+        ("latency", "the interface", DELAY, 0.02),
+        ("servo_droop", "joint 1", COMPLIANCE, 0.02),
+        ("backlash", "joint 2", HALF_WIDTH, 0.15),
     ] {
         let value = value(effect, place);
-        assert!((value / expected - 1.0).abs() < 0.05, "{effect}: {value}: {found:#?}");
+        assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");
     }
-    assert!(found.findings.len() <= 4, "{found:#?}");
+    // What else is told is of those reversals: the three leave next to nothing.
+    assert!(found.findings[2].held_out_after < 0.05, "{found:#?}");
 }

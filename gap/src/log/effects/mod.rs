@@ -4,7 +4,6 @@ mod backlash;
 mod coulomb_friction;
 mod friction_curve;
 mod joint_coupling;
-mod joint_offset;
 mod latency;
 mod load_friction;
 mod rotor_inertia;
@@ -115,7 +114,7 @@ pub trait LogEffect: Sync {
 }
 
 /// All that are known, in the order in which `stiffarm` lists them.
-pub static CATALOGUE: [&dyn LogEffect; 15] = [
+pub static CATALOGUE: [&dyn LogEffect; 14] = [
     &coulomb_friction::CoulombFriction,
     &viscous_friction::ViscousFriction,
     &friction_curve::FrictionCurve,
@@ -130,7 +129,6 @@ pub static CATALOGUE: [&dyn LogEffect; 15] = [
     &tracking_lag::TrackingLag,
     &servo_droop::ServoDroop,
     &backlash::Backlash,
-    &joint_offset::JointOffset,
 ];
 
 /// The catalogue as a table in Markdown, as it stands in `docs/logs.md`.
