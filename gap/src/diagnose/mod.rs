@@ -46,13 +46,16 @@ pub use report::{
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
-use data::{Folds, Problem};
+use data::{Folds, Precision, Problem};
 use fit::Model;
 use search::Search;
 use sums::Candidate;
 
 /// Rounds of explaining and of leaving out what does not fit: after two of them hardly a row changes.
 const MOST_ROUNDS: usize = 4;
+
+/// Precisions of rows that change by less than this part have settled.
+const SAME_PRECISION: f64 = 0.05;
 
 /// A diagnosis, and the models before and after it.
 pub struct Diagnosed {
@@ -88,6 +91,7 @@ pub fn diagnose_with(
     progress(Stage::Align);
     let effects = options.effects()?;
     let mut problem = Problem::new(arm, data, options)?;
+    problem.precision = Precision::of(data);
     let folds = Folds::deal(data, options)?;
     enough_rows(&problem, &folds)?;
     let compared: Vec<_> = options
@@ -97,19 +101,24 @@ pub fn diagnose_with(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let model = fit::aligned(&problem)?;
-    let (mut known, mut left_out) = (None, Vec::new());
+    let (mut known, mut left_out, mut round) = (None, Vec::new(), 0);
     let looked = loop {
         let search =
             Search { problem: &problem, folds: &folds, candidates: &candidates, options, progress };
         let looked = search.look(&effects, &model, known)?;
-        let (fits, out) = search.fitting(&looked.explained)?;
-        let settled = fits == problem.fits || left_out.len() == MOST_ROUNDS;
-        if settled || options.keep_all || search.stopped() {
+        let (fits, out, precision) = search.fitting(&looked.explained)?;
+        let fit = options.keep_all || fits == problem.fits;
+        let settled = fit && precision.is_near(&problem.precision, SAME_PRECISION);
+        if settled || round == MOST_ROUNDS || search.stopped() {
             break looked;
         }
+        round += 1;
         known = Some(looked.explained.fit.model);
-        problem.fits = fits;
-        left_out.push(out);
+        problem.precision = precision;
+        if !fit {
+            problem.fits = fits;
+            left_out = out;
+        }
     };
     if !looked.is_there {
         candidates.clear();
@@ -142,7 +151,7 @@ pub fn diagnose_with(
         cannot_see: looked.cannot_see,
         unexplained,
         gauge: looked.gauge,
-        left_out: left_out.pop().unwrap_or_default(),
+        left_out,
         parts: looked.parts,
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),

@@ -154,9 +154,22 @@ pub struct NoiseReport {
     pub position_rms: f64,
     /// Root mean square of the norm over the measured rotations, rad.
     pub rotation_rms: f64,
-    /// `repeats`, `option` or `residual`: of the positions, or of the rotations if there are no
-    /// positions.
+    /// `repeats`, `columns` (the file's own standard deviations), `option` or `residual`: of the
+    /// positions, or of the rotations if there are no positions.
     pub from: &'static str,
+    /// The same of the positions, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position_from: Option<&'static str>,
+    /// The same of the rotations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_from: Option<&'static str>,
+    /// The part of the positions' noise that comes and goes with visits: the arm's repeatability,
+    /// root mean square, m; only where poses were read more than once and visited again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visits_position_rms: Option<f64>,
+    /// The same of the rotations, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visits_rotation_rms: Option<f64>,
 }
 
 /// What a place alone explains.

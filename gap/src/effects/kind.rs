@@ -7,7 +7,7 @@ pub const MOST_ORDERS: usize = 1000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Forms {
-    /// There is one, 0.
+    /// There is one, 0, or there are others that leave out some of its numbers.
     One,
     /// The other joints, from 0.
     Joints,

@@ -4,6 +4,8 @@ use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
+use super::precision::Precision;
+use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
@@ -41,6 +43,9 @@ pub(crate) struct Problem<'a> {
     pub(crate) constants: Vec<Vec<usize>>,
     /// Whether a row is fitted and counted; the gaps of others are 0.
     pub(crate) fits: Vec<bool>,
+    /// How precise each row is beside the others.
+    pub(crate) precision: Precision,
+    pub(crate) visits: Visits,
     /// What the arm of the robot file reads in its own base frame; where the file has the user's
     /// own simulator only.
     pub(crate) nominal: Option<Vec<Reading>>,
@@ -118,6 +123,8 @@ impl<'a> Problem<'a> {
             marker_of,
             constants: Vec::new(),
             fits: vec![true; data.rows.len()],
+            precision: Precision::default(),
+            visits: Visits::of(data),
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
@@ -133,6 +140,17 @@ impl<'a> Problem<'a> {
     /// The rows that are counted.
     pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
         self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
+    }
+
+    /// What a row's gap is multiplied by, whitened by `weights` of its kinds.
+    pub(crate) fn weights(&self, row: usize, weights: &Vector6<f64>) -> Vector6<f64> {
+        self.precision.of_row(row).component_mul(weights)
+    }
+
+    /// The gaps of all rows as they would be if all were equally precise.
+    pub(crate) fn standard(&self, gaps: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
+        let each = gaps.iter().enumerate();
+        each.map(|(row, gap)| gap.component_mul(&self.precision.of_row(row))).collect()
     }
 
     /// Rows that are counted, beyond one for each constant.

@@ -18,7 +18,7 @@ impl Search<'_, '_> {
     /// Of the numbers of a fit.
     pub(crate) fn spread(&self, now: &Explained) -> Spread {
         let normal = self.normal(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let variance = self.scale(now).variance(left, normal.nrows());
         let root = Basis::new(&normal).t * variance.sqrt();
         let frames = 6 * self.problem.nuisances.len();

@@ -59,12 +59,15 @@ impl Gathered {
         let (blocks, mains): (Vec<Products>, Vec<Products>) = of_block
             .par_iter()
             .map(|rows| {
-                let sums = wanted.sums(&layout, &kinds, rows);
+                let sums = wanted.sums(&layout, &kinds, rows, true);
                 let mut white = Products::zeros(k, &layout.sizes);
                 for (sum, kind) in sums.iter().zip(&kinds) {
                     white.add_scaled(sum, weigh(kind));
                 }
-                let [main, _] = sums;
+                let [main, _] = match problem.precision.differs() {
+                    true => wanted.sums(&layout, &[kinds[0].clone(), Vec::new()], rows, false),
+                    false => sums,
+                };
                 (white, main)
             })
             .unzip();
@@ -101,12 +104,24 @@ impl Wanted<'_> {
         self.fit.model.parameters(self.problem) + along
     }
 
-    /// Products of some rows, of each kind of component by itself.
-    fn sums(&self, layout: &Layout, kinds: &[Vec<usize>; 2], rows: &[usize]) -> [Products; 2] {
+    /// Products of some rows, of each kind of component by itself; rows as `precise` as they are, or
+    /// all alike.
+    fn sums(
+        &self,
+        layout: &Layout,
+        kinds: &[Vec<usize>; 2],
+        rows: &[usize],
+        precise: bool,
+    ) -> [Products; 2] {
         let k = self.columns();
         let mut sums = [0, 1].map(|_| Sum::zeros(k, layout));
         for chunk in rows.chunks(CHUNK) {
-            let rows: Vec<Seen> = chunk.iter().map(|row| self.row(layout, k, *row)).collect();
+            let mut seen: Vec<Seen> = chunk.iter().map(|row| self.row(layout, k, *row)).collect();
+            if precise && self.problem.precision.differs() {
+                let each = seen.iter_mut().zip(chunk);
+                each.for_each(|(seen, row)| seen.weigh(&self.problem.precision.of_row(*row)));
+            }
+            let rows = seen;
             let motions = DMatrix::from_fn(rows.len(), layout.motions, |r, m| rows[r].motions[m]);
             let squares = layout.squares(&motions);
             for (sum, kind) in sums.iter_mut().zip(kinds).filter(|(_, kind)| !kind.is_empty()) {
@@ -184,7 +199,7 @@ mod tests {
         let sums = |shared: bool| {
             let layout = Layout::of(&candidates, shared);
             assert_eq!(layout.borne.is_empty(), !shared);
-            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows)
+            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows, true)
         };
         for (shared, own) in sums(true).iter().zip(&sums(false)) {
             assert_eq!((&shared.zz, &shared.zr, shared.rr), (&own.zz, &own.zr, own.rr));

@@ -35,6 +35,7 @@ impl Search<'_, '_> {
         is_there: bool,
     ) -> Result<(Explained, Judged), DiagnoseError> {
         let mut out = 0;
+        now = self.whole(now)?;
         loop {
             let (fitted, groups, held_out) = self.shrinking(now)?;
             now = fitted;
@@ -50,13 +51,19 @@ impl Search<'_, '_> {
                 if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
             let refitted = Refitted::new(&Held::new(self, &now), &groups, self.options.seed);
             let at_noise = !unexplained.present;
-            let findings = self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
+            let mut findings =
+                self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
                 .filter(|k| {
                     findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
                 });
             let Some(worst) = worst else {
+                let certainty = self.certainty(&now)?;
+                let values = self.intervals(&now, &certainty);
+                for (finding, group) in findings.iter_mut().zip(&groups) {
+                    finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
+                }
                 let shrink = self.shrink(before, &after, refitted.spread(0, groups.len()));
                 return Ok((now, Judged { findings, after, shrink, unexplained }));
             };

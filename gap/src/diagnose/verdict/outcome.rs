@@ -196,7 +196,7 @@ impl Search<'_, '_> {
     ) -> Result<(Explained, Vec<Group>, Vec<Vec<Vector6<f64>>>), DiagnoseError> {
         loop {
             let (done, gaps) = Held::new(self, &now).ordered(groups(self.problem, &now.fit.model));
-            let size = |k: usize| squares(&gaps[k], &now.weights);
+            let size = |k: usize| squares(self.problem, &gaps[k], &now.weights);
             let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
             let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, done, gaps)) };
             let mut out = done[idle].clone();

@@ -97,8 +97,9 @@ impl Search<'_, '_> {
 
     /// Weighted squares that are left in each block of poses.
     fn per_block(&self, now: &Explained) -> Vec<f64> {
+        let gaps = self.problem.standard(&now.fit.predicted.gaps);
         let sizes: Vec<f64> =
-            now.fit.predicted.gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
+            gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
         self.folds.per_block(self.problem.data, &sizes)
     }
 

@@ -60,7 +60,7 @@ pub fn identify_measured(
     let now = search.begin(Model { found, ..nominal.clone() })?;
     let before = nominal.predict(problem, None)?.gaps;
     let (_, promised) = step(problem, &now.fit, &now.weights);
-    if promised > SETTLED * (1.0 + squares(&before, &now.weights)) {
+    if promised > SETTLED * (1.0 + squares(problem, &before, &now.weights)) {
         return Err(MeasuredError::Unsettled { file: file() });
     }
     done(FITTED);
@@ -163,7 +163,7 @@ fn answer(
     let (normal, right) = normal_equations(problem, &now.fit, &now.weights);
     let basis = Basis::new(&normal);
     let fitted = choice.found.len();
-    let (left, freedom) = (squares(&now.fit.predicted.gaps, &now.weights), scale.freedom(fitted));
+    let (left, freedom) = (squares(problem, &now.fit.predicted.gaps, &now.weights), scale.freedom(fitted));
     let variances = basis.variances() * scale.variance(left, fitted);
     // What the fit has held at its bound is told as the rows have it, be it below zero.
     let values = DVector::from_vec(now.fit.model.values(problem)) + basis.solve(&right);
