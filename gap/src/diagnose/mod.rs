@@ -40,8 +40,9 @@ pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};
 pub use report::{
-    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, LeftOut,
-    NoiseReport, NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
+    Alternative, Autocorrelation, CannotSee, Correlation, Cover, Diagnosis, Finding, GapReport,
+    Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport, Observability, Part, Residual,
+    Rival, Share, Shrink, Slice, Unexplained, Worst,
 };
 
 use crate::gap::Statistics;
@@ -143,6 +144,7 @@ pub fn diagnose_with(
             before: size,
             after: statistics,
             shrink: judged.shrink,
+            fitted: Statistics::of(&problem.kept(&explained.fit.predicted.gaps)),
             nested,
             noise: explained.noise.report(),
         },
@@ -150,6 +152,8 @@ pub fn diagnose_with(
         findings,
         cannot_see: looked.cannot_see,
         unexplained,
+        residual: judged.residual,
+        observability: judged.observability,
         gauge: looked.gauge,
         left_out,
         parts: looked.parts,
@@ -174,7 +178,7 @@ pub fn diagnose_with(
 fn enough_rows(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
     let parameters = Model::nuisances(problem) + 1;
     let rows = &problem.data.rows;
-    let kept = |fold| rows.iter().filter(|r| folds.of_pose(r.group) != fold).count();
+    let kept = |fold| (0..rows.len()).filter(|row| folds.of_row(*row) != fold).count();
     let least = (0..folds.count).map(kept).min().unwrap_or(0) * problem.measured.len();
     if least >= parameters {
         return Ok(());

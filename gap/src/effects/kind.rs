@@ -95,3 +95,10 @@ pub enum Depends {
     /// When in its session it was measured: what happened at a time is carried to no other session.
     Session,
 }
+
+impl Depends {
+    /// Whether it is told by the order in which rows were measured: errors that linger look like it.
+    pub fn follows_time(self) -> bool {
+        matches!(self, Depends::Temperature | Depends::LastMove | Depends::Session)
+    }
+}

@@ -192,7 +192,8 @@ fn sigma(heads: &[Head], family: Family, kind: Kind) -> Option<(&Head, String)> 
         let each = missing.iter().map(|k| format!("{SIGMA_PREFIX}{}", family.names()[*k]));
         each.collect::<Vec<_>>().join(", ")
     };
-    let other = heads.iter().find(|h| matches!(h.role, Some(Role::Sigma(Some((f, _)))) if f != family));
+    let other =
+        heads.iter().find(|h| matches!(h.role, Some(Role::Sigma(Some((f, _)))) if f != family));
     if let Some(other) = other {
         return Some((other, names((0..6).filter(|&k| measured[k]).collect())));
     }

@@ -38,7 +38,9 @@ impl Precision {
             let numbers: Vec<[f64; 2]> = (data.rows.iter().zip(gaps).zip(fits))
                 .filter(|(_, fits)| **fits)
                 .filter_map(|((row, gap), _)| Some((row.sigma?, gap)))
-                .flat_map(|(sigma, gap)| range.clone().map(move |k| [sigma[k].powi(2), gap[k].powi(2)]))
+                .flat_map(|(sigma, gap)| {
+                    range.clone().map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
+                })
                 .filter(|[variance, _]| *variance > 0.0)
                 .collect();
             numbers
@@ -92,7 +94,8 @@ impl Precision {
 /// variances, this part of their count.
 fn scatter(numbers: &[[f64; 2]], part: f64) -> f64 {
     let expected = part * numbers.len() as f64;
-    let sum = |beyond: f64| numbers.iter().map(|[own, square]| square / (own + beyond)).sum::<f64>();
+    let sum =
+        |beyond: f64| numbers.iter().map(|[own, square]| square / (own + beyond)).sum::<f64>();
     let [mut low, mut high] = [0.0, numbers.iter().map(|[_, square]| square).sum::<f64>()];
     if expected <= 0.0 || sum(0.0) <= expected {
         return 0.0;

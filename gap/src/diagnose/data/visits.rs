@@ -28,7 +28,8 @@ impl Visits {
         let (mut sets, mut of_row, mut repeats) = (HashMap::new(), Vec::new(), Vec::new());
         let mut last = None;
         for row in &data.rows {
-            let load: Vec<f64> = row.wrench.iter().enumerate().map(|(k, f)| f / largest[k / 3]).collect();
+            let load: Vec<f64> =
+                row.wrench.iter().enumerate().map(|(k, f)| f / largest[k / 3]).collect();
             let here = (row.group, loads.kind(&load));
             let visit = of_row.last().map_or(0, |visit| visit + usize::from(last != Some(here)));
             of_row.push(visit);

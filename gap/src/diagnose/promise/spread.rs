@@ -1,8 +1,9 @@
 //! How well the numbers of a fit are known, and what is left of the readings beside them.
 
-use nalgebra::{DMatrix, Vector6};
+use nalgebra::{DMatrix, Matrix6xX, Vector6};
+use rayon::prelude::*;
 
-use crate::diagnose::fit::{Basis, squares};
+use crate::diagnose::fit::{Basis, block, squares};
 use crate::diagnose::search::{Explained, Search};
 
 /// How well the numbers that were fitted are known.
@@ -12,6 +13,21 @@ pub(crate) struct Spread {
     pub(super) root: DMatrix<f64>,
     /// Variance that is left of each measured number, m² and rad²; 0 of those not measured.
     pub(super) left: Vector6<f64>,
+    /// The largest leverage of a row that was fitted.
+    pub(super) leverage: f64,
+}
+
+impl Spread {
+    /// Leverage of a row, whose `block` has these of the numbers that were fitted: the variance of its
+    /// prediction over that of a measurement, summed over what is measured.
+    pub(super) fn leverage(&self, block: &Matrix6xX<f64>, columns: &[usize]) -> f64 {
+        let mut doubt = block * self.root.select_rows(columns);
+        for mut column in doubt.column_iter_mut() {
+            let white = |x: f64, left: f64| if left > 0.0 { x / left.sqrt() } else { 0.0 };
+            column.zip_apply(&self.left, |x, left| *x = white(*x, left));
+        }
+        doubt.norm_squared()
+    }
 }
 
 impl Search<'_, '_> {
@@ -21,10 +37,19 @@ impl Search<'_, '_> {
         let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let variance = self.scale(now).variance(left, normal.nrows());
         let root = Basis::new(&normal).t * variance.sqrt();
-        let frames = 6 * self.problem.nuisances.len();
-        Spread {
-            root: root.remove_rows(frames, 3 * self.problem.markers.len()),
+        let (frames, markers) = (6 * self.problem.nuisances.len(), 3 * self.problem.markers.len());
+        let spread = Spread {
+            root: root.remove_rows(frames, markers),
             left: now.weights.map(|w| if w > 0.0 { variance / (w * w) } else { 0.0 }),
-        }
+            leverage: 0.0,
+        };
+        let columns: Vec<usize> = (0..spread.root.nrows()).collect();
+        let unit = self.problem.mask;
+        let of_row = |row: usize| {
+            let block = block(self.problem, &now.fit, row, &unit).remove_columns(frames, markers);
+            spread.leverage(&block, &columns)
+        };
+        let leverage = (0..self.problem.fits.len()).into_par_iter().map(of_row);
+        Spread { leverage: leverage.reduce(|| 0.0, f64::max), ..spread.clone() }
     }
 }

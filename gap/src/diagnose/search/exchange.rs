@@ -70,7 +70,8 @@ impl Search<'_, '_> {
             let refined = self.refined(now, &without, best, &screen);
             let refined = refined.into_iter().collect();
             if let Some(fit) = self.with(now, &without, refined, -f64::INFINITY)?
-                && (squares(self.problem, &fit.predicted.gaps, &now.weights) + strain(self.problem, &fit.model))
+                && (squares(self.problem, &fit.predicted.gaps, &now.weights)
+                    + strain(self.problem, &fit.model))
                     / variance
                     + its
                     < own

@@ -95,7 +95,8 @@ pub(crate) struct Ranked {
 impl Search<'_, '_> {
     /// Weighted squares that a fit leaves, and what it costs to hold its values.
     pub(crate) fn left(&self, now: &Explained) -> f64 {
-        squares(self.problem, &now.fit.predicted.gaps, &now.weights) + strain(self.problem, &now.fit.model)
+        squares(self.problem, &now.fit.predicted.gaps, &now.weights)
+            + strain(self.problem, &now.fit.model)
     }
 
     /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
@@ -233,7 +234,10 @@ impl Search<'_, '_> {
             }
             let flips =
                 flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
-            if flips.chance(&one.score) > SIGNIFICANT {
+            let follows_time = screen.candidates[one.candidate].follows_time();
+            if flips.chance(&one.score) > SIGNIFICANT
+                || (follows_time && self.chance_in_time(now, &[], &one.score) > SIGNIFICANT)
+            {
                 continue;
             }
             let refined = self.refined(now, &[], one, &screen);

@@ -157,6 +157,11 @@ impl Candidate {
         self.effect().is_some_and(|(effect, _)| effect.is_tolerated())
     }
 
+    /// Whether it is told by the order in which rows were measured.
+    pub(crate) fn follows_time(&self) -> bool {
+        self.effect().is_some_and(|(effect, _)| effect.depends().follows_time())
+    }
+
     /// Whether its forms are the orders of a periodic error.
     pub(crate) fn forms_are_orders(&self) -> bool {
         self.effect().is_some_and(|(e, _)| matches!(e.forms_are(), Forms::Orders { .. }))

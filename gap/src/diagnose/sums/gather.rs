@@ -55,7 +55,7 @@ impl Gathered {
         // All components of a kind weigh the same.
         let weigh = |kind: &[usize]| kind.first().map_or(0.0, |c| weights[*c].powi(2));
         let k = wanted.columns();
-        let of_block = folds.rows_of_blocks(problem.data);
+        let of_block = folds.rows_of_blocks();
         let (blocks, mains): (Vec<Products>, Vec<Products>) = of_block
             .par_iter()
             .map(|rows| {

@@ -32,8 +32,6 @@ pub(crate) struct Certainty {
     pub(crate) covariance: DMatrix<f64>,
     /// Products of the columns, weighted, without what the parameters are held to.
     pub(crate) seen: DMatrix<f64>,
-    /// How far each row pulls its own prediction, 0 to the number of its measured components.
-    pub(crate) leverage: Vec<f64>,
 }
 
 impl Search<'_, '_> {
@@ -86,11 +84,7 @@ impl Search<'_, '_> {
             let both = [covariance[(k, k)], jackknife[k]].map(|v| v.max(0.0).sqrt());
             (t[0] * both[0]).max(t[1] * both[1])
         });
-        let leverage = (0..columns.len()).into_par_iter().map(|row| {
-            let (block, _) = weighted(row);
-            (block * &basis.t).norm_squared()
-        });
-        Ok(Certainty { half: half.collect(), covariance, seen, leverage: leverage.collect() })
+        Ok(Certainty { half: half.collect(), covariance, seen })
     }
 }
 

@@ -7,7 +7,7 @@ use super::outcome::Held;
 use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
-use crate::diagnose::report::{Finding, Shrink, Unexplained};
+use crate::diagnose::report::{Finding, Observability, Residual, Shrink, Unexplained};
 use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
 use crate::gap::Statistics;
 
@@ -22,6 +22,8 @@ pub(crate) struct Judged {
     /// From the gap before to that.
     pub(crate) shrink: Shrink,
     pub(crate) unexplained: Unexplained,
+    pub(crate) residual: Option<Residual>,
+    pub(crate) observability: Option<Observability>,
 }
 
 impl Search<'_, '_> {
@@ -65,7 +67,11 @@ impl Search<'_, '_> {
                     finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
                 }
                 let shrink = self.shrink(before, &after, refitted.spread(0, groups.len()));
-                return Ok((now, Judged { findings, after, shrink, unexplained }));
+                let residual = is_there.then(|| self.residual(&now, before, &after));
+                let observability = self.observability(&now.fit, &certainty);
+                let judged =
+                    Judged { findings, after, shrink, unexplained, residual, observability };
+                return Ok((now, judged));
             };
             let mut group = groups[worst].clone();
             group.sort_unstable();

@@ -74,7 +74,11 @@ impl Search<'_, '_> {
     }
 
     /// The values of each effect found, with 95 % intervals.
-    pub(super) fn intervals(&self, now: &Explained, certainty: &Certainty) -> Vec<Vec<ParameterReport>> {
+    pub(super) fn intervals(
+        &self,
+        now: &Explained,
+        certainty: &Certainty,
+    ) -> Vec<Vec<ParameterReport>> {
         let mut half = certainty.half[Model::nuisances(self.problem)..].iter();
         let mut all = Vec::new();
         for found in &now.fit.model.found {
