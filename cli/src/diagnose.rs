@@ -34,7 +34,8 @@ Examples:
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
 mz; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz]; and optionally pose, marker,
-s1 … sn, temperature, time, and your own simulator's sim_x … or sim_dx ….";
+s1 … sn, temperature, time, the instrument's standard deviations sigma (of all positions) or sigma_x …,
+and your own simulator's sim_x … or sim_dx ….";
 
 /// Why the real arm is not where the model says
 ///
@@ -125,7 +126,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
         .map_err(plain)?;
     drop(stages);
-    let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
+    let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
     let corrected = corrected::text(&source, &data, &diagnosed);

@@ -11,7 +11,7 @@ mod words;
 
 pub use size::Size;
 
-use stiffarm_gap::diagnose::Rival;
+use stiffarm_gap::diagnose::{NoiseReport, Rival};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{Diagnosis, Measurements};
@@ -139,13 +139,16 @@ impl Screen<'_> {
                 _ => "with the findings, held out",
             };
             rows.push(line(name, of(&gap.after), gap.after.rotation_rms));
+            rows.push(line("the same on its own rows", of(&gap.fitted), gap.fitted.rotation_rms));
         }
-        let from = match gap.noise.from {
-            "residual" => "noise, from what is left",
-            "repeats" => "noise, from repeats",
-            _ => "noise, as given",
-        };
-        rows.push(line(from, [Some(gap.noise.position_rms), None, None], gap.noise.rotation_rms));
+        let noise = &gap.noise;
+        let from = format!("noise, {}", noise_from(noise));
+        rows.push(line(&from, [Some(noise.position_rms), None, None], noise.rotation_rms));
+        if noise.visits_position_rms.is_some() || noise.visits_rotation_rms.is_some() {
+            let name = "of it the arm's repeatability";
+            let turned = noise.visits_rotation_rms.unwrap_or(0.0);
+            rows.push(line(name, [noise.visits_position_rms, None, None], turned));
+        }
         let mut align = vec![Align::Right; rows[1].len()];
         (align[0], align[rows[1].len() - 1]) = (Align::Left, Align::Left);
         let lines = table(&rows, &align);
@@ -193,6 +196,22 @@ impl Screen<'_> {
             (false, true) => "not significantly better".to_owned(),
             (false, false) => "not better".to_owned(),
         }
+    }
+}
+
+/// Where the noise is known from, of positions and of rotations apart if they differ.
+pub fn noise_from(noise: &NoiseReport) -> String {
+    let source = |from| match from {
+        "residual" => "from what is left",
+        "repeats" => "from repeats",
+        "columns" => "by the file's sigma",
+        _ => "as given",
+    };
+    match (noise.position_from, noise.rotation_from) {
+        (Some(position), Some(rotation)) if position != rotation => {
+            format!("{}; of rotations, {}", source(position), source(rotation))
+        }
+        _ => source(noise.from).to_owned(),
     }
 }
 

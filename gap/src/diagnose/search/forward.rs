@@ -144,10 +144,10 @@ impl Search<'_, '_> {
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
             if count <= SMALL || count.is_multiple_of(SMALL) {
-                now = self.pruned(now)?;
+                now = self.pruned(now, false)?;
             }
         }
-        self.pruned(now)
+        self.pruned(now, true)
     }
 
     /// Whether an end is asked for: nothing is fitted any more then.
