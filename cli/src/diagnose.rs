@@ -6,9 +6,10 @@ mod corrected;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Stage, Stop};
+use stiffarm_gap::diagnose::{Prior, Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
+use stiffarm_kernels::generic::Arm;
 
 pub use check::Check;
 
@@ -55,6 +56,10 @@ pub struct Args {
     /// How well the maker holds lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<String>,
+    /// What is usual of an effect's numbers, beyond which a value pays: joint_compliance=2e-6,
+    /// link_compliance:bending=1e-6; several times
+    #[arg(long = "usual", value_name = "EFFECT[:NUMBER]=SIZE")]
+    priors: Vec<String>,
     /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
@@ -112,8 +117,8 @@ struct Written<'a> {
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
-    let options = args.options(&source)?;
     let arm = source.arm()?;
+    let options = args.options(&source, &arm)?;
     let layout = data::layout(&source)?;
     let data = data::read(&args.data, &layout, quiet)?;
     let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
@@ -194,7 +199,7 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
-    fn options(&self, source: &Source) -> Result<Options, Failure> {
+    fn options(&self, source: &Source, arm: &Arm) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
@@ -222,6 +227,8 @@ impl Args {
             ..Options::default()
         };
         options.fit_along(&self.nuisance).map_err(plain)?;
+        let read = |text: &String| Prior::parse(text, arm, &options.catalogue).map_err(plain);
+        options.priors = self.priors.iter().map(read).collect::<Result<_, _>>()?;
         Ok(options)
     }
 }

@@ -22,6 +22,7 @@ pub(crate) mod data;
 pub(crate) mod fit;
 mod look;
 mod options;
+mod prior;
 mod progress;
 mod promise;
 mod report;
@@ -37,6 +38,7 @@ use stiffarm_kernels::generic::Arm;
 pub use crate::effects::ParameterReport;
 pub(crate) use fit::rigid;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
+pub use prior::Prior;
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};
 pub use report::{
@@ -102,6 +104,7 @@ pub fn diagnose_with(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let model = fit::aligned(&problem)?;
+    sums::scale_elastic(&mut candidates, &problem, &model)?;
     let (mut known, mut left_out, mut round) = (None, Vec::new(), 0);
     let looked = loop {
         let search =

@@ -19,7 +19,9 @@ use std::path::Path;
 use nalgebra::Vector6;
 
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
-pub use role::{DISPLACEMENT_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX, WRENCH_NAMES};
+pub use role::{
+    DISPLACEMENT_NAMES, Layout, Marker, POSE_NAMES, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+};
 pub use unit::{Dimension, UNITS, Unit};
 
 use mistake::Mistakes;

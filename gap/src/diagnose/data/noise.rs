@@ -295,8 +295,10 @@ impl Repeats {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::data::{Precision, Stream, generator};
+    use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
-    use crate::measurement::{Kind, Measurements};
+    use crate::measurement::{Kind, Measurements, Row};
 
     /// Two poses of three repeats each, ±1 mm about what the arm says.
     fn data() -> Measurements {
@@ -330,6 +332,61 @@ mod tests {
         assert!((noise.report().position_rms - 1e-3).abs() < 1e-12);
         assert_eq!(noise.report().from, "repeats");
         assert_eq!(noise.report().rotation_rms, 0.0);
+    }
+
+    /// A hundred poses, each visited three times, four readings a visit: the instrument's 20 µm and the
+    /// arm's 50 µm are told from each other; of the first visits alone only the instrument's.
+    #[test]
+    fn the_arm_is_told_from_the_instrument() {
+        let (arm, mut dice) = (rigid(), generator(5, Stream::Signs));
+        let (mut rows, mut gaps) = (Vec::new(), Vec::new());
+        for _ in 0..3 {
+            for group in 0..100 {
+                let visit = Vector6::from_fn(|_, _| 5e-5 * normal(&mut dice));
+                for _ in 0..4 {
+                    rows.push(Row {
+                        group,
+                        ..row(&[0.01 * group as f64, 0.2, 0.3], Vector6::zeros())
+                    });
+                    let read = visit.map(|x| x + 2e-5 * normal(&mut dice));
+                    gaps.push(read.component_mul(&Vector6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0)));
+                }
+            }
+        }
+        let none = Options::default();
+        let position = |rows: &[Row], gaps: &[Vector6<f64>]| {
+            let data = table(rows.to_vec(), Kind::Pose { orientation: false });
+            let problem = Problem::new(&arm, &data, &none).unwrap();
+            Noise::of(&problem, &none, gaps, 0).position
+        };
+        let whole = position(&rows, &gaps);
+        // 200 visits beyond their poses, of three numbers each: four standard errors of such a variance.
+        let close = 4.0 * (2.0 / 600.0_f64).sqrt() / 2.0;
+        assert!((whole.visits.unwrap() / 5e-5 - 1.0).abs() < close, "{whole:?}");
+        assert!((whole.sd / 5e-5_f64.hypot(2e-5) - 1.0).abs() < close, "{whole:?}");
+        assert!(
+            matches!(whole.source, Source::Repeats(freedom) if (500.0..900.0).contains(&freedom))
+        );
+        let once = position(&rows[..400], &gaps[..400]);
+        assert!((once.sd / 2e-5 - 1.0).abs() < close && once.visits.is_none(), "{once:?}");
+    }
+
+    #[test]
+    fn the_files_own_sigma_comes_before_the_residual() {
+        let (arm, mut data) = (rigid(), data());
+        for (k, row) in data.rows.iter_mut().enumerate() {
+            row.wrench[0] = 100.0 * k as f64;
+            row.sigma = Some(Vector6::new(3e-4, 4e-4, 5e-4, 0.0, 0.0, 0.0));
+        }
+        let none = Options::default();
+        let mut problem = Problem::new(&arm, &data, &none).unwrap();
+        problem.precision = Precision::of(&data);
+        let noise = Noise::of(&problem, &none, &gaps(&problem), 0);
+        assert_eq!(noise.position.source, Source::Columns);
+        let report = noise.report();
+        // √(3² + 4² + 5²).
+        assert!((report.position_rms - 1e-4 * 50_f64.sqrt()).abs() < 1e-12, "{report:?}");
+        assert_eq!((report.position_from, report.rotation_from), (Some("columns"), None));
     }
 
     #[test]

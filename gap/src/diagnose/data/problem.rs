@@ -7,6 +7,7 @@ use stiffarm_kernels::generic::Arm;
 use super::precision::Precision;
 use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
+use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::measurement::{Measurements, Row};
@@ -32,6 +33,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) nuisances: Vec<Nuisance>,
     /// The arm's geometry, where it is fitted along.
     pub(crate) along: Option<&'static dyn Effect>,
+    /// What is usual of some effects' numbers, by the caller.
+    pub(crate) priors: Vec<Prior>,
     /// To what makers hold lengths and angles, m and rad.
     pub(crate) tolerance: [f64; 2],
     /// Names of the markers whose place on the tool is unknown.
@@ -118,6 +121,7 @@ impl<'a> Problem<'a> {
             known,
             nuisances: options.nuisances.clone(),
             along: options.along().filter(|e| e.excluded(data).is_none()),
+            priors: options.priors.clone(),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,

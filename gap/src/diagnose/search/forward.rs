@@ -313,13 +313,14 @@ impl Search<'_, '_> {
     pub(crate) fn whole(&self, now: Explained) -> Result<Explained, DiagnoseError> {
         let Explained { fit, weights, .. } = &now;
         let mut model = fit.model.clone();
-        for found in model.found.iter_mut().filter(|f| f.effect.forms_are() == Forms::One) {
+        let is_part = |f: &&mut Fitted| f.effect.forms_are() == Forms::One && f.spot.form > 0;
+        for found in model.found.iter_mut().filter(is_part) {
             let spot = Spot { form: 0, ..found.spot };
-            let whole = Candidate::of(self.problem, found.effect, spot, 1);
+            let is_it = |c: &&Candidate| c.effect() == Some((found.effect, spot));
+            let Some(whole) = self.candidates.iter().find(is_it) else { continue };
             let mut values = found.values.clone();
             values.resize(whole.size, 0.0);
-            let whole = whole.fitted(spot, values);
-            *found = whole.map_or(found.clone(), |w| Fitted { chances: found.chances, ..w });
+            *found = whole.fitted(spot, values).unwrap_or_else(|| found.clone());
         }
         if model.parameters(self.problem) == fit.model.parameters(self.problem) {
             return Ok(now);

@@ -18,7 +18,7 @@ impl Search<'_, '_> {
     /// Of the numbers of a fit; `None` where there are none.
     pub(super) fn observability(&self, fit: &Fit, certainty: &Certainty) -> Option<Observability> {
         let seen = &certainty.seen;
-        let parameters = seen.nrows();
+        let parameters = Some(seen.nrows()).filter(|count| *count > 0)?;
         let scale = seen.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
         let scaled = seen.map_with_location(|r, c, x| x * scale[r] * scale[c]);
         let mut values: Vec<f64> = principal(scaled).0.iter().copied().collect();
