@@ -15,7 +15,7 @@ const MOST_CLUSTERS: usize = 400;
 
 /// Rows times parameters up to which columns are differences of the exact model. Beyond, the data are so
 /// many that what is of second order matters less than the choice of the model.
-const MOST_EXACT: usize = 300_000;
+const MOST_EXACT: usize = 100_000;
 
 /// Part of a number's standard deviation by which it is moved for a difference: far above rounding, and
 /// within what is linear.
