@@ -195,8 +195,8 @@ pub struct Observability {
     pub condition: f64,
     /// Of the columns, each scaled to length 1, largest first, of what is decided.
     pub singular_values: Vec<f64>,
-    /// The pairs of numbers that are hardest to tell from each other, and how far they are
-    /// correlated, −1 to 1; none below one half.
+    /// The pairs of numbers that are hardest to tell from each other, one of them of an effect beyond
+    /// ordinary calibration; none that are correlated by less than one half.
     pub correlations: Vec<Correlation>,
 }
 

@@ -35,14 +35,17 @@ impl Search<'_, '_> {
         })
     }
 
-    /// The most correlated pairs of numbers, one of them at least of an effect that was found.
+    /// The most correlated pairs of numbers, one of them at least of an effect beyond ordinary
+    /// calibration: that frames and the table are hardly told apart is no news.
     fn correlations(&self, fit: &Fit, certainty: &Certainty) -> Vec<Correlation> {
         let covariance = &certainty.covariance;
         let names = self.parameters(&fit.model);
-        let first = Model::nuisances(self.problem);
+        let found = fit.model.found.iter();
+        let mut beyond = vec![false; Model::nuisances(self.problem)];
+        beyond.extend(found.flat_map(|f| f.values.iter().map(|_| !f.effect.is_tolerated())));
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for b in first..names.len() {
-            for a in 0..b {
+        for b in 0..names.len() {
+            for a in (0..b).filter(|a| beyond[*a] || beyond[b]) {
                 let size = (covariance[(a, a)] * covariance[(b, b)]).sqrt();
                 let correlation = covariance[(a, b)] / size;
                 if correlation.abs() >= LEAST {
