@@ -27,14 +27,15 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
     } else {
         format!("{}, grouped by {}", found.held_out.folds, found.held_out.grouped_by)
     };
-    let noise = noise_from(&found.gap.noise);
     let words = report.words;
     let mut sizes = Vec::new();
     if report.has_positions() {
-        sizes.push(words.length.with_unit(found.gap.noise.position_rms));
+        let from = found.gap.noise.position_from.map_or("", noise_from);
+        sizes.push(format!("{} {from}", words.length.with_unit(found.gap.noise.position_rms)));
     }
     if data.kind.components()[3..].contains(&true) {
-        sizes.push(words.angle.with_unit(found.gap.noise.rotation_rms));
+        let from = found.gap.noise.rotation_from.map_or("", noise_from);
+        sizes.push(format!("{} {from}", words.angle.with_unit(found.gap.noise.rotation_rms)));
     }
     let nuisances: Vec<&str> = options.nuisances.iter().map(|n| Nuisance::identifier(*n)).collect();
     let named = |names: &[String], none: &str| match names {
@@ -54,7 +55,7 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
         ("simulator", simulator.to_owned()),
         ("folds", folds),
         ("seed", options.seed.to_string()),
-        ("noise, rms", format!("{} ({noise})", sizes.join(", "))),
+        ("noise, rms", sizes.join(", ")),
         (
             "frames fitted along",
             if nuisances.is_empty() { "none".into() } else { nuisances.join(", ") },

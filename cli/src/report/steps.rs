@@ -33,7 +33,7 @@ pub fn steps(report: &Report<'_>) -> Vec<Step> {
     if !report.found.findings.is_empty() {
         steps.push(plain("left, held out", "left", after));
     }
-    steps.push(plain(&format!("noise, {}", noise_from(&gap.noise)), "noise", noise));
+    steps.push(plain(&format!("noise, {}", noise_from(gap.noise.from)), "noise", noise));
     steps
 }
 

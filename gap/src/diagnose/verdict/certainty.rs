@@ -7,7 +7,6 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Basis, Fit, Model, block, squares};
-use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 
 /// Visits that are left out one after the other; of more, visits that follow each other go together.
@@ -39,7 +38,7 @@ impl Search<'_, '_> {
     /// remainder's variance and what the number is held to, and by how it scatters when one visit
     /// after the other is left out (the jackknife; MacKinnon & White 1985, of clusters), which
     /// knows of errors that are shared within a visit, larger at some postures, or of heavy tails.
-    pub(crate) fn certainty(&self, now: &Explained) -> Result<Certainty, DiagnoseError> {
+    pub(crate) fn certainty(&self, now: &Explained) -> Certainty {
         let problem = self.problem;
         let basis = Basis::new(&self.normal(now));
         let parameters = basis.t.nrows();
@@ -47,7 +46,7 @@ impl Search<'_, '_> {
         let left = squares(problem, &now.fit.predicted.gaps, &now.weights);
         let variance = scale.variance(left, parameters);
         let sizes = basis.variances().map(|v| (v * variance).sqrt());
-        let columns = columns(problem, &now.fit, &sizes)?;
+        let columns = columns(problem, &now.fit, &sizes);
         let weighted = |row: usize| {
             let weights = problem.weights(row, &now.weights);
             let mut block = columns[row].clone();
@@ -84,25 +83,21 @@ impl Search<'_, '_> {
             let both = [covariance[(k, k)], jackknife[k]].map(|v| v.max(0.0).sqrt());
             (t[0] * both[0]).max(t[1] * both[1])
         });
-        Ok(Certainty { half: half.collect(), covariance, seen })
+        Certainty { half: half.collect(), covariance, seen }
     }
 }
 
 /// What each parameter does to each row's reading, not weighted: of effects by a difference of the exact
 /// model, so that what is of second order counts (a link's compliance and its length), where the data
 /// are not too many; `sizes` are the parameters' standard deviations.
-fn columns(
-    problem: &Problem<'_>,
-    fit: &Fit,
-    sizes: &DVector<f64>,
-) -> Result<Vec<Matrix6xX<f64>>, DiagnoseError> {
+fn columns(problem: &Problem<'_>, fit: &Fit, sizes: &DVector<f64>) -> Vec<Matrix6xX<f64>> {
     let rows = fit.predicted.gaps.len();
     let unit = Vector6::repeat(1.0).component_mul(&problem.mask);
     let mut columns: Vec<Matrix6xX<f64>> =
         (0..rows).into_par_iter().map(|row| block(problem, fit, row, &unit)).collect();
     let first = Model::nuisances(problem);
     if rows * (sizes.len() - first) > MOST_EXACT || problem.stop.is_asked() {
-        return Ok(columns);
+        return columns;
     }
     for k in first..sizes.len() {
         let step = STEP * sizes[k];
@@ -111,13 +106,15 @@ fn columns(
         }
         let mut steps = vec![0.0; sizes.len()];
         steps[k] = step;
-        let moved = fit.model.moved(problem, &steps).predict(problem, Some(&fit.predicted.sims))?;
+        // Where the arm finds no rest with a number that is known so badly, its first order stays.
+        let moved = fit.model.moved(problem, &steps);
+        let Ok(moved) = moved.predict(problem, Some(&fit.predicted.sims)) else { continue };
         let gaps = moved.gaps.iter().zip(&fit.predicted.gaps);
         for (column, (moved, gap)) in columns.iter_mut().zip(gaps) {
             column.set_column(k, &((gap - moved) / step));
         }
     }
-    Ok(columns)
+    columns
 }
 
 /// The rows that are left out together.

@@ -61,7 +61,7 @@ impl Search<'_, '_> {
                     findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
                 });
             let Some(worst) = worst else {
-                let certainty = self.certainty(&now)?;
+                let certainty = self.certainty(&now);
                 let values = self.intervals(&now, &certainty);
                 for (finding, group) in findings.iter_mut().zip(&groups) {
                     finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
