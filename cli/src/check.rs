@@ -1,6 +1,5 @@
 //! `stiffarm check`: whether what is generated from a table is right.
 
-use stiffarm_kernels::Output;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::{Verdict, robots};
@@ -72,12 +71,13 @@ struct Checked {
 fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     source.refuse_effects("check")?;
     let arm = source.arm()?;
-    let model = Model::new(&source.robot, &Output::EACH);
+    let outputs = source.robot.generated();
+    let model = Model::new(&source.robot, &outputs);
     let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);
     let single = |output, q: &[f64], w: &[f64; 6]| model.single(output, q, w);
     // Near buckling the last digits of single precision are lost: not every arm is to be held to its limit.
     let single: Option<&Evaluate<'_>> = if source.built_in { Some(&single) } else { None };
-    let subject = Subject { arm: &arm, generated: &generated, single };
+    let subject = Subject { outputs: &outputs, arm: &arm, generated: &generated, single };
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));

@@ -1,7 +1,11 @@
 //! `stiffarm diagnose`: the gap between model and measurement, and what closes it.
 
+mod accepted;
 mod check;
+mod compared;
 mod corrected;
+mod log;
+mod provenance;
 
 use std::path::PathBuf;
 
@@ -11,7 +15,11 @@ use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
+pub use accepted::Accepted;
 pub use check::Check;
+pub use compared::{Compared, Reached};
+use corrected::{Corrections, Format};
+pub use provenance::{Hashes, Provenance};
 
 use super::Verdict;
 use super::screen::Screen;
@@ -31,24 +39,29 @@ Examples:
   stiffarm diagnose arm.toml run1.csv
   stiffarm diagnose arm.toml run1.csv --nuisance base_frame,tool_frame --noise-position 30um
   stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
+  stiffarm diagnose arm.toml log.csv --torque-side motor
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
 mz; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz]; and optionally pose, marker,
 s1 … sn, temperature, time, the instrument's standard deviations sigma (of all positions) or sigma_x …,
-and your own simulator's sim_x … or sim_dx ….";
+and your own simulator's sim_x … or sim_dx ….
 
-/// Why the real arm is not where the model says
+A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more.";
+
+/// Why the real arm is not where the model says, at rest or in motion
 ///
-/// The gap between robot file and measurements, which unmodelled effects cause it and how far it
-/// shrinks with them, judged on poses that no fit has seen.
+/// The gap between robot file and measurements, or a log of joint values with torques, currents or
+/// commands; which unmodelled effects cause it and how far it shrinks with them, judged on poses, or
+/// on time, that no fit has seen.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The measurement file (CSV)
-    data: PathBuf,
+    /// The measurement file (CSV), or a joint log of one or several files
+    #[arg(required = true)]
+    data: Vec<PathBuf>,
     /// What is known to be unknown, fitted along and never a finding: base_frame, tool_frame,
     /// geometry (zeros, lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]
@@ -87,15 +100,30 @@ pub struct Args {
     /// Predict another measurement file of the same arm with what was found
     #[arg(long, value_name = "OTHER.csv")]
     check: Option<PathBuf>,
+    /// Compare with an earlier diagnosis of the arm (JSON): what came, what went, what changed
+    #[arg(long, value_name = "LAST.json")]
+    compare: Option<PathBuf>,
+    /// The position error that is accepted of the corrected arm in 95 % of the rows, held out or of
+    /// --check; exit status 1 if it is larger
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    accept: Option<String>,
     /// Write the robot file with what was found put into it
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
+    /// Write the arm with what was found as a URDF, as far as one can hold it; what is lost is said
+    #[arg(long, value_name = "OUT.urdf")]
+    write_urdf: Option<Target>,
+    /// The same as an MJCF model for MuJoCo, with the joints' springs
+    #[arg(long, value_name = "OUT.xml")]
+    write_mjcf: Option<Target>,
     /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
     /// Write the diagnosis as one self-contained page
     #[arg(long, value_name = "OUT.html")]
     report: Option<Target>,
+    #[command(flatten)]
+    log: log::LogArgs,
 }
 
 /// The diagnosis as it is written.
@@ -107,8 +135,14 @@ struct Written<'a> {
     doubts: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     check: Option<&'a Check>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accept: Option<&'a Accepted>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compared: Option<&'a Compared>,
+    #[serde(flatten)]
+    hashes: &'a Hashes,
     /// The robot file with what was found: the whole is a robot to every command.
-    corrected: &'a str,
+    corrected: String,
 }
 
 /// Runs the command.
@@ -117,10 +151,16 @@ struct Written<'a> {
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
+    let bytes = match log::files(args)? {
+        log::Files::Log(files) => return log::run(args, &source, &files, quiet),
+        log::Files::Measurements(bytes) => bytes,
+    };
+    let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
+    let tolerance = args.accept.as_ref().map(length).transpose()?;
     let arm = source.arm()?;
     let options = args.options(&source, &arm)?;
     let layout = data::layout(&source)?;
-    let data = data::read(&args.data, &layout, quiet)?;
+    let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
     let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
     if let Some(other) = &other {
@@ -134,20 +174,26 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
-    let corrected = corrected::text(&source, &data, &diagnosed);
+    let made = Provenance::of(&args.data[0], &source.text)?;
+    let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
+    let compared = compared.transpose()?;
+    let has_positions = data.kind.components()[..3].contains(&true);
+    let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
+    let accepted = tolerance.map(judge).transpose()?;
+    let corrected = Corrections::new(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        let (check, corrected) = (check.as_ref(), corrected.as_str());
-        target.write(&json::text(&Written { diagnosis: found, doubts, check, corrected })?)?;
+        let written = Written {
+            diagnosis: found,
+            doubts,
+            check: check.as_ref(),
+            accept: accepted.as_ref(),
+            compared: compared.as_ref(),
+            hashes: &made.hashes,
+            corrected: corrected.text(),
+        };
+        target.write(&json::text(&written)?)?;
     }
-    if let Some(target) = &args.write_robot {
-        target.write(&corrected)?;
-        if data.sim_given.contains(&true) {
-            note(
-                "the robot file is corrected by what the simulator of the sim_ columns lacks",
-                quiet,
-            );
-        }
-    }
+    args.write_arm(&corrected, quiet)?;
     let screen = Screen {
         found,
         data: &data,
@@ -155,6 +201,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         catalogue: &options.catalogue,
         rivals: &args.rivals,
         check: check.as_ref(),
+        accepted: accepted.as_ref(),
+        compared: compared.as_ref(),
     };
     if let Some(target) = &args.report {
         let (explanation, words) = (&diagnosed.explanation, screen.words());
@@ -166,18 +214,22 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             gaps: &explanation.predict(&data).map_err(plain)?,
             options: &options,
             words: &words,
+            made: &made,
         };
         let page = report.html();
         let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
         target.write(&page)?;
     }
     let written: Vec<_> =
-        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
+        [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
         print(&screen.text())?;
     }
-    Ok(Verdict::Good)
+    match accepted {
+        Some(Accepted { accepted: false, .. }) => Ok(Verdict::Failed),
+        _ => Ok(Verdict::Good),
+    }
 }
 
 fn in_words(stage: Stage) -> String {
@@ -199,6 +251,52 @@ fn plain(error: DiagnoseError) -> Failure {
 }
 
 impl Args {
+    /// Where the corrected arm goes.
+    fn arms(&self) -> [&Option<Target>; 3] {
+        [&self.write_robot, &self.write_urdf, &self.write_mjcf]
+    }
+
+    fn write_arm(&self, corrected: &Corrections<'_>, quiet: bool) -> Result<(), Failure> {
+        if let Some(target) = &self.write_robot {
+            target.write(&corrected.text())?;
+        }
+        for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
+        {
+            if let Some(target) = target {
+                let (text, lost) = corrected.exported(format)?;
+                target.write(&text)?;
+                lost.iter().for_each(|lost| note(lost, quiet));
+            }
+        }
+        if self.arms().iter().any(|target| target.is_some()) {
+            corrected.caveats().iter().for_each(|caveat| note(caveat, quiet));
+        }
+        Ok(())
+    }
+
+    /// The first option that is given and speaks of measurement files alone.
+    fn of_measurements(&self) -> Option<&'static str> {
+        [
+            (!self.nuisance.is_empty(), "--nuisance"),
+            (self.tolerance.is_some(), "--tolerance"),
+            (self.noise_position.is_some(), "--noise-position"),
+            (self.noise_rotation.is_some(), "--noise-rotation"),
+            (self.keep_all, "--keep-all"),
+            (self.folds.is_some(), "--folds"),
+            (self.nested, "--nested"),
+            (!self.rivals.is_empty(), "--rival"),
+            (self.check.is_some(), "--check"),
+            (self.write_robot.is_some(), "--write-robot"),
+            (self.write_urdf.is_some(), "--write-urdf"),
+            (self.write_mjcf.is_some(), "--write-mjcf"),
+            (self.accept.is_some(), "--accept"),
+            (self.compare.is_some(), "--compare"),
+            (self.report.is_some(), "--report"),
+        ]
+        .into_iter()
+        .find_map(|(given, name)| given.then_some(name))
+    }
+
     fn options(&self, source: &Source, arm: &Arm) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()

@@ -5,6 +5,8 @@
 //! [`measurement`] reads what was measured ([`readings`] makes it of what other programs write); [`gap`] is the difference; [`effects`] are what may
 //! explain it; [`mod@diagnose`] finds out which does, on poses that no fit has seen.
 //!
+//! [`log`] does the same for an arm in motion: of a log of joint values with torques, currents or commands.
+//!
 //! [`mod@compensate`] finds the set-points with which a flexible arm stands where it should.
 //!
 //! This crate returns data and structured errors; it prints nothing.
@@ -21,7 +23,9 @@ pub mod effects;
 mod fixture;
 pub mod gap;
 pub mod identify;
+pub mod log;
 pub mod measurement;
+pub mod performance;
 pub mod plant;
 pub mod random;
 pub mod readings;

@@ -1,23 +1,38 @@
-//! A C program around generated kernels: joint values and a wrench as the bits of numbers from standard
+//! A C program around generated kernels: a state of three numbers for each joint and a wrench as the bits of numbers from standard
 //! input, every output as bits to standard output.
 
-use stiffarm::kernels::{Input, Output};
+use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::Precision;
+use stiffarm_codegen::robot::Robot;
 
-/// The program for the kernels called `name` with `n` joints.
+/// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
+/// order, then those of the fused function.
 ///
 /// Every function of the joint values is called, and every function of the posture after it: where the
 /// two differ in a bit of a number, the program ends with status 2.
-pub fn program(name: &str, n: usize, precision: Precision) -> String {
+pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
+    let n = robot.dof();
     let (real, word, scan, print) = match precision {
         Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
     };
     let mut calls = String::new();
-    for output in Output::EACH {
+    let tool = robot.generated().into_iter().map(|output| (output.name().to_owned(), output));
+    let places = robot.places().into_iter().flat_map(|(place, outputs)| {
+        outputs.into_iter().map(move |output| (format!("at_{place}_{}", output.name()), output))
+    });
+    for (function, output) in tool.into_iter().chain(places) {
         let (rows, columns) = output.shape(n);
-        let (function, size) = (output.name(), rows * columns);
-        let wrench = if output.takes(Input::Wrench) { "wrench, " } else { "" };
+        let size = rows * columns;
+        // The wrench, and what stands behind the joint values.
+        let beside: String = output
+            .beside()
+            .enumerate()
+            .map(|(k, input)| match input.side() {
+                Side::Joints => format!("&q[{}], ", (k + 1) * n),
+                _ => "wrench, ".to_owned(),
+            })
+            .collect();
         let assigned = |to: &str| if output.is_fallible() { to.to_owned() } else { String::new() };
         calls.push_str(&format!(
             "
@@ -26,8 +41,8 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             static {real} again[{size}];
             int status = 0;
             int second = 0;
-            {first}{name}_{function}(q, {wrench}out);
-            {repeat}{name}_given_{function}(&posture, {wrench}again);
+            {first}{name}_{function}(q, {beside}out);
+            {repeat}{name}_given_{function}(&posture, {beside}again);
             put(status, out, {size}U);
             if ((status != second) || (same(out, again, {size}U) == 0))
             {{
@@ -46,6 +61,7 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             format!("            put(status, all.{}, {size}U);\n", o.name())
         })
         .collect();
+    let state = 3 * n;
     format!(
         "#include <inttypes.h>
 #include <stdio.h>
@@ -99,11 +115,11 @@ static int get({real} *x, unsigned int size)
 
 int main(void)
 {{
-    {real} q[{n}];
+    {real} q[{state}];
     {real} wrench[6];
     {name}_posture_t posture;
 
-    while ((get(q, {n}U) == 1) && (get(wrench, 6U) == 1))
+    while ((get(q, {state}U) == 1) && (get(wrench, 6U) == 1))
     {{
         {name}_posture(q, &posture);
 {calls}

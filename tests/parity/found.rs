@@ -16,7 +16,8 @@ fn checked(output: Output, change: fn(&mut Vec<f64>)) -> Agreement {
         }
         Ok(block)
     };
-    let subject = Subject { arm: &arm, generated: &generated, single: None };
+    let subject =
+        Subject { outputs: &Output::EACH, arm: &arm, generated: &generated, single: None };
     agreement(&subject, 20, 0, &|_| {})
 }
 

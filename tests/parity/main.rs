@@ -14,6 +14,7 @@ mod fixtures;
 mod found;
 mod known;
 mod lanes;
+mod places;
 mod random;
 mod special;
 mod stability;

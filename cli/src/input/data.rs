@@ -4,7 +4,7 @@ use std::path::Path;
 
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
-use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
+use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake, bytes};
 use stiffarm_gap::{Measurements, ReadError};
 use stiffarm_kernels::generic::Arm;
 
@@ -29,8 +29,21 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    told(from_bytes(path, &bytes, layout), quiet)
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+    read_bytes(path, &bytes, layout, quiet)
+}
+
+/// The same of a file whose bytes are there.
+///
+/// # Errors
+/// [`Failure`]: its mistakes.
+pub fn read_bytes(
+    path: &Path,
+    bytes: &[u8],
+    layout: &Layout,
+    quiet: bool,
+) -> Result<Measurements, Failure> {
+    told(from_bytes(path, bytes, layout), quiet)
 }
 
 fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
@@ -56,7 +69,7 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     let file = path.display().to_string();
     let data = Measurements::plan_from_bytes(&file, &bytes, layout);
     told(data.map_err(|error| refused(&file, &bytes, &error)), quiet)

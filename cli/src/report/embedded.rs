@@ -8,6 +8,7 @@ use stiffarm_gap::diagnose::Diagnosis;
 
 use super::Report;
 use super::curves::curves;
+use super::experiment::Drawn;
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
 use super::shape::{Shape, shape};
@@ -28,7 +29,9 @@ struct Embedded<'a> {
 /// # Errors
 /// [`serde_json::Error`] if something in it is no JSON.
 pub fn json(report: &Report<'_>) -> Result<String, serde_json::Error> {
-    let experiment = report.experiment();
+    let whole = report.experiment();
+    let drawn = Drawn::of(&whole);
+    let experiment = whole.with(&drawn);
     let curves = curves(report.found, report.data, &report.options.catalogue);
     let embedded = Embedded {
         rows: rows(&experiment),
@@ -142,10 +145,10 @@ fn parameters(report: &Report<'_>) -> Table {
 
 /// The frames that were fitted along.
 fn frames(report: &Report<'_>) -> Table {
-    let heads = ["frame", "x[m]", "y[m]", "z[m]", "rx[rad]", "ry[rad]", "rz[rad]"];
+    let heads = ["frame", "session", "x[m]", "y[m]", "z[m]", "rx[rad]", "ry[rad]", "rz[rad]"];
     let mut table = Table::new(&heads);
     for frame in &report.found.nuisances {
-        let mut row = vec![frame.name.as_str().into()];
+        let mut row = vec![frame.name.as_str().into(), frame.session.clone().into()];
         row.extend(frame.translation.into_iter().chain(frame.rotation).map(number));
         table.rows.push(row);
     }

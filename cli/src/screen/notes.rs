@@ -68,7 +68,8 @@ impl Screen<'_> {
     fn frames(&self) -> String {
         let frame = |n: &NuisanceReport| {
             let [x, y, z] = n.translation.map(|x| short(1e3 * x));
-            format!("{} at ({x}, {y}, {z}) mm", words(&n.name))
+            let of = n.session.as_ref().map_or_else(String::new, |name| format!(" in {name}"));
+            format!("{}{of} at ({x}, {y}, {z}) mm", words(&n.name))
         };
         let frames: Vec<String> = self.found.nuisances.iter().map(frame).collect();
         listed(&frames, MOST)

@@ -1,5 +1,6 @@
 //! `stiffarm diagnose`.
 
+mod campaign;
 mod plant;
 
 use serde_json::Value;
@@ -103,8 +104,17 @@ fn the_json_is_the_formats() {
         "unexplained",
     ];
     assert_eq!(keys[..9], expected);
+    let more = [
+        "residual",
+        "observability",
+        "parts",
+        "by",
+        "covers",
+        "data_sha256",
+        "robot_sha256",
+        "corrected",
+    ];
     for key in &keys[9..] {
-        let more = ["residual", "observability", "parts", "by", "covers", "corrected"];
         assert!(more.contains(&key.as_str()), "{key}");
     }
     assert_eq!(found["stiffarm"], env!("CARGO_PKG_VERSION"));

@@ -13,6 +13,7 @@ mod generate;
 mod generate_c;
 mod identify;
 mod import;
+mod log;
 mod map;
 mod measurements;
 mod others;

@@ -80,9 +80,14 @@ fn the_page_says_what_the_screen_says() {
     assert!(screen.join(" ").contains(&said), "{said}");
     assert!(page.contains("<dt>seed</dt><dd>0</dd>"));
     assert!(!page.contains("http"));
-    // The same bytes on standard output, in place of the screen.
+    // On standard output, in place of the screen, it is the same but for how it was asked for.
     let printed = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
-    assert_eq!(printed, page);
+    let asked = format!("--rival ycd --report {path}</dd>");
+    assert!(page.contains(&asked), "{path}");
+    assert!(printed == page.replace(&asked, "--rival ycd --report -</dd>"));
+    // `sha256sum` of the file.
+    let sum = "487b91e5c6af94d94366ec715617250cb5d712d94e8be693ababca91a0add06e";
+    assert!(page.contains(&format!("<dt>SHA-256 of the measurements</dt><dd>{sum}</dd>")));
     assert_eq!(folder.names(), ["out.html"]);
 }
 

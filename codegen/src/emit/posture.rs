@@ -1,10 +1,10 @@
 //! The posture: sines and cosines of all angles that any function of a module needs, and the displacements
 //! of prismatic joints. One struct for all functions, so that a control loop makes it once.
 
-use super::angles::angle_terms;
 use super::expression::Style;
 use super::plan::Plan;
 use crate::expr::{Expr, Node, Symbol};
+use crate::robot::{Motion, Robot};
 
 /// Fields of the posture: all of them, or what one function needs.
 #[derive(Default)]
@@ -93,6 +93,14 @@ pub(super) fn displacement(joint: usize) -> String {
     format!("q{}", joint + 1)
 }
 
+/// The unit of a joint's value.
+pub(super) fn unit(robot: &Robot, joint: usize) -> &'static str {
+    match robot.joints[joint].motion {
+        Motion::Revolute => "rad",
+        Motion::Prismatic => "m",
+    }
+}
+
 /// An angle in terms of `q` and the constants.
 fn sum(plan: &Plan, sum: Expr, style: &dyn Style) -> String {
     let g = &plan.program.graph;
@@ -106,7 +114,7 @@ fn sum(plan: &Plan, sum: Expr, style: &dyn Style) -> String {
         _ => named(e),
     };
     let mut text = String::new();
-    for e in angle_terms(g, sum) {
+    for e in g.terms(sum) {
         text.push_str(match (text.is_empty(), e.is_negative()) {
             (true, false) => "",
             (true, true) => "-",

@@ -65,7 +65,8 @@ impl Near {
 /// Numbers the poses in the order in which they first appear; returns how many there are.
 ///
 /// With a `pose` column its ids decide. Without one, rows with the same readings, to the resolution of
-/// a controller, are one pose, even if other poses were measured between them.
+/// a controller, are one pose, even if other poses were measured between them. Rows of two sessions are
+/// never one pose.
 pub(crate) fn assign(rows: &mut [Row]) -> usize {
     #[derive(PartialEq, Eq, Hash)]
     enum Key {
@@ -74,12 +75,13 @@ pub(crate) fn assign(rows: &mut [Row]) -> usize {
     }
     let (mut seen, mut readings) = (HashMap::new(), Near::new(SAME));
     for row in rows {
+        let of = row.session.clone();
         let key = match &row.pose {
             Some(id) => Key::Id(id.clone()),
             None => Key::Readings(readings.kind(&row.q)),
         };
         let next = seen.len();
-        row.group = *seen.entry(key).or_insert(next);
+        row.group = *seen.entry((of, key)).or_insert(next);
     }
     seen.len()
 }
@@ -135,5 +137,14 @@ mod tests {
         let rows =
             vec![row(&[0.1], Some("a")), row(&[0.1], Some("b")), row(&[0.1000001], Some("a"))];
         assert_eq!(groups(rows), (2, vec![0, 1, 0]));
+    }
+
+    #[test]
+    fn a_pose_is_of_one_session() {
+        let of =
+            |session: &str, pose| Row { session: Some(session.to_owned()), ..row(&[0.1], pose) };
+        let named = vec![of("a", Some("1")), of("a", Some("1")), of("b", Some("1"))];
+        assert_eq!(groups(named), (2, vec![0, 0, 1]));
+        assert_eq!(groups(vec![of("a", None), of("b", None), of("b", None)]), (2, vec![0, 1, 1]));
     }
 }

@@ -8,6 +8,7 @@
 mod differences;
 pub mod draw;
 mod dual;
+mod motion;
 pub mod scale;
 
 use std::num::NonZero;
@@ -27,7 +28,7 @@ pub enum Comparison {
     Single,
     /// Central differences of another output of the textbook.
     Differences,
-    /// Derivatives of the forward kinematics by dual numbers.
+    /// Derivatives of the forward kinematics by dual numbers, and what d'Alembert's principle makes of them.
     Dual,
 }
 
@@ -46,7 +47,7 @@ impl Comparison {
     }
 }
 
-/// An implementation: an output as one column-major block, at joint values, under a wrench.
+/// An implementation: an output as one column-major block, at a state, under a wrench.
 pub type Evaluate<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Vec<f64>, Unstable> + Sync + 'a;
 
 /// Compiled kernels of any scalar as such an implementation; `back` makes a double of their numbers.
@@ -71,6 +72,8 @@ pub fn compiled<S: Scalar>(
 
 /// What is to be compared.
 pub struct Subject<'a> {
+    /// What is compared.
+    pub outputs: &'a [Output],
     /// The arm as the textbook has it.
     pub arm: &'a Arm,
     /// The generated implementation.
@@ -103,7 +106,7 @@ impl Line {
 
 /// The result over all postures.
 pub struct Agreement {
-    /// One per output, in the order of [`Output::EACH`].
+    /// One per output of the subject.
     pub lines: Vec<Line>,
     /// Evaluations left out since the textbook finds the arm unstable there.
     pub unstable: usize,
@@ -128,13 +131,13 @@ pub fn agreement(
         };
         running.into_iter().map(join).collect()
     });
-    parts.into_iter().fold(Agreement::none(), Agreement::and)
+    parts.into_iter().fold(Agreement::none(subject), Agreement::and)
 }
 
 impl Agreement {
-    fn none() -> Agreement {
-        let line = |output| Line { output, worst: [None; 4] };
-        Agreement { lines: Output::EACH.map(line).to_vec(), unstable: 0 }
+    fn none(subject: &Subject<'_>) -> Agreement {
+        let line = |output: &Output| Line { output: *output, worst: [None; 4] };
+        Agreement { lines: subject.outputs.iter().map(line).collect(), unstable: 0 }
     }
 
     fn and(mut self, other: Agreement) -> Agreement {
@@ -152,7 +155,7 @@ impl Agreement {
 const MESSAGE: usize = 16;
 
 fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)) -> Agreement {
-    let mut result = Agreement::none();
+    let mut result = Agreement::none(subject);
     let mut arm = subject.arm.clone();
     for part in samples.chunks(MESSAGE) {
         for sample in part {
@@ -164,10 +167,11 @@ fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)
 }
 
 /// `arm` is the subject's, to be changed and changed back.
-fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &mut Agreement) {
-    let dual = dual::Derivatives::at(arm, q, w);
+fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { state, w }: &Sample, result: &mut Agreement) {
+    let dual = dual::Derivatives::at(arm, &state[..arm.dof()], w);
     for line in &mut result.lines {
         let output = line.output;
+        let q = &state[..output.state(arm.dof())];
         let Ok(textbook) = arm.evaluate(output, q, w) else {
             result.unstable += 1;
             continue;
@@ -184,7 +188,7 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
         if let Some(slopes) = differences::of(arm, output, q, w) {
             line.note(2, fine(&generated, &slopes));
         }
-        if let Some(slopes) = dual.of(output) {
+        if let Some(slopes) = dual.of(output).or_else(|| motion::of(arm, output, q)) {
             line.note(3, fine(&generated, &slopes));
         }
     }

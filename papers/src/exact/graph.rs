@@ -53,6 +53,7 @@ impl Reading {
             Node::Mul(a, b) => of(a)?.times(&of(b)?),
             Node::Recip(a) => of(a)?.reciprocal(),
             Node::Sqrt(a) => of(a)?.root(),
+            Node::Sign(_) => Err(Inexact::Rounded),
             Node::Sin(a) => self.trig(graph, Function::Sin, a),
             Node::Cos(a) => self.trig(graph, Function::Cos, a),
         }
@@ -75,7 +76,12 @@ impl Reading {
             Symbol::Displacement { place, component } => {
                 Ok(Polynomial::symbol(&displacement(*place, *component)).into())
             }
-            Symbol::Deflection { .. } => Err(Inexact::Root),
+            // None of the papers' equations has these.
+            Symbol::Deflection { .. }
+            | Symbol::Rate(_)
+            | Symbol::Acceleration(_)
+            | Symbol::Torque(_)
+            | Symbol::Own { .. } => Err(Inexact::Root),
         }
     }
 

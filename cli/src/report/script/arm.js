@@ -6,6 +6,7 @@
   const picture = document.getElementById("arm-picture");
   const { places, points, si, unit } = page.scene;
   const view = { ...HOME };
+  const narrow = matchMedia("(max-width: 30rem)");
 
   const through = places.flatMap((place) => place.through);
   const everything = [...through, ...points];
@@ -104,8 +105,10 @@
 
   // The first place beside a point where a label lies on no other; above it if there is none.
   function free(x, y, text, taken) {
-    const [wide, high] = [8 * text.length, 16];
-    const rows = [-9, 13, -26, 30, -43, 47, -60, 64];
+    // On a phone letters are larger in the picture, as the style has them.
+    const letter = narrow.matches ? 1.6 : 1;
+    const [wide, high] = [8 * letter * text.length, 16 * letter];
+    const rows = [-9, 13, -26, 30, -43, 47, -60, 64].map((dy) => letter * dy);
     const tried = rows.flatMap((dy) => [[x + 13, y + dy, "start"], [x - 13, y + dy, "end"]]);
     const box = ([u, v, anchor]) => [anchor === "end" ? u - wide : u, v - high];
     const apart = ([a, b, w], [c, d]) => a + w < c || c + wide < a || Math.abs(b - d) >= high;
@@ -177,6 +180,7 @@
   for (const end of ["pointerup", "pointercancel"]) {
     svg.addEventListener(end, () => { held = null; });
   }
+  narrow.addEventListener("change", draw);
   for (const button of document.querySelectorAll("[data-turn]")) {
     button.addEventListener("click", () => move(button.dataset.turn));
   }

@@ -8,7 +8,7 @@ use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use super::{flat, line};
 use crate::support::{Folder, stiffarm, text};
 
-const ROBOT: &str = r#"
+pub(super) const ROBOT: &str = r#"
 name = "shoulder and elbow"
 convention = "standard"
 [[joint]]
@@ -37,9 +37,9 @@ translation = [0.05, 0.0, 0.15]
 rotation = [0.0, 0.0, "pi/4"]
 "#;
 
-const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
-const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
-const SLACK: &str = "backlash@joint 3=0.5 mrad";
+pub(super) const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
+pub(super) const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
+pub(super) const SLACK: &str = "backlash@joint 3=0.5 mrad";
 
 /// The robot file, and measurements of it with these truths.
 struct Bench {

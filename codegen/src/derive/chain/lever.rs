@@ -46,21 +46,22 @@ impl Point {
 impl Levers {
     /// The translations of the chain up to the tool origin.
     pub fn to_tool(chain: &mut Chain) -> Levers {
-        let mut segments = translations(chain, |_, _, length| length);
         let end = chain.steps().len();
-        let axes = chain.axes(end);
-        let offsets = chain.robot.tool.translation.clone();
-        for (offset, axis) in offsets.iter().zip(axes) {
-            let length = chain.value(offset);
-            segments.push(Segment { at: 2 * end, length, axis });
-        }
-        Levers::sorted(chain, segments)
+        let offsets = tool_offsets(chain);
+        Levers::to(chain, end, &offsets, [Expr::ZERO; 3])
     }
 
     /// The translations before boundary `cut`, continued by `beyond` from there on.
     pub fn inside(chain: &mut Chain, cut: usize, beyond: Vec3) -> Levers {
+        Levers::to(chain, cut, &[], beyond)
+    }
+
+    /// The translations before boundary `cut`, those of `offsets` there, and what is `beyond`.
+    pub fn to(chain: &mut Chain, cut: usize, offsets: &[(Expr, Vec3)], beyond: Vec3) -> Levers {
         let mut segments = translations(chain, |_, _, length| length);
         segments.retain(|segment| segment.at < 2 * cut);
+        let fixed = offsets.iter().map(|&(length, axis)| Segment { at: 2 * cut, length, axis });
+        segments.extend(fixed);
         Levers { beyond, ..Levers::sorted(chain, segments) }
     }
 
@@ -133,6 +134,13 @@ impl Levers {
         }
         pending.map_or(sum, |last| accumulate(g, sum, last))
     }
+}
+
+/// The tool's translation along the axes of the last frame.
+pub fn tool_offsets(chain: &mut Chain) -> [(Expr, Vec3); 3] {
+    let axes = chain.axes(chain.steps().len());
+    let offsets = chain.robot.tool.translation.clone();
+    core::array::from_fn(|k| (chain.value(&offsets[k]), axes[k]))
 }
 
 fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {

@@ -1,10 +1,16 @@
 //! The posture as a struct of C, and the statements that make it.
 
-use super::super::posture::{Posture, displacement};
+use super::super::posture::{Posture, displacement, unit};
 use crate::emit::lines::Lines;
+use crate::robot::Robot;
 
 /// The struct.
-pub(super) fn declaration(posture: &Posture, out: &mut Lines, name: &str, real: &str) {
+pub(super) fn declaration(
+    posture: &Posture,
+    out: &mut Lines,
+    robot: &Robot,
+    (name, real): (&str, &str),
+) {
     out.comment(&[
         "The joint values as the kernels need them: sines, cosines, displacements.".to_string()
     ]);
@@ -16,7 +22,8 @@ pub(super) fn declaration(posture: &Posture, out: &mut Lines, name: &str, real: 
         out.code(&format!("{real} c{}; /* cosine of {} */", pair.suffix, pair.sum));
     }
     for joint in &posture.prismatic {
-        out.code(&format!("{real} {}; /* q[{joint}], m */", displacement(*joint)));
+        let unit = unit(robot, *joint);
+        out.code(&format!("{real} {}; /* q[{joint}], {unit} */", displacement(*joint)));
     }
     out.dedent();
     out.code(&format!("}} {name}_posture_t;"));

@@ -1,7 +1,8 @@
 //! What enters a kernel: the posture as sines, cosines and displacements.
 
-use super::super::posture::{Needs, Pair, Posture};
+use super::super::posture::{Needs, Pair, Posture, unit};
 use crate::emit::lines::Lines;
+use crate::robot::Robot;
 
 /// What a function is made of is joined to it, so that sines and cosines and all entries stay in
 /// registers; the way through memory costs a quarter more.
@@ -13,7 +14,8 @@ pub(super) fn needs_constants(posture: &Posture) -> bool {
 }
 
 /// The struct `Posture`: what of the joint values the functions of the module need.
-pub(super) fn module(posture: &Posture, needs: &[Needs], n: usize) -> String {
+pub(super) fn module(posture: &Posture, needs: &[Needs], robot: &Robot) -> String {
+    let n = robot.dof();
     let mut out = Lines::at(0);
     out.blank();
     out.doc("The joint values as the kernels need them: sines, cosines, displacements.");
@@ -28,7 +30,7 @@ pub(super) fn module(posture: &Posture, needs: &[Needs], n: usize) -> String {
         }
     }
     for joint in &posture.prismatic {
-        out.doc(&format!("`q[{joint}]`, m"));
+        out.doc(&format!("`q[{joint}]`, {}", unit(robot, *joint)));
         out.code(&format!("pub q{}: S,", joint + 1));
     }
     out.dedent();

@@ -4,14 +4,13 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::spread::Spread;
+use super::spread::{Spread, columns};
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Fitted, Model};
+use crate::diagnose::fit::{Fitted, Model, Predicted};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known, file_name};
 use crate::measurement::{Kind, Measurements};
-use crate::simulate::Sim;
 
 /// A part of the range within which a value beyond it still counts as inside.
 const EDGE: f64 = 1e-6;
@@ -26,6 +25,8 @@ pub struct Explanation {
     pub(super) after: Model,
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
+    sessions: Vec<String>,
+    centres: Vec<(String, usize)>,
     catalogue: Catalogue,
     pub(super) known: Vec<Known>,
     covers: Cover,
@@ -55,7 +56,10 @@ impl Explanation {
     ) -> Self {
         let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
-        arm.base = after.instrument;
+        // Of several bases none is the arm's.
+        if let [base] = after.bases[..] {
+            arm.base = base;
+        }
         Self {
             nominal: problem.arm.clone(),
             arm,
@@ -64,6 +68,8 @@ impl Explanation {
             after,
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
+            sessions: problem.sessions.clone(),
+            centres: problem.centres.clone(),
             covers: covers.clone(),
             catalogue: options.catalogue.clone(),
             known: options.known.clone(),
@@ -101,7 +107,8 @@ impl Explanation {
         &self.catalogue
     }
 
-    /// The arm with base and tool where they were fitted, or as the robot file has them.
+    /// The arm with base and tool where they were fitted, or as the robot file has them; of several
+    /// sessions, each with a base of its own, the base is the robot file's.
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
@@ -112,12 +119,12 @@ impl Explanation {
         Options { nuisances, known, ..Options::default() }
     }
 
-    /// What the models make of measurements of the arm. Frames and markers stay where they were
+    /// What the models make of measurements of the arm. Frames, markers and points stay where they were
     /// fitted. What happened at a time is carried to no other file.
     ///
     /// # Errors
-    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
-    /// never fitted.
+    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`], [`DiagnoseError::NewSession`] or
+    /// [`DiagnoseError::NewPoint`] for a marker, base or point whose place was never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
         let problem = Problem::new(&self.nominal, data, &self.options())?;
         let mut places = Vec::with_capacity(problem.markers.len());
@@ -128,10 +135,24 @@ impl Explanation {
                 marker: name.clone(),
             })?);
         }
+        let sessions: Vec<usize> = problem
+            .sessions
+            .iter()
+            .map(|name| self.session(&problem, name))
+            .collect::<Result<_, _>>()?;
+        let mut centres = Vec::with_capacity(problem.centres.len());
+        for (name, session) in &problem.centres {
+            let same = |(known, of): &(String, usize)| known == name && *of == sessions[*session];
+            centres.push(self.centres.iter().position(same).ok_or_else(|| {
+                DiagnoseError::NewPoint { file: data.file.clone(), point: name.clone() }
+            })?);
+        }
         let lasts = |f: &Fitted| data.file == self.file || f.effect.depends() != Depends::Session;
         let carried = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
+            model.bases = sessions.iter().map(|k| model.bases[*k]).collect();
+            model.centres = centres.iter().map(|k| model.centres[*k]).collect();
             model.found.retain(lasts);
             model
         };
@@ -139,12 +160,12 @@ impl Explanation {
         let before = carried(&self.before).predict(&problem, None)?.gaps;
         let after = model.predict(&problem, None)?;
         let frames = 6 * problem.nuisances.len();
-        let mut columns: Vec<usize> = (0..frames).collect();
+        let mut numbers: Vec<usize> = (0..frames).collect();
         let mut first = frames;
         for found in &self.after.found {
             let own = first..first + found.values.len();
             first = own.end;
-            columns.extend(own.filter(|_| lasts(found)));
+            numbers.extend(own.filter(|_| lasts(found)));
         }
         let each = data.rows.iter().enumerate();
         let inside = each.map(|(number, row)| {
@@ -157,23 +178,39 @@ impl Explanation {
             row.q.iter().zip(&self.covers.joints).all(in_range)
                 && force <= self.covers.force * (1.0 + EDGE)
                 && moment <= self.covers.moment * (1.0 + EDGE)
-                && self.leverage(&problem, &model, &after.sims, number, &columns)
+                && self.leverage(&problem, &model, &after, number, &numbers)
                     <= self.spread.leverage * (1.0 + EDGE)
         });
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
     }
 
-    /// Of a row, by those columns of what was fitted that `model` has.
+    /// Of a row, by those `numbers` of what was fitted that `model` has; infinite where it has no state.
     fn leverage(
         &self,
         problem: &Problem<'_>,
         model: &Model,
-        sims: &[Sim],
+        predicted: &Predicted,
         row: usize,
-        columns: &[usize],
+        numbers: &[usize],
     ) -> f64 {
-        let block = model.change(problem, sims, row, |s| model.block(problem, row, s));
-        let (frames, markers) = (6 * problem.nuisances.len(), 3 * problem.markers.len());
-        self.spread.leverage(&block.remove_columns(frames, markers), columns)
+        model.state(problem, predicted, row).map_or(f64::INFINITY, |sim| {
+            let block = model.change(problem, &sim, row, |s| model.block(problem, row, s));
+            self.spread.leverage(&block.select_columns(&columns(problem, model, row)), numbers)
+        })
+    }
+
+    /// Which of the diagnosed sessions a session of other data is measured in.
+    fn session(&self, other: &Problem<'_>, name: &str) -> Result<usize, DiagnoseError> {
+        let known = self.sessions.iter().position(|known| known == name);
+        let is_one = |names: &[String]| matches!(names, [one] if one.is_empty());
+        // A file without the column is of the one session that there is.
+        let only = self.sessions.len() == 1 && other.sessions.len() == 1;
+        let only = only && (is_one(&self.sessions) || is_one(&other.sessions));
+        let any = only || self.centres.is_empty() && !other.is_unknown(Nuisance::BaseFrame);
+        known.or(any.then_some(0)).ok_or_else(|| DiagnoseError::NewSession {
+            file: other.data.file.clone(),
+            session: name.to_owned(),
+            known: self.sessions.join(", "),
+        })
     }
 }

@@ -1,6 +1,8 @@
 //! What is usual of what gives: nobody knows a compliance of arms of any size, but everybody how far arms
 //! give.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
@@ -8,6 +10,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
 use crate::effects::Group;
+use crate::simulate::Sim;
 
 /// An arm's tool hardly moves by more than this part of its reach because something gives (by so many
 /// radians, where no position is measured).
@@ -28,16 +31,20 @@ pub(crate) fn scale_elastic(
         matches!(group, Some(Group::Elastic | Group::Nonlinear))
             && candidate.usual.iter().any(|usual| usual.is_infinite())
     };
-    let sims = model.predict(problem, None)?.sims;
-    let rows: Vec<usize> = (0..sims.len()).step_by(sims.len().div_ceil(MOST_ROWS)).collect();
+    let predicted = model.predict(problem, None)?;
+    let count = problem.data.rows.len();
+    let rows = (0..count).step_by(count.div_ceil(MOST_ROWS));
+    let rows: Vec<(usize, Cow<'_, Sim>)> = rows
+        .map(|row| Ok((row, model.state(problem, &predicted, row)?)))
+        .collect::<Result<_, _>>()?;
     let (first, most) = match problem.measures_position() {
         true => (0, PART * problem.reach),
         false => (3, PART),
     };
     candidates.par_iter_mut().filter(|c| is_open(c)).for_each(|candidate| {
         let mut squares = vec![0.0; candidate.size];
-        for row in &rows {
-            let block = model.change(problem, &sims, *row, |s| candidate.block(s));
+        for (row, sim) in &rows {
+            let block = model.change(problem, sim, *row, |s| candidate.block(s));
             for (sum, column) in squares.iter_mut().zip(block.column_iter()) {
                 let moved = column.component_mul(&problem.mask);
                 *sum += moved.fixed_rows::<3>(first).norm_squared();

@@ -1,7 +1,7 @@
 //! How well the numbers of a fit are known: their covariance, and how they scatter when visits are
 //! left out.
 
-use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -46,11 +46,13 @@ impl Search<'_, '_> {
         let left = squares(problem, &now.fit.predicted.gaps, &now.weights);
         let variance = scale.variance(left, parameters);
         let sizes = basis.variances().map(|v| (v * variance).sqrt());
-        let columns = columns(problem, &now.fit, &sizes);
+        let exact = exact(problem, &now.fit, &sizes);
         let weighted = |row: usize| {
             let weights = problem.weights(row, &now.weights);
-            let mut block = columns[row].clone();
-            block.column_iter_mut().for_each(|mut c| c.component_mul_assign(&weights));
+            let mut block = block(problem, &now.fit, row, &weights);
+            for (k, column) in &exact {
+                block.set_column(*k, &column[row].component_mul(&weights));
+            }
             (block, now.fit.predicted.gaps[row].component_mul(&weights))
         };
         let clusters = clusters(problem);
@@ -87,34 +89,31 @@ impl Search<'_, '_> {
     }
 }
 
-/// What each parameter does to each row's reading, not weighted: of effects by a difference of the exact
-/// model, so that what is of second order counts (a link's compliance and its length), where the data
-/// are not too many; `sizes` are the parameters' standard deviations.
-fn columns(problem: &Problem<'_>, fit: &Fit, sizes: &DVector<f64>) -> Vec<Matrix6xX<f64>> {
-    let rows = fit.predicted.gaps.len();
-    let unit = Vector6::repeat(1.0).component_mul(&problem.mask);
-    let mut columns: Vec<Matrix6xX<f64>> =
-        (0..rows).into_par_iter().map(|row| block(problem, fit, row, &unit)).collect();
+/// What the numbers of effects do to each row's reading, by differences of the exact model, so that what
+/// is of second order counts (a link's compliance and its length); of data that are too many, nothing.
+/// `sizes` are the parameters' standard deviations.
+fn exact(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    sizes: &DVector<f64>,
+) -> Vec<(usize, Vec<Vector6<f64>>)> {
     let first = Model::nuisances(problem);
-    if rows * (sizes.len() - first) > MOST_EXACT || problem.stop.is_asked() {
-        return columns;
+    let too_many = fit.predicted.gaps.len() * (sizes.len() - first) > MOST_EXACT;
+    if too_many || problem.stop.is_asked() {
+        return Vec::new();
     }
-    for k in first..sizes.len() {
+    let columns = (first..sizes.len()).filter(|k| sizes[*k] > 0.0).filter_map(|k| {
         let step = STEP * sizes[k];
-        if step <= 0.0 {
-            continue;
-        }
         let mut steps = vec![0.0; sizes.len()];
         steps[k] = step;
         // Where the arm finds no rest with a number that is known so badly, its first order stays.
         let moved = fit.model.moved(problem, &steps);
-        let Ok(moved) = moved.predict(problem, Some(&fit.predicted.sims)) else { continue };
-        let gaps = moved.gaps.iter().zip(&fit.predicted.gaps);
-        for (column, (moved, gap)) in columns.iter_mut().zip(gaps) {
-            column.set_column(k, &((gap - moved) / step));
-        }
-    }
-    columns
+        let moved = moved.predict(problem, Some(&fit.predicted.sims)).ok()?;
+        let gaps = fit.predicted.gaps.iter().zip(&moved.gaps);
+        let column = gaps.map(|(gap, moved)| (gap - moved).component_mul(&problem.mask) / step);
+        Some((k, column.collect()))
+    });
+    columns.collect()
 }
 
 /// The rows that are left out together.

@@ -65,10 +65,16 @@ impl Search<'_, '_> {
     /// The names of all parameters, in the order of the model's block.
     fn parameters(&self, model: &Model) -> Vec<String> {
         let problem = self.problem;
-        let frames = problem.nuisances.iter().copied().map(Nuisance::identifier);
-        let frames = frames.flat_map(|frame| FRAME.map(|axis| format!("{axis} of {frame}")));
-        let markers = problem.markers.iter();
-        let markers = markers.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));
+        let frames = problem.frames().flat_map(|(frame, session)| {
+            let of = match problem.sessions.len() > 1 && frame == Nuisance::BaseFrame {
+                true => format!("{} of {}", frame.identifier(), problem.sessions[session]),
+                false => frame.identifier().to_owned(),
+            };
+            FRAME.map(|axis| format!("{axis} of {of}"))
+        });
+        let centres = problem.centres.iter().map(|(name, _)| name);
+        let points = problem.markers.iter().chain(centres);
+        let markers = points.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));
         let effects = model.found.iter().flat_map(|found| {
             let (effect, place) = (found.effect.identifier(), found.spot.place);
             let all = found.effect.parameters(problem.arm, found.spot).into_iter();

@@ -1,0 +1,223 @@
+//! The diagnosis of a joint log on one screen.
+
+use stiffarm_gap::log::report::{Finding, Parameter};
+use stiffarm_gap::log::{Domain, LogDiagnosis};
+
+use super::{BAR, MOST, WIDTH, percent, words};
+use crate::input::quantity::counted;
+use crate::terminal::text::{
+    Align, bad, bar, bold, decimals, dim, fixed, good, indented, left_bar, listed, minus, short,
+    table, wrapped,
+};
+
+/// Findings that are shown with their numbers.
+const DETAILED: usize = 12;
+
+/// Findings that the sentence tells.
+const TOLD: usize = 3;
+
+/// Width of a finding's bar.
+const NARROW: usize = 12;
+
+/// Where the text beside the names of remarks begins.
+const MARGIN: usize = 14;
+
+/// The whole screen.
+pub fn text(found: &LogDiagnosis) -> String {
+    let sentence = wrapped(&sentence(found), WIDTH, 0);
+    [head(found), format!("\n{sentence}\n"), gap(found), findings(found), notes(found)].concat()
+}
+
+fn head(found: &LogDiagnosis) -> String {
+    let evidence = &found.evidence;
+    let rows = match (found.rows, found.torque_side) {
+        (Domain::Torque, Some(side)) => format!("torques, {}", format!("{side:?}").to_lowercase()),
+        (Domain::Torque, None) => "torques".to_owned(),
+        (Domain::Position, _) => "positions against commands".to_owned(),
+    };
+    let held = match evidence.held_out_by {
+        "run" => format!("each of {} runs held out in turn", evidence.folds),
+        _ => format!("held out in {} folds of blocks", evidence.folds),
+    };
+    let facts = format!(
+        "{}: {rows}; {} in {}; below {} Hz; about {:.0} independent numbers, blocks of {} s, {held}",
+        found.files.join(", "),
+        counted(found.samples, "sample"),
+        counted(found.runs, "run"),
+        short(found.filter.band),
+        evidence.effective,
+        short(evidence.block_length),
+    );
+    format!("{}\n{}\n", bold(&found.robot), dim(wrapped(&facts, WIDTH, 2).trim_end()))
+}
+
+/// Mean of the joints' gaps as parts of their sizes, before and after.
+fn left(found: &LogDiagnosis) -> [f64; 2] {
+    let mean = |of: fn(&stiffarm_gap::log::report::JointGap) -> f64| {
+        found.gap.iter().map(|g| of(g) / g.size).sum::<f64>() / found.gap.len() as f64
+    };
+    [mean(|g| g.before), mean(|g| g.after)]
+}
+
+fn sentence(found: &LogDiagnosis) -> String {
+    let [before, after] = left(found).map(|part| format!("{} %", fixed(100.0 * part, 1)));
+    let what = match found.rows {
+        Domain::Torque => "of the torques' spread",
+        Domain::Position => "of the position errors",
+    };
+    if found.findings.is_empty() {
+        return format!(
+            "Nothing is found: no effect that was tried makes the gap of {before} {what} smaller on \
+             time that no fit has seen."
+        );
+    }
+    let name = |f: &Finding| format!("{} at {}", words(f.effect), f.place);
+    let mut told: Vec<String> = found.findings.iter().take(TOLD).map(name).collect();
+    if let Some(more) = found.findings.len().checked_sub(TOLD).filter(|more| *more > 0) {
+        told.push(counted(more, "more effect"));
+    }
+    let last = told.pop().unwrap_or_default();
+    let told = if told.is_empty() { last } else { format!("{} and {last}", told.join(", ")) };
+    let mut text = format!(
+        "The model lacks {told}: with them {after} {what} is left on time that no fit has seen, without \
+         them {before}."
+    );
+    let open = found.findings.iter().filter(|f| !f.alternatives.is_empty()).count();
+    if open > 0 {
+        text.push_str(&format!(
+            " This log does not tell {} from others.",
+            counted(open, "finding")
+        ));
+    }
+    text
+}
+
+fn gap(found: &LogDiagnosis) -> String {
+    // Position errors are told in what people read.
+    let shown = |unit: &'static str| match unit {
+        "rad" => ("°", 180.0 / core::f64::consts::PI),
+        "m" => ("mm", 1e3),
+        other => (other, 1.0),
+    };
+    let size = match found.rows {
+        Domain::Torque => "spread",
+        Domain::Position => "as logged",
+    };
+    let before = match found.rows {
+        Domain::Torque => "rigid links alone",
+        Domain::Position => "before",
+    };
+    let heads = ["Gap, rms", size, before, "with the findings", ""];
+    let mut rows = vec![heads.map(|h| if h == "Gap, rms" { bold(h) } else { dim(h) }).to_vec()];
+    for (joint, gap) in found.gap.iter().enumerate() {
+        let (name, factor) = shown(gap.unit);
+        let number = |x: f64| short(factor * x);
+        rows.push(vec![
+            format!("  joint {}", joint + 1),
+            format!("{} {name}", number(gap.size)),
+            number(gap.before),
+            number(gap.after),
+            bar(gap.after / gap.size.max(gap.before), BAR),
+        ]);
+    }
+    use Align::{Left, Right};
+    table(&rows, &[Left, Right, Right, Right, Left])
+}
+
+fn findings(found: &LogDiagnosis) -> String {
+    if found.findings.is_empty() {
+        return String::new();
+    }
+    let part = |x: f64| fixed(100.0 * x, 1);
+    let line = |(k, f): (usize, &Finding)| {
+        vec![
+            (k + 1).to_string(),
+            good(format!("{} at {}", words(f.effect), f.place)),
+            format!("{} → {} %", part(f.held_out_before), part(f.held_out_after)),
+            left_bar(f.held_out_before, f.held_out_after, NARROW),
+        ]
+    };
+    let rows: Vec<Vec<String>> = found.findings.iter().enumerate().map(line).collect();
+    let what = dim("in the order in which they were added; mean gap of the joints, held out");
+    let mut text = format!("\n{}  {what}\n", bold("Findings"));
+    for (line, finding) in table(&rows, &[Align::Right]).lines().zip(&found.findings) {
+        text.push_str(&format!("  {line}\n"));
+        if found.findings.len() <= DETAILED || !finding.alternatives.is_empty() {
+            text.push_str(&details(finding));
+        }
+    }
+    if found.findings.len() > DETAILED {
+        text.push_str("  the numbers of all: --json\n");
+    }
+    text
+}
+
+fn details(finding: &Finding) -> String {
+    let numbers: Vec<String> = finding.parameters.iter().map(number).collect();
+    let mut text = format!("     {}; p = {}", numbers.join("; "), short(finding.p_value));
+    if !finding.alternatives.is_empty() {
+        let name = |a: &stiffarm_gap::log::report::Alternative| {
+            let more = percent(a.leaves - 1.0);
+            format!("{} at {} (leaves {more} more)", words(a.effect), a.place)
+        };
+        let names: Vec<String> = finding.alternatives.iter().map(name).collect();
+        text.push_str(&format!(
+            "; {}: {}",
+            bad("this log cannot tell it from"),
+            listed(&names, MOST)
+        ));
+    }
+    let mut text = wrapped(&text, WIDTH, 7);
+    if let Some(advice) = finding.to_separate {
+        text.push_str(&wrapped(&format!("     to tell them apart: {advice}"), WIDTH, 7));
+    }
+    text
+}
+
+/// `viscous 8.13 [8.01 to 8.25] N·m·s/rad`.
+fn number(p: &Parameter) -> String {
+    let half = 0.5 * (p.ci95[1] - p.ci95[0]);
+    let digits = decimals(half, 2).min(decimals(p.value.abs(), 3).max(decimals(half, 1)));
+    let shown = |x: f64| match (1e-4..1e5).contains(&p.value.abs()) {
+        true => fixed(x, digits),
+        false => minus(format!("{x:.2e}")),
+    };
+    let [low, high] = p.ci95.map(shown);
+    format!("{} {} [{low} to {high}] {}", p.name, shown(p.value), p.unit)
+}
+
+fn notes(found: &LogDiagnosis) -> String {
+    let note = |name: &str, text: String| {
+        let pad = " ".repeat(MARGIN - name.len());
+        wrapped(&format!("{}{pad}{text}", bold(name)), WIDTH, MARGIN)
+    };
+    let mut text = String::from("\n");
+    if found.rigid_parameters > 0 {
+        let count = counted(found.rigid_parameters, "base parameter");
+        text.push_str(&note("Fitted along", format!("the rigid links, {count}")));
+    }
+    if !found.evidence.long_enough {
+        let longest = found.evidence.correlation_time.iter().copied().fold(0.0, f64::max);
+        let few = format!(
+            "blocks of five correlation times ({} s each) are too few in this log: chances and intervals \
+             are told from shorter ones, and too small",
+            short(longest)
+        );
+        text.push_str(&note("Too short", few));
+    }
+    let mut told: Vec<(&str, &str, Vec<&str>)> = Vec::new();
+    for hidden in &found.cannot_see {
+        let same = |t: &&mut (&str, &str, Vec<&str>)| {
+            (t.0, t.1) == (hidden.effect, hidden.reason.as_str())
+        };
+        match told.iter_mut().find(same) {
+            Some((.., places)) => places.push(&hidden.place),
+            None => told.push((hidden.effect, &hidden.reason, vec![hidden.place.as_str()])),
+        }
+    }
+    for (k, (effect, reason, places)) in told.into_iter().enumerate() {
+        let name = if k == 0 { "Cannot see" } else { "" };
+        text.push_str(&note(name, format!("{} at {}: {reason}", words(effect), places.join(", "))));
+    }
+    indented(&text, 0)
+}

@@ -1,0 +1,126 @@
+//! `stiffarm diagnose` of joint logs.
+
+mod real;
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+use stiffarm_gap::dice::{Dice, Stream};
+
+use crate::support::{Folder, stiffarm};
+
+const PENDULUM: &str = "\
+name = \"pendulum\"
+convention = \"standard\"
+gravity = [0.0, -9.80665, 0.0]
+
+[[joint]]
+type = \"revolute\"
+name = \"swing\"
+theta = 0.0
+d = 0.0
+a = 0.8
+alpha = 0.0
+mass = 3.0
+com = [0.0, 0.0, 0.0]
+";
+
+/// Torque of a point mass of 3 kg at 0.8 m, with 2 N·m of Coulomb friction and 0.7 N·m·s/rad: rows at
+/// 100 Hz under a header.
+fn rows(header: &str) -> String {
+    let mut dice = Dice::new(5, Stream::Noise);
+    let mut text = format!("{header}\n");
+    for k in 0..6000 {
+        let t = 0.01 * f64::from(k);
+        let waves = [(0.6, 1.1, 0.0), (0.4, 2.3, 1.0), (0.2, 3.7, 2.0)];
+        let sum = |of: fn(f64, f64, f64) -> f64| {
+            waves.iter().map(|(size, rate, phase)| of(*size, *rate, rate * t + phase)).sum::<f64>()
+        };
+        let q = sum(|size, _, at| size * at.sin());
+        let v = sum(|size, rate, at| size * rate * at.cos());
+        let a = sum(|size, rate, at| -size * rate * rate * at.sin());
+        let weight = 3.0 * 0.8 * 9.80665 * q.cos();
+        let torque = 3.0 * 0.64 * a + weight + 2.0 * v.signum() + 0.7 * v + 0.1 * dice.normal();
+        writeln!(text, "{t:.2},{q:.7},{torque:.4}").expect("text");
+    }
+    text
+}
+
+const HEADER: &str = "t[s],q1[rad],tau1[N*m]";
+
+#[test]
+fn friction_is_told_with_its_numbers() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let log = folder.file("log.csv", rows(HEADER));
+    let json = folder.path("log.json");
+    let json = json.to_str().expect("a path");
+    let side = ["--torque-side", "motor", "--json", json];
+    let out = stiffarm(&[&["diagnose", &robot, &log][..], &side].concat()).good();
+    assert!(out.contains("coulomb friction at joint 1"), "{out}");
+    assert!(out.contains("viscous friction at joint 1"), "{out}");
+    assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
+    assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
+    let text = std::fs::read_to_string(json).expect("written");
+    let found: Value = serde_json::from_str(&text).expect("JSON");
+    let value = |effect: &str| {
+        let list = found["findings"].as_array().expect("a list");
+        let finding = list.iter().find(|f| f["effect"] == effect).expect("found");
+        finding["parameters"][0]["value"].as_f64().expect("a number")
+    };
+    // The noise of 0.1 N·m over some hundred independent numbers.
+    assert!((value("coulomb_friction") - 2.0).abs() < 0.03, "{text}");
+    assert!((value("viscous_friction") - 0.7).abs() < 0.03, "{text}");
+    assert_eq!(found["torque_side"], "motor");
+}
+
+#[test]
+fn a_side_is_declared_and_never_guessed() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let log = folder.file("log.csv", rows(HEADER));
+    let err = stiffarm(&["diagnose", &robot, &log]).refused();
+    assert_eq!(err.lines().count(), 1, "{err}");
+    assert!(
+        err.contains("found torques without a side, expected where they are measured"),
+        "{err}"
+    );
+    let external = ["diagnose", &robot, &log, "--torque-side", "external"];
+    assert!(stiffarm(&external).refused().contains("found torque_side external"));
+    let log = folder.file("said.csv", format!("# torque_side = motor\n{}", rows(HEADER)));
+    stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
+}
+
+#[test]
+fn others_names_and_damaged_rows_are_read() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let mut text = rows("timestamp,actual_q_0,actual_current_0");
+    text.push_str("60.00,1e306,1\n60.01,0.1\n");
+    let log = folder.file("rtde.csv", text);
+    let run = stiffarm(&["diagnose", &robot, &log, "--map", "rtde"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(
+        run.err.contains("2 of 6002 rows are damaged and left out: line 6002, 6003"),
+        "{}",
+        run.err
+    );
+    // A column of currents says itself what it is; its friction is in ampere.
+    assert!(run.out.contains("torques, current") && run.out.contains(" A;"), "{}", run.out);
+    let wrong = ["diagnose", &robot, &log, "--map", "excel"];
+    assert!(stiffarm(&wrong).refused().contains("expected a file or one of ros, rtde"));
+}
+
+#[test]
+fn options_go_with_what_the_file_is() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let log = folder.file("log.csv", rows(HEADER));
+    let nuisance = ["diagnose", &robot, &log, "--nuisance", "base_frame"];
+    assert!(stiffarm(&nuisance).refused().contains("--nuisance is for measurement files"));
+    let data = "robots/data/lin1991_table3.csv";
+    let band = ["diagnose", "lin_planar", data, "--band", "5Hz"];
+    assert!(stiffarm(&band).refused().contains("--band is for joint logs"));
+    let two = ["diagnose", "lin_planar", data, data];
+    assert!(stiffarm(&two).refused().contains("found 2 files"));
+}

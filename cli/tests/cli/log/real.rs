@@ -1,0 +1,104 @@
+//! Real logs: a Stäubli TX40 with published parameters, and a small arm of position servos.
+//!
+//! The data are not part of this repository. The tests look for `logs/tx40.csv`, `logs/tx40.urdf` and
+//! `logs/so101.csv` in the directory that `STIFFARM_DATA` names, or in `shared/data` beside the
+//! checkout; they are ignored unless `-- --ignored` asks for them.
+
+use serde_json::Value;
+
+use crate::support::{Folder, REPOSITORY, stiffarm};
+
+fn data(name: &str) -> String {
+    let beside = || format!("{REPOSITORY}/../shared/data");
+    let directory = std::env::var("STIFFARM_DATA").unwrap_or_else(|_| beside());
+    let path = format!("{directory}/logs/{name}");
+    assert!(std::path::Path::new(&path).exists(), "{path} is not there: set STIFFARM_DATA");
+    path
+}
+
+fn diagnosed(arguments: &[&str]) -> Value {
+    let run = stiffarm(&[&["diagnose"], arguments, &["--quiet", "--json", "-"]].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    serde_json::from_str(&run.out).expect("JSON")
+}
+
+/// The numbers of an effect at a place.
+fn numbers(found: &Value, effect: &str, place: &str) -> Vec<f64> {
+    let list = found["findings"].as_array().expect("a list");
+    let finding = list.iter().find(|f| f["effect"] == effect && f["place"] == place);
+    let finding = finding.unwrap_or_else(|| panic!("no {effect} at {place}: {found:#}"));
+    let parameters = finding["parameters"].as_array().expect("a list");
+    parameters.iter().map(|p| p["value"].as_f64().expect("a number")).collect()
+}
+
+/// What is left of all joints on unseen time, as a part of their sizes.
+fn left(found: &Value) -> f64 {
+    let gaps = found["gap"].as_array().expect("a list");
+    let part = |g: &Value| g["after"].as_f64().expect("") / g["size"].as_f64().expect("");
+    gaps.iter().map(part).sum::<f64>() / gaps.len() as f64
+}
+
+fn tx40(folder: &Folder) -> String {
+    let robot = folder.path("tx40.toml");
+    let robot = robot.to_str().expect("a path").to_owned();
+    stiffarm(&["import", &data("tx40.urdf"), "--toml", &robot, "--quiet"]).good();
+    robot
+}
+
+/// Published: Gautier, Janot & Vandanjon's TX40, as figaroh-examples has it.
+#[test]
+#[ignore = "reads logs that are not part of the repository: STIFFARM_DATA"]
+fn a_tx40_has_the_friction_that_is_published() {
+    let folder = Folder::new();
+    let model = "coulomb_friction,viscous_friction,rotor_inertia,joint_coupling,torque_offset";
+    let found = diagnosed(&[&tx40(&folder), &data("tx40.csv"), "--effects", model]);
+    let close = |value: f64, published: f64, part: f64, what: &str| {
+        assert!((value / published - 1.0).abs() < part, "{what}: {value}, published {published}");
+    };
+    for (joint, viscous, coulomb) in
+        [(1, 8.05, 7.14), (2, 5.53, 8.26), (3, 1.97, 6.34), (4, 1.11, 2.48), (5, 1.86, 3.03)]
+    {
+        let place = format!("joint {joint}");
+        close(numbers(&found, "viscous_friction", &place)[0], viscous, 0.04, "viscous");
+        close(numbers(&found, "coulomb_friction", &place)[0], coulomb, 0.05, "Coulomb");
+    }
+    let coupling = numbers(&found, "joint_coupling", "joints 5 + 6");
+    close(coupling[1], 0.616, 0.05, "the wrist's viscous friction");
+    close(coupling[2], 1.95, 0.05, "the wrist's Coulomb friction");
+}
+
+#[test]
+#[ignore = "reads logs that are not part of the repository: STIFFARM_DATA"]
+fn of_a_tx40s_torques_less_than_a_tenth_is_left() {
+    let folder = Folder::new();
+    let found = diagnosed(&[&tx40(&folder), &data("tx40.csv")]);
+    assert!(left(&found) < 0.096, "{}", left(&found));
+    // The wrist's coupling, and no other.
+    numbers(&found, "joint_coupling", "joints 5 + 6");
+    let list = found["findings"].as_array().expect("a list");
+    assert_eq!(list.iter().filter(|f| f["effect"] == "joint_coupling").count(), 1, "{found:#}");
+}
+
+/// Kinematics and masses of TheRobotStudio/SO-ARM100, Simulation/SO101/so101_new_calib.urdf, as
+/// `stiffarm import` writes them.
+const SO101: &str = include_str!("so101.toml");
+
+#[test]
+#[ignore = "reads logs that are not part of the repository: STIFFARM_DATA"]
+fn a_small_arm_is_late_then_droops() {
+    let folder = Folder::new();
+    let robot = folder.file("so101.toml", SO101);
+    let found = diagnosed(&[&robot, &data("so101.csv")]);
+    let list = found["findings"].as_array().expect("a list");
+    assert_eq!(
+        (&list[0]["effect"], &list[1]["effect"]),
+        (&"latency".into(), &"servo_droop".into())
+    );
+    let delay = numbers(&found, "latency", "the interface")[0];
+    assert!((0.1..0.12).contains(&delay), "{delay}");
+    assert_eq!(found["evidence"]["held_out_by"], "run");
+    let gaps = found["gap"].as_array().expect("a list");
+    let square: f64 = gaps.iter().map(|g| g["after"].as_f64().expect("").powi(2)).sum();
+    let rms = (square / gaps.len() as f64).sqrt().to_degrees();
+    assert!(rms < 1.25, "{rms}");
+}

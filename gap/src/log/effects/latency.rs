@@ -1,0 +1,91 @@
+//! A command is followed later than it is logged.
+
+use super::{LogEffect, Number, Spot};
+use crate::effects::About;
+use crate::log::scene::{Column, Domain, Scene};
+
+/// Joints go where they were to be `delay` ago: a bus, a buffer, an interpolator.
+#[derive(Clone, Copy, Debug)]
+pub struct Latency;
+
+/// Delays from which the search begins, s.
+const STARTS: [f64; 6] = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4];
+
+impl LogEffect for Latency {
+    fn identifier(&self) -> &'static str {
+        "latency"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "A command is followed later than it is logged: a bus, a buffer, an interpolator.",
+            signature: "All joints are where they were to be some time ago.",
+            confused_with: "`tracking_lag`, where all joints have the same.",
+            separated_by: "Two speeds and reversals: a delay keeps the path's corners, a lag rounds them.",
+        }
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Position
+    }
+
+    fn spots(&self, _: &Scene<'_>) -> Vec<Spot> {
+        vec![Spot::Interface]
+    }
+
+    fn numbers(&self) -> &'static [Number] {
+        &[("delay", "s")]
+    }
+
+    fn columns(&self, scene: &Scene<'_>, _: Spot, values: &[f64]) -> Vec<Column> {
+        let step = scene.signals.period;
+        let rate = |joint: usize| {
+            let [before, after] = [-0.5, 0.5].map(|by| ago(scene, joint, values[0] + by * step));
+            let pairs = before.iter().zip(&after);
+            pairs.map(|(before, after)| (after - before) / step).collect::<Vec<f64>>()
+        };
+        vec![whole(scene, rate)]
+    }
+
+    fn value(&self, scene: &Scene<'_>, _: Spot, values: &[f64]) -> Option<Column> {
+        Some(whole(scene, |joint| {
+            let commands = &scene.signals.command[joint];
+            ago(scene, joint, values[0])
+                .iter()
+                .zip(commands)
+                .map(|(then, now)| then - now)
+                .collect()
+        }))
+    }
+
+    fn starts(&self) -> Vec<Vec<f64>> {
+        STARTS.iter().map(|delay| vec![*delay]).collect()
+    }
+
+    fn may_be(&self, values: &[f64]) -> bool {
+        values[0] >= 0.0
+    }
+}
+
+/// The commands of so long ago, by straight lines; at the beginning of a span its first.
+fn ago(scene: &Scene<'_>, joint: usize, delay: f64) -> Vec<f64> {
+    let commands = &scene.signals.command[joint];
+    let back = delay / scene.signals.period;
+    let mut then = Vec::with_capacity(commands.len());
+    for span in &scene.signals.spans {
+        let part = &commands[span.fine.clone()];
+        let last = (part.len() - 1) as f64;
+        then.extend((0..part.len()).map(|k| {
+            let at = (k as f64 - back).clamp(0.0, last);
+            let (before, within) = (at.floor() as usize, at.fract());
+            let after = (before + 1).min(part.len() - 1);
+            part[before] + within * (part[after] - part[before])
+        }));
+    }
+    then
+}
+
+fn whole(scene: &Scene<'_>, of: impl Fn(usize) -> Vec<f64>) -> Column {
+    let joints = 0..scene.signals.joints();
+    Column { parts: joints.map(|joint| (joint, scene.signals.filtered(&of(joint)))).collect() }
+}

@@ -1,0 +1,70 @@
+//! Friction falls when a joint begins to move.
+
+use super::{LogEffect, Number, Spot, joint, joints};
+use crate::effects::About;
+use crate::log::scene::{Column, Domain, Scene};
+
+/// A torque against the motion beside Coulomb's, `torque · exp(−(q̇/speed)²) sign(q̇)` (Armstrong-Hélouvry,
+/// Dupont & Canudas de Wit 1994, eq. 5).
+#[derive(Clone, Copy, Debug)]
+pub struct Stribeck;
+
+/// Speeds from which the search begins, rad/s: a decade about what gears have.
+const SPEEDS: [f64; 3] = [0.01, 0.03, 0.1];
+
+impl LogEffect for Stribeck {
+    fn identifier(&self) -> &'static str {
+        "stribeck"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Friction falls when a joint begins to move: a film of grease builds up.",
+            signature: "More torque at slow motion than at somewhat faster motion.",
+            confused_with: "`presliding`, `latency`, `friction_curve`, a sign that is smoothed.",
+            separated_by: "Speeds below 0.05 rad/s.",
+        }
+    }
+
+    fn domain(&self) -> Domain {
+        Domain::Torque
+    }
+
+    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
+        joints(scene)
+    }
+
+    fn numbers(&self) -> &'static [Number] {
+        &[("torque", "N·m"), ("speed", "rad/s")]
+    }
+
+    fn columns(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
+        let joint = joint(spot);
+        let (size, speed) = (values[0], values[1]);
+        let fall = |k: usize| (-(scene.signals.qd[joint][k] / speed).powi(2)).exp();
+        let by_speed = |k: usize| 2.0 * (scene.signals.qd[joint][k]).powi(2) / speed.powi(3);
+        vec![
+            scene.column(joint, |k| fall(k) * scene.sign(joint, k)),
+            scene.column(joint, |k| size * by_speed(k) * fall(k) * scene.sign(joint, k)),
+        ]
+    }
+
+    fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Option<Column> {
+        let mut column = self.columns(scene, spot, values).swap_remove(0);
+        let rows = column.parts.iter_mut().flat_map(|(_, rows)| rows);
+        rows.for_each(|x| *x *= values[0]);
+        Some(column)
+    }
+
+    fn probes(&self) -> Vec<Vec<f64>> {
+        SPEEDS.iter().map(|speed| vec![0.0, *speed]).collect()
+    }
+
+    fn may_be(&self, values: &[f64]) -> bool {
+        values[0] >= 0.0 && values[1] > 0.0
+    }
+
+    fn beside(&self) -> Option<&'static str> {
+        Some("coulomb_friction")
+    }
+}

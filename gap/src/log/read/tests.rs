@@ -1,0 +1,91 @@
+use stiffarm_kernels::Motion;
+
+use super::*;
+
+const MOTIONS: [Motion; 2] = [Motion::Revolute, Motion::Prismatic];
+
+fn read(text: &str) -> Result<Log, LogError> {
+    Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS, &Names::default())
+}
+
+const HEADER: &str = "t[ms],q1[deg],q2[mm],tau1[N*m],tau2[N],run,note\n";
+
+#[test]
+fn units_runs_and_sides_are_read() {
+    let rows = "0,180,5,1.5,2,a,x\n2,90,6,2.5,3,a,y\n0,0,7,3.5,4,b,z\n";
+    let log = read(&format!("# torque_side = motor. Of the joints.\n{HEADER}{rows}")).unwrap();
+    assert_eq!((log.side, log.samples, log.runs.len()), (Some(TorqueSide::Motor), 3, 2));
+    let run = &log.runs[0];
+    assert_eq!((run.name.as_str(), run.t.as_slice()), ("a", [0.0, 0.002].as_slice()));
+    let quarter = core::f64::consts::FRAC_PI_2;
+    assert_eq!(run.signals[&Signal::Q], [vec![2.0 * quarter, quarter], vec![5e-3, 6e-3]]);
+    assert_eq!(run.signals[&Signal::Torque], [vec![1.5, 2.5], vec![2.0, 3.0]]);
+    assert_eq!(log.unknown, ["note"]);
+    assert!(log.remarks().is_empty());
+}
+
+/// Stamps that go back begin another run; one that stands twice is one sample.
+#[test]
+fn stamps_are_looked_at() {
+    let rows = "0,0,0,0,0,,\n2,0,0,0,0,,\n2,1,0,0,0,,\n4,0,0,0,0,,\n1,0,0,0,0,,\n";
+    let log = read(&format!("{HEADER}{rows}")).unwrap();
+    assert_eq!(log.runs.iter().map(|r| r.t.len()).collect::<Vec<_>>(), [3, 1]);
+    assert_eq!(log.runs[0].clock.repeated, 1);
+    assert!(log.remarks().concat().contains("1 samples bear the stamp"), "{:?}", log.remarks());
+}
+
+#[test]
+fn damaged_rows_are_left_out_and_named() {
+    let rows = "0,1,1,1,1,,\n2,1,1e306,1,1,,\n4,1,1\n6,1,1,nan,1,,\n8,1,1,1,1,,\n";
+    let log = read(&format!("{HEADER}{rows}")).unwrap();
+    let damaged: Vec<(u64, &str)> =
+        log.damaged.iter().map(|d| (d.line, d.reason.as_str())).collect();
+    assert_eq!(
+        damaged,
+        [
+            (3, "found `1e306` for q2, expected a number"),
+            (4, "found 3 cells, expected 7"),
+            (5, "found `nan` for tau1, expected a number"),
+        ]
+    );
+    assert_eq!(log.samples, 2);
+    assert!(log.remarks()[0].contains("3 of 5 rows are damaged and left out: line 3, 4, 5"));
+}
+
+#[test]
+fn a_wrong_header_says_what_to_mend() {
+    for (text, expected) in [
+        ("", "found no header"),
+        ("t,q1,q2,x\n", "found joint values alone"),
+        ("t,q1,q2,tau1,tu2\n", "found no column `tau2`, expected it beside `tau1`"),
+        ("t,q1,q2,tau1,tau2\n", "found no row that can be read"),
+        ("q1,q2,tau1,tau2,time\n", "found no column `t`"),
+        ("t,q1,q2,q3,tau1,tau2\n", "found `q3`, expected joints 1 to 2"),
+        ("t,q1[mm],q2,tau1,tau2\n", "column 2: found the unit `mm` of `q1`, expected one of rad"),
+        ("t,q1,q1,q2,tau1,tau2\n", "columns 2 and 3: found `q1` twice"),
+        ("# torque_side = gear\nt,q1\n", "found `torque_side = gear`"),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(expected), "{text}: {error}");
+        assert!(error.starts_with("log.csv: "), "{error}");
+    }
+    assert!(read("t,q1,q2,tau1,tu2\n").unwrap_err().to_string().contains("did you mean `tu2`?"));
+}
+
+#[test]
+fn files_of_one_log_are_alike() {
+    let one = read(&format!("{HEADER}0,1,1,1,1,,\n")).unwrap();
+    let both = one.clone().and(one.clone()).unwrap();
+    assert_eq!((both.samples, both.runs.len(), both.files.len()), (2, 2, 2));
+    let other = read("t,q1,q2,i1,i2\n0,1,1,1,1\n").unwrap();
+    assert!(matches!(one.and(other), Err(LogError::Unlike { .. })));
+}
+
+/// RTDE's recorder separates by spaces.
+#[test]
+fn the_separator_is_found() {
+    let text = "timestamp actual_q_0 actual_q_1 actual_current_0 actual_current_1\n0 1 2 3 4\n";
+    let names = Names::default().of_format("rtde").unwrap();
+    let log = Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS, &names).unwrap();
+    assert_eq!(log.runs[0].signals[&Signal::Current], [vec![3.0], vec![4.0]]);
+}

@@ -1,0 +1,276 @@
+//! From samples to even, band-limited signals and their rates: one documented step.
+//!
+//! 1. Samples are brought to even steps, by straight lines between neighbours. Nothing is carried
+//!    across a gap of more than [`GAP`] steps: what lies before and behind it are two spans.
+//! 2. Where the rate is far above the band, everything goes through one low-pass, and every so-manyth
+//!    sample is kept: at least [`FINE`] per period of the band's edge.
+//! 3. Joint values are low-passed at twice the band and differentiated; a logged velocity stands in place
+//!    of the first derivative.
+//! 4. Torques, and whatever is computed of the motion, signs too, go through the *same* low-pass at the
+//!    band, after they are computed: [`Signals::filtered`].
+//!
+//! Of the result as many samples are kept as the band holds.
+
+mod band;
+pub mod filter;
+#[cfg(test)]
+mod tests;
+
+use core::ops::Range;
+
+use filter::{LowPass, rate};
+
+use super::read::{Log, Run, Signal};
+
+/// Steps beyond which nothing is interpolated.
+const GAP: f64 = 5.0;
+
+/// Samples per period of the band's edge where columns are computed: signs have harmonics.
+const FINE: f64 = 10.0;
+
+/// Samples per period of the band's edge that are kept for the fits.
+const KEPT: f64 = 4.0;
+
+/// Joint values are differentiated with so many times the band.
+const WIDER: f64 = 2.0;
+
+/// Jitter below this part of a step is none: stamps are rounded.
+const ROUNDED: f64 = 0.02;
+
+/// Samples without a gap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Span {
+    /// Index of the run.
+    pub run: usize,
+    /// Among the fine samples.
+    pub fine: Range<usize>,
+    /// Among those that are kept.
+    pub kept: Range<usize>,
+}
+
+/// The motion and what drove it, of all runs one behind the other; of each joint its samples.
+#[derive(Clone, Debug)]
+pub struct Signals {
+    /// Without a gap each.
+    pub spans: Vec<Span>,
+    /// s, since the run's first sample.
+    pub t: Vec<f64>,
+    /// rad or m, low-passed.
+    pub q: Vec<Vec<f64>>,
+    /// Its rate.
+    pub qd: Vec<Vec<f64>>,
+    /// Its acceleration.
+    pub qdd: Vec<Vec<f64>>,
+    /// Torque or current, as it is; empty where there is none.
+    pub drive: Vec<Vec<f64>>,
+    /// Commanded joint values, as they are; empty where there are none.
+    pub command: Vec<Vec<f64>>,
+    /// Joint values as they were measured.
+    pub measured: Vec<Vec<f64>>,
+    /// Where the arm touches something.
+    pub contact: Vec<bool>,
+    /// The band's edge, Hz.
+    pub band: f64,
+    /// Step between fine samples, s.
+    pub period: f64,
+    /// Fine samples per one that is kept.
+    every: usize,
+    filter: Option<LowPass>,
+}
+
+/// A gap-free stretch of a run at even steps.
+struct Even {
+    run: usize,
+    t: Vec<f64>,
+    /// Of each signal each joint.
+    signals: Vec<Vec<Vec<f64>>>,
+    contact: Vec<bool>,
+}
+
+impl Signals {
+    /// Of a log; `drive` is what is looked at, if not the command. The band is found where none is
+    /// given.
+    pub fn of(log: &Log, drive: Option<Signal>, band: Option<f64>) -> Signals {
+        let mut wanted = vec![Signal::Q];
+        let has = |signal: &Signal| log.has(*signal);
+        wanted.extend([Signal::Qd, Signal::QCmd].iter().filter(|s| has(s)).copied());
+        wanted.extend(drive);
+        let period = log.period();
+        let evens: Vec<Even> = (0..log.runs.len())
+            .flat_map(|run| stretches(run, &log.runs[run], period, &wanted))
+            .collect();
+        let at = |signal| wanted.iter().position(|s| *s == signal);
+        let band = band.unwrap_or_else(|| {
+            let joints = |e: &Even| e.signals[0].clone();
+            band::found(&evens.iter().map(joints).collect::<Vec<_>>(), period)
+        });
+        let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
+        let thin = thinning(band, period);
+        let period = period * thin as f64;
+        let every = ((1.0 / (KEPT * band * period)).floor() as usize).max(1);
+        let joints = evens.first().map_or(0, |e| e.signals[0].len());
+        let empty = || vec![Vec::new(); joints];
+        let mut all = Signals {
+            spans: Vec::new(),
+            t: Vec::new(),
+            q: empty(),
+            qd: empty(),
+            qdd: empty(),
+            drive: empty(),
+            command: empty(),
+            measured: empty(),
+            contact: Vec::new(),
+            band,
+            period,
+            every,
+            filter: LowPass::new(band, period),
+        };
+        let wide = LowPass::new(WIDER * band, period);
+        let smooth = |x: &[f64]| wide.map_or_else(|| x.to_vec(), |filter| filter.apply(x));
+        let mut kept = 0;
+        for even in evens {
+            let from = all.t.len();
+            let count = even.t.len().div_ceil(every);
+            all.spans.push(Span {
+                run: even.run,
+                fine: from..from + even.t.len(),
+                kept: kept..kept + count,
+            });
+            kept += count;
+            for joint in 0..joints {
+                let of = |signal| at(signal).map(|k| &even.signals[k][joint]);
+                let measured = &even.signals[0][joint];
+                let q = smooth(measured);
+                let qd = of(Signal::Qd).map_or_else(|| rate(&q, period), |qd| smooth(qd));
+                all.qdd[joint].extend(rate(&qd, period));
+                all.qd[joint].extend(qd);
+                all.q[joint].extend(q);
+                all.measured[joint].extend(measured);
+                all.command[joint].extend(of(Signal::QCmd).into_iter().flatten());
+                all.drive[joint].extend(drive.and_then(of).into_iter().flatten());
+            }
+            all.t.extend(even.t);
+            all.contact.extend(even.contact);
+        }
+        all
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.q.len()
+    }
+
+    /// Number of samples that are kept.
+    pub fn rows(&self) -> usize {
+        self.spans.last().map_or(0, |span| span.kept.end)
+    }
+
+    /// Step between samples that are kept, s.
+    pub fn step(&self) -> f64 {
+        self.period * self.every as f64
+    }
+
+    /// How far the filter reaches, s.
+    pub fn reach(&self) -> f64 {
+        self.filter.map_or(self.period, |_| LowPass::reach(self.band))
+    }
+
+    /// What is computed at every fine sample, through the filter, at those that are kept.
+    pub fn filtered(&self, fine: &[f64]) -> Vec<f64> {
+        let mut rows = Vec::with_capacity(self.rows());
+        for span in &self.spans {
+            let part = &fine[span.fine.clone()];
+            match &self.filter {
+                Some(filter) => rows.extend(filter.apply(part).iter().step_by(self.every)),
+                None => rows.extend(part.iter().step_by(self.every)),
+            }
+        }
+        rows
+    }
+
+    /// What was measured at every fine sample, low-passed there.
+    pub fn smooth(&self, fine: &[f64]) -> Vec<f64> {
+        let Some(filter) = &self.filter else { return fine.to_vec() };
+        self.spans.iter().flat_map(|span| filter.apply(&fine[span.fine.clone()])).collect()
+    }
+
+    /// The samples that are kept, of what is known at every fine one.
+    pub fn kept<T: Copy>(&self, fine: &[T]) -> Vec<T> {
+        let part = |span: &Span| fine[span.fine.clone()].iter().step_by(self.every).copied();
+        self.spans.iter().flat_map(part).collect()
+    }
+}
+
+/// A run at even steps, cut at its gaps; what is too short to be filtered is left out.
+fn stretches(index: usize, run: &Run, period: f64, wanted: &[Signal]) -> Vec<Even> {
+    let start = run.t.first().copied().unwrap_or(0.0);
+    let gaps = (1..run.t.len()).filter(|k| run.t[*k] - run.t[k - 1] > GAP * period);
+    let ends: Vec<usize> = gaps.chain([run.t.len()]).collect();
+    let mut from = 0;
+    let mut evens = Vec::new();
+    for end in ends {
+        let (t, part) = (&run.t[from..end], from..end);
+        from = end;
+        if t.len() < 2 * FINE as usize {
+            continue;
+        }
+        let joints = |signal: &Signal| -> Vec<&[f64]> {
+            run.signals[signal].iter().map(|joint| &joint[part.clone()]).collect()
+        };
+        let contact = &run.contact[part.clone()];
+        let clean = run.clock.dropped == 0 && run.clock.jitter < ROUNDED * period;
+        let (first, last) = (t[0], t[t.len() - 1]);
+        let steps = if clean { t.len() } else { ((last - first) / period) as usize + 1 };
+        let mut before = 0;
+        let places: Vec<(usize, f64)> = (0..steps)
+            .map(|k| match clean {
+                true => (k, 0.0),
+                false => {
+                    let at = first + period * k as f64;
+                    while before + 2 < t.len() && t[before + 1] <= at {
+                        before += 1;
+                    }
+                    (before, (at - t[before]) / (t[before + 1] - t[before]))
+                }
+            })
+            .collect();
+        let between = |x: &[f64]| -> Vec<f64> {
+            let value = |&(k, part): &(usize, f64)| match part {
+                0.0 => x[k],
+                part => x[k] + part * (x[k + 1] - x[k]),
+            };
+            places.iter().map(value).collect()
+        };
+        evens.push(Even {
+            run: index,
+            t: (0..steps).map(|k| first - start + period * k as f64).collect(),
+            signals: wanted
+                .iter()
+                .map(|signal| joints(signal).into_iter().map(between).collect())
+                .collect(),
+            contact: places.iter().map(|(k, _)| contact[*k]).collect(),
+        });
+    }
+    evens
+}
+
+/// Every so-manyth sample is enough for the band.
+fn thinning(band: f64, period: f64) -> usize {
+    ((1.0 / (FINE * band * period)).floor() as usize).max(1)
+}
+
+impl Even {
+    fn thinned(self, band: f64, period: f64) -> Even {
+        let every = thinning(band, period);
+        // Half the rate that is kept, and a tenth below: what lies above would be folded back.
+        let filter = LowPass::new(0.4 / (period * every as f64), period).filter(|_| every > 1);
+        let Some(filter) = filter else { return self };
+        let thin = |x: &Vec<f64>| filter.apply(x).into_iter().step_by(every).collect();
+        Even {
+            run: self.run,
+            t: self.t.into_iter().step_by(every).collect(),
+            signals: self.signals.iter().map(|s| s.iter().map(thin).collect()).collect(),
+            contact: self.contact.chunks(every).map(|part| part.contains(&true)).collect(),
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Logs of plants that are written down in closed form, and what is said of them.
+
+mod evidence;
+mod plant;
+mod position;
+mod torque;
+
+/// The guide holds the catalogue as it is.
+#[test]
+fn the_guide_holds_the_catalogue() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/logs.md");
+    let guide = std::fs::read_to_string(path).expect("the guide");
+    let table = stiffarm_gap::log::effects::markdown();
+    assert!(guide.contains(&table), "put this into docs/logs.md:\n{table}");
+}
