@@ -11,9 +11,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use stiffarm_gap::diagnose::{Stage, Stop};
+use stiffarm_gap::diagnose::{Prior, Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
+use stiffarm_kernels::generic::Arm;
 
 pub use accepted::Accepted;
 pub use check::Check;
@@ -45,8 +46,8 @@ Examples:
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
 mz, or a payload by name; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz] or a distance
-[from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, and your own
-simulator's sim_x … or sim_dx ….
+[from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, the instrument's
+standard deviations sigma (of all positions) or sigma_x …, and your own simulator's sim_x … or sim_dx ….
 
 A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more.";
 
@@ -70,6 +71,10 @@ pub struct Args {
     /// How well the maker holds lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<String>,
+    /// What is usual of an effect's numbers, beyond which a value pays: joint_compliance=2e-6,
+    /// link_compliance:bending=1e-6; several times
+    #[arg(long = "usual", value_name = "EFFECT[:NUMBER]=SIZE")]
+    priors: Vec<String>,
     /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
@@ -152,10 +157,10 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         log::Files::Log(files) => return log::run(args, &source, &files, quiet),
         log::Files::Measurements(bytes) => bytes,
     };
-    let options = args.options(&source)?;
     let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
     let tolerance = args.accept.as_ref().map(length).transpose()?;
     let arm = source.arm()?;
+    let options = args.options(&source, &arm)?;
     let layout = data::layout(&source)?;
     let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
     let hash = Sha256::new_with_prefix(&bytes);
@@ -170,7 +175,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
         .map_err(plain)?;
     drop(stages);
-    let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
+    let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
     let made = Provenance::of(&args.data[0], hash, &source.text)?;
@@ -296,7 +301,7 @@ impl Args {
         .find_map(|(given, name)| given.then_some(name))
     }
 
-    fn options(&self, source: &Source) -> Result<Options, Failure> {
+    fn options(&self, source: &Source, arm: &Arm) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
@@ -324,6 +329,8 @@ impl Args {
             ..Options::default()
         };
         options.fit_along(&self.nuisance).map_err(plain)?;
+        let read = |text: &String| Prior::parse(text, arm, &options.catalogue).map_err(plain);
+        options.priors = self.priors.iter().map(read).collect::<Result<_, _>>()?;
         Ok(options)
     }
 }

@@ -1,7 +1,7 @@
 //! Another measurement file of the same arm, predicted with what was found.
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::Explanation;
+use stiffarm_gap::diagnose::Diagnosed;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{DiagnoseError, Measurements};
 
@@ -12,8 +12,11 @@ pub struct Check {
     pub file: String,
     /// Its rows.
     pub rows: usize,
-    /// Those within the joint ranges and loads of the diagnosed data; only they are judged.
+    /// Those within the joint ranges, the loads and the largest leverage of the diagnosed data; only
+    /// they are judged.
     pub inside: usize,
+    /// Whether these are the rows that were diagnosed. Those that were left out then are not judged.
+    pub fitted: bool,
     /// The gap of the robot file as it is on the rows inside; `None` if there are none.
     pub before: Option<Statistics>,
     /// The same with the findings.
@@ -21,12 +24,22 @@ pub struct Check {
 }
 
 impl Check {
-    /// Predicts `other`.
+    /// Predicts `other` with what was found in `data`.
     ///
     /// # Errors
     /// [`DiagnoseError`]: what in the data stands in the way.
-    pub fn of(explanation: &Explanation, other: &Measurements) -> Result<Check, DiagnoseError> {
-        let predicted = explanation.predict(other)?;
+    pub fn of(
+        diagnosed: &Diagnosed,
+        data: &Measurements,
+        other: &Measurements,
+    ) -> Result<Check, DiagnoseError> {
+        let mut predicted = diagnosed.explanation.predict(other)?;
+        let fitted = other.rows == data.rows;
+        if fitted {
+            let out: Vec<u64> = diagnosed.diagnosis.left_out.iter().map(|row| row.line).collect();
+            let rows = predicted.inside.iter_mut().zip(&other.rows);
+            rows.for_each(|(inside, row)| *inside = !out.contains(&row.line));
+        }
         let inside = predicted.inside.iter().filter(|inside| **inside).count();
         let size = |gaps: &[nalgebra::Vector6<f64>]| {
             let judged = gaps.iter().zip(&predicted.inside).filter(|(_, inside)| **inside);
@@ -37,6 +50,7 @@ impl Check {
             file: other.file.clone(),
             rows: other.rows.len(),
             inside,
+            fitted,
             before: size(&predicted.before),
             after: size(&predicted.after),
         })

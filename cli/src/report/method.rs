@@ -3,6 +3,7 @@
 use stiffarm_gap::diagnose::Nuisance;
 
 use super::Report;
+use crate::screen::noise_from;
 
 /// What every diagnosis does.
 pub const METHOD: &str = "\
@@ -13,7 +14,8 @@ number; the one with the most evidence is added, if it is significant among all 
 and makes the gap smaller on poses that its fit has not seen. All effects found are then fitted \
 again together, exactly, each as a true displacement at its place, and those that the others make \
 superfluous are taken back. Intervals of the gap come from resampling poses with all their rows, \
-those of parameters from least squares and Student’s t. Every candidate is tried in the place of \
+those of parameters from least squares and Student’s t, or from leaving out visits one by one where \
+that is wider. Every candidate is tried in the place of \
 each finding: those that resampling the poses does not tell from it are named. What is left is \
 tested for structure with free-form displacements at every place.";
 
@@ -25,18 +27,15 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
     } else {
         format!("{}, grouped by {}", found.held_out.folds, found.held_out.grouped_by)
     };
-    let noise = match found.gap.noise.from {
-        "option" => "as given by option",
-        "repeats" => "from repeats of poses",
-        _ => "from what is left",
-    };
     let words = report.words;
     let mut sizes = Vec::new();
     if report.has_positions() {
-        sizes.push(words.length.with_unit(found.gap.noise.position_rms));
+        let from = found.gap.noise.position_from.map_or("", noise_from);
+        sizes.push(format!("{} {from}", words.length.with_unit(found.gap.noise.position_rms)));
     }
     if data.kind.components()[3..].contains(&true) {
-        sizes.push(words.angle.with_unit(found.gap.noise.rotation_rms));
+        let from = found.gap.noise.rotation_from.map_or("", noise_from);
+        sizes.push(format!("{} {from}", words.angle.with_unit(found.gap.noise.rotation_rms)));
     }
     let nuisances: Vec<&str> = options.nuisances.iter().map(|n| Nuisance::identifier(*n)).collect();
     let named = |names: &[String], none: &str| match names {
@@ -59,7 +58,7 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
         ("simulator", simulator.to_owned()),
         ("folds", folds),
         ("seed", options.seed.to_string()),
-        ("noise, rms", format!("{} ({noise})", sizes.join(", "))),
+        ("noise, rms", sizes.join(", ")),
         (
             "frames fitted along",
             if nuisances.is_empty() { "none".into() } else { nuisances.join(", ") },

@@ -4,6 +4,7 @@ use stiffarm_gap::diagnose::Finding;
 
 use super::Report;
 use super::waterfall::Step;
+use crate::screen::noise_from;
 
 /// From the whole gap, finding by finding, to the noise.
 pub fn steps(report: &Report<'_>) -> Vec<Step> {
@@ -32,12 +33,7 @@ pub fn steps(report: &Report<'_>) -> Vec<Step> {
     if !report.found.findings.is_empty() {
         steps.push(plain("left, held out", "left", after));
     }
-    let from = match gap.noise.from {
-        "residual" => "noise, from what is left",
-        "repeats" => "noise, from repeats",
-        _ => "noise, as given",
-    };
-    steps.push(plain(from, "noise", noise));
+    steps.push(plain(&format!("noise, {}", noise_from(gap.noise.from)), "noise", noise));
     steps
 }
 

@@ -132,38 +132,52 @@ impl Screen<'_> {
         }
         let main = |s: f64, r: f64| if position { s } else { r };
         let whole = main(gap.before.position_rms, gap.before.rotation_rms);
-        let line = |name: &str, position_is: [Option<f64>; 3], rotation_is: f64| {
+        let line = |name: &str, position_is: [Option<f64>; 3], rotation_is: Option<f64>| {
             let mut cells = vec![name.to_owned()];
             if position {
                 cells.extend(position_is.map(|x| x.map_or_else(String::new, |x| shown.number(x))));
             }
             if rotation {
-                cells.push(turned.number(rotation_is));
+                cells.push(rotation_is.map_or_else(String::new, |x| turned.number(x)));
             }
-            let size = main(position_is[0].unwrap_or(0.0), rotation_is);
-            cells.push(bar(if whole > 0.0 { size / whole } else { 0.0 }, BAR));
+            let size = if position { position_is[0] } else { rotation_is };
+            cells.push(bar(size.filter(|_| whole > 0.0).map_or(0.0, |s| s / whole), BAR));
             cells
         };
-        let of =
-            |s: &Statistics| [Some(s.position_rms), Some(s.position_p95), Some(s.position_max)];
+        let all = |name: &str, s: &Statistics| {
+            let positions = [s.position_rms, s.position_p95, s.position_max].map(Some);
+            line(name, positions, Some(s.rotation_rms))
+        };
         let first = match self.found.nuisances.is_empty() {
             true => "as the robot file is",
             false => "with the unknown frames fitted",
         };
-        let mut rows = vec![heads, line(first, of(&gap.before), gap.before.rotation_rms)];
+        let mut rows = vec![heads, all(first, &gap.before)];
         if !self.found.findings.is_empty() {
             let name = match self.found.findings.len() {
                 1 => "with the finding, held out",
                 _ => "with the findings, held out",
             };
-            rows.push(line(name, of(&gap.after), gap.after.rotation_rms));
+            rows.push(all(name, &gap.after));
+            rows.push(all("the same on its own rows", &gap.fitted));
         }
-        let from = match gap.noise.from {
-            "residual" => "noise, from what is left",
-            "repeats" => "noise, from repeats",
-            _ => "noise, as given",
+        let noise = &gap.noise;
+        let mut known = |name: &str, position: Option<f64>, rotation: Option<f64>| {
+            rows.push(line(name, [position, None, None], rotation));
         };
-        rows.push(line(from, [Some(gap.noise.position_rms), None, None], gap.noise.rotation_rms));
+        let from = |source: &str| format!("noise, {}", noise_from(source));
+        let (own, turned) = (Some(noise.position_rms), Some(noise.rotation_rms));
+        match (noise.position_from, noise.rotation_from) {
+            (Some(position), Some(rotation)) if position != rotation => {
+                known(&from(position), own, None);
+                known(&from(rotation), None, turned);
+            }
+            _ => known(&from(noise.from), own, turned),
+        }
+        if noise.visits_position_rms.is_some() || noise.visits_rotation_rms.is_some() {
+            let name = "of it the arm's repeatability";
+            known(name, noise.visits_position_rms, noise.visits_rotation_rms);
+        }
         let mut align = vec![Align::Right; rows[1].len()];
         (align[0], align[rows[1].len() - 1]) = (Align::Left, Align::Left);
         let lines = table(&rows, &align);
@@ -211,6 +225,16 @@ impl Screen<'_> {
             (false, true) => "not significantly better".to_owned(),
             (false, false) => "not better".to_owned(),
         }
+    }
+}
+
+/// Where a noise is known from.
+pub fn noise_from(source: &str) -> &'static str {
+    match source {
+        "residual" => "from what is left",
+        "repeats" => "from repeats",
+        "columns" => "by the file's sigma",
+        _ => "as given",
     }
 }
 

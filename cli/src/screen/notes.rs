@@ -4,7 +4,7 @@ use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
 
 use super::{MOST, Screen, WIDTH, percent, words};
 use crate::input::quantity::counted;
-use crate::terminal::text::{bold, listed, short, wrapped};
+use crate::terminal::text::{bold, listed, minus, short, wrapped};
 
 /// Lines of the whole screen: reasons for which something could not be seen are left out beyond.
 const HEIGHT: usize = 40;
@@ -17,6 +17,11 @@ const MARGIN: usize = 14;
 
 /// Parts smaller than this are not shown.
 const LEAST: f64 = 0.01;
+
+/// What is left is called odd where chance makes it so less often, and it matters.
+const ODD: f64 = 1e-3;
+const HEAVY: f64 = 1.0;
+const LINGERS: f64 = 0.2;
 
 /// A part that is everything is none.
 const MOST_OF_IT: f64 = 0.995;
@@ -39,6 +44,7 @@ impl Screen<'_> {
             note("Fitted along", &self.frames()),
             note("Left out", &self.left_out()),
             note("Check", &self.checked()),
+            note("Residual", &self.odd()),
             note("Unexplained", &self.unexplained()),
         ]
         .concat();
@@ -92,10 +98,9 @@ impl Screen<'_> {
     fn checked(&self) -> String {
         let Some(check) = self.check else { return String::new() };
         let of = format!("{} of the {} rows of {}", check.inside, check.rows, check.file);
+        let within = "within the joint ranges, loads and leverage of this data";
         let (Some(before), Some(after)) = (check.before, check.after) else {
-            return format!(
-                "{of} lie within the joint ranges and loads of this data: none is judged"
-            );
+            return format!("{of} lie {within}: none is judged");
         };
         let position = self.measures(0..3);
         let sizes = if position {
@@ -115,11 +120,34 @@ impl Screen<'_> {
             let shown = self.angle(a.min(b), a.max(b));
             format!("{} → {} rms", shown.number(a), shown.with_unit(b))
         };
+        if check.fitted {
+            let expected = self.main().with_unit(self.rms()[1]);
+            return format!(
+                "{sizes} on {of}, which are those that were fitted: on rows that no fit has seen \
+                 expect {expected}"
+            );
+        }
         let outside = match check.rows - check.inside {
             0 => "no row lies outside".to_owned(),
             n => format!("{n} outside are not judged"),
         };
-        format!("{sizes} on {of} that lie within this data's joint ranges and loads; {outside}")
+        format!("{sizes} on {of} that lie {within}; {outside}")
+    }
+
+    /// What of the rows that are left is not as least squares takes noise to be.
+    fn odd(&self) -> String {
+        let mut odd: Vec<String> = Vec::new();
+        let left = self.found.residual.as_ref();
+        let shape = left.and_then(|left| left.normality.as_ref());
+        if let Some(shape) = shape.filter(|s| s.p_value < ODD && s.excess_kurtosis > HEAVY) {
+            odd.push(format!("heavy tails (excess kurtosis {:.1})", shape.excess_kurtosis));
+        }
+        let order = left.and_then(|left| left.autocorrelation.as_ref());
+        if let Some(order) = order.filter(|o| o.p_value < ODD && o.lag_1.abs() > LINGERS) {
+            let lag = minus(format!("{:.2}", order.lag_1));
+            odd.push(format!("errors that linger from one visit to the next (correlation {lag})"));
+        }
+        listed(&odd, MOST)
     }
 
     fn unexplained(&self) -> String {

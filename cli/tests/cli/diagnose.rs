@@ -104,7 +104,16 @@ fn the_json_is_the_formats() {
         "unexplained",
     ];
     assert_eq!(keys[..9], expected);
-    let more = ["parts", "by", "covers", "data_sha256", "robot_sha256", "corrected"];
+    let more = [
+        "residual",
+        "observability",
+        "parts",
+        "by",
+        "covers",
+        "data_sha256",
+        "robot_sha256",
+        "corrected",
+    ];
     for key in &keys[9..] {
         assert!(more.contains(&key.as_str()), "{key}");
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector6;
 
-use super::data::{Problem, fitting};
+use super::data::{Precision, Problem, fitting};
 use super::fit::Model;
 use super::options::DiagnoseError;
 use super::report::{CannotSee, Gauge, LeftOut, Part, Share};
@@ -63,11 +63,12 @@ impl Search<'_, '_> {
         Ok(Looked { start, before, is_there, cannot_see, gauge, places, parts, explained })
     }
 
-    /// Which rows fit an explanation, and how far those that do not are from it.
+    /// Which rows fit an explanation, how far those that do not are from it, and how precise each row
+    /// is.
     pub(crate) fn fitting(
         &self,
         now: &Explained,
-    ) -> Result<(Vec<bool>, Vec<LeftOut>), DiagnoseError> {
+    ) -> Result<(Vec<bool>, Vec<LeftOut>, Precision), DiagnoseError> {
         let rows = &self.problem.data.rows;
         let all = Problem { fits: vec![true; rows.len()], ..self.problem.clone() };
         let gaps = now.fit.model.predict(&all, Some(&now.fit.predicted.sims))?.gaps;
@@ -79,7 +80,9 @@ impl Search<'_, '_> {
             rotation: gap.fixed_rows::<3>(3).norm(),
         });
         let told = told.collect();
-        Ok((fits, told))
+        let parameters = now.fit.model.parameters(self.problem);
+        let precision = Precision::beyond(self.problem.data, &gaps, &fits, parameters);
+        Ok((fits, told, precision))
     }
 }
 

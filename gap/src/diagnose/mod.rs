@@ -22,6 +22,7 @@ pub(crate) mod data;
 pub(crate) mod fit;
 mod look;
 mod options;
+mod prior;
 mod progress;
 mod promise;
 mod report;
@@ -38,22 +39,27 @@ pub use crate::effects::ParameterReport;
 pub(crate) use fit::rigid;
 use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
+pub use prior::Prior;
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};
 pub use report::{
-    Alternative, CannotSee, Cover, Diagnosis, Finding, GapReport, Gauge, HeldOut, LeftOut,
-    NoiseReport, NuisanceReport, Part, Rival, Share, Shrink, Slice, Unexplained,
+    Alternative, Autocorrelation, CannotSee, Correlation, Cover, Diagnosis, Finding, GapReport,
+    Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport, Observability, Part, Residual,
+    Rival, Share, Shrink, Slice, Unexplained, Worst,
 };
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
-use data::{Folds, Problem};
+use data::{Folds, Precision, Problem};
 use fit::Model;
 use search::Search;
 use sums::Candidate;
 
 /// Rounds of explaining and of leaving out what does not fit: after two of them hardly a row changes.
 const MOST_ROUNDS: usize = 4;
+
+/// Precisions of rows that change by less than this part have settled.
+const SAME_PRECISION: f64 = 0.05;
 
 /// A diagnosis, and the models before and after it.
 pub struct Diagnosed {
@@ -89,6 +95,7 @@ pub fn diagnose_with(
     progress(Stage::Align);
     let effects = options.effects()?;
     let mut problem = Problem::new(arm, data, options)?;
+    problem.precision = Precision::of(data);
     let folds = Folds::deal(data, options)?;
     enough_rows(&problem, &folds)?;
     let compared: Vec<_> = options
@@ -98,19 +105,25 @@ pub fn diagnose_with(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let model = fit::aligned(&problem)?;
-    let (mut known, mut left_out) = (None, Vec::new());
+    sums::scale_elastic(&mut candidates, &problem, &model)?;
+    let (mut known, mut left_out, mut round) = (None, Vec::new(), 0);
     let looked = loop {
         let search =
             Search { problem: &problem, folds: &folds, candidates: &candidates, options, progress };
         let looked = search.look(&effects, &model, known)?;
-        let (fits, out) = search.fitting(&looked.explained)?;
-        let settled = fits == problem.fits || left_out.len() == MOST_ROUNDS;
-        if settled || options.keep_all || search.stopped() {
+        let (fits, out, precision) = search.fitting(&looked.explained)?;
+        let fit = options.keep_all || fits == problem.fits;
+        let settled = fit && precision.is_near(&problem.precision, SAME_PRECISION);
+        if settled || round == MOST_ROUNDS || search.stopped() {
             break looked;
         }
+        round += 1;
         known = Some(looked.explained.fit.model);
-        problem.fits = fits;
-        left_out.push(out);
+        problem.precision = precision;
+        if !fit {
+            problem.fits = fits;
+            left_out = out;
+        }
     };
     if !looked.is_there {
         candidates.clear();
@@ -135,6 +148,7 @@ pub fn diagnose_with(
             before: size,
             after: statistics,
             shrink: judged.shrink,
+            fitted: Statistics::of(&problem.kept(&explained.fit.predicted.gaps)),
             nested,
             noise: explained.noise.report(),
         },
@@ -142,8 +156,10 @@ pub fn diagnose_with(
         findings,
         cannot_see: looked.cannot_see,
         unexplained,
+        residual: judged.residual,
+        observability: judged.observability,
         gauge: looked.gauge,
-        left_out: left_out.pop().unwrap_or_default(),
+        left_out,
         parts: looked.parts,
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
@@ -170,9 +186,10 @@ fn enough_of_each_session(problem: &Problem<'_>, folds: &Folds) -> Result<(), Di
     }
     let mut held = vec![vec![0; folds.count]; sessions.len()];
     let mut seen = vec![false; problem.data.poses];
-    for (row, session) in problem.data.rows.iter().zip(&problem.session_of) {
+    let rows = problem.data.rows.iter().zip(&problem.session_of);
+    for (number, (row, session)) in rows.enumerate() {
         if !std::mem::replace(&mut seen[row.group], true) {
-            held[*session][folds.of_pose(row.group)] += 1;
+            held[*session][folds.of_row(number)] += 1;
         }
     }
     for (session, held) in sessions.iter().zip(held) {
@@ -190,7 +207,7 @@ fn enough_of_each_session(problem: &Problem<'_>, folds: &Folds) -> Result<(), Di
 fn enough_rows(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
     let parameters = Model::nuisances(problem) + 1;
     let rows = &problem.data.rows;
-    let kept = |fold| rows.iter().filter(|r| folds.of_pose(r.group) != fold).count();
+    let kept = |fold| (0..rows.len()).filter(|row| folds.of_row(*row) != fold).count();
     let least = (0..folds.count).map(kept).min().unwrap_or(0) * problem.measured.len();
     if least >= parameters {
         return enough_of_each_session(problem, folds);

@@ -1,5 +1,6 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
+use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, ToolFrame};
 use crate::measurement::nearest;
@@ -79,6 +80,8 @@ pub struct Options {
     /// Standard deviations to which makers hold lengths and angles, m and rad; by default
     /// [`TOLERANCE`].
     pub tolerance: Option<[f64; 2]>,
+    /// What is usual of effects' numbers, where the caller knows better than the catalogue.
+    pub priors: Vec<Prior>,
     /// Whether the search is run again for each fold on the others, and the gap told that it leaves:
     /// as many times the work.
     pub nested: bool,
@@ -159,6 +162,8 @@ pub enum DiagnoseError {
         suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
     UnknownEffect { found: String, known: String, suggestion: Option<&'static str> },
+    #[error("found the prior `{found}`, expected {expected}")]
+    Prior { found: String, expected: String },
     #[error("found the {what} {found}, expected a number from 1e-30 to 1e30")]
     Scale { what: &'static str, found: f64 },
     #[error(

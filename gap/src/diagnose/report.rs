@@ -27,6 +27,12 @@ pub struct Diagnosis {
     pub cannot_see: Vec<CannotSee>,
     /// What is left.
     pub unexplained: Unexplained,
+    /// What is left, row by row; `None` where there is nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual: Option<Residual>,
+    /// How well the data tell the fitted numbers; `None` where none was fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub observability: Option<Observability>,
     /// Numbers of the geometry that this data sees only together with others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gauge: Vec<Gauge>,
@@ -134,6 +140,81 @@ pub struct HeldOut {
     pub grouped_by: &'static str,
 }
 
+/// What the model with all findings leaves, row by row.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Residual {
+    /// Whether it is normal; `None` of too few numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normality: Option<Normality>,
+    /// Whether it lingers; `None` of too few numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub autocorrelation: Option<Autocorrelation>,
+    /// The rows that are left with the largest gaps, largest first.
+    pub worst: Vec<Worst>,
+}
+
+/// The shape of what is left, in units of the noise.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Normality {
+    /// The fourth moment over the square of the second, less 3: 0 of normal numbers, positive of
+    /// heavy tails.
+    pub excess_kurtosis: f64,
+    /// The statistic of Anderson and Darling.
+    pub anderson_darling: f64,
+    /// How often normal numbers have one as large.
+    pub p_value: f64,
+}
+
+/// What is left at one visit beside what is left at the next.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Autocorrelation {
+    /// Correlation, −1 to 1.
+    pub lag_1: f64,
+    /// How often one as large is chance.
+    pub p_value: f64,
+}
+
+/// A row with a large gap.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// Its line in the file.
+    pub line: u64,
+    /// Its pose, where the file names it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<String>,
+    /// Held-out gap without findings, m (rad without positions).
+    pub before: f64,
+    /// With all of them.
+    pub after: f64,
+}
+
+/// How well the data tell the fitted numbers from each other, frames and effects together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Observability {
+    /// Numbers that were fitted.
+    pub parameters: usize,
+    /// Directions of them that the data decide; the others stay where they are.
+    pub decided: usize,
+    /// Largest over least of their singular values.
+    pub condition: f64,
+    /// Of the columns, each scaled to length 1, largest first, of what is decided.
+    pub singular_values: Vec<f64>,
+    /// The pairs of numbers that are hardest to tell from each other, one of them of an effect beyond
+    /// ordinary calibration; none that are correlated by less than one half.
+    pub correlations: Vec<Correlation>,
+}
+
+/// Two fitted numbers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Correlation {
+    /// `compliance of joint_compliance at joint 2`.
+    pub of: String,
+    /// The other.
+    pub with: String,
+    /// −1 to 1.
+    pub correlation: f64,
+}
+
 /// The gap before and after, and the noise.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GapReport {
@@ -144,6 +225,10 @@ pub struct GapReport {
     pub after: Statistics,
     /// From the one to the other.
     pub shrink: Shrink,
+    /// What the model that is reported leaves on the rows that it was fitted to: what `--check` says of
+    /// them, and a diagnosis of the robot file with the findings. Less than `after` by what a fit takes
+    /// of the noise.
+    pub fitted: Statistics,
     /// As `after`, the search run again for each fold on the others; only if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nested: Option<Statistics>,
@@ -158,9 +243,22 @@ pub struct NoiseReport {
     pub position_rms: f64,
     /// Root mean square of the norm over the measured rotations, rad.
     pub rotation_rms: f64,
-    /// `repeats`, `option` or `residual`: of the positions, or of the rotations if there are no
-    /// positions.
+    /// `repeats`, `columns` (the file's own standard deviations), `option` or `residual`: of the
+    /// positions, or of the rotations if there are no positions.
     pub from: &'static str,
+    /// The same of the positions, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position_from: Option<&'static str>,
+    /// The same of the rotations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_from: Option<&'static str>,
+    /// The part of the positions' noise that comes and goes with visits: the arm's repeatability,
+    /// root mean square, m; only where poses were read more than once and visited again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visits_position_rms: Option<f64>,
+    /// The same of the rotations, rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visits_rotation_rms: Option<f64>,
 }
 
 /// What a place alone explains.

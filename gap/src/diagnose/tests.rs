@@ -283,6 +283,65 @@ fn the_users_own_simulator_is_corrected_like_the_arms() {
     assert!((value(&own) / value(&arms) - 1.0).abs() < 1e-6);
 }
 
+/// Half of the rows are ten times as noisy, and the file says so: they cost next to nothing, and they
+/// add next to nothing.
+#[test]
+fn rows_weigh_by_their_own_precision() {
+    let sds = |group: usize| if group.is_multiple_of(2) { 1e-5 } else { 1e-4 };
+    let mut mixed = data(60, [0.0, 4e-6, 0.0], 0.0, 11);
+    let mut noise = data::generator(3, data::Stream::Signs);
+    for row in &mut mixed.rows {
+        let sd = sds(row.group);
+        row.measured = row.measured.map(|x| x + sd * normal(&mut noise));
+    }
+    let mut told = mixed.clone();
+    told.rows.iter_mut().for_each(|row| row.sigma = Some(Vector6::repeat(sds(row.group))));
+    let mut precise = mixed.clone();
+    precise.rows.retain(|row| row.group.is_multiple_of(2));
+    precise.rows.iter_mut().for_each(|row| row.group /= 2);
+    precise.poses = 30;
+    let [told, mixed, precise] = [told, mixed, precise].map(|data| {
+        let d = diagnose(&bent(), &data, &Options::default()).unwrap();
+        let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
+        assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+        let [low, high] = finding.parameters[0].ci95;
+        assert!(low < 4e-6 && 4e-6 < high, "{low} {high}");
+        high - low
+    });
+    // Of rows of precision 1 and 0.01 least squares gains 0.5 % over the former alone; intervals that
+    // are estimated scatter by some tenth.
+    assert!((told / precise - 1.0).abs() < 0.35, "{told} {precise}");
+    assert!(told < mixed / 2.0, "{told} {mixed}");
+}
+
+/// Errors that linger from row to row look like what follows time, and are no reason for it; a jump
+/// that is more than they are is found all the same.
+#[test]
+fn what_follows_time_is_more_than_errors_that_linger() {
+    let campaign = |seed: u64, jump: f64| {
+        let mut data = data(60, [0.0; 3], 0.0, seed);
+        let mut noise = data::generator(seed, data::Stream::Signs);
+        let mut error = Vector3::zeros();
+        for (k, row) in data.rows.iter_mut().enumerate() {
+            error = error * 0.8 + Vector3::from_fn(|_, _| 2e-5 * normal(&mut noise));
+            let off = error + Vector3::x() * if k < 70 { 0.0 } else { jump };
+            let own = row.measured.fixed_rows::<3>(0) + off;
+            row.measured.fixed_rows_mut::<3>(0).copy_from(&own);
+            let turn = Vector3::from_fn(|_, _| 2e-5 * normal(&mut noise));
+            let own = row.measured.fixed_rows::<3>(3) + turn;
+            row.measured.fixed_rows_mut::<3>(3).copy_from(&own);
+        }
+        let effects = ["slip", "drift", "settling_lag"].map(str::to_owned).to_vec();
+        let options = Options { effects: Some(effects), ..Options::default() };
+        let mut d = diagnose(&bent(), &data, &options).unwrap();
+        d.findings.drain(..).map(|f| f.effect).collect::<Vec<_>>()
+    };
+    let alarms = (0..10).filter(|seed| !campaign(*seed, 0.0).is_empty()).count();
+    // One in twenty is allowed; three of ten are then one in eighty-seven.
+    assert!(alarms < 3, "{alarms} of 10");
+    assert!((0..4).all(|seed| campaign(seed, 5e-4).contains(&"slip")));
+}
+
 #[test]
 fn the_json_is_the_formats() {
     let options = Options { version: "0.1.0".to_owned(), ..Options::default() };

@@ -11,7 +11,7 @@ pub const MOST_ORDERS: usize = 1000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Forms {
-    /// There is one, 0.
+    /// There is one, 0, or there are others that leave out some of its numbers.
     One,
     /// The other joints, from 0.
     Joints,
@@ -142,4 +142,11 @@ pub enum Depends {
     LastMove,
     /// When in its session it was measured: what happened at a time is carried to no other session.
     Session,
+}
+
+impl Depends {
+    /// Whether it is told by the order in which rows were measured: errors that linger look like it.
+    pub fn follows_time(self) -> bool {
+        matches!(self, Depends::Temperature | Depends::LastMove | Depends::Session)
+    }
 }

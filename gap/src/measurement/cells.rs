@@ -111,6 +111,22 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
             }
         }
         Some(Role::Measured(_, k)) => row.measured[k] = value()?,
+        Some(Role::Sigma(of)) => {
+            let sd = value().and_then(|sd| match sd > 0.0 {
+                true => Ok(sd),
+                false => Err(Fault::Sigma { found: cell.to_owned() }),
+            })?;
+            let all = row.sigma.get_or_insert_with(Vector6::zeros);
+            match of {
+                Some((_, k)) => all[k] = sd,
+                // A component's own column says more, whichever comes first.
+                None => all.fixed_rows_mut::<3>(0).iter_mut().for_each(|s| {
+                    if *s == 0.0 {
+                        *s = sd;
+                    }
+                }),
+            }
+        }
         Some(Role::Sim(_, k)) => row.sim.get_or_insert_with(Vector6::zeros)[k] = value()?,
     }
     Ok(())

@@ -4,26 +4,81 @@ use std::collections::HashMap;
 
 use super::Row;
 
-/// Readings that agree to this are the same pose, rad or m.
-const SAME: f64 = 1e-9;
+/// Readings that agree to this are the same pose, rad or m: a controller that is sent to a pose again
+/// reads it again to some hundred-thousandths, and nobody plans poses closer than a hundredth of a
+/// degree.
+const SAME: f64 = 1e-4;
+
+/// Side of a cell of the grid in which neighbours are looked up, in the distance within which they are
+/// such.
+const SIDE: f64 = 100.0;
+
+/// Where the cells begin, in their side: round numbers are not at their borders.
+const FIRST: f64 = 0.371_9;
+
+/// Kinds of points: those that are within some distance, in every coordinate, of the first of their
+/// kind.
+pub(crate) struct Near {
+    within: f64,
+    /// The first of each kind, by the cell in which it is.
+    cells: HashMap<Vec<i64>, Vec<(usize, Vec<f64>)>>,
+    kinds: usize,
+}
+
+impl Near {
+    pub(crate) fn new(within: f64) -> Self {
+        Self { within, cells: HashMap::new(), kinds: 0 }
+    }
+
+    /// The kind of a point, numbered in the order in which they first appear.
+    pub(crate) fn kind(&mut self, point: &[f64]) -> usize {
+        // A conversion out of range saturates.
+        let cell = |x: f64, off: f64| (x / (SIDE * self.within) + FIRST + off).floor() as i64;
+        let mut cells = vec![Vec::with_capacity(point.len())];
+        for x in point {
+            let [low, high] = [-1.0, 1.0].map(|side| cell(*x, side / SIDE));
+            if low < high {
+                let others: Vec<Vec<i64>> = cells.clone();
+                cells.iter_mut().for_each(|cell| cell.push(low));
+                cells.extend(others.into_iter().map(|mut cell| {
+                    cell.push(high);
+                    cell
+                }));
+            } else {
+                cells.iter_mut().for_each(|cell| cell.push(low));
+            }
+        }
+        let is_near = |(_, first): &&(usize, Vec<f64>)| {
+            first.iter().zip(point).all(|(a, b)| (a - b).abs() <= self.within)
+        };
+        let known = cells.iter().filter_map(|cell| self.cells.get(cell)).flatten().find(is_near);
+        if let Some((kind, _)) = known {
+            return *kind;
+        }
+        let own = point.iter().map(|x| cell(*x, 0.0)).collect();
+        self.cells.entry(own).or_default().push((self.kinds, point.to_vec()));
+        self.kinds += 1;
+        self.kinds - 1
+    }
+}
 
 /// Numbers the poses in the order in which they first appear; returns how many there are.
 ///
-/// With a `pose` column its ids decide. Without one, rows with the same readings are one pose, even
-/// if other poses were measured between them. Rows of two sessions are never one pose.
+/// With a `pose` column its ids decide. Without one, rows with the same readings, to the resolution of
+/// a controller, are one pose, even if other poses were measured between them. Rows of two sessions are
+/// never one pose.
 pub(crate) fn assign(rows: &mut [Row]) -> usize {
     #[derive(PartialEq, Eq, Hash)]
     enum Key {
         Id(String),
-        Readings(Vec<i64>),
+        Readings(usize),
     }
-    let mut seen = HashMap::new();
+    let (mut seen, mut readings) = (HashMap::new(), Near::new(SAME));
     for row in rows {
         let of = row.session.clone();
         let key = match &row.pose {
             Some(id) => Key::Id(id.clone()),
-            // A conversion out of range saturates.
-            None => Key::Readings(row.q.iter().map(|q| (q / SAME).round() as i64).collect()),
+            None => Key::Readings(readings.kind(&row.q)),
         };
         let next = seen.len();
         row.group = *seen.entry((of, key)).or_insert(next);
@@ -51,9 +106,30 @@ mod tests {
             row(&[0.1, 0.2], None),
             row(&[0.1, 0.3], None),
             row(&[0.1 + 1e-13, 0.2], None),
-            row(&[0.1 + 1e-6, 0.2], None),
+            row(&[0.1 - 6e-6, 0.2 + 4e-5], None),
+            row(&[0.1 + 1.7e-4, 0.2], None),
         ];
-        assert_eq!(groups(rows), (3, vec![0, 1, 0, 2]));
+        assert_eq!(groups(rows), (3, vec![0, 1, 0, 0, 2]));
+    }
+
+    /// Whatever cells points fall into, the kinds are those of comparing all with all.
+    #[test]
+    fn kinds_are_those_of_comparing_all_with_all() {
+        let (mut near, mut firsts) = (Near::new(1e-3), Vec::<[f64; 3]>::new());
+        let any = |k: u32| (12.9898 * f64::from(k) + 1.0).sin();
+        for k in 0..3000 {
+            let point = [0, 1, 2].map(|c| 4e-3 * any(7 * k + c) + 0.1 * any(k % 5));
+            let is_near = |f: &[f64; 3]| f.iter().zip(&point).all(|(a, b)| (a - b).abs() <= 1e-3);
+            let kinds: Vec<usize> = (0..firsts.len()).filter(|n| is_near(&firsts[*n])).collect();
+            let found = near.kind(&point);
+            if kinds.is_empty() {
+                assert_eq!(found, firsts.len());
+                firsts.push(point);
+            } else {
+                assert!(kinds.contains(&found), "{found} {kinds:?}");
+            }
+        }
+        assert!(firsts.len() > 20, "{}", firsts.len());
     }
 
     #[test]

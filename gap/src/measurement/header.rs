@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::Kind;
 use super::mistake::{Column, Fault, Mistakes};
-use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, nearest_name};
+use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, SIGMA_PREFIX, nearest_name};
 use super::table::Record;
 use super::unit::{Unit, nearest_unit};
 
@@ -199,7 +199,34 @@ pub(crate) fn kind(
     for (flag, head) in given.iter_mut().zip(sim) {
         *flag = head.is_some();
     }
+    if let Some((head, missing)) = sigma(heads, family, kind) {
+        let found = head.name.clone();
+        mistakes.add(line, Some(head.column.clone()), Fault::SigmaIncomplete { found, missing });
+    }
     Some((kind, given))
+}
+
+/// A column of a standard deviation, and those that are missing beside it.
+fn sigma(heads: &[Head], family: Family, kind: Kind) -> Option<(&Head, String)> {
+    let measured = kind.components();
+    let find = |role| heads.iter().find(|h| h.role == Some(role));
+    let own = |k| find(Role::Sigma(Some((family, k))));
+    let of = |k: usize| own(k).or_else(|| find(Role::Sigma(None)).filter(|_| k < 3));
+    let names = |missing: Vec<usize>| {
+        let each = missing.iter().map(|k| format!("{SIGMA_PREFIX}{}", family.names()[*k]));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    let other =
+        heads.iter().find(|h| matches!(h.role, Some(Role::Sigma(Some((f, _)))) if f != family));
+    if let Some(other) = other {
+        return Some((other, names((0..6).filter(|&k| measured[k]).collect())));
+    }
+    [0..3, 3..6].into_iter().find_map(|range| {
+        let (has, lacks): (Vec<usize>, Vec<usize>) =
+            range.filter(|&k| measured[k]).partition(|&k| of(k).is_some());
+        let first = has.first().and_then(|k| of(*k))?;
+        (!lacks.is_empty()).then(|| (first, names(lacks)))
+    })
 }
 
 fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mistakes) {

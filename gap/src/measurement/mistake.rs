@@ -266,6 +266,16 @@ pub enum Fault {
     )]
     Direction { found: String },
     #[error(
+        "found `{found}` without {missing}, expected the standard deviation of every measured \
+         component of its kind: add {missing}, or `sigma` for all positions"
+    )]
+    SigmaIncomplete { found: String, missing: String },
+    #[error(
+        "found `{found}`, expected a number above 0: the instrument's standard deviation of the \
+         reading"
+    )]
+    Sigma { found: String },
+    #[error(
         "found the unknown marker `{found}`, {}{}: name one of them or add it to the robot file",
         known_names("marker", known), suggest(suggestion.as_deref())
     )]

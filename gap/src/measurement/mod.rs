@@ -30,13 +30,14 @@ use nalgebra::Vector6;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use payload::{Body, Hung, Payloads};
 pub use role::{
-    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX,
-    WRENCH_NAMES,
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIGMA_PREFIX,
+    SIM_PREFIX, WRENCH_NAMES,
 };
 pub use unit::{Dimension, UNITS, Unit};
 
 use mistake::Mistakes;
 
+pub(crate) use group::Near;
 pub(crate) use role::Role;
 pub(crate) use unit::nearest;
 
@@ -55,7 +56,8 @@ pub struct Measurements {
     pub poses: usize,
     /// The columns that have no meaning here, as they stand.
     pub extra: Vec<ExtraColumn>,
-    /// Columns that are known but play no part: a simulated component that is not measured.
+    /// Columns that are known but play no part: a component that is simulated, or has a standard
+    /// deviation, and is not measured.
     pub unused: Vec<Column>,
     /// Rows that were left out, and why: a cell of theirs is empty or not a number. Never more than
     /// one row in [`ONE_IN`].
@@ -158,8 +160,8 @@ pub struct Row {
     /// Id of the pose, as written.
     pub pose: Option<String>,
     /// Rows of one group are one pose, and never stand on both sides of a fold. By the `pose`
-    /// column where there is one; else rows whose readings agree, rounded to 1e-9 rad (m), wherever
-    /// they stand.
+    /// column where there is one; else rows whose readings agree to 1e-4 rad (m), wherever they
+    /// stand.
     pub group: usize,
     /// Name of the measured point.
     pub marker: Option<String>,
@@ -177,6 +179,9 @@ pub struct Row {
     /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. A distance
     /// is the first of them.
     pub measured: Vector6<f64>,
+    /// The instrument's own standard deviation of each of these, m and rad, 0 where the file has no
+    /// column for it; `None` if it has none at all.
+    pub sigma: Option<Vector6<f64>>,
     /// The same by the user's own simulator; 0 where [`Measurements::sim_given`] is false.
     pub sim: Option<Vector6<f64>>,
 }
@@ -200,6 +205,7 @@ impl Row {
             from: None,
             from_point: None,
             measured: Vector6::zeros(),
+            sigma: None,
             sim: None,
         }
     }
@@ -379,7 +385,11 @@ fn read_into(
     let (kind, sim_given) = kind.filter(|_| mistakes.is_empty())?;
     let poses = group::assign(&mut rows);
     let measured = kind.components();
-    let unused = |h: &&header::Head| matches!(h.role, Some(Role::Sim(_, k)) if !measured[k]);
+    let unused = |h: &&header::Head| match h.role {
+        Some(Role::Sim(_, k) | Role::Sigma(Some((_, k)))) => !measured[k],
+        Some(Role::Sigma(None)) => measured[..3] == [false; 3],
+        _ => false,
+    };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
     let family = header::family(kind);
     Some(Measurements {

@@ -24,6 +24,12 @@ pub const WRENCH_NAMES: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// Prefix of the columns that hold the user's own simulator.
 pub const SIM_PREFIX: &str = "sim_";
 
+/// The column of the instrument's standard deviation of every position.
+pub const SIGMA: &str = "sigma";
+
+/// Prefix of the columns that hold that of one component.
+pub const SIGMA_PREFIX: &str = "sigma_";
+
 /// What the reader has to know of the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
@@ -72,6 +78,8 @@ pub(crate) enum Role {
     FromAt(usize),
     Measured(Family, usize),
     Sim(Family, usize),
+    /// The instrument's standard deviation of one component; of all positions.
+    Sigma(Option<(Family, usize)>),
     Extra,
 }
 
@@ -125,6 +133,9 @@ impl Role {
         if let Some((family, k)) = name.strip_prefix(SIM_PREFIX).and_then(Family::component) {
             return Ok(Role::Sim(family, k));
         }
+        if let Some(of) = name.strip_prefix(SIGMA_PREFIX).and_then(Family::component) {
+            return Ok(Role::Sigma(Some(of)));
+        }
         if let Some(k) = FROM_NAMES.iter().position(|n| *n == name) {
             return Ok(Role::FromAt(k));
         }
@@ -136,6 +147,7 @@ impl Role {
             "time" => Role::Time,
             "pose" => Role::Pose,
             "marker" => Role::Marker,
+            SIGMA => Role::Sigma(None),
             _ => Role::Extra,
         })
     }
@@ -150,7 +162,10 @@ impl Role {
             Role::Wrench(k) => Some(if k < 3 { Dimension::Force } else { Dimension::Moment }),
             Role::Temperature => Some(Dimension::Temperature),
             Role::Time => Some(Dimension::Time),
-            Role::Measured(_, k) | Role::Sim(_, k) => Some(component_dimension(k)),
+            Role::Measured(_, k) | Role::Sim(_, k) | Role::Sigma(Some((_, k))) => {
+                Some(component_dimension(k))
+            }
+            Role::Sigma(None) => Some(Dimension::Length),
             Role::FromAt(_) => Some(Dimension::Length),
             Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
             Role::Session | Role::Payload | Role::From => None,
@@ -176,9 +191,11 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
     let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
-    let fixed = fixed.into_iter().chain(FROM_NAMES).map(str::to_owned);
-    let sim = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).map(|n| format!("{SIM_PREFIX}{n}"));
-    let plain = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).chain(&WRENCH_NAMES);
+    let fixed = fixed.into_iter().chain(FROM_NAMES).chain([SIGMA]).map(str::to_owned);
+    let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
+    let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));
+    let sim = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));
+    let plain = measured().chain(&WRENCH_NAMES);
     let names: Vec<String> =
         joints.chain(fixed).chain(sim).chain(plain.map(|n| (*n).to_owned())).collect();
     // One edit turns any short name into any other; of those only the case can be mistaken.
@@ -208,9 +225,11 @@ mod tests {
         assert_eq!(role("mz"), Role::Wrench(5));
         assert_eq!(role("drx"), Role::Measured(Family::Displacement, 3));
         assert_eq!(role("sim_rz"), Role::Sim(Family::Pose, 5));
+        assert_eq!(role("sigma"), Role::Sigma(None));
+        assert_eq!(role("sigma_dy"), Role::Sigma(Some((Family::Displacement, 1))));
         assert_eq!(role("sim_distance"), Role::Sim(Family::Distance, 0));
         assert_eq!((role("from_z"), role("session")), (Role::FromAt(2), Role::Session));
-        for extra in ["Q1", "q", "qa", "q1b", "speed", "sim_q1", "sim_", "", "ycd_dy"] {
+        for extra in ["Q1", "q", "qa", "q1b", "speed", "sim_q1", "sigma_q1", "sim_", "", "ycd_dy"] {
             assert_eq!(role(extra), Role::Extra, "{extra}");
         }
     }

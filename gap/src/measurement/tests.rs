@@ -425,6 +425,26 @@ const MISTAKES: &[(&str, &str, &str)] = &[
          came to rest",
     ),
     (
+        "Sigma",
+        "q1,q2,q3,dz,sigma[um]\n0,0,0,1,0\n",
+        "line 2, column 5 `sigma[um]`: found `0`, expected a number above 0: the instrument's \
+         standard deviation of the reading",
+    ),
+    (
+        "SigmaIncomplete",
+        "q1,q2,q3,dy,dz,sigma_dz\n0,0,0,1,1,1\n",
+        "line 1, column 6 `sigma_dz`: found `sigma_dz` without sigma_dy, expected the standard \
+         deviation of every measured component of its kind: add sigma_dy, or `sigma` for all \
+         positions",
+    ),
+    (
+        "SigmaIncomplete",
+        "q1,q2,q3,dz,sigma_z\n0,0,0,1,1\n",
+        "line 1, column 5 `sigma_z`: found `sigma_z` without sigma_dz, expected the standard \
+         deviation of every measured component of its kind: add sigma_dz, or `sigma` for all \
+         positions",
+    ),
+    (
         "UnknownMarker",
         "q1,q2,q3,dz,marker\n0,0,0,1,SMR1\n",
         "line 2, column 5 `marker`: found the unknown marker `SMR1`, the robot file has `smr1`, \
@@ -458,6 +478,20 @@ fn every_mistake_has_its_own_message() {
         let error = Measurements::from_bytes("run.csv", bytes, &layout()).unwrap_err();
         assert_eq!(error.to_string(), message);
     }
+}
+
+#[test]
+fn standard_deviations_are_of_all_positions_or_of_each_component() {
+    let text = "q1,q2,q3,sigma_dz[mm],dy,dz,drx,sigma[um]\n0,0,0,2,1,1,1,5\n";
+    let data = read(text).unwrap();
+    let sigma = data.rows[0].sigma.unwrap();
+    assert_eq!((sigma[1], sigma[2], sigma[3]), (5.0 * 1e-6, 2.0 * 1e-3, 0.0));
+    assert!(data.unused.is_empty() && data.extra.is_empty());
+    let turned = read("q1,q2,q3,drx,sigma,sigma_dry\n0,0,0,1,1,1\n");
+    assert!(turned.is_err(), "drx has none");
+    let turned = read("q1,q2,q3,drx,sigma,sigma_drx[mrad]\n0,0,0,1,1,2\n").unwrap();
+    assert_eq!(turned.rows[0].sigma.unwrap()[3], 2.0 * 1e-3);
+    assert_eq!(turned.unused[0].header, "sigma");
 }
 
 #[test]

@@ -5,7 +5,9 @@ use core::fmt::Write as _;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::measurement::{FROM_NAMES, Kind, Measurements, Row, SIM_PREFIX, WRENCH_NAMES};
+use crate::measurement::{
+    FROM_NAMES, Kind, Measurements, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+};
 
 /// One column: its header, and its cell of a row.
 struct Column {
@@ -16,8 +18,8 @@ struct Column {
 /// The measurement file of some measurements: comment lines, a header with SI units, and one line
 /// per row. Numbers have as many digits as it takes to read the same numbers back.
 ///
-/// Columns that no row uses (directions, temperature, time, pose, marker, session, payload) are left
-/// out.
+/// Columns that no row uses (directions, temperature, time, pose, marker, session, payload, standard
+/// deviations) are left out.
 pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
     let mut text = String::new();
     for line in comments.iter().flat_map(|comment| comment.lines()) {
@@ -92,6 +94,12 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
     for k in (0..6).filter(|k| measured[*k]) {
         let unit = if k < 3 { "m" } else { "rad" };
         add(format!("{}[{unit}]", names[k]), Box::new(move |r| number(r.measured[k])));
+    }
+    let has_sigma = |k: &usize| data.rows.iter().all(|r| r.sigma.is_some_and(|s| s[*k] > 0.0));
+    for k in (0..6).filter(|k| measured[*k]).filter(has_sigma) {
+        let unit = if k < 3 { "m" } else { "rad" };
+        let cell = move |r: &Row| number(r.sigma.map_or(0.0, |sigma| sigma[k]));
+        add(format!("{SIGMA_PREFIX}{}[{unit}]", names[k]), Box::new(cell));
     }
     for k in (0..6).filter(|k| data.sim_given[*k]) {
         let unit = if k < 3 { "m" } else { "rad" };

@@ -243,7 +243,8 @@ fn another_file_is_predicted() {
     let found = bench.json(&bench.robot, &run, &["--check", &other]);
     let check = &found["check"];
     let keys: Vec<&String> = check.as_object().expect("an object").keys().collect();
-    assert_eq!(keys, ["file", "rows", "inside", "before", "after"]);
+    assert_eq!(keys, ["file", "rows", "inside", "fitted", "before", "after"]);
+    assert_eq!(check["fitted"], false);
     assert_eq!((check["file"].as_str(), check["rows"].as_u64()), (Some(&*other), Some(48)));
     let inside = check["inside"].as_u64().expect("a number");
     assert!(0 < inside && inside < 48, "{check}");
@@ -266,6 +267,46 @@ fn another_file_is_predicted() {
     let out = bench.diagnose(&bench.robot, &run, &["--check", &far, "--quiet"]);
     assert!(out.contains("none is judged"), "{out}");
     assert!(bench.json(&bench.robot, &run, &[]).get("check").is_none());
+}
+
+/// What is announced for the rows that were fitted is what `--check` says of them, and what a diagnosis
+/// of the written robot begins with.
+#[test]
+fn the_rows_that_were_fitted_are_known_again() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING, ZERO], 6, false);
+    let better = text(&bench.folder.path("better.toml"));
+    let found = bench.json(&bench.robot, &run, &["--check", &run, "--write-robot", &better]);
+    assert_eq!(found["check"]["fitted"], true);
+    let fitted = &found["gap"]["fitted"];
+    let again = bench.json(&better, &run, &[]);
+    for kind in ["position_rms", "rotation_rms"] {
+        let ratio = |other: &Value| number(&other[kind]) / number(&fitted[kind]);
+        // From where the arm comes to rest shows in the last digits, and what is written has seven.
+        assert!((ratio(&found["check"]["after"]) - 1.0).abs() < 1e-9, "{kind}");
+        assert!((ratio(&again["gap"]["before"]) - 1.0).abs() < 1e-3, "{kind}");
+    }
+    let said = flat(&bench.diagnose(&bench.robot, &run, &["--check", &run]));
+    assert!(said.contains("the same on its own rows"), "{said}");
+    assert!(said.contains("which are those that were fitted: on rows that no fit has"), "{said}");
+}
+
+#[test]
+fn what_is_usual_may_be_told() {
+    let bench = Bench::new();
+    let run = bench.measured("run.csv", &[SPRING], 6, false);
+    let named = |extra: &[&str]| {
+        let found = bench.json(&bench.robot, &run, extra);
+        let first = &found["findings"][0];
+        format!("{} at {}", first["effect"].as_str().unwrap(), first["place"].as_str().unwrap())
+    };
+    let usual = named(&[]);
+    // Nobody who knows that joints are a million times stiffer than that believes in a spring.
+    let told = named(&["--usual", "joint_compliance=1e-14"]);
+    assert!(usual.starts_with("joint_compliance") && !told.starts_with("joint_compliance"));
+    let all = ["diagnose", &bench.robot, &run, "--usual", "joint_compliance=1 mm"];
+    let err = stiffarm(&all).refused();
+    assert!(err.contains("found the prior `joint_compliance=1 mm`"), "{err}");
 }
 
 #[test]

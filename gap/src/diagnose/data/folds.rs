@@ -1,6 +1,7 @@
-//! Which poses are held out together, and which are resampled together.
+//! Which poses are held out together, and which rows are resampled or flipped together.
 
 use super::rng::{Stream, generator, shuffled};
+use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::measurement::Measurements;
 
@@ -14,12 +15,18 @@ const USUAL: usize = 10;
 /// cost and memory stay linear.
 const MOST_BLOCKS: usize = 64;
 
-/// A division of the poses into blocks, and of the blocks into folds.
+/// Stretches of time: as many as give enough sign patterns, and as long as errors that linger last.
+const MOST_STRETCHES: usize = 32;
+
+/// Visits of a stretch, at least.
+const LEAST_VISITS: usize = 3;
+
+/// A division of the rows into blocks, and of the blocks into folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Folds {
     pub(crate) count: usize,
-    /// The block of each pose.
-    pub(crate) block_of_pose: Vec<usize>,
+    /// The block of each row; of one pose all rows are in one.
+    pub(crate) block_of_row: Vec<usize>,
     /// The fold of each block.
     pub(crate) of_block: Vec<usize>,
 }
@@ -44,7 +51,16 @@ impl Folds {
         for (place, block) in order.into_iter().enumerate() {
             of_block[block] = place % count;
         }
-        Ok(Folds { count, block_of_pose, of_block })
+        let block_of_row = data.rows.iter().map(|row| block_of_pose[row.group]).collect();
+        Ok(Folds { count, block_of_row, of_block })
+    }
+
+    /// Stretches of time instead of poses, each a fold of its own: visits that follow each other.
+    pub(crate) fn in_time(visits: &Visits) -> Folds {
+        let all = visits.count();
+        let count = (all / LEAST_VISITS).min(MOST_STRETCHES).max(1);
+        let block_of_row = visits.of_row.iter().map(|visit| visit * count / all).collect();
+        Folds { count, block_of_row, of_block: (0..count).collect() }
     }
 
     pub(crate) fn blocks(&self) -> usize {
@@ -52,25 +68,21 @@ impl Folds {
     }
 
     /// The rows of each block, in order.
-    pub(crate) fn rows_of_blocks(&self, data: &Measurements) -> Vec<Vec<usize>> {
+    pub(crate) fn rows_of_blocks(&self) -> Vec<Vec<usize>> {
         let mut rows = vec![Vec::new(); self.blocks()];
-        for (index, row) in data.rows.iter().enumerate() {
-            rows[self.block_of_pose[row.group]].push(index);
-        }
+        self.block_of_row.iter().enumerate().for_each(|(row, block)| rows[*block].push(row));
         rows
     }
 
-    /// The fold of a pose.
-    pub(crate) fn of_pose(&self, pose: usize) -> usize {
-        self.of_block[self.block_of_pose[pose]]
+    /// The fold of a row.
+    pub(crate) fn of_row(&self, row: usize) -> usize {
+        self.of_block[self.block_of_row[row]]
     }
 
     /// Sums of squares of each block, of one size per row.
-    pub(crate) fn per_block(&self, data: &Measurements, sizes: &[f64]) -> Vec<f64> {
+    pub(crate) fn per_block(&self, sizes: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.blocks()];
-        for (row, size) in data.rows.iter().zip(sizes) {
-            sums[self.block_of_pose[row.group]] += size * size;
-        }
+        self.block_of_row.iter().zip(sizes).for_each(|(block, size)| sums[*block] += size * size);
         sums
     }
 }
@@ -107,7 +119,7 @@ mod tests {
     }
 
     fn sizes(folds: &Folds, poses: usize) -> Vec<usize> {
-        let in_fold = |f| (0..poses).filter(|p| folds.of_pose(*p) == f).count();
+        let in_fold = |f| (0..poses).filter(|p| folds.of_row(*p) == f).count();
         (0..folds.count).map(in_fold).collect()
     }
 
@@ -123,8 +135,22 @@ mod tests {
     fn very_many_poses_share_blocks() {
         let folds = Folds::deal(&data(1000), &Options::default()).unwrap();
         assert_eq!(folds.blocks(), MOST_BLOCKS);
-        assert_eq!((folds.block_of_pose[0], folds.block_of_pose[999]), (0, MOST_BLOCKS - 1));
+        assert_eq!((folds.block_of_row[0], folds.block_of_row[999]), (0, MOST_BLOCKS - 1));
         assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
+    }
+
+    #[test]
+    fn stretches_of_time_split_no_visit() {
+        // A hundred poses, read twice each; then all of them again.
+        let mut all = data(100);
+        all.rows = all.rows.iter().flat_map(|row| [row.clone(), row.clone()]).collect();
+        all.rows.extend(all.rows.clone());
+        let folds = Folds::in_time(&Visits::of(&all));
+        assert_eq!((folds.blocks(), folds.count), (MOST_STRETCHES, MOST_STRETCHES));
+        assert!(folds.block_of_row.is_sorted());
+        assert!(folds.block_of_row.chunks_exact(2).all(|pair| pair[0] == pair[1]));
+        assert!(folds.rows_of_blocks().iter().all(|rows| [12, 14].contains(&rows.len())));
+        assert_eq!(Folds::in_time(&Visits::of(&data(2))).blocks(), 1);
     }
 
     #[test]
@@ -135,7 +161,7 @@ mod tests {
         }
         let folds = Folds::deal(&data, &Options::default()).unwrap();
         assert_eq!(folds.blocks(), MOST_BLOCKS + 1);
-        assert_eq!(folds.block_of_pose[333], folds.block_of_pose[332] + 1);
+        assert_eq!(folds.block_of_row[333], folds.block_of_row[332] + 1);
     }
 
     #[test]

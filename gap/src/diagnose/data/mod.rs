@@ -2,8 +2,9 @@
 //!
 //! **In:** the robot file's arm, the rows of a measurement file, the options.
 //! **Out:** the [`Problem`] (rows whose numbers can be worked with, the components that are measured,
-//! the frames and markers that are unknown, the rows that fit), the [`Folds`] (which poses are held out together), and
-//! the [`Noise`] (what a residual is weighted by, and whether what is left is more than noise).
+//! the frames and markers that are unknown, the rows that fit, the [`Visits`], the [`Precision`] of each
+//! row), the [`Folds`] (which poses are held out together), and the [`Noise`] (what a residual is
+//! weighted by, and whether what is left is more than noise).
 //!
 //! Everything random in a diagnosis is drawn from the [`generator`] of a [`Stream`], so that the
 //! same options on the same data give the same bytes.
@@ -11,11 +12,14 @@
 mod folds;
 mod misfits;
 mod noise;
+mod precision;
 mod problem;
 mod rng;
+mod visits;
 
 pub(crate) use folds::Folds;
 pub(crate) use misfits::fitting;
 pub(crate) use noise::Noise;
+pub(crate) use precision::Precision;
 pub(crate) use problem::{LARGEST, Problem};
 pub(crate) use rng::{Stream, below, generator, shuffled};

@@ -1,7 +1,7 @@
 //! How large the noise of the measurement is, and whether what is left of the gap is more than
 //! noise.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use nalgebra::Vector6;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
@@ -29,13 +29,30 @@ pub(crate) enum Source {
     Option,
     /// With this many degrees of freedom.
     Repeats(f64),
+    /// The file's own standard deviations.
+    Columns,
     Residual,
+}
+
+impl Source {
+    /// As it is written.
+    fn name(self) -> &'static str {
+        match self {
+            Source::Option => "option",
+            Source::Repeats(_) => "repeats",
+            Source::Columns => "columns",
+            Source::Residual => "residual",
+        }
+    }
 }
 
 /// Standard deviation of each component of one kind (translations or rotations).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Level {
     pub(crate) sd: f64,
+    /// The part of it that comes and goes with visits, the arm's repeatability; where poses were both
+    /// read more than once and visited again.
+    pub(crate) visits: Option<f64>,
     pub(crate) source: Source,
     /// Measured components of this kind in a row.
     pub(crate) components: usize,
@@ -51,23 +68,31 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
-    /// By the options, else from repeats, else from `residual` (with `parameters` fitted to it).
+    /// By the options, else from repeats, else by the file's own standard deviations, else from
+    /// `residual` (with `parameters` fitted to it). Poses that are read more than once and never
+    /// visited again tell the instrument alone, which the file's columns know better.
     pub(crate) fn of(
         problem: &Problem<'_>,
         options: &Options,
         residual: &[Vector6<f64>],
         parameters: usize,
     ) -> Noise {
+        let standard = problem.standard(residual);
+        let residual = &problem.kept(&standard);
         let level = |first: usize, given: Option<f64>| {
-            let mask = problem.mask;
-            let components = (first..first + 3).filter(|&k| mask[k] > 0.0).count();
-            let with = |sd, source| Level { sd, source, components, first };
+            let components = (first..first + 3).filter(|&k| problem.mask[k] > 0.0).count();
+            let repeats = Repeats::of(problem, &standard, first, components);
+            let visits = repeats.as_ref().and_then(Repeats::visits);
+            let with = |sd, source| Level { sd, visits, source, components, first };
             if let Some(sd) = given {
                 return with(sd, Source::Option);
             }
-            let residual = &problem.kept(residual);
-            if let Some((sd, freedom)) = repeats(problem, residual, first, components) {
-                return with(sd, Source::Repeats(freedom));
+            let columns = problem.precision.instrument[first / 3];
+            match (repeats, columns) {
+                (Some(r), None) => return with(r.sd, Source::Repeats(r.freedom)),
+                (Some(r), Some(_)) if r.returns => return with(r.sd, Source::Repeats(r.freedom)),
+                (_, Some(sd)) => return with(sd, Source::Columns),
+                (None, None) => {}
             }
             let total = problem.numbers();
             // Each kind pays for the parameters by its part of the numbers measured.
@@ -95,15 +120,19 @@ impl Noise {
     }
 
     pub(crate) fn report(&self) -> NoiseReport {
-        let rms = |l: &Level| if l.components == 0 { 0.0 } else { l.rms() };
+        let is_there = |l: &Level| l.components > 0;
+        let rms = |l: &Level, sd: f64| sd * (l.components as f64).sqrt();
+        let visits = |l: &Level| l.visits.filter(|_| is_there(l)).map(|sd| rms(l, sd));
+        let from = |l: &Level| is_there(l).then(|| l.source.name());
+        let (position, rotation) = (&self.position, &self.rotation);
         NoiseReport {
-            position_rms: rms(&self.position),
-            rotation_rms: rms(&self.rotation),
-            from: match self.main().source {
-                Source::Option => "option",
-                Source::Repeats(_) => "repeats",
-                Source::Residual => "residual",
-            },
+            position_rms: rms(position, position.sd),
+            rotation_rms: rms(rotation, rotation.sd),
+            from: self.main().source.name(),
+            position_from: from(position),
+            rotation_from: from(rotation),
+            visits_position_rms: visits(position),
+            visits_rotation_rms: visits(rotation),
         }
     }
 
@@ -148,11 +177,6 @@ impl Level {
         gap.fixed_rows::<3>(self.first).norm_squared()
     }
 
-    /// Root mean square of the norm over the measured components.
-    pub(crate) fn rms(&self) -> f64 {
-        self.sd * (self.components as f64).sqrt()
-    }
-
     /// How often noise alone would leave as much; `None` if that cannot be said.
     fn chance(&self, squares: f64, freedom: f64) -> Option<f64> {
         if self.components == 0 || self.sd <= 0.0 || freedom <= 0.0 {
@@ -161,7 +185,7 @@ impl Level {
         let ratio = squares / (self.sd * self.sd);
         match self.source {
             Source::Residual => None,
-            Source::Option => Some(ChiSquared::new(freedom).ok()?.sf(ratio)),
+            Source::Option | Source::Columns => Some(ChiSquared::new(freedom).ok()?.sf(ratio)),
             Source::Repeats(own) => {
                 Some(FisherSnedecor::new(freedom, own).ok()?.sf(ratio / freedom))
             }
@@ -173,42 +197,108 @@ fn squares(gaps: &[Vector6<f64>], first: usize) -> f64 {
     gaps.iter().map(|g| g.fixed_rows::<3>(first).norm_squared()).sum()
 }
 
-/// Standard deviation about the mean of repeats, and its degrees of freedom. Repeats are rows of
-/// one pose with the same load, marker and direction of approach.
-fn repeats(
-    problem: &Problem<'_>,
-    residual: &[Vector6<f64>],
-    first: usize,
-    components: usize,
-) -> Option<(f64, f64)> {
-    let mut sets: HashMap<_, usize> = HashMap::new();
-    let mut members: Vec<Vec<Vector6<f64>>> = Vec::new();
-    for (row, gap) in problem.kept_rows().zip(residual) {
-        let load: Vec<u64> = row.wrench.iter().map(|f| (f + 0.0).to_bits()).collect();
-        let key = (row.group, load, row.marker.as_deref(), row.direction.as_deref());
-        let set = *sets.entry(key).or_insert(members.len());
-        if set == members.len() {
-            members.push(Vec::new());
+/// What repeats say of one kind: rows of one pose with the same load, marker and direction of approach,
+/// at one visit or at several.
+struct Repeats {
+    /// Of one reading.
+    sd: f64,
+    freedom: f64,
+    /// Variance of a visit beyond that of its readings; `None` where the two are not told apart.
+    visit: Option<f64>,
+    /// Whether poses were visited again.
+    returns: bool,
+}
+
+/// Squares about means, and the number of values beyond these.
+#[derive(Default)]
+struct Apart {
+    squares: f64,
+    beyond: usize,
+}
+
+impl Repeats {
+    /// Of gaps to a model, one for each row: an analysis of variance of readings within visits, and of
+    /// visits of what they repeat. `None` where that is too little.
+    fn of(
+        problem: &Problem<'_>,
+        gaps: &[Vector6<f64>],
+        first: usize,
+        components: usize,
+    ) -> Option<Self> {
+        let visits = &problem.visits;
+        let mut sets: BTreeMap<usize, BTreeMap<usize, Vec<Vector6<f64>>>> = BTreeMap::new();
+        for row in (0..gaps.len()).filter(|row| problem.fits[*row]) {
+            let set = sets.entry(visits.repeats[row]).or_default();
+            set.entry(visits.of_row[row]).or_default().push(gaps[row]);
         }
-        members[set].push(*gap);
+        let mean = |of: &[Vector6<f64>]| of.iter().sum::<Vector6<f64>>() / of.len() as f64;
+        let square = |apart: Vector6<f64>| squares(&[apart], first);
+        let (mut within, mut between) = (Apart::default(), Apart::default());
+        // How often the variance of a visit is in the squares between them.
+        let mut times = 0.0;
+        for set in sets.values() {
+            let all: Vec<Vector6<f64>> = set.values().flatten().copied().collect();
+            let whole = mean(&all);
+            between.beyond += set.len() - 1;
+            times += all.len() as f64;
+            for visit in set.values() {
+                let (count, own) = (visit.len() as f64, mean(visit));
+                within.squares += visit.iter().map(|gap| square(gap - own)).sum::<f64>();
+                within.beyond += visit.len() - 1;
+                between.squares += count * square(own - whole);
+                times -= count * count / all.len() as f64;
+            }
+        }
+        let numbers = |apart: &Apart| (apart.beyond * components) as f64;
+        let (inside, outside) = (numbers(&within), numbers(&between));
+        let sum = within.squares + between.squares;
+        if within.beyond + between.beyond < LEAST_REPEATS || inside + outside <= 0.0 || sum <= 0.0 {
+            return None;
+        }
+        let returns = between.beyond >= LEAST_REPEATS;
+        let pooled = Self {
+            sd: (sum / (inside + outside)).sqrt(),
+            freedom: inside + outside,
+            visit: (returns && within.beyond >= LEAST_REPEATS).then_some(0.0),
+            returns,
+        };
+        if pooled.visit.is_none() {
+            // Visits of one reading each scatter by both together.
+            return Some(match returns {
+                true => Self { sd: (between.squares / outside).sqrt(), freedom: outside, ..pooled },
+                false => pooled,
+            });
+        }
+        let times = times / between.beyond as f64;
+        let (instrument, visits) = (within.squares / inside, between.squares / outside);
+        let visit = (visits - instrument) / times;
+        if visit <= 0.0 {
+            return Some(pooled);
+        }
+        // The variance of a sum of two mean squares (Satterthwaite 1946).
+        let parts = [(visits / times, outside), (instrument * (1.0 - 1.0 / times), inside)];
+        let variance: f64 = parts.iter().map(|(part, _)| part).sum();
+        let doubt: f64 = parts.iter().map(|(part, freedom)| part * part / freedom).sum();
+        Some(Self {
+            sd: variance.sqrt(),
+            freedom: variance * variance / doubt,
+            visit: Some(visit),
+            returns,
+        })
     }
-    let mut sum = 0.0;
-    for set in &members {
-        let mean = set.iter().sum::<Vector6<f64>>() / set.len() as f64;
-        let apart: Vec<_> = set.iter().map(|g| g - mean).collect();
-        sum += squares(&apart, first);
+
+    fn visits(&self) -> Option<f64> {
+        self.visit.map(f64::sqrt)
     }
-    let beyond = residual.len() - members.len();
-    let freedom = (beyond * components) as f64;
-    (beyond >= LEAST_REPEATS && freedom > 0.0 && sum > 0.0)
-        .then(|| ((sum / freedom).sqrt(), freedom))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::data::{Precision, Stream, generator};
+    use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
-    use crate::measurement::{Kind, Measurements};
+    use crate::measurement::{Kind, Measurements, Row};
 
     /// Two poses of three repeats each, ±1 mm about what the arm says.
     fn data() -> Measurements {
@@ -242,6 +332,61 @@ mod tests {
         assert!((noise.report().position_rms - 1e-3).abs() < 1e-12);
         assert_eq!(noise.report().from, "repeats");
         assert_eq!(noise.report().rotation_rms, 0.0);
+    }
+
+    /// A hundred poses, each visited three times, four readings a visit: the instrument's 20 µm and the
+    /// arm's 50 µm are told from each other; of the first visits alone only the instrument's.
+    #[test]
+    fn the_arm_is_told_from_the_instrument() {
+        let (arm, mut dice) = (rigid(), generator(5, Stream::Signs));
+        let (mut rows, mut gaps) = (Vec::new(), Vec::new());
+        for _ in 0..3 {
+            for group in 0..100 {
+                let visit = Vector6::from_fn(|_, _| 5e-5 * normal(&mut dice));
+                for _ in 0..4 {
+                    rows.push(Row {
+                        group,
+                        ..row(&[0.01 * group as f64, 0.2, 0.3], Vector6::zeros())
+                    });
+                    let read = visit.map(|x| x + 2e-5 * normal(&mut dice));
+                    gaps.push(read.component_mul(&Vector6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0)));
+                }
+            }
+        }
+        let none = Options::default();
+        let position = |rows: &[Row], gaps: &[Vector6<f64>]| {
+            let data = table(rows.to_vec(), Kind::Pose { orientation: false });
+            let problem = Problem::new(&arm, &data, &none).unwrap();
+            Noise::of(&problem, &none, gaps, 0).position
+        };
+        let whole = position(&rows, &gaps);
+        // 200 visits beyond their poses, of three numbers each: four standard errors of such a variance.
+        let close = 4.0 * (2.0 / 600.0_f64).sqrt() / 2.0;
+        assert!((whole.visits.unwrap() / 5e-5 - 1.0).abs() < close, "{whole:?}");
+        assert!((whole.sd / 5e-5_f64.hypot(2e-5) - 1.0).abs() < close, "{whole:?}");
+        assert!(
+            matches!(whole.source, Source::Repeats(freedom) if (500.0..900.0).contains(&freedom))
+        );
+        let once = position(&rows[..400], &gaps[..400]);
+        assert!((once.sd / 2e-5 - 1.0).abs() < close && once.visits.is_none(), "{once:?}");
+    }
+
+    #[test]
+    fn the_files_own_sigma_comes_before_the_residual() {
+        let (arm, mut data) = (rigid(), data());
+        for (k, row) in data.rows.iter_mut().enumerate() {
+            row.wrench[0] = 100.0 * k as f64;
+            row.sigma = Some(Vector6::new(3e-4, 4e-4, 5e-4, 0.0, 0.0, 0.0));
+        }
+        let none = Options::default();
+        let mut problem = Problem::new(&arm, &data, &none).unwrap();
+        problem.precision = Precision::of(&data);
+        let noise = Noise::of(&problem, &none, &gaps(&problem), 0);
+        assert_eq!(noise.position.source, Source::Columns);
+        let report = noise.report();
+        // √(3² + 4² + 5²).
+        assert!((report.position_rms - 1e-4 * 50_f64.sqrt()).abs() < 1e-12, "{report:?}");
+        assert_eq!((report.position_from, report.rotation_from), (Some("columns"), None));
     }
 
     #[test]

@@ -6,7 +6,10 @@ use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
+use super::precision::Precision;
+use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
+use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::measurement::{Kind, Measurements, Row};
@@ -32,6 +35,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) nuisances: Vec<Nuisance>,
     /// The arm's geometry, where it is fitted along.
     pub(crate) along: Option<&'static dyn Effect>,
+    /// What is usual of some effects' numbers, by the caller.
+    pub(crate) priors: Vec<Prior>,
     /// To what makers hold lengths and angles, m and rad.
     pub(crate) tolerance: [f64; 2],
     /// Names of the markers whose place on the tool is unknown.
@@ -51,6 +56,9 @@ pub(crate) struct Problem<'a> {
     pub(crate) constants: Vec<Vec<usize>>,
     /// Whether a row is fitted and counted; the gaps of others are 0.
     pub(crate) fits: Vec<bool>,
+    /// How precise each row is beside the others.
+    pub(crate) precision: Precision,
+    pub(crate) visits: Visits,
     /// What the arm of the robot file reads in its own base frame; where the file has the user's
     /// own simulator only.
     pub(crate) nominal: Option<Vec<Reading>>,
@@ -130,6 +138,7 @@ impl<'a> Problem<'a> {
             known,
             nuisances: options.nuisances.clone(),
             along: options.along().filter(|e| e.excluded(data).is_none()),
+            priors: options.priors.clone(),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
@@ -139,6 +148,8 @@ impl<'a> Problem<'a> {
             centre_of,
             constants: Vec::new(),
             fits: vec![true; data.rows.len()],
+            precision: Precision::default(),
+            visits: Visits::of(data),
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
@@ -159,6 +170,17 @@ impl<'a> Problem<'a> {
     /// The rows that are counted.
     pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
         self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
+    }
+
+    /// What a row's gap is multiplied by, whitened by `weights` of its kinds.
+    pub(crate) fn weights(&self, row: usize, weights: &Vector6<f64>) -> Vector6<f64> {
+        self.precision.of_row(row).component_mul(weights)
+    }
+
+    /// The gaps of all rows as they would be if all were equally precise.
+    pub(crate) fn standard(&self, gaps: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
+        let each = gaps.iter().enumerate();
+        each.map(|(row, gap)| gap.component_mul(&self.precision.of_row(row))).collect()
     }
 
     /// Rows that are counted, beyond one for each constant.

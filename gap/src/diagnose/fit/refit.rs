@@ -41,8 +41,9 @@ pub(crate) struct Fit {
 }
 
 /// Weighted sum of squares of gaps.
-pub(crate) fn squares(gaps: &[Vector6<f64>], weights: &Vector6<f64>) -> f64 {
-    gaps.iter().map(|g| g.component_mul(weights).norm_squared()).sum()
+pub(crate) fn squares(problem: &Problem<'_>, gaps: &[Vector6<f64>], weights: &Vector6<f64>) -> f64 {
+    let weights = |row| problem.weights(row, weights);
+    gaps.iter().enumerate().map(|(row, g)| g.component_mul(&weights(row)).norm_squared()).sum()
 }
 
 /// Fits all parameters of `model`.
@@ -58,7 +59,7 @@ pub(crate) fn refit(
         return Ok(fit);
     }
     let cost = |model: &Model, predicted: &Predicted| {
-        squares(&predicted.gaps, weights) + strain(problem, model)
+        squares(problem, &predicted.gaps, weights) + strain(problem, model)
     };
     let mut now = cost(&fit.model, &fit.predicted);
     let mut predicted = 0;
@@ -116,9 +117,10 @@ pub(crate) fn normal_equations(
             let mut columns = DMatrix::zeros(6 * rows.len(), k);
             let mut gaps = DVector::zeros(6 * rows.len());
             for (index, &row) in rows.iter().enumerate() {
-                let block = block(problem, fit, row, weights);
+                let weights = problem.weights(row, weights);
+                let block = block(problem, fit, row, &weights);
                 columns.rows_mut(6 * index, 6).copy_from(&block);
-                let gap = fit.predicted.gaps[row].component_mul(weights);
+                let gap = fit.predicted.gaps[row].component_mul(&weights);
                 gaps.rows_mut(6 * index, 6).copy_from(&gap);
             }
             if !problem.constants.is_empty() {

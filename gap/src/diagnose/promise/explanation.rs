@@ -4,9 +4,9 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::spread::Spread;
+use super::spread::{Spread, columns};
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::Model;
+use crate::diagnose::fit::{Fitted, Model, Predicted};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known, file_name};
@@ -40,7 +40,8 @@ pub struct Prediction {
     pub before: Vec<Vector6<f64>>,
     /// With the findings.
     pub after: Vec<Vector6<f64>>,
-    /// Whether the row lies within the joint ranges and loads of the data that was diagnosed.
+    /// Whether the row lies within the joint ranges and loads of the data that was diagnosed, and what
+    /// was fitted is known as well there as at one of its rows (the leverage is no larger).
     pub inside: Vec<bool>,
 }
 
@@ -146,18 +147,28 @@ impl Explanation {
                 DiagnoseError::NewPoint { file: data.file.clone(), point: name.clone() }
             })?);
         }
-        let gaps = |model: &Model| {
+        let lasts = |f: &Fitted| data.file == self.file || f.effect.depends() != Depends::Session;
+        let carried = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
             model.bases = sessions.iter().map(|k| model.bases[*k]).collect();
             model.centres = centres.iter().map(|k| model.centres[*k]).collect();
-            if data.file != self.file {
-                model.found.retain(|f| f.effect.depends() != Depends::Session);
-            }
-            model.predict(&problem, None).map(|p| p.gaps)
+            model.found.retain(lasts);
+            model
         };
-        let (before, after) = (gaps(&self.before)?, gaps(&self.after)?);
-        let inside = data.rows.iter().map(|row| {
+        let model = carried(&self.after);
+        let before = carried(&self.before).predict(&problem, None)?.gaps;
+        let after = model.predict(&problem, None)?;
+        let frames = 6 * problem.nuisances.len();
+        let mut numbers: Vec<usize> = (0..frames).collect();
+        let mut first = frames;
+        for found in &self.after.found {
+            let own = first..first + found.values.len();
+            first = own.end;
+            numbers.extend(own.filter(|_| lasts(found)));
+        }
+        let each = data.rows.iter().enumerate();
+        let inside = each.map(|(number, row)| {
             let in_range = |(q, [low, high]): (&f64, &[f64; 2])| {
                 let edge = EDGE * (high - low) + f64::EPSILON;
                 (low - edge..=high + edge).contains(q)
@@ -167,8 +178,25 @@ impl Explanation {
             row.q.iter().zip(&self.covers.joints).all(in_range)
                 && force <= self.covers.force * (1.0 + EDGE)
                 && moment <= self.covers.moment * (1.0 + EDGE)
+                && self.leverage(&problem, &model, &after, number, &numbers)
+                    <= self.spread.leverage * (1.0 + EDGE)
         });
-        Ok(Prediction { before, after, inside: inside.collect() })
+        Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
+    }
+
+    /// Of a row, by those `numbers` of what was fitted that `model` has; infinite where it has no state.
+    fn leverage(
+        &self,
+        problem: &Problem<'_>,
+        model: &Model,
+        predicted: &Predicted,
+        row: usize,
+        numbers: &[usize],
+    ) -> f64 {
+        model.state(problem, predicted, row).map_or(f64::INFINITY, |sim| {
+            let block = model.change(problem, &sim, row, |s| model.block(problem, row, s));
+            self.spread.leverage(&block.select_columns(&columns(problem, model, row)), numbers)
+        })
     }
 
     /// Which of the diagnosed sessions a session of other data is measured in.

@@ -1,8 +1,11 @@
 //! How well the numbers of a fit are known, and what is left of the readings beside them.
 
-use nalgebra::{DMatrix, Vector6};
+use nalgebra::{DMatrix, Matrix6xX, Vector6};
+use rayon::prelude::*;
 
-use crate::diagnose::fit::{Basis, Model, squares};
+use crate::diagnose::data::Problem;
+use crate::diagnose::fit::{Basis, Model, block, squares};
+use crate::diagnose::options::Nuisance;
 use crate::diagnose::search::{Explained, Search};
 
 /// How well the numbers that were fitted are known.
@@ -13,13 +16,38 @@ pub(crate) struct Spread {
     pub(super) root: DMatrix<f64>,
     /// Variance that is left of each measured number, m² and rad²; 0 of those not measured.
     pub(super) left: Vector6<f64>,
+    /// The largest leverage of a row that was fitted.
+    pub(super) leverage: f64,
+}
+
+impl Spread {
+    /// Leverage of a row, whose `block` has these of the numbers that were fitted: the variance of its
+    /// prediction over that of a measurement, summed over what is measured.
+    pub(super) fn leverage(&self, block: &Matrix6xX<f64>, numbers: &[usize]) -> f64 {
+        let mut doubt = block * self.root.select_rows(numbers);
+        for mut column in doubt.column_iter_mut() {
+            let white = |x: f64, left: f64| if left > 0.0 { x / left.sqrt() } else { 0.0 };
+            column.zip_apply(&self.left, |x, left| *x = white(*x, left));
+        }
+        doubt.norm_squared()
+    }
+}
+
+/// The columns of a row's block that a [`Spread`] knows of: the frames of its own session, and effects.
+pub(super) fn columns(problem: &Problem<'_>, model: &Model, row: usize) -> Vec<usize> {
+    let is_own =
+        |frame, session| frame == Nuisance::ToolFrame || session == problem.session_of[row];
+    let frames = problem.frames().enumerate().filter(|(_, (f, s))| is_own(*f, *s));
+    let mut own: Vec<usize> = frames.flat_map(|(k, _)| 6 * k..6 * k + 6).collect();
+    own.extend(Model::nuisances(problem)..model.parameters(problem));
+    own
 }
 
 impl Search<'_, '_> {
     /// Of the numbers of a fit.
     pub(crate) fn spread(&self, now: &Explained) -> Spread {
         let normal = self.normal(now);
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
+        let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let variance = self.scale(now).variance(left, normal.nrows());
         let root = Basis::new(&normal).t * variance.sqrt();
         // Elsewhere an arm stands in the frame of one session, and is seen from nowhere in particular.
@@ -27,9 +55,19 @@ impl Search<'_, '_> {
         let one = frames.filter(|(_, (_, session))| *session == 0);
         let mut kept: Vec<usize> = one.flat_map(|(k, _)| 6 * k..6 * k + 6).collect();
         kept.extend(Model::nuisances(self.problem)..root.nrows());
-        Spread {
+        let spread = Spread {
             root: root.select_rows(&kept),
             left: now.weights.map(|w| if w > 0.0 { variance / (w * w) } else { 0.0 }),
-        }
+            leverage: 0.0,
+        };
+        let numbers: Vec<usize> = (0..spread.root.nrows()).collect();
+        let unit = self.problem.mask;
+        let of_row = |row: usize| {
+            let block = block(self.problem, &now.fit, row, &unit);
+            let own = columns(self.problem, &now.fit.model, row);
+            spread.leverage(&block.select_columns(&own), &numbers)
+        };
+        let leverage = (0..self.problem.fits.len()).into_par_iter().map(of_row);
+        Spread { leverage: leverage.reduce(|| 0.0, f64::max), ..spread.clone() }
     }
 }

@@ -5,10 +5,12 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use super::evidence::Flips;
 use super::first::First;
 use super::forward::{Explained, Search};
+use crate::diagnose::data::Folds;
 use crate::diagnose::fit::normal_equations;
-use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen, Wanted};
+use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen, Wanted};
 
 impl<'s> Search<'s, '_> {
     /// All candidates beside the model, gathered when first asked for.
@@ -46,6 +48,21 @@ impl<'s> Search<'s, '_> {
     ) -> Gathered {
         let wanted = Wanted { problem: self.problem, fit: &now.fit, along, candidates };
         Gathered::new(&wanted, self.folds, &now.weights)
+    }
+
+    /// The chance that the best of what follows time explains as much as `best` of a gap whose signs
+    /// are flipped by stretches of time, beside the model without some of its effects: errors that
+    /// linger stay together in it, as they do not where signs are flipped by poses.
+    pub(crate) fn chance_in_time(&self, now: &Explained, without: &[usize], best: &Score) -> f64 {
+        let ordered: Vec<Candidate> =
+            self.candidates.iter().filter(|c| c.follows_time()).cloned().collect();
+        let folds = &Folds::in_time(&self.problem.visits);
+        let by_time = Search { folds, candidates: &ordered, ..*self };
+        let gathered = by_time.gather(now, &[], &ordered);
+        let screen =
+            by_time.screen_of(now, &gathered, Kept { without, ..Kept::default() }, &ordered);
+        let tried: Vec<usize> = (0..ordered.len()).collect();
+        Flips::new(&screen, &tried, &self.scale(now), self.options.seed).chance(best)
     }
 
     /// All candidates beside what is kept of the model.

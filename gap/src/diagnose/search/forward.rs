@@ -9,6 +9,7 @@ use crate::diagnose::fit::{
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
+use crate::effects::{Forms, Spot};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
 
@@ -94,7 +95,8 @@ pub(crate) struct Ranked {
 impl Search<'_, '_> {
     /// Weighted squares that a fit leaves, and what it costs to hold its values.
     pub(crate) fn left(&self, now: &Explained) -> f64 {
-        squares(&now.fit.predicted.gaps, &now.weights) + strain(self.problem, &now.fit.model)
+        squares(self.problem, &now.fit.predicted.gaps, &now.weights)
+            + strain(self.problem, &now.fit.model)
     }
 
     /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
@@ -142,10 +144,10 @@ impl Search<'_, '_> {
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
             if count <= SMALL || count.is_multiple_of(SMALL) {
-                now = self.pruned(now)?;
+                now = self.pruned(now, false)?;
             }
         }
-        self.pruned(now)
+        self.pruned(now, true)
     }
 
     /// Whether an end is asked for: nothing is fitted any more then.
@@ -232,7 +234,10 @@ impl Search<'_, '_> {
             }
             let flips =
                 flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
-            if flips.chance(&one.score) > SIGNIFICANT {
+            let follows_time = screen.candidates[one.candidate].follows_time();
+            if flips.chance(&one.score) > SIGNIFICANT
+                || (follows_time && self.chance_in_time(now, &[], &one.score) > SIGNIFICANT)
+            {
                 continue;
             }
             let refined = self.refined(now, &[], one, &screen);
@@ -291,7 +296,7 @@ impl Search<'_, '_> {
             (self.progress)(Stage::Try(kept, one.effect.identifier(), one.spot.place));
         }
         model.found.extend(added);
-        let before = squares(&now.fit.predicted.gaps, &now.weights);
+        let before = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let near = &now.fit.predicted.sims;
         // An arm that finds no rest with the values of the linear fit begins from none.
         let fit = refit(self.problem, model.clone(), Some(near), &now.weights).or_else(|_| {
@@ -299,8 +304,30 @@ impl Search<'_, '_> {
             refit(self.problem, model, Some(near), &now.weights)
         });
         let Some(fit) = fit.ok().filter(|_| !self.stopped()) else { return Ok(None) };
-        let after = squares(&fit.predicted.gaps, &now.weights);
+        let after = squares(self.problem, &fit.predicted.gaps, &now.weights);
         Ok((before - after >= 0.5 * expected).then_some(fit))
+    }
+
+    /// The model with every effect as a whole: a form that leaves out numbers is as likely as the
+    /// search found it, but nobody has shown that these are 0.
+    pub(crate) fn whole(&self, now: Explained) -> Result<Explained, DiagnoseError> {
+        let Explained { fit, weights, .. } = &now;
+        let mut model = fit.model.clone();
+        let is_part = |f: &&mut Fitted| f.effect.forms_are() == Forms::One && f.spot.form > 0;
+        for found in model.found.iter_mut().filter(is_part) {
+            let spot = Spot { form: 0, ..found.spot };
+            let is_it = |c: &&Candidate| c.effect() == Some((found.effect, spot));
+            let Some(whole) = self.candidates.iter().find(is_it) else { continue };
+            let mut values = found.values.clone();
+            values.resize(whole.size, 0.0);
+            *found = whole.fitted(spot, values).unwrap_or_else(|| found.clone());
+        }
+        if model.parameters(self.problem) == fit.model.parameters(self.problem) {
+            return Ok(now);
+        }
+        let weights = *weights;
+        let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
+        self.settled(fit, weights)
     }
 
     /// The model without the effects `out` (ascending), fitted again.

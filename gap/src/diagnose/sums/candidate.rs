@@ -5,6 +5,7 @@ use nalgebra::Matrix6xX;
 use super::probe::{About, Probe};
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Fitted;
+use crate::diagnose::prior::Prior;
 use crate::effects::{Carrier, Effect, Forms, Parameter, Place, Quantity, Scene, Spot};
 
 /// How loosely a value is held to what is usual: as by a measurement of so many times that size, so
@@ -34,7 +35,17 @@ pub(crate) enum Source {
     Probe(Probe),
 }
 
+/// Inverse of the standard deviation to which a value is held of which this is usual.
+fn loosely(usual: f64) -> f64 {
+    1.0 / (LOOSE * usual)
+}
+
 impl Candidate {
+    /// What is usual of one of its numbers.
+    pub(super) fn set_usual(&mut self, number: usize, usual: f64) {
+        (self.usual[number], self.held[number]) = (usual, loosely(usual));
+    }
+
     /// Every form of the effects at every place.
     pub(crate) fn all(problem: &Problem<'_>, effects: &[&'static dyn Effect]) -> Vec<Candidate> {
         let mut all = Vec::new();
@@ -92,9 +103,12 @@ impl Candidate {
         spot: Spot,
         forms: usize,
     ) -> Candidate {
-        let parameters = effect.parameters(problem.arm, spot);
+        let mut parameters = effect.parameters(problem.arm, spot);
+        for p in &mut parameters {
+            p.usual = Prior::usual(&problem.priors, effect, p);
+        }
         let held = |p: &Parameter| match (effect.is_tolerated(), p.quantity) {
-            (false, _) => 1.0 / (LOOSE * p.usual),
+            (false, _) => loosely(p.usual),
             (true, Quantity::Angle) => 1.0 / problem.tolerance[1],
             (true, _) => 1.0 / problem.tolerance[0],
         };
@@ -155,6 +169,11 @@ impl Candidate {
     /// Whether it is held to what makers tolerate.
     pub(crate) fn is_tolerated(&self) -> bool {
         self.effect().is_some_and(|(effect, _)| effect.is_tolerated())
+    }
+
+    /// Whether it is told by the order in which rows were measured.
+    pub(crate) fn follows_time(&self) -> bool {
+        self.effect().is_some_and(|(effect, _)| effect.depends().follows_time())
     }
 
     /// Whether its forms are the orders of a periodic error.

@@ -57,14 +57,17 @@ impl Gathered {
         // All components of a kind weigh the same.
         let weigh = |kind: &[usize]| kind.first().map_or(0.0, |c| weights[*c].powi(2));
         let k = wanted.columns();
-        let of_block = folds.rows_of_blocks(problem.data);
+        let of_block = folds.rows_of_blocks();
         let of_rows = |rows: &Vec<usize>| {
-            let sums = wanted.sums(&layout, &kinds, rows);
+            let sums = wanted.sums(&layout, &kinds, rows, true);
             let mut white = Products::zeros(k, &layout.sizes);
             for (sum, kind) in sums.iter().zip(&kinds) {
                 white.add_scaled(sum, weigh(kind));
             }
-            let [main, _] = sums;
+            let [main, _] = match problem.precision.differs() {
+                true => wanted.sums(&layout, &[kinds[0].clone(), Vec::new()], rows, false),
+                false => sums,
+            };
             (white, main)
         };
         let kept = if wanted.candidates.is_empty() { k } else { wanted.parameters() };
@@ -112,12 +115,24 @@ impl Wanted<'_> {
         self.parameters() + self.along.iter().map(|c| c.size).sum::<usize>()
     }
 
-    /// Products of some rows, of each kind of component by itself.
-    fn sums(&self, layout: &Layout, kinds: &[Vec<usize>; 2], rows: &[usize]) -> [Products; 2] {
+    /// Products of some rows, of each kind of component by itself; rows as `precise` as they are, or
+    /// all alike.
+    fn sums(
+        &self,
+        layout: &Layout,
+        kinds: &[Vec<usize>; 2],
+        rows: &[usize],
+        precise: bool,
+    ) -> [Products; 2] {
         let k = self.columns();
         let mut sums = [0, 1].map(|_| Sum::zeros(k, layout));
         for chunk in rows.chunks(CHUNK) {
-            let rows: Vec<Seen> = chunk.iter().map(|row| self.row(layout, k, *row)).collect();
+            let mut seen: Vec<Seen> = chunk.iter().map(|row| self.row(layout, k, *row)).collect();
+            if precise && self.problem.precision.differs() {
+                let each = seen.iter_mut().zip(chunk);
+                each.for_each(|(seen, row)| seen.weigh(&self.problem.precision.of_row(*row)));
+            }
+            let rows = seen;
             let motions = DMatrix::from_fn(rows.len(), layout.motions, |r, m| rows[r].motions[m]);
             let squares = layout.squares(&motions);
             for (sum, kind) in sums.iter_mut().zip(kinds).filter(|(_, kind)| !kind.is_empty()) {
@@ -198,7 +213,7 @@ mod tests {
         let sums = |shared: bool| {
             let layout = Layout::of(&candidates, shared);
             assert_eq!(layout.borne.is_empty(), !shared);
-            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows)
+            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows, true)
         };
         for (shared, own) in sums(true).iter().zip(&sums(false)) {
             assert_eq!((&shared.zz, &shared.zr, shared.rr), (&own.zz, &own.zr, own.rr));

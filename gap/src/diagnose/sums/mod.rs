@@ -18,6 +18,7 @@ mod products;
 mod score;
 mod screen;
 mod stack;
+mod usual;
 
 pub(crate) use candidate::{Candidate, Source};
 pub(crate) use gather::{Gathered, Wanted};
@@ -25,3 +26,4 @@ pub(crate) use probe::{About, Probe};
 pub(crate) use products::Products;
 pub(crate) use score::{Own, Score};
 pub(crate) use screen::{Kept, Screen};
+pub(crate) use usual::scale_elastic;

@@ -15,6 +15,14 @@ pub(crate) struct Seen {
     pub(crate) gap: Vector6<f64>,
 }
 
+impl Seen {
+    /// Multiplies each component.
+    pub(crate) fn weigh(&mut self, by: &Vector6<f64>) {
+        self.twists.column_iter_mut().for_each(|mut column| column.component_mul_assign(by));
+        self.gap.component_mul_assign(by);
+    }
+}
+
 /// The rows of the first measured component, those of the second, and so on: what is multiplied row
 /// by row then lies side by side.
 pub(crate) struct Stack<'m> {

@@ -7,7 +7,7 @@ use super::outcome::Held;
 use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
-use crate::diagnose::report::{Finding, Shrink, Unexplained};
+use crate::diagnose::report::{Finding, Observability, Residual, Shrink, Unexplained};
 use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
 use crate::gap::Statistics;
 
@@ -22,6 +22,8 @@ pub(crate) struct Judged {
     /// From the gap before to that.
     pub(crate) shrink: Shrink,
     pub(crate) unexplained: Unexplained,
+    pub(crate) residual: Option<Residual>,
+    pub(crate) observability: Option<Observability>,
 }
 
 impl Search<'_, '_> {
@@ -35,6 +37,7 @@ impl Search<'_, '_> {
         is_there: bool,
     ) -> Result<(Explained, Judged), DiagnoseError> {
         let mut out = 0;
+        now = self.whole(now)?;
         loop {
             let (fitted, groups, held_out) = self.shrinking(now)?;
             now = fitted;
@@ -50,15 +53,25 @@ impl Search<'_, '_> {
                 if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
             let refitted = Refitted::new(&Held::new(self, &now), &groups, self.options.seed);
             let at_noise = !unexplained.present;
-            let findings = self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
+            let mut findings =
+                self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
                 .filter(|k| {
                     findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
                 });
             let Some(worst) = worst else {
+                let certainty = self.certainty(&now);
+                let values = self.intervals(&now, &certainty);
+                for (finding, group) in findings.iter_mut().zip(&groups) {
+                    finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
+                }
                 let shrink = self.shrink(before, &after, refitted.spread(0, groups.len()));
-                return Ok((now, Judged { findings, after, shrink, unexplained }));
+                let residual = is_there.then(|| self.residual(&now, before, &after));
+                let observability = self.observability(&now.fit, &certainty);
+                let judged =
+                    Judged { findings, after, shrink, unexplained, residual, observability };
+                return Ok((now, judged));
             };
             let mut group = groups[worst].clone();
             group.sort_unstable();

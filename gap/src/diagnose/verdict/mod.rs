@@ -9,12 +9,15 @@
 //! others is taken out again. `nested` runs the search itself again without each fold. [`Rival`] is another model, which the file's columns predict with.
 
 mod bootstrap;
+mod certainty;
 mod compared;
 mod judged;
 mod nested;
+mod observed;
 mod outcome;
 mod refitted;
 mod remainder;
+mod residual;
 mod rivals;
 mod searched;
 mod separate;

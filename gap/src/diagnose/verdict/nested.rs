@@ -11,16 +11,16 @@ impl Search<'_, '_> {
     /// Gap of each row with what a search finds that has not seen its fold, m and rad; `model` is
     /// where each begins.
     pub(crate) fn nested(&self, model: &Model) -> Result<Vec<Vector6<f64>>, DiagnoseError> {
-        let rows = &self.problem.data.rows;
-        let mut gaps = vec![Vector6::zeros(); rows.len()];
+        let rows = self.problem.data.rows.len();
+        let mut gaps = vec![Vector6::zeros(); rows];
         for fold in 0..self.folds.count {
-            let is_held_out = |row: usize| self.folds.of_pose(rows[row].group) == fold;
-            let fits = (0..rows.len()).map(|row| self.problem.fits[row] && !is_held_out(row));
+            let is_held_out = |row: usize| self.folds.of_row(row) == fold;
+            let fits = (0..rows).map(|row| self.problem.fits[row] && !is_held_out(row));
             let seen = Problem { fits: fits.collect(), ..self.problem.clone() };
             let search = Search { problem: &seen, ..*self };
             let explained = search.explain(search.begin(model.clone())?)?;
             let predicted = explained.fit.model.predict(self.problem, None)?;
-            for row in (0..rows.len()).filter(|row| is_held_out(*row)) {
+            for row in (0..rows).filter(|row| is_held_out(*row)) {
                 gaps[row] = predicted.gaps[row];
             }
         }

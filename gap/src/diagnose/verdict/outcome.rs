@@ -140,13 +140,12 @@ impl<'h> Held<'h> {
     fn gaps(&self, values: &[DMatrix<f64>]) -> Vec<Vec<Vector6<f64>>> {
         let own = DVector::from_vec(self.fit.model.values(self.problem));
         let unit = Vector6::repeat(1.0).component_mul(&self.problem.mask);
-        let rows = &self.problem.data.rows;
-        let each: Vec<Vec<Vector6<f64>>> = (0..rows.len())
+        let each: Vec<Vec<Vector6<f64>>> = (0..self.problem.data.rows.len())
             .into_par_iter()
             .map(|row| {
                 let block = block(self.problem, self.fit, row, &unit);
                 let gap = self.fit.predicted.gaps[row] + &block * &own;
-                let fold = self.folds.of_pose(rows[row].group);
+                let fold = self.folds.of_row(row);
                 values.iter().map(|values| gap - &block * values.column(fold)).collect()
             })
             .collect();
@@ -196,7 +195,7 @@ impl Search<'_, '_> {
     ) -> Result<(Explained, Vec<Group>, Vec<Vec<Vector6<f64>>>), DiagnoseError> {
         loop {
             let (done, gaps) = Held::new(self, &now).ordered(groups(self.problem, &now.fit.model));
-            let size = |k: usize| squares(&gaps[k], &now.weights);
+            let size = |k: usize| squares(self.problem, &gaps[k], &now.weights);
             let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
             let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, done, gaps)) };
             let mut out = done[idle].clone();

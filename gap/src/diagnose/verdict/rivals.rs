@@ -89,7 +89,10 @@ impl Search<'_, '_> {
             own: 1.0,
         };
         let contenders: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
-        let p_value = self.p_value(&screen, &contenders, &finding, now);
+        let mut p_value = self.p_value(&screen, &contenders, &finding, now);
+        if found[0].effect.depends().follows_time() {
+            p_value = p_value.max(self.chance_in_time(now, group, &finding));
+        }
         let again = |candidate: usize| is_found(&screen.candidates[candidate]);
         let stability = self.stability(&screen, &contenders, now, &again);
         Ok(Rivals { alternatives, p_value, stability, nearest })
@@ -97,9 +100,9 @@ impl Search<'_, '_> {
 
     /// Weighted squares that are left in each block of poses.
     fn per_block(&self, now: &Explained) -> Vec<f64> {
-        let sizes: Vec<f64> =
-            now.fit.predicted.gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
-        self.folds.per_block(self.problem.data, &sizes)
+        let gaps = self.problem.standard(&now.fit.predicted.gaps);
+        let sizes: Vec<f64> = gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
+        self.folds.per_block(&sizes)
     }
 
     /// Whether the rival's excess, block by block, scatters so much that it may be chance.

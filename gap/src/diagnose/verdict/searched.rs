@@ -3,8 +3,9 @@
 
 use nalgebra::{DMatrix, Matrix6xX};
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::diagnose::fit::{Fitted, block};
+use crate::diagnose::fit::{Basis, Fitted, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::{Forms, Quantity, Scene, Spot};
 
@@ -30,17 +31,31 @@ fn by_number(found: &Fitted, scene: &Scene<'_>) -> Matrix6xX<f64> {
 }
 
 impl Search<'_, '_> {
-    /// The normal matrix of all parameters, and behind them of the numbers that were searched for.
-    pub(super) fn normal_with_searched(&self, now: &Explained) -> DMatrix<f64> {
-        let (problem, model) = (self.problem, &now.fit.model);
+    /// Half of the 95 % interval, by least squares, of each parameter beside the numbers that were
+    /// searched for, and behind them of these; empty where there are none.
+    pub(super) fn half_with_searched(&self, now: &Explained) -> Vec<f64> {
+        let model = &now.fit.model;
         let searched: Vec<&Fitted> = model.found.iter().filter(|f| is_searched(f)).collect();
-        let normal = self.normal(now);
         if searched.is_empty() {
-            return normal;
+            return Vec::new();
         }
+        let normal = self.normal_with(now, &searched);
+        let (scale, parameters) = (self.scale(now), normal.nrows());
+        let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
+        let variances = Basis::new(&normal).variances() * scale.variance(left, parameters);
+        let freedom = scale.freedom(parameters);
+        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
+        variances.iter().map(|variance| t * variance.max(0.0).sqrt()).collect()
+    }
+
+    /// The normal matrix of all parameters, and behind them of the numbers that were searched for.
+    fn normal_with(&self, now: &Explained, searched: &[&Fitted]) -> DMatrix<f64> {
+        let (problem, model) = (self.problem, &now.fit.model);
+        let normal = self.normal(now);
         let (fitted, count) = (normal.nrows(), searched.len());
         let products = |row: usize| {
-            let own = block(problem, &now.fit, row, &now.weights);
+            let weights = problem.weights(row, &now.weights);
+            let own = block(problem, &now.fit, row, &weights);
             let mut more = Matrix6xX::zeros(count);
             let state = model.state(problem, &now.fit.predicted, row);
             if let Some(sim) = state.ok().filter(|_| problem.fits[row]) {
@@ -50,7 +65,7 @@ impl Search<'_, '_> {
                     Matrix6xX::from_columns(&each.collect::<Vec<_>>())
                 });
             }
-            more.column_iter_mut().for_each(|mut column| column.component_mul_assign(&now.weights));
+            more.column_iter_mut().for_each(|mut column| column.component_mul_assign(&weights));
             let mut products = DMatrix::zeros(count, fitted + count);
             products.columns_mut(0, fitted).copy_from(&more.tr_mul(&own));
             products.columns_mut(fitted, count).copy_from(&more.tr_mul(&more));

@@ -1,13 +1,13 @@
 //! The findings and frames as they are reported.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::bootstrap::{shrink, shrink_interval};
+use super::certainty::Certainty;
 use super::outcome::Group;
 use super::refitted::Refitted;
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Basis, Model, squares};
+use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::report::{Cover, Finding, NuisanceReport, Shrink};
 use crate::diagnose::search::{Explained, Search};
@@ -15,8 +15,8 @@ use crate::effects::ParameterReport;
 use crate::gap::rms;
 
 impl Search<'_, '_> {
-    /// Each group with its size, what it takes of the gap, and its rivals. `held_out` are the gaps
-    /// before the first group and after each; `before` those of the robot file as it is.
+    /// Each group with what it takes of the gap, and its rivals, still without its numbers. `held_out`
+    /// are the gaps before the first group and after each; `before` those of the robot file as it is.
     pub(crate) fn findings(
         &self,
         now: &Explained,
@@ -26,7 +26,6 @@ impl Search<'_, '_> {
         refitted: &Refitted,
         at_noise: bool,
     ) -> Result<Vec<Finding>, DiagnoseError> {
-        let values = self.intervals(now);
         let mut findings = Vec::with_capacity(groups.len());
         for (number, group) in groups.iter().enumerate() {
             let first = &now.fit.model.found[group[0]];
@@ -37,7 +36,7 @@ impl Search<'_, '_> {
             findings.push(Finding {
                 effect: first.effect.identifier(),
                 place: first.spot.place.to_string(),
-                parameters: group.iter().flat_map(|index| values[*index].clone()).collect(),
+                parameters: Vec::new(),
                 held_out: self.shrink(
                     last,
                     &held_out[number + 1],
@@ -74,26 +73,23 @@ impl Search<'_, '_> {
         }
     }
 
-    /// The values of each effect found, with 95 % intervals: least squares, the remainder's
-    /// variance, Student's t.
-    fn intervals(&self, now: &Explained) -> Vec<Vec<ParameterReport>> {
-        let normal = self.normal_with_searched(now);
-        let basis = Basis::new(&normal);
-        let scale = self.scale(now);
-        let parameters = normal.nrows();
-        let left = squares(&now.fit.predicted.gaps, &now.weights);
-        let variances = basis.variances() * scale.variance(left, parameters);
-        let freedom = scale.freedom(parameters);
-        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
-        let mut at = Model::nuisances(self.problem);
+    /// The values of each effect found, with 95 % intervals.
+    pub(super) fn intervals(
+        &self,
+        now: &Explained,
+        certainty: &Certainty,
+    ) -> Vec<Vec<ParameterReport>> {
+        let searched = self.half_with_searched(now);
+        let beside = |at: usize| searched.get(at).copied().unwrap_or(0.0);
+        let half = certainty.half.iter().enumerate().map(|(at, half)| half.max(beside(at)));
+        let mut half = half.skip(Model::nuisances(self.problem));
         let mut all = Vec::new();
         for (index, found) in now.fit.model.found.iter().enumerate() {
             let mut reports = Vec::new();
             if let Some(form) = found.effect.form_number() {
                 let (name, unit) = (form.name.into_owned(), form.quantity.unit());
                 let value = found.effect.forms_are().number(found.spot.form);
-                let variance = self.at_searched(now, index).map_or(0.0, |at| variances[at]);
-                let half = t * variance.max(0.0).sqrt();
+                let half = self.at_searched(now, index).map_or(0.0, beside);
                 reports.push(ParameterReport {
                     name,
                     value,
@@ -102,9 +98,7 @@ impl Search<'_, '_> {
                 });
             }
             let parameters = found.effect.parameters(self.problem.arm, found.spot);
-            for (parameter, &value) in parameters.iter().zip(&found.values) {
-                let half = t * variances[at].max(0.0).sqrt();
-                at += 1;
+            for ((parameter, &value), half) in parameters.iter().zip(&found.values).zip(&mut half) {
                 reports.push(ParameterReport {
                     name: parameter.name.to_string(),
                     value,

@@ -15,7 +15,7 @@ use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
-use crate::measurement::{Measurements, Row};
+use crate::measurement::Measurements;
 
 /// The fit has not come to its end if another step promises more than this part of what there was.
 const SETTLED: f64 = 1e-6;
@@ -60,7 +60,7 @@ pub fn identify_measured(
     let now = search.begin(Model { found, ..nominal.clone() })?;
     let before = nominal.predict(problem, None)?.gaps;
     let (_, promised) = step(problem, &now.fit, &now.weights);
-    if promised > SETTLED * (1.0 + squares(&before, &now.weights)) {
+    if promised > SETTLED * (1.0 + squares(problem, &before, &now.weights)) {
         return Err(MeasuredError::Unsettled { file: file() });
     }
     done(FITTED);
@@ -138,16 +138,16 @@ fn held_out(
     let mut gaps = vec![Vector6::zeros(); data.rows.len()];
     for fold in 0..folds.count {
         done(fold as f64 / folds.count as f64);
-        let is_held = |row: &Row| folds.of_pose(row.group) == fold;
+        let is_held = |row: &usize| folds.of_row(*row) == fold;
         let part = |held: bool| {
-            let rows = data.rows.iter().filter(|row| is_held(row) == held).cloned().collect();
-            Measurements { rows, ..data.clone() }
+            let rows = (0..gaps.len()).filter(|row| is_held(row) == held);
+            Measurements { rows: rows.map(|row| data.rows[row].clone()).collect(), ..data.clone() }
         };
         let (own, others) = (part(true), part(false));
         let fitted =
             refit(&problem(arm, &others, options)?, now.fit.model.clone(), None, &now.weights)?;
         let predicted = fitted.model.predict(&problem(arm, &own, options)?, None)?;
-        let rows = (0..gaps.len()).filter(|&k| is_held(&data.rows[k]));
+        let rows = (0..gaps.len()).filter(is_held);
         rows.zip(predicted.gaps).for_each(|(row, gap)| gaps[row] = gap);
     }
     Ok(gaps)
@@ -166,7 +166,8 @@ fn answer(
     let (normal, right) = normal_equations(problem, &now.fit, &now.weights);
     let basis = Basis::new(&normal);
     let fitted = choice.found.len();
-    let (left, freedom) = (squares(&now.fit.predicted.gaps, &now.weights), scale.freedom(fitted));
+    let (left, freedom) =
+        (squares(problem, &now.fit.predicted.gaps, &now.weights), scale.freedom(fitted));
     let variances = basis.variances() * scale.variance(left, fitted);
     // What the fit has held at its bound is told as the rows have it, be it below zero.
     let values = DVector::from_vec(now.fit.model.values(problem)) + basis.solve(&right);

@@ -1,3 +1,5 @@
+use nalgebra::Vector6;
+
 use super::*;
 use crate::fixture;
 use crate::measurement::Layout;
@@ -85,7 +87,11 @@ fn the_file_reads_back() {
         design.repeats = 1;
         let plant = Plant::new(&arm, &[]).unwrap().with_first_order_sim();
         let noise = Noise { position: 3e-5, rotation: 1e-4 };
-        let data = plant.measure(&design.rows(&arm), noise, 7).unwrap();
+        let mut data = plant.measure(&design.rows(&arm), noise, 7).unwrap();
+        let measured = kind.components().map(|is| f64::from(u8::from(is)));
+        for (number, row) in data.rows.iter_mut().enumerate() {
+            row.sigma = Some(Vector6::from(measured) * (1e-5 * (1.0 + number as f64)));
+        }
         let text = csv(&arm, &data, &["two\nlines".to_owned()]);
         assert!(text.starts_with("# two\n# lines\ntime[s],"), "{text}");
         let read = crate::Measurements::from_bytes("a.csv", text.as_bytes(), &layout).unwrap();

@@ -1,0 +1,105 @@
+//! What is usual of what gives: nobody knows a compliance of arms of any size, but everybody how far arms
+//! give.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use crate::diagnose::data::Problem;
+use crate::diagnose::fit::Model;
+use crate::diagnose::options::DiagnoseError;
+use crate::effects::Group;
+use crate::simulate::Sim;
+
+/// An arm's tool hardly moves by more than this part of its reach because something gives (by so many
+/// radians, where no position is measured).
+const PART: f64 = 5e-3;
+
+/// Rows by which it is told.
+const MOST_ROWS: usize = 200;
+
+/// Takes as usual of every elastic number that has no size of its own what moves the reading so far,
+/// root mean square over the rows.
+pub(crate) fn scale_elastic(
+    candidates: &mut [Candidate],
+    problem: &Problem<'_>,
+    model: &Model,
+) -> Result<(), DiagnoseError> {
+    let is_open = |candidate: &Candidate| {
+        let group = candidate.effect().and_then(|(effect, _)| effect.group());
+        matches!(group, Some(Group::Elastic | Group::Nonlinear))
+            && candidate.usual.iter().any(|usual| usual.is_infinite())
+    };
+    let predicted = model.predict(problem, None)?;
+    let count = problem.data.rows.len();
+    let rows = (0..count).step_by(count.div_ceil(MOST_ROWS));
+    let rows: Vec<(usize, Cow<'_, Sim>)> = rows
+        .map(|row| Ok((row, model.state(problem, &predicted, row)?)))
+        .collect::<Result<_, _>>()?;
+    let (first, most) = match problem.measures_position() {
+        true => (0, PART * problem.reach),
+        false => (3, PART),
+    };
+    candidates.par_iter_mut().filter(|c| is_open(c)).for_each(|candidate| {
+        let mut squares = vec![0.0; candidate.size];
+        for (row, sim) in &rows {
+            let block = model.change(problem, sim, *row, |s| candidate.block(s));
+            for (sum, column) in squares.iter_mut().zip(block.column_iter()) {
+                let moved = column.component_mul(&problem.mask);
+                *sum += moved.fixed_rows::<3>(first).norm_squared();
+            }
+        }
+        for (k, squares) in squares.into_iter().enumerate() {
+            let moved = (squares / rows.len() as f64).sqrt();
+            if candidate.usual[k].is_infinite() && moved > 0.0 {
+                candidate.set_usual(k, most / moved);
+            }
+        }
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::Options;
+    use crate::diagnose::tests::data;
+    use crate::effects::{CATALOGUE, Place};
+    use crate::fixture::springy;
+    use crate::measurement::Measurements;
+    use stiffarm_kernels::generic::Arm;
+
+    /// A softer joint under the same loads: what is usual moves the tool as far as it should.
+    #[test]
+    fn what_is_usual_moves_the_tool_by_its_part_of_the_reach() {
+        let (arm, data) = (springy(), data(30, [0.0; 3], 0.0, 7));
+        let problem = problem_of(&arm, &data);
+        let model = Model::nominal(&problem);
+        let mut candidates = Candidate::all(&problem, &CATALOGUE);
+        scale_elastic(&mut candidates, &problem, &model).unwrap();
+        let own = candidates.iter().find(|c| {
+            let effect = c.effect().map(|(effect, spot)| (effect.identifier(), spot.place));
+            effect == Some(("joint_compliance", Place::Joint(2)))
+        });
+        let usual = own.unwrap().usual[0];
+        let mut softer = arm.clone();
+        // A hundredth of it, where the arm gives in proportion.
+        softer.joints[1].compliance += usual / 100.0;
+        let soft = problem_of(&softer, &data);
+        let gaps = Model::nominal(&soft).predict(&soft, None).unwrap().gaps;
+        let before = model.predict(&problem, None).unwrap().gaps;
+        let moved =
+            gaps.iter().zip(&before).map(|(a, b)| (a - b).fixed_rows::<3>(0).norm_squared());
+        let rms = (moved.sum::<f64>() / gaps.len() as f64).sqrt();
+        assert!(
+            (100.0 * rms / (PART * problem.reach) - 1.0).abs() < 0.05,
+            "{rms} {}",
+            problem.reach
+        );
+    }
+
+    fn problem_of<'a>(arm: &'a Arm, data: &'a Measurements) -> Problem<'a> {
+        Problem::new(arm, data, &Options::default()).unwrap()
+    }
+}
