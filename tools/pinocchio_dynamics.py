@@ -98,19 +98,26 @@ def model_of(robot, links):
     return model
 
 
-def sample(model, data, generator):
+def sample(model, data, generator, regressor):
     q, v, a = (generator.uniform(-2.0, 2.0, model.nv) for _ in range(3))
+    tau = generator.uniform(-50.0, 50.0, model.nv)
     torque = pinocchio.rnea(model, data, q, v, a)
     mass = pinocchio.crba(model, data, q)
     mass = numpy.triu(mass) + numpy.triu(mass, 1).T
-    return {
+    found = {
         "q": q.tolist(),
         "qd": v.tolist(),
         "qdd": a.tolist(),
+        "tau": tau.tolist(),
         "inverse_dynamics": torque.tolist(),
         "bias": pinocchio.nonLinearEffects(model, data, q, v).tolist(),
         "mass_matrix": mass.T.flatten().tolist(),
+        "forward_dynamics": pinocchio.aba(model, data, q, v, tau).tolist(),
     }
+    if regressor:
+        columns = pinocchio.computeJointTorqueRegressor(model, data, q, v, a)
+        found["torque_regressor"] = columns.T.flatten().tolist()
+    return found
 
 
 def main():
@@ -122,7 +129,9 @@ def main():
         links = complete(robot, generator)
         model = model_of(robot, links)
         data = model.createData()
-        samples = [sample(model, data, generator) for _ in range(SAMPLES)]
+        # A row's frame is its joint's in the modified convention alone; two regressors are enough to read.
+        modified = robot["convention"] == "modified"
+        samples = [sample(model, data, generator, modified and k < 2) for k in range(SAMPLES)]
         head = {
             "made_by": f"tools/pinocchio_dynamics.py with Pinocchio {pinocchio.__version__}",
             "arm": arm,

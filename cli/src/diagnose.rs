@@ -10,6 +10,7 @@ mod provenance;
 use std::path::PathBuf;
 
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 use stiffarm_gap::diagnose::{Stage, Stop};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
@@ -38,12 +39,14 @@ Examples:
   stiffarm diagnose arm.toml run1.csv
   stiffarm diagnose arm.toml run1.csv --nuisance base_frame,tool_frame --noise-position 30um
   stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
+  stiffarm diagnose arm.toml run2.csv --compare run1.json --accept 0.2mm --report run2.html
   stiffarm diagnose arm.toml log.csv --torque-side motor
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
-mz; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz]; and optionally pose, marker,
-s1 … sn, temperature, time, and your own simulator's sim_x … or sim_dx ….
+mz, or a payload by name; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz] or a distance
+[from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, and your own
+simulator's sim_x … or sim_dx ….
 
 A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more.";
 
@@ -155,6 +158,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let arm = source.arm()?;
     let layout = data::layout(&source)?;
     let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
+    let hash = Sha256::new_with_prefix(&bytes);
+    drop(bytes);
     let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
     let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
     if let Some(other) = &other {
@@ -168,7 +173,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let check = other.map(|other| Check::of(&diagnosed.explanation, &other)).transpose();
     let check = check.map_err(plain)?;
     let found = &diagnosed.diagnosis;
-    let made = Provenance::of(&args.data[0], &source.text)?;
+    let made = Provenance::of(&args.data[0], hash, &source.text)?;
     let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
     let compared = compared.transpose()?;
     let has_positions = data.kind.components()[..3].contains(&true);

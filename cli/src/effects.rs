@@ -59,7 +59,8 @@ struct Number {
 /// # Errors
 /// [`Failure`]: an effect that there is not, or an output that cannot be written.
 pub fn run(args: &Args) -> Result<Verdict, Failure> {
-    let arm = RobotArgs::named(SAMPLE).load(true)?.arm()?;
+    let mut arm = RobotArgs::named(SAMPLE).load(true)?.arm()?;
+    arm.joints.iter_mut().for_each(|joint| joint.drive.gear = GEAR);
     let all: Vec<_> = Catalogue::default().iter().collect();
     let chosen =
         if args.effects.is_empty() { all } else { named::effects(&all, &args.effects, "")? };
@@ -72,8 +73,11 @@ pub fn run(args: &Args) -> Result<Verdict, Failure> {
     Ok(Verdict::Good)
 }
 
-/// An arm that has joints of both kinds, and masses: every effect has a place there.
+/// An arm that has joints of both kinds, and masses: with gears every effect has a place there.
 const SAMPLE: &str = "stanford";
+
+/// Turns of a motor in one of its joint.
+const GEAR: f64 = 100.0;
 
 fn entry(effect: &'static dyn Effect, arm: &Arm) -> Entry {
     let About { reality, signature, confused_with, separated_by } = effect.about();

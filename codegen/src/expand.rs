@@ -36,7 +36,8 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
     };
     let (robot, remarks, watched) = match robot {
         Ok(read) => read,
-        Err(Unread { errors, watched, outline }) => {
+        Err(unread) => {
+            let Unread { errors, watched, outline } = *unread;
             let stub = stub((attrs, vis, module), &kernels, &outline);
             return quote! { #errors #watched #stub };
         }
@@ -108,14 +109,14 @@ struct Unread {
 
 /// Reads a robot file or a URDF, with what its documentation is to say, and with an item that makes the compiler
 /// watch it; mistakes are reported at the file's name, each with its own line and column.
-fn read(file: &File, root: &Path) -> Result<(Robot, Vec<String>, TokenStream), Unread> {
+fn read(file: &File, root: &Path) -> Result<(Robot, Vec<String>, TokenStream), Box<Unread>> {
     let name = &file.name;
     let path = root.join(name.value());
     let at = name.span();
     let text = std::fs::read_to_string(&path).map_err(|e| {
         let message = format!("cannot read the robot file: {e}\nhelp: {}", whereabouts(&path));
         let errors = quote_spanned! { at => ::core::compile_error!(#message); };
-        Unread { errors, watched: None, outline: Outline::default() }
+        Box::new(Unread { errors, watched: None, outline: Outline::default() })
     })?;
     let watch = Literal::string(&path.to_string_lossy());
     let watched = quote! { const _: &[u8] = include_bytes!(#watch); };
@@ -133,7 +134,7 @@ fn read(file: &File, root: &Path) -> Result<(Robot, Vec<String>, TokenStream), U
         }
     };
     let outline = Outline::of_file(&text);
-    Err(Unread { errors, watched: Some(watched), outline })
+    Err(Box::new(Unread { errors, watched: Some(watched), outline }))
 }
 
 /// The robot in a file's text, and remarks on it.

@@ -29,7 +29,7 @@ where
     let error = twist(&arm.pose(&posture).into(), target);
     // Column by column as it lies: the array is the matrix.
     let jacobian: SMatrix<f64, 6, N> = arm.jacobian(&posture).into();
-    let damped = jacobian * jacobian.transpose() + 1e-8 * Matrix6::identity();
+    let damped: Matrix6<f64> = jacobian * jacobian.transpose() + 1e-8 * Matrix6::identity();
     if let Some(inverse) = damped.try_inverse() {
         *q = (SVector::from(*q) + jacobian.transpose() * inverse * error).into();
     }

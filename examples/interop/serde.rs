@@ -1,4 +1,5 @@
-//! What kernels return, and rows of a table, through serde: as JSON and back.
+//! What kernels return, and rows of a table, through serde: as JSON and back, bit for bit (serde_json reads doubles
+//! so with its feature `float_roundtrip`).
 //!
 //! ```text
 //! cargo run -p stiffarm --example with_serde --features serde

@@ -44,6 +44,7 @@ stiffness = 1e5
 type = "revolute"
 d = 0.1
 alpha = "-pi/2"
+gear = 101
 [[joint]]
 type = "revolute"
 d = 0.1
@@ -165,6 +166,7 @@ fn every_effect_is_written_as_it_was_fitted() {
         "loaded_backlash@joint 2=0.4 mrad",
         "soft_zone@joint 2:threshold=150,compliance=4e-6",
         "counterbalance@joint 2:cos=200,sin=120",
+        "motor_error@joint 5:order=202.37,cos=0.3 mrad,sin=-0.2 mrad",
     ];
     for (k, truth) in truths.iter().enumerate() {
         let data = measured(&[truth], None, k as u64 + 10);

@@ -26,6 +26,8 @@ use crate::Scalar;
 /// positive definite (or the input was not finite), so that some displacement takes no work and the arm
 /// would buckle rather than deflect. Forces and weights reach this at the buckling load; for a moment
 /// constant in base axes, which has no potential, it is the safe side.
+///
+/// Of forward dynamics: the mass matrix is not positive definite, as a joint moves no mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

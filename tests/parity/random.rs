@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
 use stiffarm::kernels::generic::Arm;
-use stiffarm::kernels::{Output, Part, Side};
+use stiffarm::kernels::{Input, Output, Part, Side};
 use stiffarm_codegen::derive::{Passes, Program, derive, derive_in, derive_with};
 use stiffarm_codegen::number::Number;
 
@@ -47,7 +47,9 @@ proptest! {
         for output in Output::EACH {
             let expected = arm.evaluate(output, &q[..output.state(arm.dof())], &wrench).ok();
             let got = table.by(&derive(&robot, &[output]), &q, &wrench);
-            prop_assert_eq!(expected.is_some(), got.is_some());
+            // A mass matrix that is singular but for rounding may be told either way.
+            let told = !output.takes(Input::Torques) || expected.is_some();
+            prop_assert!(!told || expected.is_some() == got.is_some());
             let (Some(expected), Some(got)) = (expected, got) else { continue };
             let worst = relative(&got, &expected, floor(&arm, output, &q, &wrench));
             prop_assert!(worst <= 1e-11, "{} {worst:e}\n{}", output.name(), table.text);
@@ -100,7 +102,7 @@ proptest! {
 fn a_margin_leaves_half_of_the_springs() {
     let mut runner = TestRunner::deterministic();
     let (mut least, mut found) = (f64::INFINITY, 0);
-    for seed in 0..100 {
+    for seed in 0..120 {
         let table = table(3..=9).new_tree(&mut runner).expect("a table").current();
         let (robot, arm, mut draws) = (table.numeric(), table.arm(), Draws::new(seed));
         let roots = arm.joints.iter().map(|joint| joint.compliance.sqrt());

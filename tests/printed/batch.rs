@@ -2,7 +2,7 @@
 
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use stiffarm::kernels::Output;
+use stiffarm::kernels::{Input, Output};
 use stiffarm_codegen::robot::Robot;
 
 use crate::boundary::{KINDS, around};
@@ -106,6 +106,8 @@ fn questions(table: &Table, seed: u64) -> Vec<Question> {
                     let floor = CANCELLED * terms(arm, output, state, &wrench);
                     Answer::Numbers { output, values, floor }
                 }
+                // A mass matrix that is singular but for rounding may be told either way.
+                Err(_) if output.takes(Input::Torques) => Answer::Open,
                 Err(_) => Answer::Refused(output),
             }
         };

@@ -148,6 +148,7 @@ fn glue(case: &Case, module: &str) -> String {
         Form::Poses | Form::Matrix => {
             format!("all.{}.as_flattened().to_vec()", output.name())
         }
+        Form::Stack => format!("all.{}.as_flattened().as_flattened().to_vec()", output.name()),
     };
     let fields: Vec<String> = Output::ALL.iter().map(field).collect();
     format!(

@@ -85,7 +85,7 @@ pub fn textbook(id: &str) -> Arm {
 mod tests {
     use super::*;
     use stiffarm_draws::Draws;
-    use stiffarm_kernels::{Kernels, Output};
+    use stiffarm_kernels::Kernels;
 
     fn check(id: &str, kernels: [&dyn Kernels<f64>; 2]) {
         let arm = textbook(id);

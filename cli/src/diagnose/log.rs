@@ -30,7 +30,7 @@ pub struct LogArgs {
     /// clear of their noise]
     #[arg(long, value_name = "FREQUENCY", value_parser = hertz)]
     band: Option<f64>,
-    /// Speed, rad/s or m/s, below which a joint's torque tells nothing [default: 1 % of its largest]
+    /// Speed, rad/s or m/s, below which a joint's torque tells nothing [default: 0.5 % of its largest]
     #[arg(long, value_name = "SPEED")]
     standstill: Option<f64>,
     /// What its columns are called: ros, rtde, libfranka, lerobot, sage, pace, or a map (TOML)

@@ -31,37 +31,21 @@ pub struct Hashes {
 }
 
 impl Provenance {
-    /// Of the measurement file at `data` and the text of a robot file.
+    /// Of the measurement file at `path` with that hash, and the text of a robot file.
     ///
     /// # Errors
-    /// [`Failure`]: the file cannot be read, or `SOURCE_DATE_EPOCH` is no number of seconds.
-    pub fn of(data: &Path, robot: &str) -> Result<Provenance, Failure> {
-        let read = |error| Failure::io("read", data, &error);
-        let mut file = std::fs::File::open(data).map_err(read)?;
-        let mut hash = Writer(Sha256::new());
-        std::io::copy(&mut file, &mut hash).map_err(read)?;
+    /// [`Failure`]: `SOURCE_DATE_EPOCH` is no number of seconds.
+    pub fn of(path: &Path, data: Sha256, robot: &str) -> Result<Provenance, Failure> {
         let hashes = Hashes {
-            data_sha256: hexadecimal(&hash.0.finalize()),
+            data_sha256: hexadecimal(&data.finalize()),
             robot_sha256: hexadecimal(&Sha256::digest(robot)),
         };
-        let written = file.metadata().and_then(|about| about.modified()).ok();
+        // What is no file, such as a pipe, has no date.
+        let about = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
+        let written = about.and_then(|about| about.modified().ok());
         let words = std::env::args().skip(1).map(|word| quoted(&word));
         let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
         Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
-    }
-}
-
-/// Takes bytes in.
-struct Writer(Sha256);
-
-impl std::io::Write for Writer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
     }
 }
 

@@ -18,8 +18,8 @@ pub fn derive_at(robot: &Robot, place: &str, output: Output) -> Option<Program> 
     let ending = ending_at(robot, place)?;
     let n = robot.dof();
     let mut program = derive(&ending, &[output]);
-    let padded = program.blocks.iter().map(|block| padded(block, ending.dof(), n));
-    program.blocks = padded.collect();
+    let joints = (ending.dof(), n);
+    program.blocks = program.blocks.iter().map(|block| padded(block, output, joints)).collect();
     program.dof = n;
     Some(program)
 }
@@ -55,15 +55,20 @@ fn on_tool(tool: &Frame, point: &[Value; 3]) -> Option<[Value; 3]> {
     Some(sum.map(Value::Number))
 }
 
-/// The block of an arm of `from` joints as that of one of `to`.
-fn padded(block: &Block, from: usize, to: usize) -> Block {
-    let held = &block.held;
-    let ((rows, _), (more, columns)) = (held.shape(from), held.shape(to));
-    let mut entries = Vec::with_capacity(more * columns);
-    for column in block.entries.chunks(rows) {
-        entries.extend_from_slice(column);
-        entries.resize(entries.len() + more - rows, Expr::ZERO);
+/// The block of an arm of `from` joints as that of one of `to`: each matrix of it gets the rows and columns of the
+/// joints beyond, and a stack their matrices.
+fn padded(block: &Block, output: Output, (from, to): (usize, usize)) -> Block {
+    let (rows, each) = (output.rows(), output.columns().each());
+    let (more, size) = (rows.count(to), output.shape(to));
+    let mut entries = Vec::with_capacity(size.0 * size.1);
+    for matrix in block.entries.chunks(rows.count(from) * each.count(from)) {
+        let end = entries.len() + more * each.count(to);
+        for column in matrix.chunks(rows.count(from)) {
+            entries.extend_from_slice(column);
+            entries.resize(entries.len() + more - column.len(), Expr::ZERO);
+        }
+        entries.resize(end, Expr::ZERO);
     }
-    entries.resize(more * columns, Expr::ZERO);
-    Block { held: held.clone(), entries }
+    entries.resize(size.0 * size.1, Expr::ZERO);
+    Block { held: block.held.clone(), entries }
 }

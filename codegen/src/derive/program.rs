@@ -6,7 +6,6 @@ use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
 use super::own::{Held, Own};
-use super::ways::by_link;
 use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
 use crate::number::Number;
 
@@ -110,7 +109,7 @@ impl Program {
 
     /// The working frame in words.
     pub fn frame(&self) -> String {
-        if self.blocks.iter().all(|block| block.held.output().is_some_and(by_link)) {
+        if self.blocks.iter().all(|block| block.held.output().is_some_and(Output::is_of_motion)) {
             return "the links' own axes".to_string();
         }
         match (self.cut / ROW, self.cut % ROW) {
@@ -125,7 +124,7 @@ impl Program {
     /// order of [`Input::EACH`].
     ///
     /// # Errors
-    /// [`Unstable`] where a deflection has no stable equilibrium.
+    /// [`Unstable`] where a system has no solution: a deflection no stable equilibrium, an acceleration no mass.
     pub fn evaluate<T: Float>(
         &self,
         state: &[T],
@@ -147,7 +146,7 @@ impl Program {
             Symbol::Parameter(name) => parameter(name),
             // An undisplaced chain; no output of a table has displacements or inputs of one's own.
             Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
-            Symbol::Deflection { .. } => {
+            Symbol::Deflection { .. } | Symbol::Response(_) => {
                 let known = solved.iter().find(|(e, _)| {
                     matches!(self.graph.node(*e), Node::Symbol(s)
                         if self.graph.symbol_of(s) == symbol)

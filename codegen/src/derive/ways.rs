@@ -1,7 +1,7 @@
 //! The way in which a set of outputs costs least: in which frame of the chain it is worked out, and
 //! whether twists are worked out run by run.
 
-use stiffarm_kernels::{Output, Part};
+use stiffarm_kernels::Output;
 
 use super::chain::{Chain, lay_out};
 use super::outputs::derived;
@@ -64,7 +64,8 @@ fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
     let like = |set: &&[Output]| set.iter().map(|output| output.worked_out_like()).collect();
     let sets: Vec<Vec<Output>> = sets.iter().map(like).collect();
     // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
-    let own: Vec<bool> = sets.iter().map(|set| set.iter().all(|output| by_link(*output))).collect();
+    let own: Vec<bool> =
+        sets.iter().map(|set| set.iter().all(|output| output.is_of_motion())).collect();
     let framed = sets.iter().zip(&own).filter(|(_, own)| !**own);
     let mut wanted: Vec<Output> = framed.flat_map(|(set, _)| set.iter().copied()).collect();
     wanted.sort_unstable();
@@ -112,11 +113,6 @@ pub(crate) fn cheapest(
         cuts.into_iter().for_each(|cut| attempt(&mut best, Way { cut, passes }));
     }
     best.into_iter().map(|(_, way)| way).collect()
-}
-
-/// Whether an output is worked out link by link, each in its own axes.
-pub(super) fn by_link(output: Output) -> bool {
-    output.depends_on(Part::Inertias)
 }
 
 fn derive_by(robot: &Robot, outputs: &[Output], way: Way) -> Program {

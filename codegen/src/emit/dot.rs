@@ -63,6 +63,7 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
             Symbol::Displacement { place, component } => {
                 (format!("{}{place}", COMPONENTS[*component]), "box")
             }
+            Symbol::Response(joint) => (format!("ddq{}", joint + 1), "box"),
             Symbol::Deflection { joint, .. } => (format!("dq{}", joint + 1), "box"),
             Symbol::Own { input, entry } => (format!("input {input}, {entry}"), "box"),
         },

@@ -108,19 +108,23 @@ fn broken(line: &str) -> String {
     }
 }
 
-/// `(K_θ − K_C) δq = τ`, entry by entry.
+/// `(K_θ − K_C) δq = τ` or `M q̈ = f`, entry by entry.
 fn system(printer: &Printer, program: &Program, k: usize) -> Vec<String> {
     let solve = &program.solves[k];
+    let [matrix, right, unknown] = match solve.output.is_of_motion() {
+        true => ["M", "f", "\\ddot q"],
+        false => ["(K_\\theta-K_C)", "\\tau", "\\delta q"],
+    };
     let n = solve.right.len();
     let mut lines = Vec::new();
     for (at, e) in solve.matrix.iter().enumerate().filter(|(_, e)| !e.is_zero()) {
         let (row, column) = (at % n + 1, at / n + 1);
-        lines.push(format!("(K_\\theta-K_C)_{{{row}{column}}} &= {}", printer.print(*e)));
+        lines.push(format!("{matrix}_{{{row}{column}}} &= {}", printer.print(*e)));
     }
     for (row, e) in solve.right.iter().enumerate() {
-        lines.push(format!("\\tau_{{{}}} &= {}", row + 1, printer.print(*e)));
+        lines.push(format!("{right}_{{{}}} &= {}", row + 1, printer.print(*e)));
     }
-    lines.push("\\delta q &= (K_\\theta-K_C)^{-1}\\,\\tau".to_string());
+    lines.push(format!("{unknown} &= {matrix}^{{-1}}\\,{right}"));
     lines
 }
 

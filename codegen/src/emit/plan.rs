@@ -214,6 +214,9 @@ impl<'p> Plan<'p> {
                         let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
                         self.names.extend(named.map(|name| (node, name)));
                     }
+                    Symbol::Response(joint) => {
+                        self.names.insert(node, format!("ddq{}", joint + 1));
+                    }
                     Symbol::Deflection { joint, weights } => {
                         let prefix = if *weights { "dqg" } else { "dq" };
                         self.names.insert(node, format!("{prefix}{}", joint + 1));

@@ -80,6 +80,8 @@ pub enum Symbol {
         /// 0..6: `δx δy δz`, m, and the turns `dψ dβ dφ` about x, y, z, rad.
         component: usize,
     },
+    /// An unknown of the linear system of the forward dynamics: the acceleration of a joint, from 0.
+    Response(usize),
     /// An unknown of a deflection's linear system.
     Deflection {
         /// The joint, from 0.
@@ -108,6 +110,7 @@ impl Symbol {
             Symbol::Parameter(_)
             | Symbol::Displacement { .. }
             | Symbol::Deflection { .. }
+            | Symbol::Response(_)
             | Symbol::Own { .. } => None,
         }
     }

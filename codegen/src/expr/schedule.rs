@@ -83,7 +83,10 @@ impl Graph {
         let steps = order.out;
         let unknowns = items.iter().map(|item| item.unknowns().iter().map(|e| e.node()).collect());
         let unknowns = unknowns.collect();
-        Schedule { steps, bound, items: roots, unknowns, operands: self.all_operands(&is_input) }
+        // An unknown may be stored as it is: inputs too, for liveness.
+        let read = |item: &Item| item.inputs().iter().map(|e| e.node()).collect();
+        let read = items.iter().map(read).collect();
+        Schedule { steps, bound, items: read, unknowns, operands: self.all_operands(&is_input) }
     }
 
     /// Use counts, and for every node the operations written in its place with a flag that says that

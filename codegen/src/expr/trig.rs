@@ -140,7 +140,10 @@ impl Graph {
             Node::Number(_) => true,
             Node::Symbol(s) => !matches!(
                 self.symbol_of(s),
-                Symbol::Own { .. } | Symbol::Wrench(_) | Symbol::Deflection { .. }
+                Symbol::Own { .. }
+                    | Symbol::Wrench(_)
+                    | Symbol::Deflection { .. }
+                    | Symbol::Response(_)
             ),
             _ => once[e.node()],
         })

@@ -62,7 +62,9 @@ impl Robot {
             return Ok(());
         };
         let row = self.row_of(place)?;
-        let size = |side: Side| side == Side::Joints || side.count(0) == side.count(1);
+        let size = |side: Side| {
+            side.each() == Side::Joints || side.each().count(0) == side.each().count(1)
+        };
         // What is told of the tool's frame, whichever that is: it, its twist, what it gives or bears.
         let of_a_frame = output.depends_on(Part::Tool) || output.rows() == Side::Twist;
         if !of_a_frame || !size(output.rows()) || !size(output.columns()) {

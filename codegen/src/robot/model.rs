@@ -3,7 +3,6 @@
 use core::ops::Range;
 
 use num_rational::Ratio;
-use stiffarm_kernels::Part;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use crate::number::Number;
@@ -294,7 +293,7 @@ impl Robot {
     pub fn generated(&self) -> Vec<Output> {
         let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
         let asked = |output: &Output| match self.outputs.as_slice() {
-            [] => !output.is_on_request() && (moves || !output.depends_on(Part::Inertias)),
+            [] => !output.is_on_request() && (moves || !output.is_of_motion()),
             asked => asked.contains(output),
         };
         Output::EACH.into_iter().filter(asked).collect()

@@ -17,6 +17,7 @@ type = "revolute"
 d = 0.4
 alpha = "pi/2"
 stiffness = 4e5
+gear = 101
 mass = 30.0
 com = [0.0, -0.2, 0.0]
 [[joint]]

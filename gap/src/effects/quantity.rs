@@ -18,6 +18,7 @@ const PARTS: [Named; 4] = [("", 1.0), ("1", 1.0), ("%", 1e-2), ("ppm", 1e-6)];
 const KELVINS: [Named; 2] = [("K", 1.0), ("degC", 1.0)];
 const NUMBER: [Named; 2] = [("", 1.0), ("1", 1.0)];
 const ROWS: [Named; 2] = [("", 1.0), ("rows", 1.0)];
+const TURNS: [Named; 2] = [("", 1.0), ("perturn", 1.0)];
 const NONE: [Named; 0] = [];
 const ANY: f64 = f64::INFINITY;
 const AREAS: [Named; 4] = [("N*m^2", 1.0), ("Nm^2", 1.0), ("Nm2", 1.0), ("kN*m^2", 1e3)];
@@ -83,6 +84,8 @@ quantities! {
     LengthRate: "m/s"; LENGTHS / TIMES^1; 3e-4, ANY
     /// By the row where the rows have no time.
     AngleRate: "rad/s"; ANGLES / TIMES^1; 3e-4, ANY
+    /// Periods in a turn.
+    PerTurn: "per turn"; TURNS / NONE^0; 100.0, ANY
     /// The number of a row, from 1.
     Row: "rows"; ROWS / NONE^0; 1.0, ANY
 }

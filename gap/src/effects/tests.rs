@@ -13,6 +13,7 @@ use crate::simulate::{Actual, Reading, Sim, moments};
 fn arms() -> Vec<Arm> {
     let mut modified = bent();
     modified.convention = Convention::Modified;
+    modified.joints[1].drive.gear = 101.0;
     let mut prismatic = bent();
     prismatic.joints[2].motion = Motion::Prismatic;
     prismatic.joints[2].alpha = 0.4;

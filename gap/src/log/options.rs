@@ -16,7 +16,7 @@ pub struct LogOptions {
     pub rows: Option<Domain>,
     /// The band's edge, Hz; else found.
     pub band: Option<f64>,
-    /// Speed below which a joint counts as standing, rad/s or m/s; else 1 % of its largest.
+    /// Speed below which a joint counts as standing, rad/s or m/s; else 0.5 % of its largest.
     pub standstill: Option<f64>,
     /// Only these effects.
     pub effects: Option<Vec<String>>,

@@ -101,27 +101,44 @@ impl Scene<'_> {
         ways
     }
 
-    /// Rows that count, of each joint: no contact, and for torques no standstill, where friction takes any
+    /// Rows that count, of each joint: away from the ends of the filters, no contact, and for torques no standstill, where friction takes any
     /// value up to Coulomb's.
     pub fn rows(&self) -> Vec<Vec<bool>> {
         let touches = self.signals.kept(&self.signals.contact);
+        let free = self.signals.settled().into_iter().zip(touches).map(|(s, touch)| s && !touch);
+        let free: Vec<bool> = free.collect();
         let counts = |joint: usize| {
             let speeds = self.signals.kept(&self.signals.qd[joint]);
             let moves = |speed: f64| speed.abs() > self.still[joint];
             speeds
                 .into_iter()
-                .zip(&touches)
-                .map(|(speed, touch)| !touch && (self.domain == Domain::Position || moves(speed)))
+                .zip(&free)
+                .map(|(speed, free)| *free && (self.domain == Domain::Position || moves(speed)))
                 .collect()
         };
         (0..self.signals.joints()).map(counts).collect()
+    }
+
+    /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is
+    /// one that has them in it.
+    fn modelled(&self, joint: usize, k: usize) -> f64 {
+        if !matches!(self.side, Some(TorqueSide::Motor | TorqueSide::Commanded)) {
+            return 0.0;
+        }
+        let (drive, signals) = (&self.arm.joints[joint].drive, self.signals);
+        let rotor = drive.gear * drive.gear * drive.rotor_inertia * signals.qdd[joint][k];
+        rotor + drive.viscous * signals.qd[joint][k] + drive.coulomb * self.sign(joint, k)
     }
 
     /// What is to be explained, of each joint.
     pub fn target(&self) -> Vec<Vec<f64>> {
         let signals = self.signals;
         let of = |joint: usize| match self.domain {
-            Domain::Torque => signals.filtered(&signals.drive[joint]),
+            Domain::Torque => {
+                let given = signals.drive[joint].iter().enumerate();
+                let left = given.map(|(k, torque)| torque - self.modelled(joint, k));
+                signals.filtered(&left.collect::<Vec<f64>>())
+            }
             Domain::Position => {
                 let pairs = signals.measured[joint].iter().zip(&signals.command[joint]);
                 let gaps: Vec<f64> = pairs.map(|(is, was_to_be)| is - was_to_be).collect();

@@ -18,7 +18,7 @@ use super::search::{self, Round, effective};
 use super::signal::Signals;
 
 /// A joint that is slower than this part of its largest speed counts as standing.
-const STILL: f64 = 0.01;
+const STILL: f64 = 0.005;
 
 /// Why a log brings the gap that it has: which effects at which places, one after the other, and how far
 /// it shrinks with them on time that no fit has seen.
@@ -51,13 +51,17 @@ pub fn diagnose(arm: &Arm, log: &Log, options: &LogOptions) -> Result<LogDiagnos
         return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
     }
     let wanted = search::wanted(&problem, options.effects.as_deref());
-    let rounds = search::search(&problem, &wanted, options.seed);
-    let Some((first, last)) = rounds.first().zip(rounds.last()) else {
-        return Err(Refused::TooShort { file: log.files.join(", "), found: 0.0, expected });
-    };
-    let verdict = judged(&problem, last, &wanted, options.seed);
     let told = Told { problem: &problem, arm, current: side == Some(TorqueSide::Current) };
-    let gap = told.gap(first, &verdict);
+    let (mut left, mut before, mut cannot_see) = (Vec::new(), Vec::new(), Vec::new());
+    let last = search::search(&problem, &wanted, options.seed, &mut |round| {
+        let unseen = Unseen::of(&problem, &round.fit, &round.state.sizes, &round.blocks).sizes();
+        left.push(told.mean(&unseen));
+        if before.is_empty() {
+            (before, cannot_see) = (unseen, hidden(&scene, round));
+        }
+    });
+    let verdict = judged(&problem, &last, &wanted, options.seed);
+    let after = Unseen::of(&problem, &verdict.fit, &verdict.state.sizes, &verdict.blocks);
     let counted = problem.counts.iter().flatten().filter(|c| **c).count();
     let blocks = &verdict.blocks;
     Ok(LogDiagnosis {
@@ -86,9 +90,9 @@ pub fn diagnose(arm: &Arm, log: &Log, options: &LogOptions) -> Result<LogDiagnos
             folds: blocks.folds,
         },
         rigid_parameters: problem.base.len(),
-        gap,
-        findings: told.findings(&rounds, &verdict),
-        cannot_see: hidden(&scene, first),
+        gap: told.gap(&before, &after.sizes()),
+        findings: told.findings(&last.fit.terms, &left, &verdict, &after),
+        cannot_see,
         remarks: log.remarks(),
     })
 }
@@ -168,36 +172,37 @@ impl Told<'_> {
         self.problem.sizes(&pairs.map(about).collect::<Vec<Vec<f64>>>())
     }
 
-    fn gap(&self, first: &Round, verdict: &Verdict) -> Vec<JointGap> {
-        let before = Unseen::of(self.problem, &first.fit, &first.state.sizes, &verdict.blocks);
-        let after = Unseen::of(self.problem, &verdict.fit, &verdict.state.sizes, &verdict.blocks);
-        let pairs = before.sizes().into_iter().zip(after.sizes()).zip(self.sizes());
-        let told = |(joint, ((before, after), size))| JointGap {
+    fn gap(&self, before: &[f64], after: &[f64]) -> Vec<JointGap> {
+        let pairs = before.iter().zip(after).zip(self.sizes());
+        let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), f64))| JointGap {
             unit: self.gap_unit(joint),
             size,
-            before,
-            after,
+            before: *before,
+            after: *after,
         };
         pairs.enumerate().map(told).collect()
     }
 
-    /// Mean over the joints of a round's gap on unseen time, as a part of their sizes.
-    fn left(&self, round: &Round) -> f64 {
-        let unseen = Unseen::of(self.problem, &round.fit, &round.state.sizes, &round.blocks);
-        let parts = unseen.sizes().into_iter().zip(self.sizes()).map(|(left, whole)| left / whole);
-        parts.sum::<f64>() / self.problem.target.len() as f64
+    /// Mean over the joints of what is left, as a part of their sizes.
+    fn mean(&self, left: &[f64]) -> f64 {
+        let parts = left.iter().zip(self.sizes()).map(|(left, whole)| left / whole);
+        parts.sum::<f64>() / left.len() as f64
     }
 
-    fn findings(&self, rounds: &[Round], verdict: &Verdict) -> Vec<Finding> {
-        let left: Vec<f64> = rounds.iter().map(|round| self.left(round)).collect();
-        let unseen = Unseen::of(self.problem, &verdict.fit, &verdict.state.sizes, &verdict.blocks);
+    /// Of the terms in the order in which they were `added`; `left` is what was left before each, and at
+    /// the end.
+    fn findings(
+        &self,
+        added: &[Term],
+        left: &[f64],
+        verdict: &Verdict,
+        unseen: &Unseen,
+    ) -> Vec<Finding> {
         let mut widths = unseen.half_widths[self.problem.base.len()..].iter();
-        let added: Vec<&Term> = rounds.last().into_iter().flat_map(|r| &r.fit.terms).collect();
         let tell = |judged: &Judged| {
             let term = &judged.term;
-            let same = |t: &&Term| {
-                t.effect.identifier() == term.effect.identifier() && t.spot == term.spot
-            };
+            let same =
+                |t: &Term| t.effect.identifier() == term.effect.identifier() && t.spot == term.spot;
             let round = added.iter().position(same).unwrap_or(0);
             let numbers = term.effect.numbers().iter().zip(&term.values).zip(&mut widths);
             Finding {

@@ -17,7 +17,7 @@ mod mistake;
 mod payload;
 mod role;
 mod seen;
-mod table;
+pub(crate) mod table;
 mod unit;
 
 use std::collections::HashMap;
@@ -335,10 +335,10 @@ fn read_into(
     layout: &Layout,
     planned: bool,
 ) -> Option<Measurements> {
-    let mut records = match table::records(bytes) {
-        Ok(records) => records,
+    let mut records = match table::text(bytes) {
+        Ok(text) => table::records(text, b','),
         Err(not) => {
-            mistakes.add(not.line, not.column, not.fault);
+            mistakes.extend([not]);
             return None;
         }
     };

@@ -2,7 +2,7 @@
 
 use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::mistake::{Column, Fault};
+use super::mistake::{Column, Fault, Mistake};
 
 /// A record and its line.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,14 +13,6 @@ pub(crate) struct Record {
     pub(crate) cells: StringRecord,
 }
 
-/// The first place at which the bytes are no text.
-#[derive(Debug, PartialEq)]
-pub(crate) struct NotText {
-    pub(crate) line: u64,
-    pub(crate) column: Option<Column>,
-    pub(crate) fault: Fault,
-}
-
 /// The records of a file one after the other: comment lines and blank lines left out, a byte order
 /// mark and either line ending accepted.
 pub(crate) struct Records<'t> {
@@ -29,17 +21,18 @@ pub(crate) struct Records<'t> {
     cells: StringRecord,
 }
 
-/// The records of `bytes`.
-pub(crate) fn records(bytes: &[u8]) -> Result<Records<'_>, NotText> {
-    let text = text(bytes)?.as_bytes();
+/// The records of a text, whose cells the byte `separator` separates.
+pub(crate) fn records(text: &str, separator: u8) -> Records<'_> {
+    let text = text.as_bytes();
     let reader = ReaderBuilder::new()
         .has_headers(false)
+        .delimiter(separator)
         .flexible(true)
         .comment(Some(b'#'))
         .trim(Trim::All)
         .from_reader(text);
     let lines = Lines { text, at: 0, line: 1 };
-    Ok(Records { reader, lines, cells: StringRecord::new() })
+    Records { reader, lines, cells: StringRecord::new() }
 }
 
 impl Iterator for Records<'_> {
@@ -59,9 +52,10 @@ impl Iterator for Records<'_> {
     }
 }
 
-fn text(bytes: &[u8]) -> Result<&str, NotText> {
+/// The text of a file, without a byte order mark, or the first place at which it is none.
+pub(crate) fn text(bytes: &[u8]) -> Result<&str, Mistake> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(NotText { line: 1, column: None, fault: Fault::Utf16 });
+        return Err(Mistake { line: 1, column: None, fault: Fault::Utf16 });
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     core::str::from_utf8(bytes).map_err(|e| {
@@ -70,7 +64,7 @@ fn text(bytes: &[u8]) -> Result<&str, NotText> {
         lines.advance(at);
         let start = bytes[..at].iter().rposition(|b| *b == b'\n').map_or(0, |p| p + 1);
         let number = 1 + bytes[start..at].iter().filter(|b| **b == b',').count();
-        NotText {
+        Mistake {
             line: lines.line,
             column: Some(Column { number, header: String::new() }),
             fault: Fault::NotUtf8 { byte: bytes[at] },
@@ -118,7 +112,7 @@ mod tests {
     use super::*;
 
     fn lines(bytes: &[u8]) -> Vec<(u64, String)> {
-        let records = records(bytes).unwrap_or_else(|not| panic!("{not:?}"));
+        let records = records(text(bytes).expect("a text"), b',');
         records.map(|r| (r.line, r.cells.iter().collect::<Vec<_>>().join("|"))).collect()
     }
 
@@ -141,9 +135,9 @@ mod tests {
 
     #[test]
     fn says_where_the_text_ends() {
-        let not_text = records(b"a,b\n1,2\n3,\xe9\n").err().unwrap();
+        let not_text = text(b"a,b\n1,2\n3,\xe9\n").unwrap_err();
         assert_eq!((not_text.line, not_text.column.map(|c| c.number)), (3, Some(2)));
         assert_eq!(not_text.fault, Fault::NotUtf8 { byte: 0xe9 });
-        assert_eq!(records(b"\xff\xfea\0").err().unwrap().fault, Fault::Utf16);
+        assert_eq!(text(b"\xff\xfea\0").unwrap_err().fault, Fault::Utf16);
     }
 }

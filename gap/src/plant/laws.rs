@@ -11,7 +11,7 @@ use nalgebra::{Vector3, Vector6};
 pub(super) type Law = fn(&mut Reality, &Truth);
 
 /// Every effect that the plant can have, in the order of the format.
-const LAWS: [(&dyn Effect, Law); 31] = [
+const LAWS: [(&dyn Effect, Law); 32] = [
     (&JointOffset, |arm, t| arm.joint(t).offset += t.value("offset")),
     (&LinkGeometry, |arm, t| {
         let row = arm.joint(t);
@@ -63,6 +63,10 @@ const LAWS: [(&dyn Effect, Law); 31] = [
     (&TransmissionError, |arm, t| {
         let terms = t.values.iter().filter_map(|(name, v)| Some((Order::named(name)?, *v)));
         arm.joint(t).orders.extend(terms);
+    }),
+    (&MotorError, |arm, t| {
+        let ripple = ["order", "cos", "sin"].map(|name| t.value(name));
+        arm.joint(t).ripples.push(ripple);
     }),
     (&JointCoupling, |arm, t| {
         let number = |name: &str| name.strip_prefix("joint ")?.parse::<usize>().ok();

@@ -43,6 +43,8 @@ impl RealJoint {
             Order::Cos(k) => amplitude * (*k as f64 * reading).cos(),
             Order::Sin(k) => amplitude * (*k as f64 * reading).sin(),
         };
-        self.orders.iter().map(term).sum()
+        // By amplitude and phase.
+        let ripple = |[order, c, s]: &[f64; 3]| c.hypot(*s) * (order * reading - s.atan2(*c)).cos();
+        self.orders.iter().map(term).sum::<f64>() + self.ripples.iter().map(ripple).sum::<f64>()
     }
 }

@@ -61,6 +61,8 @@ pub(super) struct RealJoint {
     /// Other joints, from 0, and how far they turn this one.
     pub(super) couplings: Vec<(usize, f64)>,
     pub(super) orders: Vec<(Order, f64)>,
+    /// Periods per turn, amplitudes of cosine and sine.
+    pub(super) ripples: Vec<[f64; 3]>,
     pub(super) compliance: f64,
     pub(super) cubic: f64,
     pub(super) windup: f64,
@@ -137,6 +139,7 @@ impl Reality {
             width: 0.0,
             couplings: Vec::new(),
             orders: Vec::new(),
+            ripples: Vec::new(),
             compliance: joint.compliance,
             cubic: 0.0,
             windup: 0.0,

@@ -40,10 +40,8 @@ pub struct Imported {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the message beside each variant and field says what it is")]
 pub enum ImportError {
-    #[error(
-        "{file}: found byte 0x{byte:02x}, expected UTF-8 text or an xlsx file: save it as either"
-    )]
-    NotText { file: String, byte: u8 },
+    #[error("{file}: {not}, or as an xlsx file")]
+    NotText { file: String, not: String },
     #[error("{file}: the workbook cannot be read: {reason}")]
     Workbook { file: String, reason: String },
     #[error("{file}: found no sheet `{sheet}`, expected one of {}", known.join(", "))]

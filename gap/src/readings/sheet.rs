@@ -3,9 +3,10 @@
 use std::io::Cursor;
 
 use calamine::{Data, Reader, open_workbook_auto_from_rs};
-use csv::ReaderBuilder;
+use csv::StringRecord;
 
 use super::{ImportError, Map, names};
+use crate::measurement::table;
 
 /// A file as it was read.
 #[derive(Clone, Debug)]
@@ -100,22 +101,15 @@ impl Sheet {
     }
 
     fn text(&self, map: &Map, said: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
-        let bytes = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);
-        let text = core::str::from_utf8(bytes).map_err(|e| ImportError::NotText {
+        let text = table::text(&self.bytes).map_err(|not| ImportError::NotText {
             file: self.file.clone(),
-            byte: bytes[e.valid_up_to()],
+            not: not.to_string(),
         })?;
         let separator = map.separator.unwrap_or_else(|| separator(text));
-        let mut rows = Vec::new();
-        for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| !text.starts_with('#')) {
-            // Bytes of one line are one record: no table of numbers has a line break in a cell.
-            let mut reader = ReaderBuilder::new()
-                .has_headers(false)
-                .delimiter(u8::try_from(separator).unwrap_or(b','))
-                .from_reader(text.as_bytes());
-            let record = reader.records().next().and_then(Result::ok).unwrap_or_default();
-            rows.push(Cells { line, cells: record.iter().map(|c| c.trim().to_owned()).collect() });
-        }
+        let records = table::records(text, u8::try_from(separator).unwrap_or(b','));
+        let cells = |cells: &StringRecord| cells.iter().map(str::to_owned).collect();
+        let mut rows: Vec<Cells> =
+            records.map(|r| Cells { line: r.line, cells: cells(&r.cells) }).collect();
         let comma =
             |row: &Cells| row.cells.iter().any(|c| c.contains(',') && number(c, ',').is_some());
         let found = separator != ',' && rows.iter().any(comma);

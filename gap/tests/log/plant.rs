@@ -4,11 +4,11 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector3};
 use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::read::Clock;
 use stiffarm_gap::log::{Log, Run, Signal, TorqueSide};
-use stiffarm_kernels::generic::{Arm, Joint};
+use stiffarm_kernels::generic::{Arm, Drive, Joint};
 use stiffarm_kernels::{Convention, Motion};
 
 pub const LENGTH: [f64; 2] = [0.7, 0.5];
@@ -27,6 +27,8 @@ pub fn arm() -> Arm {
         compliance: 0.0,
         mass: MASS[k],
         com: Vector3::zeros(),
+        inertia: Matrix3::zeros(),
+        drive: Drive::default(),
         limits: None,
         beam: None,
     };

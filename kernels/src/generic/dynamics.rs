@@ -13,13 +13,13 @@
 
 use std::vec::Vec;
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::arm::Arm;
-use super::kinematics::Axis;
+use super::kinematics::{Axis, origin};
 use super::textbook::{Textbook, block};
 use super::weight::Weight;
-use crate::{Motion, Output};
+use crate::{Motion, Output, Unstable};
 
 /// The outputs of this file.
 pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
@@ -32,6 +32,14 @@ pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
         Ok(block(arm.bias(q, rates)))
     }),
     (Output::MassMatrix, |arm, q, _| Ok(block(arm.mass_matrix(q)))),
+    (Output::ForwardDynamics, |arm, state, _| {
+        let [q, rates, torques] = parts(arm, state);
+        Ok(block(arm.forward_dynamics(q, rates, torques)?))
+    }),
+    (Output::TorqueRegressor, |arm, state, _| {
+        let [q, rates, accelerations] = parts(arm, state);
+        Ok(block(arm.torque_regressor(q, rates, accelerations)))
+    }),
 ];
 
 /// A state as the joint values and what stands behind them.
@@ -39,6 +47,9 @@ fn parts<'s, const K: usize>(arm: &Arm, state: &'s [f64]) -> [&'s [f64]; K] {
     assert_eq!(state.len(), K * arm.dof(), "{K} numbers for each of the arm's joints");
     core::array::from_fn(|k| &state[k * arm.dof()..(k + 1) * arm.dof()])
 }
+
+/// Below this part of its largest an eigenvalue of the mass matrix is no more than what rounding has left of a zero.
+const SINGULAR: f64 = 1e-13;
 
 /// How a link moves.
 #[derive(Clone, Copy)]
@@ -89,18 +100,11 @@ impl Arm {
         accelerations: &[f64],
     ) -> DVector<f64> {
         let (axes, bodies) = (self.axes(q), self.weights(q));
-        // A base that is thrown upwards weighs its links down.
-        let mut link = Moving {
-            spin: Vector3::zeros(),
-            spin_rate: Vector3::zeros(),
-            point: Vector3::zeros(),
-            acceleration: -self.falling(),
+        let links = self.moving(q, rates, accelerations);
+        let load = |(k, link): (usize, &Moving)| {
+            inertial(link, bodies.iter().filter(|body| body.moved_by == k + 1))
         };
-        let mut loads = Vec::new();
-        for (k, axis) in axes.iter().enumerate() {
-            link = link.behind(axis, rates[k], accelerations[k]);
-            loads.push(inertial(&link, bodies.iter().filter(|body| body.moved_by == k + 1)));
-        }
+        let loads: Vec<_> = links.iter().enumerate().map(load).collect();
         // Inwards: what a link and all beyond it need, as a force and the moment about the origin.
         let mut torque = DVector::zeros(self.dof());
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
@@ -118,6 +122,81 @@ impl Arm {
             torque[k] = load + rotor + dry + drive.viscous * rates[k];
         }
         torque
+    }
+
+    /// How links 1 to n move.
+    fn moving(&self, q: &[f64], rates: &[f64], accelerations: &[f64]) -> Vec<Moving> {
+        // A base that is thrown upwards weighs its links down.
+        let mut link = Moving {
+            spin: Vector3::zeros(),
+            spin_rate: Vector3::zeros(),
+            point: Vector3::zeros(),
+            acceleration: -self.falling(),
+        };
+        let axes = self.axes(q);
+        let each = axes.iter().zip(rates.iter().zip(accelerations));
+        each.map(|(axis, (rate, acceleration))| {
+            link = link.behind(axis, *rate, *acceleration);
+            link
+        })
+        .collect()
+    }
+
+    /// `∂τ/∂π`, n×10n, of each link the mass, the first moments and the entries xx, xy, yy, xz, yz, zz of the tensor of
+    /// inertia about the origin of its row's frame, in that frame's axes. What a link needs to move as it does
+    /// is linear in them: `m a + ω̇ × h + ω × (ω × h)` and `h × a + I ω̇ + ω × I ω` about that origin.
+    pub fn torque_regressor(
+        &self,
+        q: &[f64],
+        rates: &[f64],
+        accelerations: &[f64],
+    ) -> DMatrix<f64> {
+        let (axes, frames, n) = (self.axes(q), self.frames(q), self.dof());
+        let mut regressor = DMatrix::zeros(n, 10 * n);
+        for (k, link) in self.moving(q, rates, accelerations).iter().enumerate() {
+            let (turn, origin) =
+                (frames[k + 1].rotation.to_rotation_matrix(), origin(&frames[k + 1]));
+            let here = link.acceleration_at(&origin);
+            let none = Vector3::zeros();
+            let first = |axis: usize| {
+                let h = turn * Vector3::ith(axis, 1.0);
+                let (w, wd) = (link.spin, link.spin_rate);
+                (wd.cross(&h) + w.cross(&w.cross(&h)), h.cross(&here))
+            };
+            let second = |i: usize, j: usize| {
+                let mut tensor = Matrix3::zeros();
+                (tensor[(i, j)], tensor[(j, i)]) = (1.0, 1.0);
+                let tensor = turn * tensor * turn.transpose();
+                (none, tensor * link.spin_rate + link.spin.cross(&(tensor * link.spin)))
+            };
+            let loads = [(here, none), first(0), first(1), first(2)]
+                .into_iter()
+                .chain([(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)].map(|(i, j)| second(i, j)));
+            for (column, (force, moment)) in loads.enumerate() {
+                for (j, axis) in axes[..=k].iter().enumerate() {
+                    let work = axis.velocity(&origin).dot(&force) + axis.spin().dot(&moment);
+                    regressor[(j, 10 * k + column)] = work;
+                }
+            }
+        }
+        regressor
+    }
+
+    /// `q̈ = M⁻¹ (τ − b)`, n, rad/s² (m/s² if prismatic), by Cholesky's factors.
+    ///
+    /// # Errors
+    /// [`Unstable`] where M is not positive definite, or so nearly that it cannot be told: a joint moves no mass.
+    pub fn forward_dynamics(
+        &self,
+        q: &[f64],
+        rates: &[f64],
+        torques: &[f64],
+    ) -> Result<DVector<f64>, Unstable> {
+        let mass = self.mass_matrix(q);
+        let moments = mass.symmetric_eigenvalues();
+        let sound = moments.min() > SINGULAR * moments.max();
+        let factors = mass.cholesky().filter(|_| sound).ok_or(Unstable)?;
+        Ok(factors.solve(&(DVector::from_column_slice(torques) - self.bias(q, rates))))
     }
 
     /// `b(q, q̇)`, n: what the motors give where no joint accelerates. Centrifugal and Coriolis forces, the

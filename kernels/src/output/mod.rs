@@ -84,6 +84,11 @@ impl Output {
         Input::EACH.into_iter().filter(move |input| *input != Input::Joints && self.takes(*input))
     }
 
+    /// Whether it is of the equations of motion: what an arm has whose file says how its mass is spread.
+    pub fn is_of_motion(self) -> bool {
+        self.depends_on(Part::Inertias) || self.takes(Input::Accelerations)
+    }
+
     /// Whether its function takes `input`.
     pub fn takes(self, input: Input) -> bool {
         self.inputs().contains(&input)

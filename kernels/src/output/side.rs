@@ -25,6 +25,9 @@ pub enum Side {
     /// The entries of the table: theta, d, a, alpha of each row, then the tool's translation and its
     /// rotation vector.
     Entries,
+    /// The moments of mass of links 1 to n, ten each: mass, first moments x, y, z, and xx, xy, yy, xz, yz, zz of the
+    /// tensor of inertia.
+    Moments,
 }
 
 impl Side {
@@ -40,6 +43,7 @@ impl Side {
             Side::JointsByJoints => n * n,
             Side::WrenchByJoints => 6 * n,
             Side::Entries => 4 * n + 6,
+            Side::Moments => 10 * n,
         }
     }
 
@@ -67,6 +71,7 @@ impl Side {
             Side::Entries => {
                 &["theta, d, a, alpha of each row, the tool's translation, its rotation vector"]
             }
+            Side::Moments => &["m, m c_x, m c_y, m c_z, xx, xy, yy, xz, yz, zz of each link"],
         }
     }
 }

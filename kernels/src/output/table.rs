@@ -456,4 +456,32 @@ outputs! {
         fused: false,
         on_request: Manipulability,
     }
+    ForwardDynamics {
+        name: forward_dynamics,
+        sentence: "Accelerations of the joints under their motors' torques.",
+        formula: "q̈ = M(q)⁻¹ (τ − b(q, q̇)); none where a joint moves no mass and M is not positive definite",
+        source: "Walker & Orin 1982",
+        symbol: "\\ddot q",
+        rows: Joints ["rad/s² (prismatic joint: m/s²)"],
+        columns: One,
+        inputs: [Joints, Rates, Torques],
+        parts: [Weights, Inertias],
+        fallible: true,
+        fused: false,
+    }
+    TorqueRegressor {
+        name: torque_regressor,
+        sentence: "Torques of the joints' motors for a motion per unit of each link's moments of mass; rotors and \
+                   friction apart.",
+        formula: "Y_k = ∂τ/∂π_k and τ = Y π; π of a link: m, m c_x, m c_y, m c_z, and xx, xy, yy, xz, yz, zz of its \
+                  tensor of inertia about the row's origin, all in the row's axes",
+        source: "Atkeson, An & Hollerbach 1986, eq. 11",
+        symbol: "Y",
+        rows: Joints ["m/s² (first moments: m/s²·m, tensor: 1/s²; times m of a revolute joint)"],
+        columns: Moments,
+        inputs: [Joints, Rates, Accelerations],
+        parts: [Weights],
+        fallible: false,
+        fused: false,
+    }
 }

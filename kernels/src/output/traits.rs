@@ -26,6 +26,14 @@ macro_rules! has {
             fn $name(&self, posture: &Self::Posture) -> Self::Columns;
         }
     };
+    ($doc:literal $output:ident $name:ident [Joints Rates Accelerations] [Joints Moments] false) => {
+        has! { $doc $output
+            /// A column for each moment of mass: more than N alone can say.
+            type Columns: Copy + AsRef<[[S; N]]>;
+            #[doc = $doc]
+            fn $name(&self, posture: &Self::Posture, qd: &[S; N], qdd: &[S; N]) -> Self::Columns;
+        }
+    };
     ($doc:literal $output:ident $name:ident [Joints $($input:ident)*] $sides:tt $fallible:tt) => {
         has! { $doc $output $name [$($input)*] [] value!($fallible $sides S N) }
     };

@@ -40,8 +40,9 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
     // The moment on a joint, where a load enters; else a unit of whatever loads it.
     let moment = |joint: usize| {
         let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
-        if output.depends_on(Part::Inertias) {
-            return inertial(arm, reach, moving) + if heavy { weight(arm, 0, reach) } else { 0.0 };
+        if output.is_of_motion() {
+            return inertial(arm, reach, moving, output.columns() == Side::Moments)
+                + if heavy { weight(arm, 0, reach) } else { 0.0 };
         }
         let load = if loaded { wrench } else { 0.0 };
         let weight = if heavy { weight(arm, joint, reach) } else { 0.0 };
@@ -51,6 +52,9 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
         true => gives(arm, reach, moment),
         false => moment(0),
     };
+    if output.takes(Input::Torques) {
+        return solved(arm, q, loaded);
+    }
     let at_tool = |side: Side| match side {
         Side::Axes | Side::Twist | Side::Wrench => lever,
         _ => 1.0,
@@ -69,11 +73,16 @@ fn weight(arm: &Arm, from: usize, reach: f64) -> f64 {
 
 /// The moment that moves the arm, and what holds it back; of the mass matrix, which no motion enters, the
 /// moment per unit of acceleration.
-fn inertial(arm: &Arm, reach: f64, moving: &[f64]) -> f64 {
+fn inertial(arm: &Arm, reach: f64, moving: &[f64], unit: bool) -> f64 {
     let (rates, accelerations) = moving.split_at(moving.len().min(arm.dof()));
     let sum = |of: &[f64]| of.iter().map(|x| x.abs()).sum::<f64>();
     let (spin, spin_rate) = (sum(rates), sum(accelerations));
     let level = if moving.is_empty() { 1.0 } else { spin_rate + spin * spin };
+    // A unit of each moment, whatever the arm's are.
+    if unit {
+        let lever = reach.max(1.0);
+        return (level * lever + arm.gravity.norm()) * lever;
+    }
     let of_joint = |j: &Joint| {
         let lever = reach.max(1.0) + j.com.norm();
         let beam = j.beam.as_ref().map_or(0.0, |b| b.density * b.area * reach);
@@ -83,6 +92,14 @@ fn inertial(arm: &Arm, reach: f64, moving: &[f64]) -> f64 {
         moved * level + held
     };
     arm.joints.iter().map(of_joint).sum()
+}
+
+/// What the rounding of a solve is relative to: `δq̈ = M⁻¹ (δf − δM q̈)`, with f and what M q̈ is summed of.
+fn solved(arm: &Arm, q: &[f64], force: f64) -> f64 {
+    let moments = arm.mass_matrix(q).symmetric_eigenvalues();
+    let (least, largest) = (moments.min(), moments.max());
+    let response = force / least;
+    (force + largest * response) / least
 }
 
 /// What the joints and links give under the moment on each, rad.

@@ -78,6 +78,7 @@ impl Reading {
             }
             // None of the papers' equations has these.
             Symbol::Deflection { .. }
+            | Symbol::Response(_)
             | Symbol::Rate(_)
             | Symbol::Acceleration(_)
             | Symbol::Torque(_)

@@ -59,12 +59,14 @@ fn a_tx40_has_the_friction_that_is_published() {
         [(1, 8.05, 7.14), (2, 5.53, 8.26), (3, 1.97, 6.34), (4, 1.11, 2.48), (5, 1.86, 3.03)]
     {
         let place = format!("joint {joint}");
-        close(numbers(&found, "viscous_friction", &place)[0], viscous, 0.04, "viscous");
-        close(numbers(&found, "coulomb_friction", &place)[0], coulomb, 0.05, "Coulomb");
+        close(numbers(&found, "viscous_friction", &place)[0], viscous, 0.02, "viscous");
+        close(numbers(&found, "coulomb_friction", &place)[0], coulomb, 0.02, "Coulomb");
     }
     let coupling = numbers(&found, "joint_coupling", "joints 5 + 6");
     close(coupling[1], 0.616, 0.05, "the wrist's viscous friction");
-    close(coupling[2], 1.95, 0.05, "the wrist's Coulomb friction");
+    // Joint 6's own Coulomb friction, 0.28 N·m, is not told from accident in these 9 s: the coupling's
+    // takes a part of it.
+    close(coupling[2], 1.95, 0.1, "the wrist's Coulomb friction");
 }
 
 #[test]
@@ -100,5 +102,6 @@ fn a_small_arm_is_late_then_droops() {
     let gaps = found["gap"].as_array().expect("a list");
     let square: f64 = gaps.iter().map(|g| g["after"].as_f64().expect("").powi(2)).sum();
     let rms = (square / gaps.len() as f64).sqrt().to_degrees();
-    assert!(rms < 1.25, "{rms}");
+    // Ten of the fifty runs.
+    assert!(rms < 1.2, "{rms}");
 }

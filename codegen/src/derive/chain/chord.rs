@@ -33,8 +33,9 @@ pub fn chord(chain: &mut Chain, row: usize) -> Chord {
     };
     let y = chain.g.cross3(z, x);
     let previous = chain.z(ROW * row);
-    let tilted =
-        chain.robot.convention == Convention::Modified && !chain.robot.joints[row].beta.is_zero();
+    // A whole turn tilts nothing.
+    let beta = Turn::constant(&mut chain.g, &chain.robot.joints[row].beta);
+    let tilted = chain.robot.convention == Convention::Modified && !beta.is_zero();
     let (directed, axes) = if tilted || !(a.is_zero() || d.is_zero()) {
         oblique(chain, row, (a, x), (d, z))
     } else if a.is_zero() {

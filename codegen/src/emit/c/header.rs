@@ -189,9 +189,14 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
     text.push(format!("Worked out in {}.", function.plan.program.frame()));
     match function.blocks() {
         _ if !function.fallible() => {}
-        [_] => text.push(format!(
-            "{} where there is no stable equilibrium: out is then as it was.",
-            module.constant("UNSTABLE")
+        [block] => text.push(format!(
+            "{} where {}: out is then as it was.",
+            module.constant("UNSTABLE"),
+            if block.held.output().is_some_and(|output| output.is_of_motion()) {
+                "a joint moves no mass"
+            } else {
+                "there is no stable equilibrium"
+            }
         )),
         _ => text.push(format!(
             "{} where there is no stable equilibrium: the deflection is then as it was.",

@@ -127,7 +127,7 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
     out.indent();
     let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
-    if output.columns() == Side::Entries {
+    if matches!(output.columns(), Side::Entries | Side::Moments) {
         out.code(&format!("type Columns = {ty};"));
         ty = "Self::Columns".to_string();
     }

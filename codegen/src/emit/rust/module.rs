@@ -106,7 +106,11 @@ impl Function<'_> {
         if self.fallible() {
             out.doc("");
             out.doc("# Errors");
-            out.doc("`Unstable` where the loaded arm has no stable equilibrium.");
+            let motion = self.outputs().any(|output| output.is_of_motion());
+            out.doc(match motion {
+                true => "`Unstable` where a joint moves no mass: its acceleration is then not determined.",
+                false => "`Unstable` where the loaded arm has no stable equilibrium.",
+            });
         }
     }
 

@@ -2,12 +2,13 @@
 //! stand anywhere.
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use rayon::prelude::*;
 
 use super::model::Model;
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::measurement::Kind;
-use crate::simulate::{Reading, Sim};
+use crate::simulate::Reading;
 
 /// The nominal model with unknown frames where the measurements put them to a first guess.
 ///
@@ -21,19 +22,20 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     if !base && !tool && problem.centres.is_empty() {
         return Ok(model);
     }
-    let sims = model.predict(problem, None)?.sims;
     let rows = 0..problem.data.rows.len();
+    // Of very many rows the states are more than memory holds.
+    let seen = rows.clone().into_par_iter().map(|row| {
+        let sim = model.sim(problem, row, None)?;
+        Ok((sim.reading(), (sim.base * Point3::from(sim.point(&sim.loaded))).coords))
+    });
+    let seen: Vec<(Reading, Vector3<f64>)> = seen.collect::<Result<_, DiagnoseError>>()?;
     for (number, centre) in model.centres.iter_mut().enumerate() {
         let of = rows.clone().filter(|row| problem.centre_of[*row] == Some(number));
-        let seen = of.map(|row| {
-            let sim = &sims[row];
-            let point = sim.base * Point3::from(sim.point(&sim.loaded));
-            (point.coords, problem.data.rows[row].measured[0])
-        });
-        *centre = equidistant(&seen.collect::<Vec<_>>());
+        let far = of.map(|row| (seen[row].1, problem.data.rows[row].measured[0]));
+        *centre = equidistant(&far.collect::<Vec<_>>());
     }
     let Kind::Pose { orientation } = problem.data.kind else { return Ok(model) };
-    let readings: Vec<Reading> = sims.iter().map(Sim::reading).collect();
+    let readings: Vec<Reading> = seen.into_iter().map(|(reading, _)| reading).collect();
     let measured: Vec<Reading> =
         problem.data.rows.iter().map(|r| Reading::from_vector(&r.measured)).collect();
     let mut moved = vec![Isometry3::identity(); problem.sessions.len()];

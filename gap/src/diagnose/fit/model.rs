@@ -107,7 +107,7 @@ impl Model {
     }
 
     /// Brings one row to rest; `near` is where to begin.
-    fn sim(
+    pub(super) fn sim(
         &self,
         problem: &Problem<'_>,
         row: usize,

@@ -55,8 +55,10 @@ impl Search<'_, '_> {
 mod tests {
     use super::*;
     use crate::diagnose::{Options, diagnose};
-    use crate::fixture::{rigid, row, table};
+    use crate::fixture::{rigid, row, springy, table};
     use crate::measurement::{Kind, Row};
+    use crate::plant::design::{Design, Shape};
+    use crate::plant::{Noise, Plant, Truth};
     use crate::simulate::simulate;
     use nalgebra::Vector6;
 
@@ -82,5 +84,46 @@ mod tests {
         let found = diagnose(&arm, &data, &options).unwrap().findings;
         assert_eq!((found[0].effect, found[0].place.as_str()), ("slip", "base"));
         assert_eq!(found[0].parameters[0].value, after as f64);
+    }
+
+    /// Found by another program's arm: numbers between those that are tried at first.
+    #[test]
+    fn numbers_in_which_nothing_is_linear_are_found() {
+        let mut arm = springy();
+        arm.joints[2].drive.gear = 101.0;
+        let design = Design {
+            shape: Shape::Force,
+            poses: 60,
+            repeats: 1,
+            payload: 15.0,
+            kind: Kind::Pose { orientation: true },
+            seed: 3,
+        };
+        let noise = Noise { position: 2e-5, rotation: 4e-5 };
+        let cases = [
+            ("motor_error@joint 3:order=202.37,cos=0.2 mrad,sin=-0.3 mrad", 202.37, 0.02),
+            ("soft_zone@joint 2:threshold=40,compliance=1e-5", 40.0, 1.0),
+        ];
+        for (text, number, within) in cases {
+            let truth = Truth::parse(text, &arm).unwrap();
+            let plant = Plant::new(&arm, std::slice::from_ref(&truth)).unwrap();
+            let data = plant.measure(&design.rows(&arm), noise, 5).unwrap();
+            let options = Options {
+                noise_position: Some(noise.position),
+                noise_rotation: Some(noise.rotation),
+                ..Options::default()
+            };
+            let found = diagnose(&arm, &data, &options).unwrap().findings;
+            let [finding] = &found[..] else { panic!("{text}: {found:?}") };
+            let (effect, place) = (truth.effect.identifier(), truth.place.to_string());
+            assert_eq!((finding.effect, &finding.place), (effect, &place));
+            let first = &finding.parameters[0];
+            assert!((first.value - number).abs() < within, "{text}: {first:?}");
+            assert!((first.ci95[0]..=first.ci95[1]).contains(&number), "{text}: {first:?}");
+            for parameter in &finding.parameters[1..] {
+                let [low, high] = parameter.ci95;
+                assert!((low..=high).contains(&truth.value(&parameter.name)), "{parameter:?}");
+            }
+        }
     }
 }

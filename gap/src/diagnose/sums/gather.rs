@@ -20,9 +20,12 @@ use crate::diagnose::fit::Fit;
 /// cache.
 const CHUNK: usize = 64;
 
+/// Blocks of poses that are worked on at once, for each thread.
+const AT_ONCE: usize = 2;
+
 /// Products of a fit's parameters and of further columns with candidates.
 pub(crate) struct Gathered {
-    /// Weighted, of each block of poses.
+    /// Weighted, of each block of poses. Beside candidates the columns along are in the total alone.
     pub(crate) blocks: Vec<Products>,
     /// Of all rows.
     pub(crate) total: Products,
@@ -55,26 +58,32 @@ impl Gathered {
         let weigh = |kind: &[usize]| kind.first().map_or(0.0, |c| weights[*c].powi(2));
         let k = wanted.columns();
         let of_block = folds.rows_of_blocks(problem.data);
-        let (blocks, mains): (Vec<Products>, Vec<Products>) = of_block
-            .par_iter()
-            .map(|rows| {
-                let sums = wanted.sums(&layout, &kinds, rows);
-                let mut white = Products::zeros(k, &layout.sizes);
-                for (sum, kind) in sums.iter().zip(&kinds) {
-                    white.add_scaled(sum, weigh(kind));
-                }
-                let [main, _] = sums;
-                (white, main)
-            })
-            .unzip();
-        let mut plain = vec![Products::zeros(k, &layout.sizes); folds.count];
-        for (block, main) in mains.iter().enumerate() {
-            plain[folds.of_block[block]].add(main);
-        }
+        let of_rows = |rows: &Vec<usize>| {
+            let sums = wanted.sums(&layout, &kinds, rows);
+            let mut white = Products::zeros(k, &layout.sizes);
+            for (sum, kind) in sums.iter().zip(&kinds) {
+                white.add_scaled(sum, weigh(kind));
+            }
+            let [main, _] = sums;
+            (white, main)
+        };
+        let kept = if wanted.candidates.is_empty() { k } else { wanted.parameters() };
+        let (own, alone) = (Choice::first(kept, wanted.candidates), Choice::first(kept, &[]));
+        let narrow = |products: Products| if kept < k { products.chosen(&own) } else { products };
         let mut total = Products::zeros(k, &layout.sizes);
-        blocks.iter().for_each(|b| total.add(b));
-        let alone = Choice::first(k, &[]);
-        let plain_blocks = mains.iter().map(|main| main.chosen(&alone)).collect();
+        let mut plain = vec![Products::zeros(kept, &layout.sizes); folds.count];
+        let (mut blocks, mut plain_blocks) = (Vec::new(), Vec::new());
+        // Some blocks at once: of very many joints each has more numbers than all that is kept.
+        for some in of_block.chunks(AT_ONCE * rayon::current_num_threads()) {
+            let each: Vec<(Products, Products)> = some.par_iter().map(of_rows).collect();
+            for (white, main) in each {
+                total.add(&white);
+                let main = narrow(main);
+                plain[folds.of_block[blocks.len()]].add(&main);
+                plain_blocks.push(main.chosen(&alone));
+                blocks.push(narrow(white));
+            }
+        }
         Self { blocks, total, plain, plain_blocks }
     }
 }
@@ -94,10 +103,13 @@ impl Gathered {
 }
 
 impl Wanted<'_> {
+    fn parameters(&self) -> usize {
+        self.fit.model.parameters(self.problem)
+    }
+
     /// Columns beside which candidates stand: the model's parameters, and those along.
     fn columns(&self) -> usize {
-        let along: usize = self.along.iter().map(|c| c.size).sum();
-        self.fit.model.parameters(self.problem) + along
+        self.parameters() + self.along.iter().map(|c| c.size).sum::<usize>()
     }
 
     /// Products of some rows, of each kind of component by itself.

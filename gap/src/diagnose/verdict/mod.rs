@@ -3,7 +3,7 @@
 //! **In:** the fit with all its effects.
 //! **Out:** `judged`: the findings, in the order in which they shrink the held-out gap
 //! (`outcome`), each with its values and intervals and the shrink with its own (`summary`,
-//! `bootstrap`, `refitted`), the explanations that could stand in its place (`rivals`), the chance of noise and
+//! `searched`, `bootstrap`, `refitted`), the explanations that could stand in its place (`rivals`), the chance of noise and
 //! how often half of the poses find it again (`stability`), and the measurement that would separate
 //! it (`separate`); and what is left (`remainder`). What is not significant beside all the
 //! others is taken out again. `nested` runs the search itself again without each fold. [`Rival`] is another model, which the file's columns predict with.
@@ -16,6 +16,7 @@ mod outcome;
 mod refitted;
 mod remainder;
 mod rivals;
+mod searched;
 mod separate;
 mod stability;
 mod summary;

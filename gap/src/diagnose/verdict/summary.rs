@@ -77,7 +77,7 @@ impl Search<'_, '_> {
     /// The values of each effect found, with 95 % intervals: least squares, the remainder's
     /// variance, Student's t.
     fn intervals(&self, now: &Explained) -> Vec<Vec<ParameterReport>> {
-        let normal = self.normal(now);
+        let normal = self.normal_with_searched(now);
         let basis = Basis::new(&normal);
         let scale = self.scale(now);
         let parameters = normal.nrows();
@@ -87,12 +87,19 @@ impl Search<'_, '_> {
         let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
         let mut at = Model::nuisances(self.problem);
         let mut all = Vec::new();
-        for found in &now.fit.model.found {
+        for (index, found) in now.fit.model.found.iter().enumerate() {
             let mut reports = Vec::new();
             if let Some(form) = found.effect.form_number() {
                 let (name, unit) = (form.name.into_owned(), form.quantity.unit());
                 let value = found.effect.forms_are().number(found.spot.form);
-                reports.push(ParameterReport { name, value, unit, ci95: [value, value] });
+                let variance = self.at_searched(now, index).map_or(0.0, |at| variances[at]);
+                let half = t * variance.max(0.0).sqrt();
+                reports.push(ParameterReport {
+                    name,
+                    value,
+                    unit,
+                    ci95: [value - half, value + half],
+                });
             }
             let parameters = found.effect.parameters(self.problem.arm, found.spot);
             for (parameter, &value) in parameters.iter().zip(&found.values) {

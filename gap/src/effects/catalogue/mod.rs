@@ -24,6 +24,7 @@ mod link_compliance;
 mod link_geometry;
 mod link_weight;
 mod loaded_backlash;
+mod motor_error;
 mod payload_com;
 mod settling_lag;
 mod slip;
@@ -59,6 +60,7 @@ pub use link_compliance::LinkCompliance;
 pub use link_geometry::LinkGeometry;
 pub use link_weight::LinkWeight;
 pub use loaded_backlash::LoadedBacklash;
+pub use motor_error::MotorError;
 pub use payload_com::PayloadCom;
 pub use settling_lag::SettlingLag;
 pub use slip::Slip;
@@ -69,7 +71,7 @@ pub use transmission_error::TransmissionError;
 pub use wrench_scale::WrenchScale;
 
 /// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 32] = [
+pub const CATALOGUE: [&dyn Effect; 33] = [
     &JointOffset,
     &JointCompliance,
     &Backlash,
@@ -81,6 +83,7 @@ pub const CATALOGUE: [&dyn Effect; 32] = [
     &LoadedBacklash,
     &SoftZone,
     &TransmissionError,
+    &MotorError,
     &Counterbalance,
     &JointCoupling,
     &LinkCompliance,

@@ -17,7 +17,7 @@ impl LogEffect for Backlash {
         About {
             reality: "A joint stops short of where it is driven to: teeth with play, or a servo that friction holds back.",
             signature: "An offset that goes with the way of the last move, also at rest.",
-            confused_with: "`presliding`; `tracking_lag` of a joint that always moves equally fast.",
+            confused_with: "`tracking_lag` of a joint that always moves equally fast.",
             separated_by: "Approaches from both sides, at two speeds.",
         }
     }

@@ -21,7 +21,7 @@ impl LogEffect for Stribeck {
         About {
             reality: "Friction falls when a joint begins to move: a film of grease builds up.",
             signature: "More torque at slow motion than at somewhat faster motion.",
-            confused_with: "`presliding`, `latency`, `friction_curve`, a sign that is smoothed.",
+            confused_with: "`friction_curve`, a sign that is smoothed.",
             separated_by: "Speeds below 0.05 rad/s.",
         }
     }

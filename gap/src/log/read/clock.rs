@@ -23,7 +23,7 @@ pub struct Clock {
 
 impl Clock {
     /// Of stamps that increase.
-    pub(super) fn of(t: &[f64], repeated: usize) -> Clock {
+    pub(crate) fn of(t: &[f64], repeated: usize) -> Clock {
         let steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);

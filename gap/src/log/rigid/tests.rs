@@ -1,5 +1,5 @@
-use nalgebra::{DVector, Matrix3, UnitQuaternion};
-use stiffarm_kernels::generic::Joint;
+use nalgebra::{DVector, Matrix3};
+use stiffarm_kernels::generic::{Drive, Joint};
 
 use super::*;
 
@@ -26,6 +26,8 @@ fn arm(convention: Convention, motions: &[Motion], dice: &mut Dice) -> (Arm, Vec
             compliance: 0.0,
             mass,
             com,
+            inertia: root * root.transpose(),
+            drive: Drive::default(),
             limits: None,
             beam: None,
         });
@@ -68,49 +70,18 @@ fn at_rest_it_holds_the_weights() {
     }
 }
 
-/// The drives' power is the rate of the energy, which is told by frames alone: velocities by
-/// differences of frames, energies by Steiner's parts.
+/// In motion: the textbook, which takes each link's force and moment down the chain.
 #[test]
-fn the_drives_power_is_the_rate_of_the_energy() {
-    let path = |t: f64| [t.sin(), (1.3 * t).cos(), 0.5 * t * t, (0.7 * t).sin()];
-    let rate = |t: f64| [t.cos(), -1.3 * (1.3 * t).sin(), t, 0.7 * (0.7 * t).cos()];
-    let second = |t: f64| [-t.sin(), -1.69 * (1.3 * t).cos(), 1.0, -0.49 * (0.7 * t).sin()];
-    for (arm, _) in arms() {
-        let central = |joint: &Joint, numbers: &[f64]| {
-            let whole = Matrix3::new(
-                numbers[4], numbers[5], numbers[6], numbers[5], numbers[7], numbers[8], numbers[6],
-                numbers[8], numbers[9],
-            );
-            let com = joint.com;
-            whole - (Matrix3::identity() * com.norm_squared() - com * com.transpose()) * joint.mass
-        };
-        let numbers = &arms().into_iter().find(|(other, _)| *other == arm).unwrap().1;
-        let energy = |t: f64| {
-            let h = 1e-4;
-            let at = |t: f64| arm.frames(&path(t));
-            let [before, here, after] = [at(t - h), at(t), at(t + h)];
-            let falling = arm.base.rotation * arm.gravity;
-            let links = arm.joints.iter().enumerate().map(|(k, joint)| {
-                let centre = |frames: &[Isometry3<f64>]| {
-                    frames[k + 1].translation.vector + frames[k + 1].rotation * joint.com
-                };
-                let velocity = (centre(&after) - centre(&before)) / (2.0 * h);
-                let turned = after[k + 1].rotation * before[k + 1].rotation.inverse();
-                let spin = UnitQuaternion::scaled_axis(&turned) / (2.0 * h);
-                let own = here[k + 1].rotation.inverse() * spin;
-                let inertia = central(joint, &numbers[10 * k..10 * (k + 1)]);
-                0.5 * joint.mass * velocity.norm_squared() + 0.5 * own.dot(&(inertia * own))
-                    - joint.mass * falling.dot(&centre(&here))
-            });
-            links.sum::<f64>()
-        };
-        for t in [0.3, 1.1, 2.0] {
-            let h = 1e-3;
-            let power = (energy(t + h) - energy(t - h)) / (2.0 * h);
-            let drives = torques(&arm, numbers, &path(t), &rate(t), &second(t));
-            let found: f64 = drives.iter().zip(rate(t)).map(|(a, b)| a * b).sum();
-            // Differences of second order, h² of derivatives up to a few hundred.
-            assert!((found - power).abs() < 1e-3 * (1.0 + power.abs()), "{found} {power}");
+fn in_motion_it_is_the_textbooks_inverse_dynamics() {
+    let mut dice = Dice::new(3, Stream::Poses);
+    for (arm, numbers) in arms() {
+        for _ in 0..20 {
+            let [q, qd, qdd] = [3.0, 5.0, 20.0]
+                .map(|size| (0..4).map(|_| size * dice.between(-1.0, 1.0)).collect::<Vec<f64>>());
+            let expected = arm.inverse_dynamics(&q, &qd, &qdd);
+            let off = torques(&arm, &numbers, &q, &qd, &qdd) - &expected;
+            // A few hundred sums of products up to a thousand.
+            assert!(off.amax() < 1e-11 * (1.0 + expected.amax()), "{off}");
         }
     }
 }

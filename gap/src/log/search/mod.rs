@@ -142,27 +142,25 @@ impl Asked {
     }
 }
 
-/// Looks for effects among those wanted, one after the other: the rounds, the last of which added
-/// nothing.
+/// Looks for effects among those wanted, one after the other. `each` is told every round; the last, in
+/// which none was added, is returned.
 pub fn search(
     problem: &Problem<'_>,
     wanted: &[(&'static dyn LogEffect, Spot)],
     seed: u64,
-) -> Vec<Round> {
+    each: &mut dyn FnMut(&Round),
+) -> Round {
     let mut state =
         State { sizes: problem.sizes(&problem.target), loads: problem.scene.loads.clone() };
-    let (mut terms, mut rounds) = (Vec::new(), Vec::new());
+    let mut terms: Vec<Term> = Vec::new();
     loop {
         let round = Round::of(problem, &terms, &state, wanted, seed);
-        state.clone_from(&round.state);
-        let best = round.best().filter(|_| terms.len() < MOST).map(|c| c.term.clone());
-        terms.clone_from(&round.fit.terms);
-        let ends = best.is_none();
-        terms.extend(best);
-        rounds.push(round);
-        if ends {
-            return rounds;
-        }
+        each(&round);
+        let Some(best) = round.best().filter(|_| terms.len() < MOST) else { return round };
+        let added = best.term.clone();
+        terms = round.fit.terms;
+        terms.push(added);
+        state = round.state;
     }
 }
 

@@ -175,6 +175,17 @@ impl Signals {
         self.filter.map_or(self.period, |_| LowPass::reach(self.band))
     }
 
+    /// Of the samples that are kept, those that no end of a span reaches through the filters: the band's, the
+    /// one of the joint values and that of the thinning, whose reaches are 1, 1/2 and at most 1/4.
+    pub fn settled(&self) -> Vec<bool> {
+        let edge = (2.0 * self.reach() / self.step()).ceil() as usize;
+        let of = |span: &Span| {
+            let count = span.kept.len();
+            (0..count).map(move |k| k >= edge && k + edge < count)
+        };
+        self.spans.iter().flat_map(of).collect()
+    }
+
     /// What is computed at every fine sample, through the filter, at those that are kept.
     pub fn filtered(&self, fine: &[f64]) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.rows());
@@ -186,12 +197,6 @@ impl Signals {
             }
         }
         rows
-    }
-
-    /// What was measured at every fine sample, low-passed there.
-    pub fn smooth(&self, fine: &[f64]) -> Vec<f64> {
-        let Some(filter) = &self.filter else { return fine.to_vec() };
-        self.spans.iter().flat_map(|span| filter.apply(&fine[span.fine.clone()])).collect()
     }
 
     /// The samples that are kept, of what is known at every fine one.
@@ -220,7 +225,9 @@ fn stretches(index: usize, run: &Run, period: f64, wanted: &[Signal]) -> Vec<Eve
         let contact = &run.contact[part.clone()];
         let clean = run.clock.dropped == 0 && run.clock.jitter < ROUNDED * period;
         let (first, last) = (t[0], t[t.len() - 1]);
-        let steps = if clean { t.len() } else { ((last - first) / period) as usize + 1 };
+        // A step that rounding makes a little short is one.
+        let whole = ((last - first) / period + ROUNDED) as usize + 1;
+        let steps = if clean { t.len() } else { whole };
         let mut before = 0;
         let places: Vec<(usize, f64)> = (0..steps)
             .map(|k| match clean {

@@ -3,6 +3,7 @@
 mod cantilever;
 mod differences;
 mod dumas2011;
+mod dynamics;
 mod equilibrium;
 mod evaluate;
 mod lin1991;

@@ -15,9 +15,12 @@ pub(super) fn mass_matrix(g: &mut Graph, links: &[Link]) -> Vec<Expr> {
     for (k, link) in links.iter().enumerate().rev() {
         let own = link.moments.with(g, &beyond);
         beyond = Moments::default();
-        let own = link.moments_in_run(g, &own);
-        run = run.with(g, &own);
-        let mut load = unit_load(g, link, &run);
+        let in_run = link.moments_in_run(g, &own);
+        // What is spread across the axis does not feel the turn about it.
+        let across = [&own, &run].map(|body| g.add(body.second[0][0], body.second[1][1]));
+        let across = g.add(across[0], across[1]);
+        run = run.with(g, &in_run);
+        let mut load = unit_load(link, &run, across);
         for (i, inner) in links.iter().enumerate().take(k + 1).rev() {
             let along = if inner.slide.is_some() { load.0[2] } else { load.1[2] };
             mass[k * n + i] = inner.signed(along);
@@ -51,13 +54,14 @@ fn levers(g: &mut Graph, links: &[Link]) -> Vec<Vec3> {
     links.iter().enumerate().map(lever).collect()
 }
 
-/// Force on, and moment about the origin of, a body that a joint accelerates by one unit; the run's axes.
-fn unit_load(g: &mut Graph, link: &Link, body: &Moments) -> (Vec3, Vec3) {
+/// Force on, and moment about the origin of, a body that a joint accelerates by one unit; the run's axes. Of its second
+/// moments those along two axes across the joint's add up to `across`.
+fn unit_load(link: &Link, body: &Moments, across: Expr) -> (Vec3, Vec3) {
     let [x, y, _] = body.first;
     let s = body.second;
     let (force, moment) = match link.slide {
         Some(_) => ([Expr::ZERO, Expr::ZERO, body.mass], [y, -x, Expr::ZERO]),
-        None => ([-y, x, Expr::ZERO], [-s[0][2], -s[1][2], g.add(s[0][0], s[1][1])]),
+        None => ([-y, x, Expr::ZERO], [-s[0][2], -s[1][2], across]),
     };
     (force.map(|c| link.signed(c)), moment.map(|c| link.signed(c)))
 }

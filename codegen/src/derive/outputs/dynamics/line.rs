@@ -8,7 +8,7 @@ use super::moments::{Moments, turned};
 use crate::derive::chain::{Chain, beam_mass, expression};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::number::Number;
-use crate::robot::{Convention, Motion};
+use crate::robot::{Convention, Motion, Value};
 
 /// A link, and the joint that it turns or slides on.
 pub(super) struct Link {
@@ -24,6 +24,8 @@ pub(super) struct Link {
     pub offset: Vec3,
     /// How far it has slid along its z, where it does.
     pub slide: Option<Expr>,
+    /// From its origin to its row's frame, along its z.
+    head: Expr,
     pub moments: Moments,
 }
 
@@ -91,6 +93,34 @@ pub(super) fn line(chain: &mut Chain) -> Vec<Link> {
     links
 }
 
+/// The links without mass.
+pub(super) fn weightless(chain: &mut Chain) -> Vec<Link> {
+    let (mut links, _) = laid_out(chain);
+    links.iter_mut().for_each(|link| link.moments = Moments::default());
+    links
+}
+
+/// A unit of each moment of mass of a row, about its origin and in its axes, as its link has it: m, m c, and xx, xy,
+/// yy, xz, yz, zz of the tensor of inertia.
+pub(super) fn units(chain: &mut Chain, row: usize) -> Vec<Moments> {
+    let head = laid_out(chain).0[row].head;
+    let g = &mut chain.g;
+    let one = |at: usize| core::array::from_fn(|k| if k == at { Expr::ONE } else { Expr::ZERO });
+    let mut units = vec![Moments { mass: Expr::ONE, ..Moments::default() }];
+    units.extend((0..3).map(|k| Moments { first: one(k), ..Moments::default() }));
+    // xx, xy, xz, yy, yz, zz, in the order of the columns.
+    for entry in [0, 1, 3, 2, 4, 5] {
+        let tensor: [Value; 6] =
+            core::array::from_fn(
+                |k| {
+                    if k == entry { Value::Number(Number::ONE) } else { Value::ZERO }
+                },
+            );
+        units.push(Moments { second: second(g, Some(&tensor)), ..Moments::default() });
+    }
+    units.into_iter().map(|moments| of_row(chain, row, &moments, head)).collect()
+}
+
 /// The links with the mass that is fixed to each, and the angle of each joint by itself.
 fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
     let (robot, n) = (chain.robot, chain.dof());
@@ -122,19 +152,38 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
             let offset = [a[0], a[1], g.add(a[2], behind)];
             behind = zero;
             let (opposite, turn) = (false, turn.clone());
-            Link { begins, lean, opposite, turn, offset, slide, moments: Moments::default() }
+            Link {
+                begins,
+                lean,
+                opposite,
+                turn,
+                offset,
+                slide,
+                head: zero,
+                moments: Moments::default(),
+            }
         } else {
             let before = &links[row - 1];
             let over = lean[0].is_half_turn();
             behind = behind.signed(over);
             let turned = if over { before.turn.negated() } else { before.turn.clone() };
             let (opposite, turn) = (before.opposite != over, turned.plus(g, &turn));
-            Link { begins, lean, opposite, turn, offset: a, slide, moments: Moments::default() }
+            Link {
+                begins,
+                lean,
+                opposite,
+                turn,
+                offset: a,
+                slide,
+                head: zero,
+                moments: Moments::default(),
+            }
         };
         links.push(link);
         own.push(turn);
         let foot = behind;
         behind = chain.g.add(behind, d);
+        links[row].head = behind;
         weigh(chain, &mut links, row, [foot, behind]);
     }
     (links, own)
@@ -168,13 +217,8 @@ fn weigh(chain: &mut Chain, links: &mut [Link], row: usize, [foot, head]: [Expr;
         let centre = joint.com.each_ref().map(|c| expression(g, c));
         let second = second(g, joint.inertia.as_ref());
         let at = Moments::body(g, mass, centre, second);
-        let at = match chain.robot.convention {
-            Convention::Modified => at.moved(g, [zero, zero, head]),
-            Convention::Standard => {
-                let at = at.turned(g, &lean[1], 1).turned(g, &lean[0], 0);
-                at.moved(g, [along[0], along[1], head])
-            }
-        };
+        let at = of_row(chain, row, &at, head);
+        let g = &mut chain.g;
         links[row].moments = links[row].moments.with(g, &at);
     }
     let mass = beam_mass(chain, row);
@@ -215,8 +259,21 @@ fn weigh(chain: &mut Chain, links: &mut [Link], row: usize, [foot, head]: [Expr;
     links[carrier].moments = links[carrier].moments.with(g, &rod);
 }
 
+/// Moments in a row's frame as its link has them, whose origin is `head` below that frame along the joint's axis.
+fn of_row(chain: &mut Chain, row: usize, moments: &Moments, head: Expr) -> Moments {
+    let (lean, along) = leans(chain, row);
+    let g = &mut chain.g;
+    match chain.robot.convention {
+        Convention::Modified => moments.moved(g, [Expr::ZERO, Expr::ZERO, head]),
+        Convention::Standard => {
+            let turned = moments.turned(g, &lean[1], 1).turned(g, &lean[0], 0);
+            turned.moved(g, [along[0], along[1], head])
+        }
+    }
+}
+
 /// Second moments of mass of a tensor of inertia: `tr/2 − I`.
-fn second(g: &mut Graph, tensor: Option<&[crate::robot::Value; 6]>) -> [Vec3; 3] {
+fn second(g: &mut Graph, tensor: Option<&[Value; 6]>) -> [Vec3; 3] {
     let Some(tensor) = tensor else { return [[Expr::ZERO; 3]; 3] };
     let [xx, xy, xz, yy, yz, zz] = tensor.each_ref().map(|value| expression(g, value));
     let half = g.number(Number::ratio(1, 2));

@@ -9,15 +9,19 @@ use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
 use crate::derive::chain::{Chain, expression};
+use crate::derive::program::Solve;
 use crate::expr::{Expr, Symbol, Vec3};
-use line::{Link, line};
+use line::{Link, line, units, weightless};
+use moments::Moments;
 use newton_euler::{Motion, newton_euler};
 
 /// The outputs of this folder.
 pub(super) const DERIVED: &[(Output, Derivation)] = &[
     (Output::InverseDynamics, inverse_dynamics),
     (Output::Bias, bias),
-    (Output::MassMatrix, mass_matrix),
+    (Output::MassMatrix, |chain| mass_matrix(chain).into()),
+    (Output::ForwardDynamics, forward_dynamics),
+    (Output::TorqueRegressor, regressor),
 ];
 
 /// τ(q, q̇, q̈).
@@ -32,8 +36,39 @@ fn bias(chain: &mut Chain) -> Derived {
     torques(chain, none).into()
 }
 
+/// M⁻¹ (τ − b).
+fn forward_dynamics(chain: &mut Chain) -> Derived {
+    let matrix = mass_matrix(chain);
+    let none = vec![Expr::ZERO; chain.dof()];
+    let bias = torques(chain, none);
+    let given = symbols(chain, Symbol::Torque);
+    let right = given.into_iter().zip(bias).map(|(tau, b)| chain.g.sub(tau, b)).collect();
+    let unknowns = symbols(chain, Symbol::Response);
+    let (output, margin) = (Output::ForwardDynamics, None);
+    let solve = Solve { output, matrix, right, unknowns: unknowns.clone(), margin };
+    Derived { entries: unknowns, solve: Some(solve) }
+}
+
+/// ∂τ/∂π, n×10n: the torques of a motion with one moment of mass at a time.
+fn regressor(chain: &mut Chain) -> Derived {
+    let (rates, accelerations) =
+        (symbols(chain, Symbol::Rate), symbols(chain, Symbol::Acceleration));
+    let gravity = gravity(chain);
+    let mut links = weightless(chain);
+    let motion = Motion { rates: &rates, accelerations: &accelerations, gravity };
+    let mut columns = Vec::new();
+    for row in 0..chain.dof() {
+        for moments in units(chain, row) {
+            links[row].moments = moments;
+            columns.extend(newton_euler(&mut chain.g, &links, &motion));
+        }
+        links[row].moments = Moments::default();
+    }
+    columns.into()
+}
+
 /// ∂τ/∂q̈, n×n.
-fn mass_matrix(chain: &mut Chain) -> Derived {
+fn mass_matrix(chain: &mut Chain) -> Vec<Expr> {
     let links = line(chain);
     let mut mass = composite::mass_matrix(&mut chain.g, &links);
     let n = chain.dof();
@@ -44,12 +79,17 @@ fn mass_matrix(chain: &mut Chain) -> Derived {
             chain.g.name(mass[k * n + row], || format!("m_{}{}", row + 1, k + 1));
         }
     }
-    mass.into()
+    mass
+}
+
+/// In base axes, m/s².
+fn gravity(chain: &mut Chain) -> Vec3 {
+    chain.robot.gravity.each_ref().map(|c| expression(&mut chain.g, c))
 }
 
 fn torques(chain: &mut Chain, accelerations: Vec<Expr>) -> Vec<Expr> {
     let rates = symbols(chain, Symbol::Rate);
-    let gravity: Vec3 = chain.robot.gravity.each_ref().map(|c| expression(&mut chain.g, c));
+    let gravity = gravity(chain);
     let mut links = line(chain);
     let rotors: Vec<Expr> = (0..chain.dof()).map(|k| rotor(chain, k)).collect();
     // The first joint turns its rotor as it turns its link: one moment of inertia for both.

@@ -66,8 +66,10 @@ impl Field {
         let [[_, xy, xz], [yx, _, yz], [zx, zy, _]] = self.u;
         let [d0, d1, d2] = self.differences;
         let s = moments.second;
-        let x = sum(g, &[(s[0][1], zx), (s[1][1], zy), (s[0][2], -yx), (s[1][2], d0)]);
-        let y = sum(g, &[(s[0][2], d1), (s[1][2], xy), (s[0][0], -zx), (s[0][1], -zy)]);
+        let x =
+            sum(g, &[(s[0][1], zx), (s[1][1], zy), (s[0][2], -yx), (s[1][2], d0), (s[2][2], -yz)]);
+        let y =
+            sum(g, &[(s[0][2], d1), (s[1][2], xy), (s[0][0], -zx), (s[0][1], -zy), (s[2][2], xz)]);
         // Without a turn about x or y the two are one.
         let about = match xy == -yx {
             true => {
