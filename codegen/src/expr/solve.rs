@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use super::graph::{Expr, Graph};
 
 impl Graph {
-    /// The solutions of `matrix · x = right` for several right-hand sides, by elimination without pivoting, written out; the
-    /// matrix is column-major. It must be one whose pivots are not zero, such as one with a positive definite symmetric part.
+    /// The solutions of `matrix · x = right` for several right-hand sides, by elimination without pivoting,
+    /// written out; the matrix is column-major. Its pivots must not be zero: those of a matrix with a positive
+    /// definite symmetric part are not.
     pub fn eliminated(&mut self, matrix: &[Expr], rights: Vec<Vec<Expr>>) -> Vec<Vec<Expr>> {
         let n = rights.first().map_or(0, Vec::len);
         let (mut a, mut rights) = (matrix.to_vec(), rights);
@@ -38,8 +39,9 @@ impl Graph {
         rights
     }
 
-    /// All determinants of as many of `lines` (at most 64) as each has entries, in no order but always the same, without a
-    /// division: by the first entries of subsets of the lines, then the first two, and so on (Laplace), each subset once.
+    /// All determinants of as many of `lines` (at most 64) as each has entries, in no order but always the same,
+    /// without a division: of the first entries of subsets of the lines, then the first two, and so on (Laplace),
+    /// each subset once.
     pub fn minors(&mut self, lines: &[Vec<Expr>]) -> Vec<Expr> {
         let size = lines.first().map_or(0, Vec::len);
         let mut minors: Vec<(u64, Expr)> = vec![(0, Expr::ONE)];

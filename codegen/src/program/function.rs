@@ -14,13 +14,13 @@ pub struct Function {
 }
 
 impl Function {
-    /// The function `name`, which computes what `sentence` says, as `formulas` writes it down. They are asked several times,
-    /// with the arm laid out in one frame of its chain after the other, and must write the same each time; the cheapest is
-    /// kept.
+    /// The function `name`, which computes what `sentence` says, as `formulas` writes it down. They are asked several
+    /// times, with the arm laid out in one frame of its chain after the other, and must write the same each time;
+    /// the cheapest is kept.
     ///
     /// # Errors
-    /// [`Refused`] with every mistake in the formulas, at its line: a name that cannot be one, a number that is not finite, a
-    /// division by zero, a derivative by what is no variable, no result.
+    /// [`Refused`] with every mistake in the formulas, at its line: a name that cannot be one, a number that is not
+    /// finite, a division by zero, a derivative by what is no variable, no result.
     pub fn new(
         robot: &Robot,
         name: &str,

@@ -43,6 +43,7 @@
 //!   products), not by angles. A divisor, or the length of a vector under a derivative, must not be zero where the
 //!   function is called: what depends on it is then not finite, and the generated documentation says so.
 
+mod entries;
 mod formulas;
 mod function;
 mod geometry;
@@ -51,7 +52,8 @@ mod module;
 mod term;
 
 pub use crate::derive::{OwnInput, Quantity, Size};
-pub use formulas::{Entries, Formulas};
+pub use entries::Entries;
+pub use formulas::Formulas;
 pub use function::Function;
 pub use geometry::{Frame, Point, Vector, quaternion, roll_pitch_yaw};
 pub use mistake::Refused;

@@ -40,8 +40,9 @@ fn compliance_by_joints(chain: &mut Chain) -> Derived {
     by_joints(chain, &entries).into()
 }
 
-/// ∂δd/∂q_i, 6×n, base axes. The joints' deflections x solve A x = τ; differentiated, A ∂x/∂q_i = ∂τ/∂q_i − ∂A/∂q_i x:
-/// the same system with other right-hand sides, solved in the graph once the load was found to be borne.
+/// ∂δd/∂q_i, 6×n, base axes. The joints' deflections x solve A x = τ; differentiated,
+/// A ∂x/∂q_i = ∂τ/∂q_i − ∂A/∂q_i x: the same system with other right-hand sides, solved in the graph once the
+/// load was found to be borne.
 fn deflection_by_joints(chain: &mut Chain) -> Derived {
     let Derived { entries, solve } = deflection(chain, Output::DeflectionByJoints);
     let Some(solve) = solve else { return by_joints(chain, &entries).into() };

@@ -19,16 +19,18 @@ const BY_MINORS: usize = 8;
 /// √det(J Jᵀ).
 fn manipulability(chain: &mut Chain) -> Derived {
     let square = square(chain);
+    let square = never_negative(chain, square);
     vec![chain.g.sqrt(square)].into()
 }
 
-/// ∂w/∂q_i = ½ ∂(w²)/∂q_i / w. Where w is zero it has no derivative: 10⁻³⁷ under the root, nothing beside the rounding of any w
-/// above 10⁻¹⁰, makes it zero there, in single precision too.
+/// ∂w/∂q_i = ½ ∂(w²)/∂q_i / w. Where w is zero it has no derivative: 10⁻³⁷ under the root, nothing beside the
+/// rounding of any w above 10⁻¹⁰, makes it zero there, in single precision too.
 fn manipulability_by_joints(chain: &mut Chain) -> Derived {
     let square = square(chain);
     let joints: Vec<Symbol> = (0..chain.dof()).map(Symbol::Joint).collect();
     let gradient = chain.g.gradient(square, &joints);
     let least = Number::from_decimal("1e-37").map(|least| chain.g.number(least));
+    let square = never_negative(chain, square);
     let above = chain.g.add(square, least.unwrap_or_default());
     let root = chain.g.sqrt(above);
     let (half, inverse) = (chain.g.number(Number::ratio(1, 2)), chain.g.recip(root));
@@ -36,9 +38,18 @@ fn manipulability_by_joints(chain: &mut Chain) -> Derived {
     gradient.into_iter().map(|slope| chain.g.mul(scale, slope)).collect::<Vec<Expr>>().into()
 }
 
-/// det(J Jᵀ), or of fewer than six joints det(Jᵀ J), which is the square of what there is of singular values: the sum of the
-/// squares of J's minors (Cauchy and Binet), never below zero. Of six joints and more it is the same whatever point of
-/// the tool J is told at, as if moved along rigidly: that of all frames' origins at which it costs least.
+/// The determinant of many joints' J Jᵀ may be rounded below zero; a sum of squares is not.
+fn never_negative(chain: &mut Chain, square: Expr) -> Expr {
+    if chain.dof() <= BY_MINORS {
+        return square;
+    }
+    let twice = chain.g.mul(square, square);
+    chain.g.sqrt(twice)
+}
+
+/// det(J Jᵀ), or of fewer than six joints det(Jᵀ J), the square of what there is of singular values: the sum of
+/// the squares of J's minors (Cauchy and Binet). Of six joints and more it is the same whatever
+/// point J is told at, as if it moved with the tool: that of all frames' origins at which it costs least.
 fn square(chain: &mut Chain) -> Expr {
     let n = chain.dof();
     if n < 6 {
