@@ -210,5 +210,5 @@ fn the_equations_of_motion_agree() {
             }
         }
     }
-    assert_eq!(regressors, 6, "two of each arm in the modified convention");
+    assert_eq!(regressors, 4, "two of each arm in the modified convention");
 }
