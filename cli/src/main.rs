@@ -73,7 +73,7 @@ enum Command {
     Measurements(measurements::Args),
     Poses(poses::Args),
     Identify(identify::Args),
-    Diagnose(diagnose::Args),
+    Diagnose(Box<diagnose::Args>),
     Effects(effects::Args),
     Simulate(simulate::Args),
     Withhold(withhold::Args),

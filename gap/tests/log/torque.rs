@@ -16,16 +16,15 @@ fn recorded(seed: u64, friction: [[f64; 2]; 2], scale: f64) -> Log {
     let path = Path::new(seed, 0.6);
     let mut dice = Dice::new(seed, Stream::Noise);
     let mut q = vec![Vec::new(); 2];
-    let mut torque: Vec<Vec<f64>> =
-        (0..2).map(|_| noise(&mut dice, COUNT, STEP, 0.05, 0.3)).collect();
+    let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.3));
+    let mut torque = vec![Vec::new(); 2];
     for k in 0..COUNT {
         let [at, v, a] = path.at(STEP * k as f64);
         let drives = rigid(at, v, a);
-        for j in 0..2 {
-            let [coulomb, viscous] = friction[j];
+        for (j, [coulomb, viscous]) in friction.into_iter().enumerate() {
             q[j].push(at[j] + 1e-6 * dice.normal());
-            torque[j][k] += drives[j] + coulomb * v[j].signum() + viscous * v[j];
-            torque[j][k] *= scale;
+            let friction = coulomb * v[j].signum() + viscous * v[j];
+            torque[j].push(scale * (drives[j] + friction + noises[j][k]));
         }
     }
     log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))

@@ -43,8 +43,8 @@ pub struct Blocks {
 
 impl Blocks {
     /// All rows in one block.
-    pub fn whole(rows: usize) -> Blocks {
-        let rows = vec![0..rows];
+    pub fn whole(count: usize) -> Blocks {
+        let rows = Vec::from([Range { start: 0, end: count }]);
         Blocks { rows, fold: vec![0], folds: 1, by_run: false, length: 0.0, long_enough: false }
     }
 
