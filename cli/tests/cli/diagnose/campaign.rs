@@ -106,7 +106,9 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     assert!(said.contains(lost), "{said}");
     assert!(said.contains("an MJCF has no place for backlash at joint 3: "), "{said}");
     // The zero that was found is in the URDF: read back, its tool is that of the corrected robot file.
-    let back = bench.folder.file("back.toml", stiffarm(&["import", &urdf]).good());
+    let back = stiffarm(&["import", &urdf]);
+    assert_eq!(back.status, 0, "{}", back.err);
+    let back = bench.folder.file("back.toml", back.out);
     let position = |robot: &str| -> Vec<f64> {
         let out = stiffarm(&["eval", robot, "--q", "0.3,-0.8,1.1", "--json", "-"]).good();
         let found: Value = serde_json::from_str(&out).expect("JSON");
