@@ -229,6 +229,7 @@ mod tests {
             base: Frame::default(),
             tool: Frame::default(),
             effects: Vec::new(),
+            beyond: Default::default(),
             payloads: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),

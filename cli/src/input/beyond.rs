@@ -1,6 +1,7 @@
 //! What a robot file says beyond its table, as commands take it: read, honoured, or refused.
 
-use stiffarm_codegen::robot::{Located, Spot};
+use stiffarm_codegen::robot::beyond::EffectError;
+use stiffarm_codegen::robot::{Located, Robot, Spot};
 use stiffarm_gap::corrected::{FoldError, folded};
 use stiffarm_gap::effects::{Catalogue, Depends, Known};
 use stiffarm_gap::whole::{Situation, Whole};
@@ -10,6 +11,18 @@ use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
 
 impl Source {
+    /// The robot as kernels are made of it: its effects compiled.
+    ///
+    /// # Errors
+    /// [`Failure`] names each effect of which none can be made, where it stands.
+    pub fn for_kernels(&self) -> Result<Robot, Failure> {
+        let each = |e: &EffectError| (e.at.clone(), e.message.clone(), e.help.clone());
+        self.file.with_effects().map_err(|wrong| {
+            let wrong: Vec<_> = wrong.iter().map(each).collect();
+            self.mistakes(wrong.iter().map(|(at, message, help)| (at, message.clone(), help.clone())))
+        })
+    }
+
     /// Refuses an effect, for a command that does not honour it.
     ///
     /// # Errors

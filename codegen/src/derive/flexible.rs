@@ -12,6 +12,7 @@ use stiffarm_kernels::Output;
 use super::chain::{Place, Step, expression, frame_rotation, row_steps};
 use super::displacements::Displacements;
 use super::program::{Block, Program};
+use super::readings::Readings;
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::robot::{Angle, Frame, Robot};
 
@@ -57,7 +58,8 @@ pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Pro
     walk.displace(n + 1);
     let entries = walk.pose();
     let blocks = vec![Block { output: Output::Pose, entries }];
-    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n }
+    let readings = Readings::of(robot);
+    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n, readings }
 }
 
 /// A displacement of the strict first order: where the chain stood, and by how much it turned.

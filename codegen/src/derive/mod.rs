@@ -10,11 +10,13 @@ mod flexible;
 mod outputs;
 mod passes;
 mod program;
+mod readings;
 mod ways;
 
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
 pub use passes::Passes;
 pub use program::{Block, Program, Solve};
+pub use readings::{Given, Readings};
 pub use stiffarm_kernels::{Output, Unstable};
 pub use ways::{derive, derive_each, derive_in, derive_with};

@@ -5,6 +5,7 @@ use num_traits::Float;
 use stiffarm_kernels::{Output, Unstable};
 
 use super::chain::ROW;
+use super::readings::{Given, Readings};
 use crate::expr::{Expr, Graph, OpCount, Symbol};
 use crate::number::Number;
 
@@ -21,6 +22,8 @@ pub struct Program {
     pub cut: usize,
     /// Number of joints.
     pub dof: usize,
+    /// What the joint values are that its joints stand for.
+    pub readings: Readings,
 }
 
 /// One output's entries, column-major in [`Output::shape`].
@@ -90,7 +93,7 @@ impl Program {
         }
     }
 
-    /// Evaluates every block at joint values `q`, under `wrench`, with the parameters' values.
+    /// Evaluates every block at readings `q`, under `wrench`, with the parameters' values.
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
@@ -100,11 +103,28 @@ impl Program {
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
     ) -> Result<Vec<Vec<T>>, Unstable> {
+        self.evaluate_given(q, wrench, parameter, &Given::default())
+    }
+
+    /// The same of joints that came from some sides, of an arm that has warmed.
+    ///
+    /// # Errors
+    /// [`Unstable`] where a deflection has no stable equilibrium.
+    pub fn evaluate_given<T: Float>(
+        &self,
+        q: &[T],
+        wrench: &[T; 6],
+        parameter: impl Fn(&str) -> T,
+        given: &Given,
+    ) -> Result<Vec<Vec<T>>, Unstable> {
+        let (q, growth) = self.readings.evaluate(q, given);
         let mut solved: Vec<(Expr, T)> = Vec::new();
         let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
             Symbol::Joint(joint) => q[*joint],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
+            Symbol::Growth => growth,
+            Symbol::Side(_) | Symbol::Warming => given.value(symbol),
             // An undisplaced chain; no output of a table has displacements.
             Symbol::Displacement { .. } => T::zero(),
             Symbol::Deflection { .. } => {

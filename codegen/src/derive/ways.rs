@@ -7,6 +7,7 @@ use super::chain::{Chain, lay_out};
 use super::outputs::derived;
 use super::passes::Passes;
 use super::program::{Block, Program};
+use super::readings::Readings;
 use crate::robot::Robot;
 
 /// More joints than this, and only a few working frames are tried.
@@ -89,5 +90,6 @@ fn derive_by(robot: &Robot, outputs: &[Output], Way { cut, passes }: Way) -> Pro
         solves.extend(derived.solve);
         blocks.push(Block { output, entries: derived.entries });
     }
-    Program { graph: chain.g, blocks, solves, cut, dof: robot.dof() }
+    let readings = Readings::of(robot);
+    Program { graph: chain.g, blocks, solves, cut, dof: robot.dof(), readings }
 }

@@ -55,6 +55,9 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Symbol(s) => match g.symbol_of(s) {
             Symbol::Joint(joint) => (format!("q{}", joint + 1), "box"),
             Symbol::Wrench(k) => (super::plan::WRENCH[*k].to_string(), "box"),
+            Symbol::Side(joint) => (format!("side{}", joint + 1), "box"),
+            Symbol::Warming => ("warming".to_string(), "box"),
+            Symbol::Growth => ("growth".to_string(), "box"),
             Symbol::Parameter(name) => (name.clone(), "box"),
             Symbol::Displacement { place, component } => {
                 (format!("{}{place}", COMPONENTS[*component]), "box")

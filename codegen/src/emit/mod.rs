@@ -16,6 +16,7 @@ mod literal;
 mod mjcf;
 mod plan;
 mod posture;
+mod readings;
 mod rust;
 #[cfg(feature = "urdf")]
 mod urdf;

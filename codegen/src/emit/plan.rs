@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
+use super::posture::Plain;
 use crate::derive::{COMPONENTS, Program};
 use crate::expr::{Binding, Expr, Graph, Item, Node, Schedule, Symbol};
 use crate::number::Number;
@@ -17,8 +18,8 @@ pub(super) struct Plan<'p> {
     pub schedule: Schedule,
     /// Angles whose sine or cosine enters, in the order of the joints.
     pub angles: Vec<Angle>,
-    /// Prismatic joints whose displacement enters.
-    pub prismatic: Vec<usize>,
+    /// What enters as it is: displacements of prismatic joints, sides, growth.
+    pub plain: Vec<Plain>,
     /// Fields of the constants that enter.
     pub constants: Vec<String>,
     /// Names of nodes: inputs, and what the schedule binds.
@@ -53,7 +54,7 @@ impl<'p> Plan<'p> {
             schedule: g.schedule(&items, |node| is_input(g, &only, node)),
             targets,
             angles: Vec::new(),
-            prismatic: Vec::new(),
+            plain: Vec::new(),
             constants: Vec::new(),
             names: HashMap::new(),
         };
@@ -122,10 +123,9 @@ impl<'p> Plan<'p> {
                 Node::Sin(angle) => angles.entry(angle).or_default().0 = true,
                 Node::Cos(angle) => angles.entry(angle).or_default().1 = true,
                 Node::Symbol(s) => match g.symbol_of(s) {
-                    Symbol::Joint(joint) => {
-                        self.prismatic.push(*joint);
-                        self.names.insert(node, format!("q{}", joint + 1));
-                    }
+                    Symbol::Joint(joint) => self.plain(node, Plain::Joint(*joint)),
+                    Symbol::Side(joint) => self.plain(node, Plain::Side(*joint)),
+                    Symbol::Growth => self.plain(node, Plain::Growth),
                     Symbol::Displacement { place, component } => {
                         self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
                     }
@@ -134,12 +134,12 @@ impl<'p> Plan<'p> {
                         let prefix = if *weights { "dqg" } else { "dq" };
                         self.names.insert(node, format!("{prefix}{}", joint + 1));
                     }
-                    Symbol::Parameter(_) => {}
+                    Symbol::Parameter(_) | Symbol::Warming => {}
                 },
                 _ => {}
             }
         }
-        self.prismatic.sort_unstable();
+        self.plain.sort_unstable();
         for sum in angles.keys().copied() {
             self.name_offsets(g, sum, only, constants);
         }
@@ -163,6 +163,11 @@ impl<'p> Plan<'p> {
                 self.names.insert(node, format!("{letter}{}", known.suffix));
             }
         }
+    }
+
+    fn plain(&mut self, node: usize, plain: Plain) {
+        self.names.insert(node, plain.field());
+        self.plain.push(plain);
     }
 
     /// Symbolic offsets inside an angle become constants too.

@@ -34,6 +34,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         tool: Default::default(),
         markers: Vec::new(),
         effects: Vec::new(),
+        beyond: Default::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
     }

@@ -2,7 +2,7 @@
 
 use super::layout::Chain;
 use super::place::{ROW, Step, tilt};
-use crate::expr::{Expr, Node, Turn, Vec3};
+use crate::expr::{Expr, Node, Symbol, Turn, Vec3};
 use crate::number::Number;
 use crate::robot::Convention;
 
@@ -49,7 +49,15 @@ pub fn chord(chain: &mut Chain, row: usize) -> Chord {
 
 /// `|x|`: a number's, or `√(x²)` of what is only known later and may be negative then.
 fn magnitude(chain: &mut Chain, x: Expr) -> Expr {
-    let known_positive = matches!(chain.g.node(x), Node::Number(_) | Node::Sqrt(_));
+    // What is known, and what has grown with everything.
+    let known_positive = match chain.g.node(x) {
+        Node::Number(_) | Node::Sqrt(_) => true,
+        Node::Mul(a, b) => [a, b].into_iter().all(|e| match chain.g.node(e) {
+            Node::Symbol(s) => *chain.g.symbol_of(s) == Symbol::Growth,
+            factor => matches!(factor, Node::Number(_)),
+        }),
+        _ => false,
+    };
     if known_positive {
         return x.abs();
     }

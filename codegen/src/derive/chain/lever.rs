@@ -3,6 +3,7 @@
 use super::layout::Chain;
 use super::mass::masses;
 use crate::expr::{Expr, Graph, Vec3, parallel3};
+use crate::number::Number;
 
 /// One translation: `length · axis` in the working frame.
 #[derive(Clone, Copy, Debug)]
@@ -49,9 +50,7 @@ impl Levers {
         let mut segments = translations(chain, |_, _, length| length);
         let end = chain.steps().len();
         let axes = chain.axes(end);
-        let offsets = chain.robot.tool.translation.clone();
-        for (offset, axis) in offsets.iter().zip(axes) {
-            let length = chain.value(offset);
+        for (length, axis) in chain.tool_lengths().into_iter().zip(axes) {
             segments.push(Segment { at: 2 * end, length, axis });
         }
         Levers::sorted(chain, segments)
@@ -78,6 +77,13 @@ impl Levers {
             let axes = chain.axes(point.boundary);
             for (offset, axis) in point.com.into_iter().zip(axes) {
                 let length = chain.g.mul(point.mass, offset);
+                segments.push(Segment { at: 2 * point.boundary, length, axis });
+            }
+            for s in point.back_by_half.into_iter().flatten() {
+                let Some((length, axis)) = chain.translation(s) else { continue };
+                let half = chain.g.number(Number::ratio(-1, 2));
+                let share = chain.g.mul(half, point.mass);
+                let length = chain.g.mul(share, length);
                 segments.push(Segment { at: 2 * point.boundary, length, axis });
             }
         }

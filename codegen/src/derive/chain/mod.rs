@@ -16,7 +16,7 @@ pub use lever::{Levers, Point};
 pub use mass::{gravity, mass_beyond};
 pub use place::{Place, ROW, Step, entries, expression, row_steps};
 pub use tool::{frame_rotation, left_jacobian};
-pub use twist::{base_twists, flatten, power, twists, wrench};
+pub use twist::{base_twists, flatten, load, power, twists, wrench};
 
 use super::passes::Passes;
 use crate::robot::Robot;

@@ -7,6 +7,7 @@ mod frames;
 mod jacobian;
 mod margin;
 mod parameters;
+mod springs;
 mod stiffness;
 mod torque;
 mod weight;

@@ -5,7 +5,7 @@ use stiffarm_kernels::{Input, Output};
 use super::super::expression::{Printer, Style as _};
 use super::super::plan::{Plan, Target, WRENCH};
 use super::super::posture::Needs;
-use super::posture::statements;
+use super::posture::Entrance;
 use super::solve::solve_name;
 use super::style::C;
 use crate::emit::lines::Lines;
@@ -17,6 +17,7 @@ pub(super) struct Function<'a> {
     pub outputs: &'a [Output],
     pub needs: &'a Needs,
     pub language: &'a C,
+    pub entrance: &'a Entrance<'a>,
 }
 
 impl Function<'_> {
@@ -49,9 +50,7 @@ impl Function<'_> {
 
     /// The head of the function of the joint values.
     pub fn by_joints(&self, module: &str) -> String {
-        let upper = module.to_uppercase();
-        let first = format!("const {} q[{upper}_JOINTS]", self.language.real());
-        self.head(&format!("{module}_{}", self.name()), &first, module)
+        self.head(&format!("{module}_{}", self.name()), &self.entrance.parameters(), module)
     }
 
     /// The head of the function of the posture.
@@ -86,14 +85,11 @@ impl Function<'_> {
         out.code(&self.by_joints(module));
         out.braces(|out| {
             out.code(&format!("{module}_posture_t own = {{0}};"));
-            if self.needs.reads.is_empty() {
-                out.blank();
-                out.code("(void)q;");
-            } else {
+            if !self.needs.reads.is_empty() {
                 out.code(&format!("{module}_posture_t *const posture = &own;"));
-                out.blank();
-                statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
+            out.blank();
+            self.entrance.statements(out, &self.needs.posture);
             let returned = if self.fallible() { "return " } else { "" };
             let wrench = if self.wrench() { ", wrench" } else { "" };
             out.code(&format!("{returned}{module}_given_{}(&own{wrench}, out);", self.name()));

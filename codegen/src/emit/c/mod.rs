@@ -20,9 +20,11 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
+use self::posture::Entrance;
 use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
+use super::readings::Stage;
 use super::sets;
 use crate::derive::derive_each;
 use crate::robot::Robot;
@@ -101,13 +103,19 @@ pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
+    let stage = Stage::of(robot);
+    let entrance = Entrance { stage: &stage, language: &language, name: &options.name };
     let functions: Vec<Function> = plans
         .iter()
         .zip(&sets)
         .zip(&needs)
-        .map(|((plan, outputs), needs)| Function { plan, outputs, needs, language: &language })
+        .map(|((plan, outputs), needs)| {
+            let (language, entrance) = (&language, &entrance);
+            Function { plan, outputs, needs, language, entrance }
+        })
         .collect();
-    let module = Module { robot, options, language: &language, posture, functions };
+    let (language, entrance) = (&language, &entrance);
+    let module = Module { robot, options, language, entrance, posture, functions };
     let table = hash::table(robot);
     let source = source::source(&module, &table);
     let header = header::header(&module, &table, &source);
@@ -119,6 +127,7 @@ struct Module<'a> {
     robot: &'a Robot,
     options: &'a COptions,
     language: &'a style::C,
+    entrance: &'a Entrance<'a>,
     posture: Posture,
     functions: Vec<Function<'a>>,
 }

@@ -227,5 +227,6 @@ fn symbol(symbol: &Symbol) -> Option<String> {
         Symbol::Parameter(name) => Some(format!("parameters.{name}")),
         Symbol::Displacement { place, component } => Some(format!("e[{place}][{component}]")),
         Symbol::Wrench(_) | Symbol::Deflection { .. } => None,
+        Symbol::Side(_) | Symbol::Warming | Symbol::Growth => None,
     }
 }

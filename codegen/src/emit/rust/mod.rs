@@ -21,7 +21,8 @@ use self::function::Function;
 use self::style::Rust;
 use super::constants::Constants;
 use super::plan::Plan;
-use super::posture::{Needs, Posture};
+use super::posture::{Needs, Plain, Posture};
+use super::readings::Stage;
 use super::sets;
 use crate::derive::derive_each;
 use crate::robot::Robot;
@@ -61,24 +62,25 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     let sets = sets(&outputs);
     let programs = derive_each(robot, &sets);
     let plans: Vec<Plan> = programs.iter().map(|p| Plan::new(p, &mut constants)).collect();
+    let stage = Stage::of(robot);
     let style = Rust { fused: options.fused, constants: "constants" };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
     if posture.fields().is_empty() {
         // Of an arm that no joint value enters: a struct of numbers has to hold one.
-        posture.admit_displacement(0);
+        posture.admit_plain(Plain::Joint(0));
     }
 
     let mut text = table::header(robot, options);
     if symbolic {
         text.push_str(&table::parameters(robot, &constants));
     }
-    text.push_str(&posture::module(&posture, &needs, robot.dof()));
+    text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot.dof()));
     for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
         let function =
-            Function { plan, outputs, needs, posture: &posture, symbolic, style: &style };
+            Function { plan, outputs, needs, posture: &posture, symbolic, stage: &stage, style: &style };
         text.push_str(&function.text(robot, options));
     }
-    text.push_str(&interface::interface(robot, &posture, &outputs));
+    text.push_str(&interface::interface(robot, &posture, &stage, &outputs));
     text
 }

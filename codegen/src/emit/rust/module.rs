@@ -5,7 +5,7 @@ use stiffarm_kernels::{Form, Input, Output};
 use super::RustOptions;
 use super::body::Body;
 use super::function::Function;
-use super::posture::{INLINE, needs_constants, values};
+use super::posture::{self, INLINE, extras, needs_constants, values};
 use super::shapes;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
@@ -33,28 +33,36 @@ impl Function<'_> {
         if self.symbolic {
             parameters.push("constants: &Constants<S>".to_string());
         }
-        parameters.push(format!("q: &[S; {}]", self.program().dof));
+        let n = self.program().dof;
+        let extras = posture::parameters(self.stage, n).concat();
+        parameters.push(format!("q: &[S; {n}]{extras}"));
         if self.wrench() {
             parameters.push("wrench: &[S; 6]".to_string());
         }
         let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
+        let names = self.stage.extras().into_iter().map(|e| format!(", {}", e.name()));
+        let names: String = names.collect();
         let posture = if all {
-            format!("Posture::new({}q)", if offsets { "constants, " } else { "" })
+            format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
         } else {
             let constants = if offsets { "constants: &Constants<S>, " } else { "" };
             let q = if self.needs.reads.is_empty() { "_q" } else { "q" };
-            let q = format!("{q}: &[S; {}]", self.program().dof);
+            let q = format!("{q}: &[S; {n}]{extras}");
+            if !names.is_empty() {
+                // What a function needs of the posture may depend on neither.
+                out.code("#[allow(unused_variables)]");
+            }
             out.code(INLINE);
             out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
             out.indent();
-            values(out, needed);
+            values(out, needed, (self.stage, self.style));
             let fields = needed.fields().into_iter().chain(["..Posture::unused()".to_string()]);
             out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
             out.dedent();
             out.code("}");
-            format!("posture({}q)", if offsets { "constants, " } else { "" })
+            format!("posture({}q{names})", if offsets { "constants, " } else { "" })
         };
         out.code(&format!("{name}::given({})", self.arguments(&format!("&{posture}"))));
         out.dedent();
@@ -115,7 +123,8 @@ impl Function<'_> {
             self.output(out);
         }
         out.doc("");
-        out.doc(&inputs(&self.inputs(), false));
+        let given = inputs(&self.inputs(), false);
+        out.doc(&given.replacen("; ", &format!("{}; ", extras(self.stage)), 1));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();

@@ -162,12 +162,12 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
 }
 
 /// The table in numbers.
-pub(super) fn numeric(out: &mut Lines, robot: &Robot) {
+pub(super) fn numeric(out: &mut Lines, robot: &Robot, (generic, target): (&str, &str)) {
     let number = |value: &Value| format!("{:?}", value.number().map_or(0.0, Number::to_f64));
     let three = |values: &[Value; 3]| format!("[{}]", values.each_ref().map(number).join(", "));
     let radians = |angle: &Angle| format!("{:?}", angle.radians().unwrap_or_default());
     out.blank();
-    out.code("impl Numeric<N> for Robot {");
+    out.code(&format!("impl{generic} Numeric<N> for {target} {{"));
     out.indent();
     out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
     out.code(&format!("const GRAVITY: [f64; 3] = {};", three(&robot.gravity)));

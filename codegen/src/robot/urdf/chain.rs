@@ -2,7 +2,7 @@
 
 use super::angle::roll_pitch_yaw;
 use super::document::{Elements, Joint, Kind, Origin};
-use super::geometry::{Frame, Vector, norm, times};
+use super::super::space::{Frame, Vector, norm, times};
 use super::masses::{self, Lump};
 use super::refusal::{Place, Refusal};
 use super::tree::{Tree, moves};

@@ -2,7 +2,7 @@
 
 use super::angle::roll_pitch_yaw;
 use super::chain::{Chain, Step};
-use super::geometry::{Frame, norm, times};
+use super::super::space::{Frame, norm, times};
 use super::masses::Lump;
 use crate::robot::{self, Angle, Convention, Joint, Robot, Value};
 

@@ -2,7 +2,7 @@
 
 use super::chain::frame;
 use super::document::Link;
-use super::geometry::{Frame, Vector, plus, times};
+use super::super::space::{Frame, Vector, plus, times};
 use super::tree::{Tree, moves};
 
 /// Mass and its centre.

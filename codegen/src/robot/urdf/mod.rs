@@ -17,7 +17,6 @@ mod document;
 mod from_robot;
 #[cfg(test)]
 mod fuzz;
-mod geometry;
 mod invoked;
 mod masses;
 mod read;
@@ -28,7 +27,7 @@ mod tree;
 
 pub use chain::{Chain, Step};
 pub use document::Elements;
-pub use geometry::Frame;
+pub use super::space::Frame;
 pub use invoked::invoked;
 pub use masses::Lump;
 pub use read::{Urdf, bytes, read};

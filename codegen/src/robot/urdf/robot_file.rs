@@ -2,8 +2,9 @@
 
 use super::angle::{angle, value};
 use super::chain::{Chain, Step};
-use super::geometry::Frame;
+use super::super::space::Frame;
 use super::table::Table;
+use crate::robot::beyond::Beyond;
 use crate::robot::{Angle, Convention, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
@@ -22,6 +23,7 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
         markers: Vec::new(),
         effects: Vec::new(),
+        beyond: Beyond::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
     }
