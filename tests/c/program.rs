@@ -3,12 +3,19 @@
 
 use stiffarm::kernels::{Input, Output};
 use stiffarm_codegen::emit::Precision;
+use stiffarm_codegen::robot::Robot;
+
+use crate::arms::{SIDES, WARMING};
 
 /// The program for the kernels called `name` with `n` joints.
 ///
 /// Every function of the joint values is called, and every function of the posture after it: where the
 /// two differ in a bit of a number, the program ends with status 2.
-pub fn program(name: &str, n: usize, precision: Precision) -> String {
+pub fn program(robot: &Robot, name: &str, precision: Precision) -> String {
+    let n = robot.dof();
+    let (sides, warming) = (robot.beyond.takes_sides(), robot.beyond.takes_warming());
+    let given = [(sides, ", sides"), (warming, ", warming")];
+    let given: String = given.into_iter().filter(|(is, _)| *is).map(|(_, text)| text).collect();
     let (real, word, scan, print) = match precision {
         Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
@@ -26,7 +33,7 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             static {real} again[{size}];
             int status = 0;
             int second = 0;
-            {first}{name}_{function}(q, {wrench}out);
+            {first}{name}_{function}(q{given}, {wrench}out);
             {repeat}{name}_given_{function}(&posture, {wrench}again);
             put(status, out, {size}U);
             if ((status != second) || (same(out, again, {size}U) == 0))
@@ -39,6 +46,13 @@ pub fn program(name: &str, n: usize, precision: Precision) -> String {
             repeat = assigned("second = (int)"),
         ));
     }
+    let each = SIDES.map(|side| format!("{side:?}")).join(", ");
+    let declared = match given.is_empty() {
+        true => String::new(),
+        false => format!(
+            "        const {real} sides[{n}] = {{{each}}};\n        const {real} warming = {WARMING:?};\n\n"
+        ),
+    };
     let all: String = Output::ALL
         .iter()
         .map(|o| {
@@ -105,11 +119,11 @@ int main(void)
 
     while ((get(q, {n}U) == 1) && (get(wrench, 6U) == 1))
     {{
-        {name}_posture(q, &posture);
+{declared}        {name}_posture(q{given}, &posture);
 {calls}
         {{
             static {name}_all_t all;
-            const int status = (int){name}_all(q, wrench, &all);
+            const int status = (int){name}_all(q{given}, wrench, &all);
 {all}        }}
     }}
     return 0;

@@ -9,6 +9,7 @@ mod batch;
 mod boundary;
 #[macro_use]
 mod compare;
+mod corrected;
 mod dual;
 mod fixtures;
 mod found;

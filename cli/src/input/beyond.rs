@@ -19,7 +19,9 @@ impl Source {
         let each = |e: &EffectError| (e.at.clone(), e.message.clone(), e.help.clone());
         self.file.with_effects().map_err(|wrong| {
             let wrong: Vec<_> = wrong.iter().map(each).collect();
-            self.mistakes(wrong.iter().map(|(at, message, help)| (at, message.clone(), help.clone())))
+            self.mistakes(
+                wrong.iter().map(|(at, message, help)| (at, message.clone(), help.clone())),
+            )
         })
     }
 

@@ -4,8 +4,8 @@ use num_traits::Float;
 
 use crate::expr::{Expr, Graph, Node, OpCount, Symbol, from};
 use crate::number::Number;
-use crate::robot::{Motion, Robot};
 use crate::robot::beyond::{Law, Move};
+use crate::robot::{Motion, Robot};
 
 /// The joint values of an arm whose readings are others, and how much larger it is than its table. The
 /// joints of its graph are readings; those of every other graph are the values that it leads to.

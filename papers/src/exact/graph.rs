@@ -75,7 +75,10 @@ impl Reading {
             Symbol::Displacement { place, component } => {
                 Ok(Polynomial::symbol(&displacement(*place, *component)).into())
             }
-            Symbol::Deflection { .. } => Err(Inexact::Root),
+            // Of an arm beyond its table, which no paper prints.
+            Symbol::Deflection { .. } | Symbol::Side(_) | Symbol::Warming | Symbol::Growth => {
+                Err(Inexact::Root)
+            }
         }
     }
 

@@ -5,9 +5,7 @@ use stiffarm_kernels::{Output, Part};
 use super::compliance::joint_compliances;
 use super::stiffness::{Load, matrix, tool_load};
 use super::{Derivation, Derived, margin, springs, weight};
-use crate::derive::chain::{
-    Chain, Levers, flatten, power, twists, wrench,
-};
+use crate::derive::chain::{Chain, Levers, flatten, power, twists, wrench};
 use crate::derive::program::Solve;
 use crate::expr::{Expr, Symbol, Twist, Vec3};
 

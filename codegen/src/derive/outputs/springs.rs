@@ -157,8 +157,7 @@ impl Place {
         };
         for (spring, load) in springs.iter().zip(&mut loads) {
             let outer = if spring.angular {
-                let moment =
-                    moments.extended(&mut chain.g, self.from, &inwards, Some(spring.axis));
+                let moment = moments.extended(&mut chain.g, self.from, &inwards, Some(spring.axis));
                 let arm = chain.g.cross3(spring.axis, moment);
                 chain.g.dot3(arm, g)
             } else {

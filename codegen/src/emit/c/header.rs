@@ -169,7 +169,8 @@ fn types(module: &Module, out: &mut Lines) {
         out.comment(&["The posture of joint values, for all functions that take one.".to_string()]);
         out.code(&format!("{};", posture_head(module)));
         if module.entrance.stage.moves {
-            let text = "The joint values that readings mean, to which all that is told by joint belongs.";
+            let text =
+                "The joint values that readings mean, to which all that is told by joint belongs.";
             out.blank();
             out.comment(&[text.to_string()]);
             out.code(&format!("{};", module.entrance.joints_head()));

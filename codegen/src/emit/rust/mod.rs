@@ -77,8 +77,15 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
     }
     text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot.dof()));
     for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
-        let function =
-            Function { plan, outputs, needs, posture: &posture, symbolic, stage: &stage, style: &style };
+        let function = Function {
+            plan,
+            outputs,
+            needs,
+            posture: &posture,
+            symbolic,
+            stage: &stage,
+            style: &style,
+        };
         text.push_str(&function.text(robot, options));
     }
     text.push_str(&interface::interface(robot, &posture, &stage, &outputs));

@@ -5,7 +5,7 @@ use stiffarm_kernels::{Form, Input, Output};
 use super::RustOptions;
 use super::body::Body;
 use super::function::Function;
-use super::posture::{self, INLINE, extras, needs_constants, values};
+use super::posture::{self, INLINE, needs_constants, readings, values};
 use super::shapes;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
@@ -124,7 +124,8 @@ impl Function<'_> {
         }
         out.doc("");
         let given = inputs(&self.inputs(), false);
-        out.doc(&given.replacen("; ", &format!("{}; ", extras(self.stage)), 1));
+        let joints = format!("`{}`: {}", Input::Joints.name(), Input::Joints.sentence());
+        out.doc(&given.replacen(&joints, &readings(self.stage), 1));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();

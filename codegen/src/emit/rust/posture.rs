@@ -1,5 +1,7 @@
 //! What enters a kernel: the posture as sines, cosines and displacements.
 
+use stiffarm_kernels::Input;
+
 use super::super::posture::{Needs, Pair, Plain, Posture};
 use super::super::readings::{Extra, Stage};
 use super::style::Rust;
@@ -92,7 +94,7 @@ fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
     out.doc("");
     out.doc("What is told by joint in this module is told of these values, not of the readings.");
     out.doc("");
-    out.doc(&format!("`q`: readings, base to tip, in rad (prismatic joint: m){}.", extras(stage)));
+    out.doc(&format!("{}.", readings(stage)));
     out.doc("");
     out.doc(&format!(
         "{} additions, {} multiplications, {} pairs of sine and cosine, beyond those of the functions.",
@@ -126,10 +128,12 @@ fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
     out.code("}");
 }
 
-/// What stands behind the readings in the documentation of what takes them.
-pub(super) fn extras(stage: &Stage) -> String {
-    let each = stage.extras().into_iter().map(|e| format!("; `{}`: {}", e.name(), e.sentence()));
-    each.collect()
+/// The documentation of readings and of what is given beside them.
+pub(super) fn readings(stage: &Stage) -> String {
+    let extras = stage.extras().into_iter().map(|e| format!("; `{}`: {}", e.name(), e.sentence()));
+    let joints = Input::Joints.sentence();
+    let readings = joints.replacen("joint values", "readings", usize::from(stage.moves));
+    format!("`{}`: {readings}{}", Input::Joints.name(), extras.collect::<String>())
 }
 
 /// The fields as locals.

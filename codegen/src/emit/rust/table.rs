@@ -7,7 +7,7 @@ use super::super::constants::Constants;
 use super::RustOptions;
 use crate::emit::lines::Lines;
 use crate::number::Number;
-use crate::robot::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
+use crate::robot::{Angle, Convention, Entry, Frame, Joint, Motion, Quantity, Robot, Value};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
@@ -72,6 +72,7 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
         );
         out.doc(&format!("[{at}] m, turned by the rotation vector [{turned}]."));
     }
+    beyond(&mut out, robot);
     out.code("pub const DH: [DhRow; N] = [");
     out.indent();
     for joint in &robot.joints {
@@ -95,6 +96,27 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     out.dedent();
     out.code("];");
     out.finish()
+}
+
+/// What the arm does beyond the table.
+fn beyond(out: &mut Lines, robot: &Robot) {
+    if robot.effects.is_empty() {
+        return;
+    }
+    out.doc("");
+    out.doc("Beyond the table:");
+    for effect in &robot.effects {
+        let number = |entry: &Entry<Quantity>| match &entry.value {
+            Quantity::Si(x) => format!(", {} = {x:?}", entry.key),
+            Quantity::Text(text) => format!(", {} = {text}", entry.key),
+        };
+        let numbers: String = effect.numbers.iter().map(number).collect();
+        out.doc(&format!(
+            "- {} at {}{numbers}",
+            effect.id.value.replace('_', " "),
+            effect.place.value
+        ));
+    }
 }
 
 /// A row in the notation of the input: `q` stands where the joint moves.

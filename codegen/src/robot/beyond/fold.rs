@@ -57,7 +57,8 @@ impl Robot {
         let joint = &mut self.joints[row];
         if joint.mass.is_none() {
             let (a, d) = (double(&joint.a), double(&joint.d));
-            let [alpha, beta] = [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
+            let [alpha, beta] =
+                [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
             let chord = match (standard, joint.motion) {
                 (true, Motion::Revolute) => {
                     let row = turn([alpha, 0.0, 0.0]).then(&turn([0.0, beta, 0.0]));

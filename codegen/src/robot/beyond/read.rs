@@ -36,8 +36,9 @@ enum At {
 type Key = (&'static str, [Quantity; 2], bool);
 
 use Quantity::{
-    Angle, AnglePerKelvin, AnglePerLength, AnglePerMoment, AnglePerMomentCubed, Flexibility, Length,
-    LengthPerAngle, LengthPerForce, LengthPerForceCubed, LengthPerKelvin, Mass, PerKelvin, Ratio,
+    Angle, AnglePerKelvin, AnglePerLength, AnglePerMoment, AnglePerMomentCubed, Flexibility,
+    Length, LengthPerAngle, LengthPerForce, LengthPerForceCubed, LengthPerKelvin, Mass, PerKelvin,
+    Ratio,
 };
 
 const SIX: &[Key] = &[
@@ -54,7 +55,12 @@ const POINT: &[Key] =
 /// What kernels can be made of: identifier, place, the key of its form, its keys.
 const EFFECTS: &[(&str, At, Option<&str>, &[Key])] = &[
     ("joint_offset", At::Joint, None, &[("offset", [Angle, Length], false)]),
-    ("joint_compliance", At::Joint, None, &[("compliance", [AnglePerMoment, LengthPerForce], false)]),
+    (
+        "joint_compliance",
+        At::Joint,
+        None,
+        &[("compliance", [AnglePerMoment, LengthPerForce], false)],
+    ),
     ("backlash", At::Joint, None, &[("width", [Angle, Length], true)]),
     ("joint_ratio", At::Joint, None, &[("ratio", [Ratio; 2], false)]),
     ("friction_hysteresis", At::Joint, None, &[("windup", [AnglePerMoment, LengthPerForce], true)]),
@@ -141,7 +147,11 @@ impl Found {
         }
         let known = || EFFECTS.iter().map(|(id, ..)| *id);
         let Some((id, at, form, keys)) = EFFECTS.iter().find(|(id, ..)| id == name) else {
-            return Err(wrong(&table.id.at, format!("unknown effect `{name}`"), advice(name, known())));
+            return Err(wrong(
+                &table.id.at,
+                format!("unknown effect `{name}`"),
+                advice(name, known()),
+            ));
         };
         let place = at.place(id, table, robot)?;
         let form = match form {
@@ -150,12 +160,17 @@ impl Found {
             None => 0,
         };
         let motion = robot.joints[place.row()].motion;
-        let keys: Vec<Key> = keys.iter().filter(|key| entry_of(id, key.0, motion)).copied().collect();
+        let keys: Vec<Key> =
+            keys.iter().filter(|key| entry_of(id, key.0, motion)).copied().collect();
         let mut values = vec![0.0; keys.len()];
         for number in table.numbers.iter().filter(|n| !is_form(id, &n.key)) {
             let Some(index) = keys.iter().position(|key| key.0 == number.key) else {
                 let message = format!("unknown number `{}` of {id} at {place}", number.key);
-                return Err(wrong(&number.at, message, advice(&number.key, keys.iter().map(|k| k.0))));
+                return Err(wrong(
+                    &number.at,
+                    message,
+                    advice(&number.key, keys.iter().map(|k| k.0)),
+                ));
             };
             let (key, quantity, positive) = keys[index];
             let quantity = match id {
@@ -193,9 +208,8 @@ fn least(id: &str, key: &str, joint: &Joint) -> f64 {
     match (id, key) {
         ("joint_compliance", _) => of(joint.stiffness.as_ref().map(double)),
         ("link_weight", _) => -joint.mass.as_ref().map_or(0.0, double),
-        ("link_compliance", "bending") => of(beam.map(|b| {
-            double(&b.youngs_modulus) * double(&b.section.iy).max(double(&b.section.iz))
-        })),
+        ("link_compliance", "bending") => of(beam
+            .map(|b| double(&b.youngs_modulus) * double(&b.section.iy).max(double(&b.section.iz)))),
         ("link_compliance", _) => of(beam.map(|b| double(&b.shear_modulus) * double(&b.section.j))),
         _ => f64::NEG_INFINITY,
     }
@@ -258,7 +272,8 @@ fn whole<'t>(table: &'t Effect, key: &str) -> (Option<usize>, &'t super::Spot) {
 fn order(table: &Effect) -> Result<usize, EffectError> {
     let (order, at) = whole(table, "order");
     order.filter(|order| (1..=MOST_ORDERS).contains(order)).ok_or_else(|| {
-        let message = format!("`order` of transmission_error: an order of 1 to {MOST_ORDERS} is expected");
+        let message =
+            format!("`order` of transmission_error: an order of 1 to {MOST_ORDERS} is expected");
         wrong(at, message, Some("write order = 1".to_owned()))
     })
 }

@@ -66,7 +66,8 @@ impl Robot {
     pub fn for_kernels(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
         let (robot, warnings) = Robot::from_toml(text, path)?;
         let robot = robot.with_effects().map_err(|wrong| {
-            let problem = |e: EffectError| Problem { at: e.at.span, message: e.message, help: e.help };
+            let problem =
+                |e: EffectError| Problem { at: e.at.span, message: e.message, help: e.help };
             let errors = wrong.into_iter().map(problem).collect();
             FileError::new(path, text, Report { errors, ..Report::new() })
         })?;

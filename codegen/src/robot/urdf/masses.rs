@@ -1,8 +1,8 @@
 //! Which mass moves with a joint: the links that are fixed to each other behind it.
 
+use super::super::space::{Frame, Vector, plus, times};
 use super::chain::frame;
 use super::document::Link;
-use super::super::space::{Frame, Vector, plus, times};
 use super::tree::{Tree, moves};
 
 /// Mass and its centre.

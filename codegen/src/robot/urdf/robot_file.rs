@@ -1,8 +1,8 @@
 //! The table as a robot file.
 
+use super::super::space::Frame;
 use super::angle::{angle, value};
 use super::chain::{Chain, Step};
-use super::super::space::Frame;
 use super::table::Table;
 use crate::robot::beyond::Beyond;
 use crate::robot::{Angle, Convention, Frame as Fixed, Joint, Robot, Value};

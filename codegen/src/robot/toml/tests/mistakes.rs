@@ -241,7 +241,8 @@ fn kernels_are_of_what_posture_and_load_decide() {
         assert_eq!(errors(effect), [message], "{effect}");
     }
     assert_eq!(errors("id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"0.1 mrad\""), [""; 0]);
-    let symbolic = format!("{HEAD}{JOINT}a = \"a1\"\n[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
+    let symbolic =
+        format!("{HEAD}{JOINT}a = \"a1\"\n[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
     let error = Robot::for_kernels(&symbolic, "arm.toml").expect_err("a symbol");
     assert_eq!((error.errors[0].line, error.errors.len()), (6, 1));
 }

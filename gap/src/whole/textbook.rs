@@ -1,0 +1,105 @@
+//! A corrected arm as its kernels tell it: the textbook on the table as it is in a situation, and what gives
+//! beyond the table, by the effects' own laws.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, Vector6};
+use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Output, Unstable};
+
+use super::{Situation, Whole};
+use crate::displacement::Displacement;
+use crate::simulate::{Site, by_laws, rotation, translation};
+
+/// Part of a load, and a load, N and N·m, so small that what goes with its cube is none beside what is in
+/// proportion: by its square.
+const SMALL: f64 = 1e-6;
+
+impl Whole<'_> {
+    /// `output` at the readings `q` (n, rad; m if prismatic), as the arm's kernels have it: one column-major
+    /// block in the world's axes, told of the joint values that the readings mean.
+    ///
+    /// The table's springs are on the loaded geometry as the textbook has them. What gives beyond the table does
+    /// so to first order in its displacement, as beams do: under the loads of the undeformed arm. A force of
+    /// `at` that hangs is not told from another here.
+    ///
+    /// # Errors
+    /// [`Unstable`] as from [`Arm::evaluate`].
+    pub fn evaluate(
+        &self,
+        output: Output,
+        q: &[f64],
+        at: &Situation,
+    ) -> Result<Vec<f64>, Unstable> {
+        let mut actual = self.actual(q, at);
+        let fixed = Displacement::new(&actual.fixed[Site::Tool.index(self.arm.dof())]);
+        let tool = actual.arm.tool * fixed.transform();
+        let tool_rotation_vector = match fixed == Displacement::ZERO {
+            true => actual.arm.tool_rotation_vector,
+            false => tool.rotation.scaled_axis(),
+        };
+        let base = actual.base;
+        let arm = Arm { base, tool, tool_rotation_vector, ..actual.arm.clone().into_owned() };
+        let loaded = Arm {
+            tool: tool
+                * Isometry3::from_parts(
+                    Translation3::from(actual.load_point),
+                    UnitQuaternion::identity(),
+                ),
+            ..arm.clone()
+        };
+        let joints = &actual.joints.clone();
+        let w = turned(&base, &actual.wrench).into();
+        // The twist of the point where the force acts is the tool's but for the lever between the two.
+        let lever = -(arm.pose(joints).rotation * actual.load_point);
+        let to_tool = |block: Vec<f64>| -> Vec<f64> {
+            let columns = block.chunks(6).map(Vector6::from_column_slice);
+            columns.flat_map(|c| moved(&c, &lever).as_slice().to_vec()).collect()
+        };
+        let plus = |block: Vec<f64>, twist: Vector6<f64>| -> Vec<f64> {
+            block.iter().zip(turned(&base, &twist).iter()).map(|(a, b)| a + b).collect()
+        };
+        Ok(match output {
+            Output::JointTorque | Output::ComplementaryStiffness => {
+                loaded.evaluate(output, joints, &w)?
+            }
+            Output::ComplianceRegressor => to_tool(loaded.evaluate(output, joints, &w)?),
+            Output::DeflectionFirstOrder | Output::Deflection => {
+                let block = to_tool(loaded.evaluate(output, joints, &w)?);
+                actual.arm.to_mut().gravity = Vector3::zeros();
+                let part = if output == Output::Deflection { 1.0 } else { SMALL };
+                actual.wrench *= part;
+                plus(block, by_laws(&actual) / part)
+            }
+            Output::DeflectionWithGravity => {
+                plus(to_tool(loaded.evaluate(output, joints, &w)?), by_laws(&actual))
+            }
+            Output::Compliance => {
+                let block = arm.evaluate(output, joints, &w)?;
+                let each = block.chunks(6).enumerate();
+                actual.arm.to_mut().gravity = Vector3::zeros();
+                actual.load_point = Vector3::zeros();
+                let mut under = |unit: Vector6<f64>| {
+                    actual.wrench = turned(&base.inverse(), &unit) * SMALL;
+                    by_laws(&actual) / SMALL
+                };
+                // What does not go with the load's sign is no compliance.
+                let mut column =
+                    |k| (under(Vector6::ith(k, 1.0)) - under(Vector6::ith(k, -1.0))) / 2.0;
+                each.flat_map(|(k, block)| plus(block.to_vec(), column(k))).collect()
+            }
+            _ => arm.evaluate(output, joints, &w)?,
+        })
+    }
+}
+
+/// A twist or a wrench in the axes that a frame stands in.
+fn turned(frame: &Isometry3<f64>, six: &Vector6<f64>) -> Vector6<f64> {
+    let (v, w) = (frame.rotation * translation(six), frame.rotation * rotation(six));
+    Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
+}
+
+/// A twist at a point that lies by a lever from where it is told.
+fn moved(twist: &Vector6<f64>, lever: &Vector3<f64>) -> Vector6<f64> {
+    let w = rotation(twist);
+    let v = translation(twist) + w.cross(lever);
+    Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
+}
