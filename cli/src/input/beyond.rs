@@ -25,6 +25,18 @@ impl Source {
         })
     }
 
+    /// The file as it stands, and all its effects as the catalogue knows them: none is taken into the table.
+    ///
+    /// # Errors
+    /// [`Failure`]: a table without numbers; [`Source::understood`] has seen the effects.
+    pub fn as_it_stands(&self) -> Result<(Arm, Vec<Known>), Failure> {
+        let wrong = |error: String| Failure::new(error);
+        let arm = stiffarm_gap::robot::arm(&self.file).map_err(|e| wrong(e.to_string()))?;
+        let known = Known::all(&self.file, &arm, &Catalogue::default());
+        let known = known.map_err(|e| wrong(e.iter().map(ToString::to_string).collect()))?;
+        Ok((arm, known))
+    }
+
     /// Refuses an effect, for a command that does not honour it.
     ///
     /// # Errors
@@ -96,8 +108,12 @@ impl Source {
 fn lacking(known: &Known) -> &'static str {
     match known.effect.depends() {
         Depends::Posture => "",
-        Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
-        Depends::Temperature => ": no column temperature says how warm the arm is",
+        Depends::Direction => {
+            ": neither columns s1 … sn nor --sides say from where the joints come to rest"
+        }
+        Depends::Temperature => {
+            ": neither a column temperature nor --warming says how warm the arm is"
+        }
         Depends::LastMove => ": the move before is not known",
         Depends::Session => ": it belongs to the session of its measurements",
     }

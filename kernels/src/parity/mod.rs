@@ -69,10 +69,23 @@ pub fn compiled<S: Scalar>(
     }
 }
 
+/// What an output must be by the differences of another; `None` where none says it.
+pub type Slopes<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Option<Vec<f64>> + Sync + 'a;
+
+/// What stands in the place of the textbook, of an arm that is more than its table.
+pub struct Beyond<'a> {
+    /// Its outputs.
+    pub evaluate: &'a Evaluate<'a>,
+    /// Differences of these.
+    pub slopes: &'a Slopes<'a>,
+}
+
 /// What is to be compared.
 pub struct Subject<'a> {
     /// The arm as the textbook has it.
     pub arm: &'a Arm,
+    /// What it is compared with in place of the textbook: dual numbers know the table alone.
+    pub beyond: Option<Beyond<'a>>,
     /// The generated implementation.
     pub generated: &'a Evaluate<'a>,
     /// The same in single precision, where there is one; it is given numbers that single precision has.
@@ -165,10 +178,15 @@ fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)
 
 /// `arm` is the subject's, to be changed and changed back.
 fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &mut Agreement) {
-    let dual = dual::Derivatives::at(arm, q, w);
+    let beyond = subject.beyond.as_ref();
+    let dual = beyond.is_none().then(|| dual::Derivatives::at(arm, q, w));
     for line in &mut result.lines {
         let output = line.output;
-        let Ok(textbook) = arm.evaluate(output, q, w) else {
+        let textbook = match beyond {
+            Some(beyond) => (beyond.evaluate)(output, q, w),
+            None => arm.evaluate(output, q, w),
+        };
+        let Ok(textbook) = textbook else {
             result.unstable += 1;
             continue;
         };
@@ -181,10 +199,14 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
             let floor = scale::CANCELLED_SINGLE * terms;
             line.note(1, scale::deviation(&got, &textbook, floor));
         }
-        if let Some(slopes) = differences::of(arm, output, q, w) {
+        let slopes = match beyond {
+            Some(beyond) => (beyond.slopes)(output, q, w),
+            None => differences::of(arm, output, q, w),
+        };
+        if let Some(slopes) = slopes {
             line.note(2, fine(&generated, &slopes));
         }
-        if let Some(slopes) = dual.of(output) {
+        if let Some(slopes) = dual.as_ref().and_then(|dual| dual.of(output)) {
             line.note(3, fine(&generated, &slopes));
         }
     }
