@@ -1,5 +1,8 @@
 //! `stiffarm check`: whether what is generated from a table is right.
 
+use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use stiffarm_codegen::derive::Given;
+use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::{Verdict, robots};
@@ -10,7 +13,7 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output::print;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
-use stiffarm_kernels::parity::{Agreement, Comparison, Evaluate, Line, Subject, agreement};
+use stiffarm_kernels::parity::{Agreement, Beyond, Comparison, Evaluate, Line, Subject, agreement};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,7 +24,8 @@ Examples:
 What is checked is the graph that is derived from the table, of which every kernel is a print. It is
 compared with the textbook (the same quantity by matrices at run time), of a built-in robot in single
 precision too; with central differences of the textbook; and with the derivatives of the forward
-kinematics by dual numbers.
+kinematics by dual numbers. Of an arm with effects beyond its table the textbook is told by the
+effects' own laws, as the diagnosis has them, at sides and temperatures of all kinds.
 Deviations are the largest over all postures, relative to the output's scale. Exit status 1 if one
 is larger than its arithmetic accounts for.";
 
@@ -69,19 +73,45 @@ struct Checked {
 }
 
 fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
-    source.refuse_effects("check")?;
-    let arm = source.arm()?;
-    let outputs = source.robot.generated();
-    let model = Model::new(&source.robot, &outputs);
-    let generated = |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w);
+    let robot = source.for_kernels()?;
+    let (table, known) = source.as_it_stands()?;
+    let outputs = robot.generated();
+    let model = Model::new(&robot, &outputs);
+    let whole = Whole { arm: &table, known: &known };
+    let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| Failure::new(error.to_string()))?;
+    let at = |q: &[f64], w: &[f64; 6]| drawn(&q[..arm.dof()], (arm.base.rotation, w));
+    let generated =
+        |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w, &given(&at(q, w)));
+    let evaluate = |output, q: &[f64], w: &[f64; 6]| whole.evaluate(output, q, &at(q, w));
+    let slopes = |output, q: &[f64], w: &[f64; 6]| whole.slopes(output, q, &at(q, w));
+    let beyond = Beyond { evaluate: &evaluate, slopes: &slopes };
+    let beyond = (!known.is_empty()).then_some(beyond);
     let single = |output, q: &[f64], w: &[f64; 6]| model.single(output, q, w);
     // Near buckling the last digits of single precision are lost: not every arm is to be held to its limit.
     let single: Option<&Evaluate<'_>> = if source.built_in { Some(&single) } else { None };
-    let subject = Subject { outputs: &outputs, arm: &arm, generated: &generated, single };
+    let outputs = &outputs;
+    let subject = Subject { outputs, arm: &arm, beyond, generated: &generated, single };
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
     Ok(Checked { source, agreement })
+}
+
+/// A posture and a load, and sides and a warming that go with them in no way: each sample has its own.
+fn drawn(q: &[f64], (base, w): (UnitQuaternion<f64>, &[f64; 6])) -> Situation {
+    let scrambled = |x: f64| (1e4 * x).sin();
+    let [f, m] = [0, 3].map(|k| base.inverse() * Vector3::new(w[k], w[k + 1], w[k + 2]));
+    Situation {
+        direction: Some(q.iter().map(|q| (1.5 * scrambled(*q)).round() as i8).collect()),
+        warming: Some(20.0 * scrambled(w[0])),
+        ..Situation::under(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
+    }
+}
+
+/// The same for the kernels.
+fn given(at: &Situation) -> Given {
+    let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
+    Given { sides, warming: at.warming.unwrap_or_default() }
 }
 
 const HEADS: [&str; 4] = ["textbook", "f32", "differences", "dual numbers"];

@@ -1,8 +1,12 @@
 //! `stiffarm eval`: everything elastostatic at one posture under one load.
 
+use nalgebra::Vector6;
 use serde::Serialize;
+use stiffarm_codegen::derive::Given;
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::Output;
+use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use crate::input::model::Model;
@@ -18,6 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm eval ur5 --q 0,-90deg,90deg,0,90deg,0 --wrench 0,0,-100,0,0,0
   stiffarm eval kuka_kr240 --q 0.1,-0.8,0.6,0,0.4,0 --wrench 0,0,-500,0,0,0 --json state.json
+  stiffarm eval better.toml --q 0,0.5,0,0,0,0 --sides 1,-1,1,1,1,-1 --warming 8
   stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection";
 
 /// Pose, Jacobian, stiffness and deflection at one posture under one load
@@ -32,6 +37,13 @@ pub struct Args {
     /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit: 50lbf
     #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
     wrench: Option<String>,
+    /// From which side each joint came to rest, base to tip: -1, 0 (unknown) or 1
+    #[arg(long, value_name = "s1,s2,…", allow_hyphen_values = true, value_delimiter = ',')]
+    #[arg(value_parser = clap::value_parser!(i8).range(-1..=1))]
+    sides: Option<Vec<i8>>,
+    /// How much warmer the arm is than when it was measured, K
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    warming: Option<f64>,
     /// Let the links' weights count: in deflection, joint torque and K_C
     #[arg(long)]
     gravity: bool,
@@ -78,14 +90,35 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let (force, moment) = (base * given.fixed_rows::<3>(0), base * given.fixed_rows::<3>(3));
     let wrench = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
     let deflection = if args.gravity { Output::DeflectionWithGravity } else { Output::Deflection };
-    let model = Model::new(&source.robot, &[&OUTPUTS[..7], &[deflection]].concat());
-    let real = source.real_joints("eval", &arm, &q)?;
-    let result = evaluate(&model, &real, &wrench, args.gravity, deflection)?;
+    let robot = source.for_kernels()?;
+    let given = given_beside(args, &source, &arm)?;
+    let model = Model::new(&robot, &[&OUTPUTS[..7], &[deflection]].concat());
+    let result = evaluate(&model, (&q, &given), &wrench, args.gravity, deflection)?;
     match &args.json {
         Some(target) => target.write(&json::text(&result)?)?,
         None => print(&screen(&source, &q, &wrench, args.gravity, &result))?,
     }
     Ok(Verdict::Good)
+}
+
+/// What is said beside posture and load: all that the arm's effects depend on.
+fn given_beside(args: &Args, source: &Source, arm: &Arm) -> Result<Given, Failure> {
+    if let Some(sides) = args.sides.as_ref().filter(|sides| sides.len() != arm.dof()) {
+        let found = quantity::counted(sides.len(), "value");
+        let message = format!("--sides: found {found}, expected {}", arm.dof());
+        return Err(Failure::with_help(message, joints(source)));
+    }
+    if let Some(warming) = args.warming.filter(|warming| !warming.is_finite()) {
+        return Err(Failure::new(format!("--warming: found {warming}, expected a finite number")));
+    }
+    let at = Situation {
+        direction: args.sides.clone(),
+        warming: args.warming,
+        ..Situation::under(Vector6::zeros())
+    };
+    source.refuse_undecided("eval", &Whole { arm, known: &source.known }, &at)?;
+    let sides = args.sides.iter().flatten().map(|side| f64::from(*side)).collect();
+    Ok(Given { sides, warming: args.warming.unwrap_or_default() })
 }
 
 fn joints(source: &Source) -> String {
@@ -96,14 +129,14 @@ fn joints(source: &Source) -> String {
 
 fn evaluate(
     model: &Model,
-    q: &[f64],
+    (q, given): (&[f64], &Given),
     wrench: &[f64; 6],
     gravity: bool,
     deflection: Output,
 ) -> Result<Evaluation, Failure> {
     let n = q.len();
     let block = |output: Output| -> Result<Vec<f64>, Failure> {
-        let block = model.evaluate(output, q, wrench).map_err(|unstable| {
+        let block = model.evaluate(output, q, wrench, given).map_err(|unstable| {
             Failure::with_help(unstable.to_string(), "check the load, its unit and the stiffness")
         })?;
         if block.iter().all(|x| x.is_finite()) {

@@ -125,7 +125,8 @@ fn told(Refused { message, help }: Refused) -> String {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.go_together()?;
     let mut source = source::open(&args.robot, quiet)?;
-    source.refuse_effects("generate")?;
+    source.robot = source.for_kernels()?;
+    args.fits(&source.robot)?;
     if !args.outputs.is_empty() {
         let robot = &mut source.robot;
         (robot.outputs, robot.at) = (Vec::new(), Vec::new());
@@ -185,6 +186,23 @@ impl Args {
             }
             _ => Ok(()),
         }
+    }
+
+    /// What shows the joints as they are, and not their readings, is not made of an arm of which these differ.
+    fn fits(&self, robot: &Robot) -> Result<(), Failure> {
+        let what = match (self.emit, &self.flexible, self.sines) {
+            (Emit::Urdf, ..) => "--emit urdf",
+            (Emit::Mjcf, ..) => "--emit mjcf",
+            (_, Some(_), _) => "--flexible",
+            (Emit::C, _, Some(SinesFrom::Given)) => "--sines given",
+            _ => return Ok(()),
+        };
+        let Some(effect) = robot.effects.first() else { return Ok(()) };
+        let (name, place) = (effect.id.value.replace('_', " "), &effect.place.value);
+        Err(Failure::with_help(
+            format!("{what} has no place for the {name} at {place}"),
+            "Rust and C have: --emit rust, --emit c with its own sines",
+        ))
     }
 
     /// What is to be written; C has two files, with names of their own.

@@ -144,7 +144,7 @@ fn understood(file: &File, text: &str) -> Result<(Robot, Vec<String>), Vec<Locat
         let [base, tip] = [&file.base, &file.tip].map(|link| link.as_ref().map(LitStr::value));
         return urdf(text, &name, (base.as_deref(), tip.as_deref()));
     }
-    match Robot::table_from_toml(text, &name) {
+    match Robot::for_kernels(text, &name) {
         // A macro cannot warn on stable Rust, and a doubt must not pass in silence.
         Ok((robot, warnings)) if warnings.is_empty() => Ok((robot, Vec::new())),
         Ok((_, warnings)) => Err(warnings),

@@ -19,6 +19,12 @@ pub enum Number {
     Rounded(f64),
 }
 
+impl Default for Number {
+    fn default() -> Self {
+        Number::ZERO
+    }
+}
+
 /// Relative rounding error that a folded constant may carry: a few operations' worth.
 const SNAP: f64 = 16.0 * f64::EPSILON;
 

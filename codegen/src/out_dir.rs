@@ -72,7 +72,7 @@ pub fn read_robot(file: impl AsRef<Path>) -> Result<Robot, BuildError> {
     let file = file.as_ref();
     println!("cargo::rerun-if-changed={}", file.display());
     let text = std::fs::read_to_string(file).map_err(|e| BuildError::Io(file.to_owned(), e))?;
-    let (robot, warnings) = Robot::table_from_toml(&text, &file.to_string_lossy())
+    let (robot, warnings) = Robot::for_kernels(&text, &file.to_string_lossy())
         .map_err(|e| BuildError::Robot(Box::new(e)))?;
     for warning in warnings {
         println!("cargo::warning={}", warning.message);

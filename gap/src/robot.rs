@@ -271,6 +271,7 @@ mod tests {
             base: Frame::default(),
             tool: Frame::default(),
             effects: Vec::new(),
+            beyond: Default::default(),
             payloads: Vec::new(),
             frames: Vec::new(),
             markers: vec![robot::Marker {

@@ -1,5 +1,7 @@
 //! An arm as its robot file describes it, at rest at a posture: the table, and the effects beyond it.
 
+mod textbook;
+
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::Unstable;
 use stiffarm_kernels::generic::Arm;
@@ -90,10 +92,16 @@ impl<'a> Whole<'a> {
     /// # Errors
     /// [`Unstable`] if no stable equilibrium is found near `q`.
     pub fn at(&self, q: &[f64], at: &Situation) -> Result<(State, Isometry3<f64>), Unstable> {
+        let actual = self.actual(q, at);
+        Ok((rest(&actual, None)?, actual.base))
+    }
+
+    /// The arm as the effects make it of the table.
+    fn actual(&self, q: &[f64], at: &Situation) -> Actual<'a> {
         let mut actual = Actual::new(self.arm, q, &at.load);
         let (row, now) = at.row(q);
         self.known.iter().for_each(|known| known.alter(&mut actual, &row, &now));
-        Ok((rest(&actual, None)?, actual.base))
+        actual
     }
 }
 

@@ -34,6 +34,15 @@ macro_rules! on_request {
     };
 }
 
+stiffarm::robot! {
+    /// Readings that are not the joint values, sides, warming, and what gives beyond the table.
+    pub mod corrected from "tests/data/corrected_modified.toml";
+}
+
+/// From which sides the joints of the corrected arm come, and how warm it is, K.
+pub const SIDES: [f64; 5] = [1.0, -1.0, 1.0, 0.0, -1.0];
+pub const WARMING: f64 = 8.5;
+
 /// What a fused function computes, output by output in its order, or that there is no equilibrium.
 pub type All<S> = Result<Vec<Vec<S>>, Error>;
 
@@ -50,15 +59,18 @@ pub struct Arm<S: 'static> {
 
 macro_rules! arm {
     ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty $(, $place:ident)*) => {
+        arm!($id, $($path)::+, $toml, $scalar, &$($path)::+::Robot, []; $($place),*)
+    };
+    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty, $robot:expr, [$($given:expr),*]; $($place:ident),*) => {
         Arm::<$scalar> {
             id: stringify!($id),
             toml: $toml,
             rows: &$($path)::+::DH,
-            kernels: &$($path)::+::Robot,
+            kernels: $robot,
             places: vec![$(&framed::at::$place::Robot),*],
             all: |q, wrench| {
                 let q = q.try_into().map_err(|_| Error::Length)?;
-                let all = $($path)::+::all(q, wrench)?;
+                let all = $($path)::+::all(q, $($given,)* wrench)?;
                 Ok(vec![
                     flat(all.pose),
                     all.jacobian.as_flattened().to_vec(),
@@ -79,6 +91,14 @@ macro_rules! arms {
             arm!(various, various, include_str!("arm.toml"), $scalar),
             arm!(by_joints, by_joints, concat!(on_request!(), include_str!("arm.toml")), $scalar),
             arm!(framed, framed, include_str!("framed.toml"), $scalar, elbow, camera, smr1),
+            arm!(
+                corrected,
+                corrected,
+                include_str!("../data/corrected_modified.toml"),
+                $scalar,
+                Box::leak(Box::new(corrected::Robot { sides: sides(), warming: WARMING as $scalar })),
+                [&sides(), WARMING as $scalar];
+            ),
         ]
     };
 }
@@ -89,6 +109,10 @@ pub fn doubles() -> Vec<Arm<f64>> {
 
 pub fn singles() -> Vec<Arm<f32>> {
     arms!(f32; lin_planar, ur5, ur10, kuka_kr240, iiwa14, stanford)
+}
+
+fn sides<S: Scalar>() -> [S; 5] {
+    SIDES.map(S::lit)
 }
 
 fn flat<S: Copy>(pose: Pose<S>) -> Vec<S> {
@@ -140,7 +164,7 @@ pub fn build<S: Scalar>(
     precision: Precision,
     level: &str,
 ) {
-    let (robot, _) = Robot::from_toml(arm.toml, arm.id).expect("a valid file");
+    let (robot, _) = Robot::for_kernels(arm.toml, arm.id).expect("a valid file");
     let id = arm.id;
     let options = COptions { name: id.to_owned(), precision, sines: Sines::Polynomial };
     let files = c(&robot, &options).expect("numbers only");

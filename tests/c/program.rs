@@ -5,6 +5,8 @@ use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::Precision;
 use stiffarm_codegen::robot::Robot;
 
+use crate::arms::{SIDES, WARMING};
+
 /// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
 /// order, then those of the fused function.
 ///
@@ -12,6 +14,9 @@ use stiffarm_codegen::robot::Robot;
 /// two differ in a bit of a number, the program ends with status 2.
 pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
     let n = robot.dof();
+    let (sides, warming) = (robot.beyond.takes_sides(), robot.beyond.takes_warming());
+    let given = [(sides, ", sides"), (warming, ", warming")];
+    let given: String = given.into_iter().filter(|(is, _)| *is).map(|(_, text)| text).collect();
     let (real, word, scan, print) = match precision {
         Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
@@ -41,7 +46,7 @@ pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
             static {real} again[{size}];
             int status = 0;
             int second = 0;
-            {first}{name}_{function}(q, {beside}out);
+            {first}{name}_{function}(q{given}, {beside}out);
             {repeat}{name}_given_{function}(&posture, {beside}again);
             put(status, out, {size}U);
             if ((status != second) || (same(out, again, {size}U) == 0))
@@ -54,6 +59,13 @@ pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
             repeat = assigned("second = (int)"),
         ));
     }
+    let each = SIDES.map(|side| format!("{side:?}")).join(", ");
+    let declared = match given.is_empty() {
+        true => String::new(),
+        false => format!(
+            "        const {real} sides[{n}] = {{{each}}};\n        const {real} warming = {WARMING:?};\n\n"
+        ),
+    };
     let all: String = Output::ALL
         .iter()
         .map(|o| {
@@ -121,11 +133,11 @@ int main(void)
 
     while ((get(q, {state}U) == 1) && (get(wrench, 6U) == 1))
     {{
-        {name}_posture(q, &posture);
+{declared}        {name}_posture(q{given}, &posture);
 {calls}
         {{
             static {name}_all_t all;
-            const int status = (int){name}_all(q, wrench, &all);
+            const int status = (int){name}_all(q{given}, wrench, &all);
 {all}        }}
     }}
     return 0;

@@ -49,7 +49,8 @@ fn compiled_kernels_agree_in_every_way() {
         let double = parity::compiled(entry.kernels, |x: f64| x);
         let single = parity::compiled(entry.kernels_f32, |x: f32| f64::from(x));
         let outputs = entry.kernels.outputs();
-        let subject = Subject { outputs, arm: &arm, generated: &double, single: Some(&single) };
+        let subject =
+            Subject { outputs, arm: &arm, beyond: None, generated: &double, single: Some(&single) };
         for line in parity::agreement(&subject, COUNT / 20, 2, &|_| {}).lines {
             assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
             assert!(line.worst[0].is_some() && line.worst[1].is_some(), "{} {line:?}", entry.id);

@@ -10,6 +10,7 @@ mod boundary;
 mod by_joints;
 #[macro_use]
 mod compare;
+mod corrected;
 mod dual;
 mod fixtures;
 mod found;

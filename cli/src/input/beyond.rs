@@ -1,6 +1,7 @@
 //! What a robot file says beyond its table, as commands take it: read, honoured, or refused.
 
-use stiffarm_codegen::robot::{Located, Spot};
+use stiffarm_codegen::robot::beyond::EffectError;
+use stiffarm_codegen::robot::{Located, Robot, Spot};
 use stiffarm_gap::corrected::{FoldError, folded};
 use stiffarm_gap::effects::{Catalogue, Depends, Known};
 use stiffarm_gap::whole::{Situation, Whole};
@@ -10,13 +11,39 @@ use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
 
 impl Source {
-    /// Refuses an effect, for a command that does not honour it.
+    /// The robot as kernels are made of it: its effects compiled.
+    ///
+    /// # Errors
+    /// [`Failure`] names each effect of which none can be made, where it stands.
+    pub fn for_kernels(&self) -> Result<Robot, Failure> {
+        let each = |e: &EffectError| (e.at.clone(), e.message.clone(), e.help.clone());
+        self.file.with_effects().map_err(|wrong| {
+            let wrong: Vec<_> = wrong.iter().map(each).collect();
+            self.mistakes(
+                wrong.iter().map(|(at, message, help)| (at, message.clone(), help.clone())),
+            )
+        })
+    }
+
+    /// The file as it stands, and all its effects as the catalogue knows them: none is taken into the table.
+    ///
+    /// # Errors
+    /// [`Failure`]: a table without numbers; [`Source::understood`] has seen the effects.
+    pub fn as_it_stands(&self) -> Result<(Arm, Vec<Known>), Failure> {
+        let wrong = |error: String| Failure::new(error);
+        let arm = stiffarm_gap::robot::arm(&self.file).map_err(|e| wrong(e.to_string()))?;
+        let known = Known::all(&self.file, &arm, &Catalogue::default());
+        let known = known.map_err(|e| wrong(e.iter().map(ToString::to_string).collect()))?;
+        Ok((arm, known))
+    }
+
+    /// Refuses an effect, for a command that does not honour it, and says why.
     ///
     /// # Errors
     /// [`Failure`] names the effect where it stands.
-    pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
+    pub fn refuse_effects(&self, command: &str, because: &str) -> Result<(), Failure> {
         let first = self.known.first();
-        first.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
+        first.map_or(Ok(()), |known| Err(self.refusal(command, known, &format!(": {because}"))))
     }
 
     /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
@@ -81,8 +108,12 @@ impl Source {
 fn lacking(known: &Known) -> &'static str {
     match known.effect.depends() {
         Depends::Posture => "",
-        Depends::Direction => ": no columns s1 … sn say from where the joints come to rest",
-        Depends::Temperature => ": no column temperature says how warm the arm is",
+        Depends::Direction => {
+            ": neither columns s1 … sn nor --sides say from where the joints come to rest"
+        }
+        Depends::Temperature => {
+            ": neither a column temperature nor --warming says how warm the arm is"
+        }
         Depends::LastMove => ": the move before is not known",
         Depends::Session => ": it belongs to the session of its measurements",
     }

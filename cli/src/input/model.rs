@@ -1,7 +1,7 @@
 //! What computes a robot's outputs: the graph that is derived from its table, as every printer
 //! writes it down.
 
-use stiffarm_codegen::derive::{Program, derive};
+use stiffarm_codegen::derive::{Given, Program, derive};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::{Output, Unstable};
 
@@ -18,8 +18,15 @@ impl Model {
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
-    pub fn evaluate(&self, output: Output, q: &[f64], w: &[f64; 6]) -> Result<Vec<f64>, Unstable> {
-        let blocks = self.program(output).map(|p| p.evaluate(q, w, |_| f64::NAN)).transpose();
+    pub fn evaluate(
+        &self,
+        output: Output,
+        q: &[f64],
+        w: &[f64; 6],
+        given: &Given,
+    ) -> Result<Vec<f64>, Unstable> {
+        let program = self.program(output);
+        let blocks = program.map(|p| p.evaluate_given(q, w, |_| f64::NAN, given)).transpose();
         Ok(first(blocks?))
     }
 

@@ -32,6 +32,8 @@ pub struct Source {
     pub robot: Robot,
     /// The effects that are left.
     pub known: Vec<Known>,
+    /// The model without any effect taken into the table.
+    pub(super) file: Robot,
     /// The file's text.
     pub text: String,
     /// Whether it is one of the collection.
@@ -54,7 +56,7 @@ impl RobotArgs {
         let given = self.parameters(&source.robot.name, &symbols)?;
         let value = |name: &str| given.iter().rev().find(|(n, _)| n == name).map(|(_, v)| *v);
         match source.robot.with_parameters(value) {
-            Ok(robot) => Source { robot, ..source }.understood(),
+            Ok(robot) => Source { file: robot.clone(), robot, ..source }.understood(),
             Err(missing) => Err(Failure::with_help(
                 format!("{}: found no number for {}", source.robot.name, missing.join(", ")),
                 format!("give each one with --set NAME=VALUE: {}", listing(&symbols)),
@@ -83,7 +85,8 @@ impl RobotArgs {
 
 impl Source {
     fn new(given: &str, robot: Robot, text: String, built_in: bool) -> Source {
-        Source { given: given.to_owned(), robot, known: Vec::new(), text, built_in }
+        let (given, file) = (given.to_owned(), robot.clone());
+        Source { given, robot, known: Vec::new(), file, text, built_in }
     }
 
     /// The table as the textbook has it; what the file says beyond it is [`Source::known`].
@@ -98,8 +101,8 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::arm`] and [`Source::refuse_effects`].
-    pub fn arm_alone(&self, command: &str) -> Result<Arm, Failure> {
-        self.refuse_effects(command)?;
+    pub fn arm_alone(&self, command: &str, because: &str) -> Result<Arm, Failure> {
+        self.refuse_effects(command, because)?;
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 

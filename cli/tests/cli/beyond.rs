@@ -25,10 +25,10 @@ use With::{Honours, Refuses};
 
 const COMMANDS: [(&str, With); 17] = [
     ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
-    ("check", Refuses(&["check", "ROBOT", "--count", "10"])),
+    ("check", Honours(&["check", "ROBOT", "--count", "10"])),
     ("robots", With::None),
     ("import", With::None),
-    ("generate", Refuses(&["generate", "ROBOT", "--emit", "rust"])),
+    ("generate", Honours(&["generate", "ROBOT", "--emit", "rust"])),
     (
         "map",
         Honours(&[
@@ -165,7 +165,10 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
         stiffarm(&["compensate", &robot, "--targets", &targets, "--out", "-", "--quiet"])
     };
     let err = compensate("", "").refused();
-    assert!(err.contains("the backlash at joint 2: no columns s1 … sn say"), "{err}");
+    assert!(
+        err.contains("the backlash at joint 2: neither columns s1 … sn nor --sides say"),
+        "{err}"
+    );
     // From where joint 2 comes to rest: half the play to either side.
     let [below, above] = ["1,", "-1,"].map(|side| {
         let out = compensate("s2,", side).good();

@@ -13,6 +13,7 @@ use super::chain::{Place, Step, expression, frame_rotation, row_steps};
 use super::displacements::Displacements;
 use super::own::Held;
 use super::program::{Block, Program};
+use super::readings::Readings;
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::robot::{Angle, Frame, Robot};
 
@@ -58,7 +59,8 @@ pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Pro
     walk.displace(n + 1);
     let entries = walk.pose();
     let blocks = vec![Block { held: Held::Output(Output::Pose), entries }];
-    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n, own: None }
+    let readings = Readings::of(robot);
+    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n, readings, own: None }
 }
 
 /// A displacement of the strict first order: where the chain stood, and by how much it turned.

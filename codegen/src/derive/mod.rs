@@ -12,6 +12,7 @@ mod own;
 mod passes;
 mod place;
 mod program;
+mod readings;
 mod ways;
 
 pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
@@ -22,6 +23,7 @@ pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;
 pub use place::{derive_at, ending_at};
 pub use program::{Block, Program, Solve};
+pub use readings::{Given, Readings};
 pub use stiffarm_kernels::{Output, Unstable};
 pub(crate) use ways::{Way, cheapest};
 pub use ways::{derive, derive_each, derive_in, derive_with};

@@ -7,6 +7,7 @@ use stiffarm_kernels::Output;
 
 use super::chain::frame_rotation;
 use super::program::{Block, Program};
+use super::readings::Readings;
 use super::ways::derive;
 use crate::expr::Expr;
 use crate::number::Number;
@@ -20,7 +21,7 @@ pub fn derive_at(robot: &Robot, place: &str, output: Output) -> Option<Program> 
     let mut program = derive(&ending, &[output]);
     let joints = (ending.dof(), n);
     program.blocks = program.blocks.iter().map(|block| padded(block, output, joints)).collect();
-    program.dof = n;
+    (program.dof, program.readings) = (n, Readings::of(robot));
     Some(program)
 }
 
@@ -29,9 +30,12 @@ pub fn ending_at(robot: &Robot, place: &str) -> Option<Robot> {
     let mut ending = robot.clone();
     (ending.frames, ending.markers) = (Vec::new(), Vec::new());
     (ending.outputs, ending.at) = (Vec::new(), Vec::new());
+    // A wrench there is no load on the tool.
+    (ending.beyond.wrench_scale, ending.beyond.load_point) = Default::default();
     match robot.frames.iter().find(|named| named.name == place) {
         Some(named) => {
             ending.joints.truncate(named.row + 1);
+            ending.beyond.truncate(named.row + 1);
             ending.tool = named.frame.clone();
         }
         None => {

@@ -6,6 +6,7 @@ use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
 use super::own::{Held, Own};
+use super::readings::{Given, Readings};
 use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
 use crate::number::Number;
 
@@ -22,6 +23,8 @@ pub struct Program {
     pub cut: usize,
     /// Number of joints.
     pub dof: usize,
+    /// What the joint values are that its joints stand for.
+    pub readings: Readings,
     /// What it says of itself, where it is a function of one's own.
     pub own: Option<Own>,
 }
@@ -119,8 +122,8 @@ impl Program {
         }
     }
 
-    /// Evaluates every block at a state, under `wrench`, with the parameters' values. The state is the joint
-    /// values and behind them rates, accelerations and torques as far as some block takes them, in the
+    /// Evaluates every block at a state, under `wrench`, with the parameters' values. The state is the
+    /// readings and behind them rates, accelerations and torques as far as some block takes them, in the
     /// order of [`Input::EACH`].
     ///
     /// # Errors
@@ -131,6 +134,21 @@ impl Program {
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
     ) -> Result<Vec<Vec<T>>, Unstable> {
+        self.evaluate_given(state, wrench, parameter, &Given::default())
+    }
+
+    /// The same of joints that came from some sides, of an arm that has warmed.
+    ///
+    /// # Errors
+    /// [`Unstable`] where a deflection has no stable equilibrium.
+    pub fn evaluate_given<T: Float>(
+        &self,
+        state: &[T],
+        wrench: &[T; 6],
+        parameter: impl Fn(&str) -> T,
+        given: &Given,
+    ) -> Result<Vec<Vec<T>>, Unstable> {
+        let (q, growth) = self.readings.evaluate(state, given);
         let mut solved: Vec<(Expr, T)> = Vec::new();
         let taken: Vec<Input> = self.inputs().collect();
         let joints = |input: Input| {
@@ -138,12 +156,14 @@ impl Program {
             &state[at * self.dof..]
         };
         let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
-            Symbol::Joint(k) => joints(Input::Joints)[*k],
+            Symbol::Joint(k) => q[*k],
             Symbol::Rate(k) => joints(Input::Rates)[*k],
             Symbol::Acceleration(k) => joints(Input::Accelerations)[*k],
             Symbol::Torque(k) => joints(Input::Torques)[*k],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
+            Symbol::Growth => growth,
+            Symbol::Side(_) | Symbol::Warming => given.value(symbol),
             // An undisplaced chain; no output of a table has displacements or inputs of one's own.
             Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
             Symbol::Deflection { .. } | Symbol::Response(_) => {

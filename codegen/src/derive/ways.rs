@@ -8,6 +8,7 @@ use super::outputs::derived;
 use super::own::Held;
 use super::passes::Passes;
 use super::program::{Block, Program};
+use super::readings::Readings;
 use crate::robot::Robot;
 
 /// More joints than this, and only a few working frames are tried.
@@ -124,5 +125,7 @@ fn derive_by(robot: &Robot, outputs: &[Output], way: Way) -> Program {
         solves.extend(derived.solve);
         blocks.push(Block { held: Held::Output(output), entries: derived.entries });
     }
-    Program { graph: chain.g, blocks, solves, cut: way.cut, dof: robot.dof(), own: None }
+    let readings = Readings::of(robot);
+    let (cut, dof) = (way.cut, robot.dof());
+    Program { graph: chain.g, blocks, solves, cut, dof, readings, own: None }
 }

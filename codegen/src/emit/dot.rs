@@ -55,6 +55,9 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Number(n) => (n.to_string(), "plaintext"),
         Node::Symbol(s) => match g.symbol_of(s) {
             Symbol::Joint(joint) => (format!("q{}", joint + 1), "box"),
+            Symbol::Side(joint) => (format!("side{}", joint + 1), "box"),
+            Symbol::Warming => ("warming".to_string(), "box"),
+            Symbol::Growth => ("growth".to_string(), "box"),
             Symbol::Rate(_) | Symbol::Acceleration(_) | Symbol::Torque(_) | Symbol::Wrench(_) => {
                 let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
                 (named.unwrap_or_default(), "box")

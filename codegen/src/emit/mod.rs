@@ -18,6 +18,7 @@ mod lost;
 mod mjcf;
 mod plan;
 mod posture;
+mod readings;
 mod rust;
 #[cfg(feature = "urdf")]
 mod urdf;

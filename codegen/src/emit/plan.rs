@@ -7,6 +7,7 @@ use stiffarm_kernels::Input;
 
 use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
+use super::posture::Plain;
 use crate::derive::{COMPONENTS, Program};
 use crate::expr::{Binding, Expr, Graph, Item, Node, Schedule, Symbol};
 use crate::number::Number;
@@ -21,8 +22,8 @@ pub(super) struct Plan<'p> {
     pub angles: Vec<Angle>,
     /// Angles that the function takes sines and cosines of itself, by the item of the schedule.
     pub own_angles: Vec<Vec<Angle>>,
-    /// Prismatic joints whose displacement enters.
-    pub prismatic: Vec<usize>,
+    /// What enters as it is: displacements of prismatic joints, sides, growth.
+    pub plain: Vec<Plain>,
     /// Fields of the constants that enter.
     pub constants: Vec<String>,
     /// Names of nodes: inputs, and what the schedule binds.
@@ -85,7 +86,7 @@ impl<'p> Plan<'p> {
             targets,
             angles: Vec::new(),
             own_angles,
-            prismatic: Vec::new(),
+            plain: Vec::new(),
             constants: Vec::new(),
             names: HashMap::new(),
         };
@@ -200,10 +201,9 @@ impl<'p> Plan<'p> {
                 Node::Sin(angle) => angles.entry(angle).or_default().0 = true,
                 Node::Cos(angle) => angles.entry(angle).or_default().1 = true,
                 Node::Symbol(s) => match g.symbol_of(s) {
-                    Symbol::Joint(joint) => {
-                        self.prismatic.push(*joint);
-                        self.names.insert(node, format!("q{}", joint + 1));
-                    }
+                    Symbol::Joint(joint) => self.plain(node, Plain::Joint(*joint)),
+                    Symbol::Side(joint) => self.plain(node, Plain::Side(*joint)),
+                    Symbol::Growth => self.plain(node, Plain::Growth),
                     Symbol::Displacement { place, component } => {
                         self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
                     }
@@ -225,12 +225,12 @@ impl<'p> Plan<'p> {
                         let name = self.program.own.as_ref().map(|own| &own.inputs[*input]);
                         self.names.extend(name.map(|input| (node, input.entry(*entry))));
                     }
-                    Symbol::Parameter(_) => {}
+                    Symbol::Parameter(_) | Symbol::Warming => {}
                 },
                 _ => {}
             }
         }
-        self.prismatic.sort_unstable();
+        self.plain.sort_unstable();
         for angle in self.own_angles.iter().flatten() {
             angles.remove(&angle.sum);
         }
@@ -258,6 +258,11 @@ impl<'p> Plan<'p> {
                 self.names.insert(node, format!("{letter}{}", known.suffix));
             }
         }
+    }
+
+    fn plain(&mut self, node: usize, plain: Plain) {
+        self.names.insert(node, plain.field());
+        self.plain.push(plain);
     }
 
     /// Symbolic offsets inside an angle become constants too.

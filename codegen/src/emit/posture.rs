@@ -10,7 +10,50 @@ use crate::robot::{Motion, Robot};
 #[derive(Default)]
 pub(super) struct Posture {
     pub angles: Vec<Pair>,
-    pub prismatic: Vec<usize>,
+    pub plain: Vec<Plain>,
+}
+
+/// What is a field as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Plain {
+    /// The value of a joint: of a prismatic one its displacement.
+    Joint(usize),
+    /// From which side a joint came.
+    Side(usize),
+    /// What all lengths are of those of the table.
+    Growth,
+}
+
+impl Plain {
+    /// The field.
+    pub fn field(self) -> String {
+        match self {
+            Plain::Joint(joint) => format!("q{}", joint + 1),
+            Plain::Side(joint) => format!("side{}", joint + 1),
+            Plain::Growth => "growth".to_string(),
+        }
+    }
+
+    /// Where it comes from.
+    pub fn source(self) -> String {
+        match self {
+            Plain::Joint(joint) => format!("q[{joint}]"),
+            Plain::Side(joint) => format!("sides[{joint}]"),
+            Plain::Growth => "growth".to_string(),
+        }
+    }
+
+    /// What it is, behind where it comes from.
+    pub fn meaning(self, robot: &Robot) -> &'static str {
+        match self {
+            Plain::Joint(joint) => match robot.joints[joint].motion {
+                Motion::Revolute => "rad",
+                Motion::Prismatic => "m",
+            },
+            Plain::Side(_) => "-1, 0 or 1",
+            Plain::Growth => "what all lengths are of those of the table",
+        }
+    }
 }
 
 /// The sine and the cosine of one angle.
@@ -44,10 +87,10 @@ impl Posture {
             needs.reads.extend(pair.fields().map(read));
             needs.posture.angles.push(pair);
         }
-        for &joint in &plan.prismatic {
-            self.admit_displacement(joint);
-            needs.posture.prismatic.push(joint);
-            needs.reads.push((displacement(joint), displacement(joint)));
+        for &plain in &plan.plain {
+            self.admit_plain(plain);
+            needs.posture.plain.push(plain);
+            needs.reads.push((plain.field(), plain.field()));
         }
         needs
     }
@@ -65,18 +108,18 @@ impl Posture {
         suffix
     }
 
-    /// Takes in the displacement of a joint, or the value of one that no angle needs.
-    pub fn admit_displacement(&mut self, joint: usize) {
-        if !self.prismatic.contains(&joint) {
-            self.prismatic.push(joint);
-            self.prismatic.sort_unstable();
+    /// Takes in what is a field as it is.
+    pub fn admit_plain(&mut self, plain: Plain) {
+        if !self.plain.contains(&plain) {
+            self.plain.push(plain);
+            self.plain.sort_unstable();
         }
     }
 
-    /// The names of the fields, angle by angle, then displacements.
+    /// The names of the fields, angle by angle, then what is one as it is.
     pub fn fields(&self) -> Vec<String> {
         let pairs = self.angles.iter().flat_map(Pair::fields);
-        pairs.chain(self.prismatic.iter().map(|joint| displacement(*joint))).collect()
+        pairs.chain(self.plain.iter().map(|plain| plain.field())).collect()
     }
 }
 
@@ -85,19 +128,6 @@ impl Pair {
     pub fn fields(&self) -> impl Iterator<Item = String> {
         let each = [(self.sine, "s"), (self.cosine, "c")].into_iter();
         each.filter(|(needed, _)| *needed).map(|(_, letter)| format!("{letter}{}", self.suffix))
-    }
-}
-
-/// The field of a joint's displacement.
-pub(super) fn displacement(joint: usize) -> String {
-    format!("q{}", joint + 1)
-}
-
-/// The unit of a joint's value.
-pub(super) fn unit(robot: &Robot, joint: usize) -> &'static str {
-    match robot.joints[joint].motion {
-        Motion::Revolute => "rad",
-        Motion::Prismatic => "m",
     }
 }
 

@@ -71,6 +71,12 @@ pub enum Symbol {
     Torque(usize),
     /// Component 0..6 of the wrench.
     Wrench(usize),
+    /// From which side joint i came to rest: −1, 0, 1; joints count from 0 here.
+    Side(usize),
+    /// How much warmer the arm is than when it is as its table says, K.
+    Warming,
+    /// What all lengths are of those of the table.
+    Growth,
     /// A parameter of the table that stays symbolic.
     Parameter(String),
     /// A component of the displacement at a place of the flexible chain.
@@ -111,6 +117,9 @@ impl Symbol {
             | Symbol::Displacement { .. }
             | Symbol::Deflection { .. }
             | Symbol::Response(_)
+            | Symbol::Side(_)
+            | Symbol::Warming
+            | Symbol::Growth
             | Symbol::Own { .. } => None,
         }
     }

@@ -17,6 +17,7 @@ mod vector;
 
 pub use blocks::Block;
 pub use count::OpCount;
+pub(crate) use evaluate::from;
 pub use graph::{Expr, Graph, Node, Symbol};
 pub use schedule::{Binding, Item, Schedule};
 pub use trig::Turn;

@@ -2,7 +2,9 @@
 
 use super::formulas::Formulas;
 use super::mistake::{Mistake, Refused};
-use crate::derive::{Block, Held, Own, OwnInput, Passes, Program, Quantity, Way, cheapest};
+use crate::derive::{
+    Block, Held, Own, OwnInput, Passes, Program, Quantity, Readings, Way, cheapest,
+};
 use crate::expr::{OpCount, Symbol};
 use crate::robot::Robot;
 
@@ -30,7 +32,7 @@ impl Function {
         let laid_out = |way: Way| {
             let written = Formulas::new(way.lay_out(robot));
             formulas(&written);
-            Self::of(written, way, (name, sentence), robot.dof())
+            Self::of(written, way, (name, sentence), robot)
         };
         let refused = |mistakes| Refused { function: name.to_owned(), mistakes };
         let first = laid_out(Way::PLAIN).map_err(refused)?;
@@ -43,7 +45,7 @@ impl Function {
         written: Formulas,
         way: Way,
         (name, sentence): (&str, &str),
-        dof: usize,
+        robot: &Robot,
     ) -> Result<Self, Vec<Mistake>> {
         let (inputs, results) = (written.inputs.into_inner(), written.results.into_inner());
         let graph = written.sheet.graph.into_inner();
@@ -57,7 +59,8 @@ impl Function {
             blocks: blocks.collect(),
             solves: Vec::new(),
             cut: way.cut(),
-            dof,
+            dof: robot.dof(),
+            readings: Readings::of(robot),
             own: Some(own.clone()),
         };
         if mistakes.is_empty() { Ok(Function { program, own }) } else { Err(mistakes) }

@@ -6,6 +6,7 @@
 //! With the feature `urdf` a [`Robot`] can be made of a URDF.
 
 mod angle;
+pub mod beyond;
 mod decimal;
 mod diagnostic;
 mod dimension;
@@ -21,6 +22,7 @@ mod pi;
 mod problem;
 mod quantity;
 mod section;
+mod space;
 mod suggest;
 mod symbols;
 #[cfg(feature = "macro")]

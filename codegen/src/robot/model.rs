@@ -5,6 +5,7 @@ use core::ops::Range;
 use num_rational::Ratio;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
+use super::beyond::Beyond;
 use crate::number::Number;
 
 /// A serial arm as its Denavit-Hartenberg table describes it.
@@ -29,6 +30,8 @@ pub struct Robot {
     pub markers: Vec<Marker>,
     /// What the real arm does beyond the table.
     pub effects: Vec<Effect>,
+    /// The same as kernels understand it, where they are to be made of it: [`Robot::with_effects`].
+    pub beyond: Beyond,
     /// Loads that rows of data name.
     pub payloads: Vec<Payload>,
     /// The outputs that are generated of its tool; every one if there are none.

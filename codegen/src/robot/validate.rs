@@ -1,5 +1,6 @@
 //! The one validator: both readers hand it a draft, and it makes the [`Robot`].
 
+use super::beyond::Beyond;
 use super::draft::{Cell, Draft, DraftBeam, DraftFrame, DraftJoint, DraftPayload, INERTIA, Vector};
 use super::inertia;
 use super::model::{
@@ -45,6 +46,7 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
             })
             .collect(),
         effects: draft.effects.clone(),
+        beyond: Beyond::default(),
         payloads: draft.payloads.iter().map(|p| payload(p, report)).collect(),
         outputs: Vec::new(),
         at: Vec::new(),

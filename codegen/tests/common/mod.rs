@@ -37,6 +37,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
+        beyond: Default::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
         at: Vec::new(),

@@ -17,7 +17,7 @@ mod formulas;
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("usage: c FOLDER")?;
     let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/arms/kuka_kr240.toml");
-    let (robot, _) = Robot::table_from_toml(&std::fs::read_to_string(table)?, table)?;
+    let (robot, _) = Robot::for_kernels(&std::fs::read_to_string(table)?, table)?;
     let files = Module::new(&robot)
         .function("hand_eye", "Reprojection error of a camera on the tool", formulas::hand_eye)?
         .function("clearance", "Distance of the tool's corner from a plane", formulas::clearance)?

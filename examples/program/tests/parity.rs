@@ -171,7 +171,7 @@ fn the_height_is_that_of_the_turned_tool_and_its_slopes_those_of_dual_numbers() 
 fn robot() -> Robot {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/arms/kuka_kr240.toml");
     let text = std::fs::read_to_string(path).expect("the arm is in the collection");
-    Robot::table_from_toml(&text, path).expect("the file is valid").0
+    Robot::for_kernels(&text, path).expect("the file is valid").0
 }
 
 #[test]

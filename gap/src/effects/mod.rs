@@ -17,13 +17,13 @@ mod known;
 mod numbers;
 mod parameter;
 mod place;
-mod quantity;
 mod robot_file;
 mod scene;
 #[cfg(test)]
 mod tests;
 mod told;
 
+pub use stiffarm_codegen::robot::beyond::Quantity;
 use stiffarm_kernels::generic::Arm;
 
 pub use about::About;
@@ -38,7 +38,6 @@ pub(crate) use known::file_name;
 pub use known::{Known, KnownError};
 pub use parameter::Parameter;
 pub use place::{Place, Spot};
-pub use quantity::Quantity;
 pub use robot_file::{RobotFile, Row as RobotRow};
 pub use scene::Scene;
 pub use told::{ParameterReport, Told};

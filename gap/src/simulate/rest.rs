@@ -8,7 +8,7 @@
 //! it is stable: [`Tangent::is_stable`], which steps that contract show under any load but a moment. The work is bounded, whatever the load: one that buckles the arm finds
 //! no rest.
 
-use nalgebra::{DVector, UnitQuaternion, Vector6};
+use nalgebra::{DVector, Isometry3, UnitQuaternion, Vector6};
 use stiffarm_kernels::Unstable;
 
 use super::actual::{Actual, axis};
@@ -248,23 +248,43 @@ impl Posture {
 /// twist of the tool, base axes.
 pub fn beyond_first_order(actual: &Actual<'_>, state: &State) -> Vector6<f64> {
     let walk = Walk::new(actual);
-    let frames = walk.frames(&actual.fixed);
+    let (tool, first) = first_order(&walk, |index, frame, load| walk.give(index, frame, load));
+    let turned = UnitQuaternion::from_scaled_axis(first.fixed_rows::<3>(3).into_owned());
+    let beyond = (state.tool.rotation * (turned * tool.rotation).inverse()).scaled_axis();
+    let moved = tool.translation.vector + first.fixed_rows::<3>(0);
+    let shift = state.tool.translation.vector - moved;
+    Vector6::new(shift.x, shift.y, shift.z, beyond.x, beyond.y, beyond.z)
+}
+
+/// Deflection by what gives besides springs and beams, each law under the load of the undeformed
+/// geometry: twist of the tool, base axes.
+pub fn by_laws(actual: &Actual<'_>) -> Vector6<f64> {
+    let walk = Walk::new(actual);
+    let give = |index: usize, _: &Frames, load: &Vector6<f64>| {
+        walk.laws(index).map(|law| law(load)).sum::<Vector6<f64>>()
+    };
+    first_order(&walk, give).1
+}
+
+/// Where the tool stands undeformed, and its twist, base axes, when every site gives under its load
+/// there.
+fn first_order(
+    walk: &Walk<'_>,
+    give: impl Fn(usize, &Frames, &Vector6<f64>) -> Vector6<f64>,
+) -> (Isometry3<f64>, Vector6<f64>) {
+    let frames = walk.frames(&walk.actual.fixed);
     let loads = walk.loads(&frames);
     let tool = frames[walk.sites - 1].behind;
     let mut first = Vector6::zeros();
     for (index, (frame, load)) in frames.iter().zip(&loads).enumerate() {
-        let give = walk.give(index, frame, load);
+        let give = give(index, frame, load);
         let turn = frame.before.rotation * give.fixed_rows::<3>(3);
         let shift = frame.before.rotation * give.fixed_rows::<3>(0);
         let lever = tool.translation.vector - frame.before.translation.vector;
         let moved = shift + turn.cross(&lever);
         first += Vector6::new(moved.x, moved.y, moved.z, turn.x, turn.y, turn.z);
     }
-    let turned = UnitQuaternion::from_scaled_axis(first.fixed_rows::<3>(3).into_owned());
-    let beyond = (state.tool.rotation * (turned * tool.rotation).inverse()).scaled_axis();
-    let moved = tool.translation.vector + first.fixed_rows::<3>(0);
-    let shift = state.tool.translation.vector - moved;
-    Vector6::new(shift.x, shift.y, shift.z, beyond.x, beyond.y, beyond.z)
+    (tool, first)
 }
 
 /// Lets the twists that `state` carries to the tool take in how displacements move the loads, to
@@ -281,7 +301,6 @@ pub(super) fn follow_loads(actual: &Actual<'_>, state: &mut State) {
 mod tests {
     use super::*;
     use crate::fixture::springy;
-    use nalgebra::Isometry3;
     use stiffarm_kernels::generic::Arm;
 
     /// A rod of 1 m on a spring of 1 N·m/rad, weightless.

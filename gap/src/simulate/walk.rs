@@ -7,7 +7,7 @@ use super::beam::Link;
 use super::site::Site;
 
 /// The small transform of a displacement: translation, then rotation about the displaced origin.
-pub(super) fn transform(displacement: &Vector6<f64>) -> Isometry3<f64> {
+pub(crate) fn transform(displacement: &Vector6<f64>) -> Isometry3<f64> {
     let d = displacement;
     let turn = Vector3::new(d[3], d[4], d[5]);
     Isometry3::from_parts(

@@ -70,12 +70,29 @@ pub fn compiled<S: Scalar>(
     }
 }
 
+/// What an output must be by the differences of another; `None` where none says it.
+pub type Slopes<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Option<Vec<f64>> + Sync + 'a;
+
+/// An implementation that does not tell every output.
+pub type Tells<'a> =
+    dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Option<Vec<f64>>, Unstable> + Sync + 'a;
+
+/// What stands in the place of the textbook, of an arm that is more than its table.
+pub struct Beyond<'a> {
+    /// Its outputs.
+    pub evaluate: &'a Tells<'a>,
+    /// Differences of these.
+    pub slopes: &'a Slopes<'a>,
+}
+
 /// What is to be compared.
 pub struct Subject<'a> {
     /// What is compared.
     pub outputs: &'a [Output],
     /// The arm as the textbook has it.
     pub arm: &'a Arm,
+    /// What it is compared with in place of the textbook: dual numbers know the table alone.
+    pub beyond: Option<Beyond<'a>>,
     /// The generated implementation.
     pub generated: &'a Evaluate<'a>,
     /// The same in single precision, where there is one; it is given numbers that single precision has.
@@ -168,27 +185,40 @@ fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)
 
 /// `arm` is the subject's, to be changed and changed back.
 fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { state, w }: &Sample, result: &mut Agreement) {
-    let dual = dual::Derivatives::at(arm, &state[..arm.dof()], w);
+    let beyond = subject.beyond.as_ref();
+    let dual = beyond.is_none().then(|| dual::Derivatives::at(arm, &state[..arm.dof()], w));
     for line in &mut result.lines {
         let output = line.output;
         let q = &state[..output.state(arm.dof())];
-        let Ok(textbook) = arm.evaluate(output, q, w) else {
+        let textbook = match beyond {
+            Some(beyond) => (beyond.evaluate)(output, q, w),
+            None => arm.evaluate(output, q, w).map(Some),
+        };
+        let Ok(textbook) = textbook else {
             result.unstable += 1;
             continue;
         };
         let terms = scale::terms(arm, output, q, w);
         let fine = |a: &[f64], b: &[f64]| scale::deviation(a, b, scale::CANCELLED * terms);
         let generated = (subject.generated)(output, q, w).unwrap_or_default();
-        line.note(0, fine(&generated, &textbook));
-        if let Some(single) = subject.single {
+        if let Some(textbook) = &textbook {
+            line.note(0, fine(&generated, textbook));
+        }
+        if let (Some(single), Some(textbook)) = (subject.single, &textbook) {
             let got = single(output, q, w).unwrap_or_default();
             let floor = scale::CANCELLED_SINGLE * terms;
-            line.note(1, scale::deviation(&got, &textbook, floor));
+            line.note(1, scale::deviation(&got, textbook, floor));
         }
-        if let Some(slopes) = differences::of(arm, output, q, w) {
+        let slopes = match beyond {
+            Some(beyond) => (beyond.slopes)(output, q, w),
+            None => differences::of(arm, output, q, w),
+        };
+        if let Some(slopes) = slopes {
             line.note(2, fine(&generated, &slopes));
         }
-        if let Some(slopes) = dual.of(output).or_else(|| motion::of(arm, output, q)) {
+        let slopes =
+            dual.as_ref().and_then(|dual| dual.of(output).or_else(|| motion::of(arm, output, q)));
+        if let Some(slopes) = slopes {
             line.note(3, fine(&generated, &slopes));
         }
     }

@@ -82,6 +82,9 @@ impl Reading {
             | Symbol::Rate(_)
             | Symbol::Acceleration(_)
             | Symbol::Torque(_)
+            | Symbol::Side(_)
+            | Symbol::Warming
+            | Symbol::Growth
             | Symbol::Own { .. } => Err(Inexact::Root),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::layout::Chain;
 use super::place::{ROW, Step, tilt};
-use crate::expr::{Expr, Node, Turn, Vec3};
+use crate::expr::{Expr, Graph, Node, Symbol, Turn, Vec3};
 use crate::number::Number;
 use crate::robot::Convention;
 
@@ -51,11 +51,30 @@ pub fn chord(chain: &mut Chain, row: usize) -> Chord {
 /// `|x|`: a number's, or `√(x²)` of what is only known later and may be negative then.
 fn magnitude(chain: &mut Chain, x: Expr) -> Expr {
     let known_positive = matches!(chain.g.node(x), Node::Number(_) | Node::Sqrt(_));
-    if known_positive {
+    if known_positive || table_s(&chain.g, x).is_some() {
         return x.abs();
     }
     let square = chain.g.mul(x, x);
     chain.g.sqrt(square)
+}
+
+/// Of a length that has grown with all others the table's.
+fn table_s(g: &Graph, x: Expr) -> Option<Expr> {
+    let Node::Mul(a, b) = g.node(x) else { return None };
+    let is_growth = |e: Expr| match g.node(e) {
+        Node::Symbol(s) => *g.symbol_of(s) == Symbol::Growth,
+        _ => false,
+    };
+    let number = matches!(g.node(a), Node::Number(_));
+    (number && is_growth(b)).then(|| a.signed(x.is_negative()))
+}
+
+/// What two lengths have grown by, and the table's.
+fn grown(g: &mut Graph, lengths: [Expr; 2]) -> (Expr, [Expr; 2]) {
+    match lengths.map(|x| table_s(g, x)) {
+        [Some(a), Some(d)] => (g.symbol(Symbol::Growth), [a, d]),
+        _ => (Expr::ONE, lengths),
+    }
 }
 
 /// A chord along neither axis, or one that beta tilts: `u = (a x + d z)/L`, `y = previous z × u`
@@ -81,11 +100,12 @@ fn oblique(
         (true, _) => (d, [Expr::ZERO, Expr::ONE]),
         (_, true) => (a, [Expr::ONE, Expr::ZERO]),
         _ => {
+            let (growth, [a, d]) = grown(g, [a, d]);
             let (aa, dd) = (g.mul(a, a), g.mul(d, d));
             let square = g.add(aa, dd);
             let length = g.sqrt(square);
             let inverse = g.recip(length);
-            (length, [a, d].map(|part| g.mul(part, inverse)))
+            (g.mul(growth, length), [a, d].map(|part| g.mul(part, inverse)))
         }
     };
     let chord = g.combine3(along_x, x, along_z, z);

@@ -1,7 +1,7 @@
 //! The chain: a table as a sequence of rotations about and translations along z and x, and the axes of
 //! every place along it in the working frame.
 
-use super::place::{Place, ROW, Step, entries, expression, row_steps};
+use super::place::{Place, ROW, Step, entries, expression, length, row_steps};
 use super::tool::frame_rotation;
 use crate::derive::passes::Passes;
 use crate::expr::{Expr, Graph, Symbol, Turn, Twist, Vec3};
@@ -187,6 +187,12 @@ impl<'r> Chain<'r> {
     /// A cell of the table.
     pub fn value(&mut self, value: &Value) -> Expr {
         expression(&mut self.g, value)
+    }
+
+    /// The tool's origin in the last frame.
+    pub fn tool_lengths(&mut self) -> Vec3 {
+        let robot = self.robot;
+        robot.tool.translation.each_ref().map(|offset| length(&mut self.g, robot, offset))
     }
 
     /// The tool's axes: its rotation vector turned by the last frame.

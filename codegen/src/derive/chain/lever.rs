@@ -139,8 +139,8 @@ impl Levers {
 /// The tool's translation along the axes of the last frame.
 pub fn tool_offsets(chain: &mut Chain) -> [(Expr, Vec3); 3] {
     let axes = chain.axes(chain.steps().len());
-    let offsets = chain.robot.tool.translation.clone();
-    core::array::from_fn(|k| (chain.value(&offsets[k]), axes[k]))
+    let lengths = chain.tool_lengths();
+    core::array::from_fn(|k| (lengths[k], axes[k]))
 }
 
 fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {

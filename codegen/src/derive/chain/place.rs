@@ -105,11 +105,22 @@ pub fn expression(g: &mut Graph, value: &Value) -> Expr {
     }
 }
 
+/// What all lengths are of those of the table.
+pub fn growth(g: &mut Graph, robot: &Robot) -> Expr {
+    if robot.beyond.grows() { g.symbol(Symbol::Growth) } else { Expr::ONE }
+}
+
+/// A length of the table as it is.
+pub fn length(g: &mut Graph, robot: &Robot, value: &Value) -> Expr {
+    let (length, growth) = (expression(g, value), growth(g, robot));
+    g.mul(growth, length)
+}
+
 /// The steps of a row in the order of its convention.
 pub fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
     let joint = &robot.joints[row];
     let mut theta = Turn::constant(g, &joint.theta);
-    let mut d = expression(g, &joint.d);
+    let mut d = length(g, robot, &joint.d);
     match joint.motion {
         Motion::Revolute => theta = Turn::joint(g, row).plus(g, &theta),
         Motion::Prismatic => {
@@ -117,7 +128,7 @@ pub fn row_steps(g: &mut Graph, robot: &Robot, row: usize) -> [Step; ROW] {
             d = g.add(q, d);
         }
     }
-    let a = Step::TranslateX(expression(g, &joint.a));
+    let a = Step::TranslateX(length(g, robot, &joint.a));
     let alpha = Step::RotateX(Turn::constant(g, &joint.alpha));
     let beta = Turn::constant(g, &joint.beta);
     let quarter = match joint.beta.is_zero() {

@@ -24,8 +24,7 @@ struct Run {
 pub fn by_run(chain: &mut Chain) -> ByRun {
     let runs = runs(chain);
     let mut twists: Vec<Option<Twist>> = vec![None; chain.dof()];
-    let translation = chain.robot.tool.translation.clone();
-    let mut tip = translation.each_ref().map(|offset| chain.value(offset));
+    let mut tip = chain.tool_lengths();
     for at in (0..runs.len()).rev() {
         if at + 1 < runs.len() {
             tip = turned_x(&mut chain.g, &runs[at].last, tip);

@@ -4,6 +4,7 @@ use super::layout::Chain;
 use super::lever::{Levers, Point};
 use super::place::ROW;
 use crate::expr::{Expr, Symbol, Twist, Vec3, negate3};
+use crate::number::Number;
 
 /// The joints' twists in the working frame: `(z × (p − p_j), z)` of a revolute joint, `(z, 0)`
 /// of a prismatic one.
@@ -67,14 +68,39 @@ pub fn flatten(twists: impl IntoIterator<Item = Twist>) -> Vec<Expr> {
     twists.into_iter().flat_map(|(v, w)| v.into_iter().chain(w)).collect()
 }
 
-/// The wrench on the tool in the working frame: force, moment.
+/// A load in the working frame.
+pub struct Load {
+    pub force: Vec3,
+    /// Beside that of the force.
+    pub moment: Vec3,
+    /// Where the force acts, from the tool's origin.
+    pub at: Vec3,
+}
+
+/// The wrench on the tool in the working frame, about the tool's origin: force, moment.
 pub fn wrench(chain: &mut Chain) -> (Vec3, Vec3) {
+    let Load { force, moment, at } = load(chain);
+    let own = chain.g.cross3(at, force);
+    (force, chain.g.add3(moment, own))
+}
+
+/// What the wrench really is, and where it acts.
+pub fn load(chain: &mut Chain) -> Load {
     let component: [Expr; 6] = core::array::from_fn(|k| chain.g.symbol(Symbol::Wrench(k)));
     let [fx, fy, fz, mx, my, mz] = component;
     let (f, m) = (chain.in_frame([fx, fy, fz]), chain.in_frame([mx, my, mz]));
     chain.g.name3(f, "fw");
     chain.g.name3(m, "mw");
-    (f, m)
+    let beyond = &chain.robot.beyond;
+    let scale = chain.g.number(Number::ONE + beyond.wrench_scale);
+    let (force, moment) = (chain.g.scale3(scale, f), chain.g.scale3(scale, m));
+    let mut at = [Expr::ZERO; 3];
+    for (offset, axis) in beyond.load_point.into_iter().zip(chain.tool_axes()) {
+        let offset = chain.g.number(offset);
+        let part = chain.g.scale3(offset, axis);
+        at = chain.g.add3(at, part);
+    }
+    Load { force, moment, at }
 }
 
 /// `v·f + ω·m`: the generalised force of a wrench along a twist.

@@ -6,54 +6,25 @@
 //! so a beam adds six columns like those of joints, and no 6×6 products. A distributed weight w acts
 //! on them as the force wL/2 and, for its own slope, the moment wL²/6.
 
-use crate::derive::chain::{Chain, Chord, Levers, Point, chord};
-use crate::expr::{Expr, Graph, Twist, Vec3};
+use crate::derive::chain::{Chain, Chord};
+use crate::expr::{Expr, Graph, Vec3};
 use crate::number::Number;
 use crate::robot::Beam;
 
 /// What the compliances of a beam's springs are called: along its axes, then about them.
 const SPRINGS: [&str; 6] = ["axial", "across_y", "across_z", "torsion", "bend_y", "bend_z"];
 
-/// One of the six springs of a beam.
-pub(super) struct Spring {
-    pub compliance: Expr,
-    /// Displacement of the tool per unit of the spring's.
-    pub twist: Twist,
-    /// Direction of the spring, and whether it gives by an angle about it.
-    pub axis: Vec3,
-    pub angular: bool,
-}
-
-/// The six springs of a row's beam, and its chord.
-pub(super) fn springs(
-    chain: &mut Chain,
-    levers: &Levers,
-    row: usize,
-    beam: &Beam,
-) -> (Chord, [Spring; 6]) {
-    let chord = chord(chain, row);
-    let compliances = compliances(chain, beam, chord.length);
+/// Names the length of a row's chord and the compliances of its springs.
+pub(super) fn name(chain: &mut Chain, row: usize, chord: &Chord, compliances: [Expr; 6]) {
     let i = row + 1;
     chain.g.name(chord.length, || format!("len{i}"));
     for (compliance, name) in compliances.into_iter().zip(SPRINGS) {
         chain.g.name(compliance, || format!("{name}{i}"));
     }
-    let springs = core::array::from_fn(|k| {
-        let (axis, angular) = (chord.axes[k % 3], k >= 3);
-        let twist = if angular {
-            let from = Point::Boundary(chord.end);
-            let lever = levers.extended(&mut chain.g, from, &chord.to_end, Some(axis));
-            (chain.g.cross3(axis, lever), axis)
-        } else {
-            (axis, [Expr::ZERO; 3])
-        };
-        Spring { compliance: compliances[k], twist, axis, angular }
-    });
-    (chord, springs)
 }
 
 /// Compliances of the six springs: along x, y, z of the beam, then about them.
-fn compliances(chain: &mut Chain, beam: &Beam, length: Expr) -> [Expr; 6] {
+pub(super) fn compliances(chain: &mut Chain, beam: &Beam, length: Expr) -> [Expr; 6] {
     let [e, shear] = [&beam.youngs_modulus, &beam.shear_modulus].map(|v| chain.value(v));
     let section = &beam.section;
     let [area, iy, iz, j] =

@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::Output;
 
-use super::{Derivation, Derived, beam};
+use super::{Derivation, Derived, springs};
 use crate::derive::chain::{Chain, Levers, base_twists};
 use crate::expr::{Expr, Twist, Vec3, parallel3};
 
@@ -100,9 +100,8 @@ fn elements(chain: &mut Chain) -> Vec<Element> {
         }
     }
     let levers = Levers::to_tool(chain);
-    for row in 0..chain.dof() {
-        let Some(beam) = chain.robot.joints[row].beam.clone() else { continue };
-        let (_, springs) = beam::springs(chain, &levers, row, &beam);
+    for elastic in springs::elastics(chain) {
+        let (_, springs) = springs::springs(chain, &levers, &elastic);
         for spring in springs {
             let (v, w): Twist = spring.twist;
             let (v, w) = (chain.in_base(v), chain.in_base(w));

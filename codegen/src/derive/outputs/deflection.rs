@@ -3,11 +3,9 @@
 use stiffarm_kernels::{Output, Part};
 
 use super::compliance::joint_compliances;
-use super::stiffness::{matrix, tool_load};
-use super::{Derivation, Derived, beam, margin, weight};
-use crate::derive::chain::{
-    Chain, Chord, Levers, Point, beam_mass, flatten, gravity, mass_beyond, power, twists, wrench,
-};
+use super::stiffness::{Load, matrix, tool_load};
+use super::{Derivation, Derived, margin, springs, weight};
+use crate::derive::chain::{Chain, Levers, flatten, power, twists, wrench};
 use crate::derive::program::Solve;
 use crate::expr::{Expr, Symbol, Twist, Vec3};
 
@@ -33,6 +31,7 @@ fn first_order(chain: &mut Chain) -> Derived {
         }
     }
     links(chain, &mut sum, false);
+    friction(chain, &mut sum, w, None);
     sum.in_base(chain).into()
 }
 
@@ -67,36 +66,70 @@ pub(super) fn deflection(chain: &mut Chain, output: Output) -> Derived {
     let mut sum = Sum::default();
     let (mut torques, mut unknowns) = (Vec::new(), Vec::new());
     for &j in &compliant {
-        let tool = power(chain, twists[j], w);
-        let own =
-            weight.as_ref().map_or(Expr::ZERO, |load| chain.g.dot3(load.force[j], load.arms[j]));
-        let torque = chain.g.add(tool, own);
-        chain.g.name(torque, || format!("tau{}", j + 1));
-        torques.push(torque);
+        torques.push(torque(chain, j, w, weight.as_ref()));
         let unknown = chain.g.symbol(Symbol::Deflection { joint: j, weights });
         unknowns.push(unknown);
         sum.add(chain, twists[j], unknown);
     }
     links(chain, &mut sum, weights);
+    friction(chain, &mut sum, w, weight.as_ref());
+    hardening(chain, &mut sum, w, weight.as_ref());
     let margin = margin::margin(chain.robot, weights);
     let solve = Solve { output, matrix: system, right: torques, unknowns, margin };
     Derived { entries: sum.in_base(chain), solve: (!compliant.is_empty()).then_some(solve) }
 }
 
-/// Adds the beams: each of their springs gives by its compliance times the load on it.
+/// What a load on the tool, and weights where they count, put on a joint.
+fn torque(chain: &mut Chain, j: usize, w: (Vec3, Vec3), weight: Option<&Load>) -> Expr {
+    let twist = twists(chain)[j];
+    let tool = power(chain, twist, w);
+    let own = weight.map_or(Expr::ZERO, |load| chain.g.dot3(load.force[j], load.arms[j]));
+    let torque = chain.g.add(tool, own);
+    chain.g.name(torque, || format!("tau{}", j + 1));
+    torque
+}
+
+/// Adds what friction keeps wound up: by the torque's size, behind the approach.
+fn friction(chain: &mut Chain, sum: &mut Sum, w: (Vec3, Vec3), weight: Option<&Load>) {
+    for (j, windup) in &chain.robot.beyond.windup {
+        let torque = torque(chain, *j, w, weight);
+        let square = chain.g.mul(torque, torque);
+        let size = chain.g.sqrt(square);
+        let (windup, side) = (chain.g.number(*windup), chain.g.symbol(Symbol::Side(*j)));
+        let by = chain.g.mul(side, size);
+        let by = chain.g.mul(windup, by);
+        let twist = twists(chain)[*j];
+        sum.add(chain, twist, -by);
+    }
+}
+
+/// Adds what joints give by the cube of their torque.
+fn hardening(chain: &mut Chain, sum: &mut Sum, w: (Vec3, Vec3), weight: Option<&Load>) {
+    for (j, cubic) in &chain.robot.beyond.hardening {
+        let torque = torque(chain, *j, w, weight);
+        let square = chain.g.mul(torque, torque);
+        let cube = chain.g.mul(square, torque);
+        let cubic = chain.g.number(*cubic);
+        let by = chain.g.mul(cubic, cube);
+        let twist = twists(chain)[*j];
+        sum.add(chain, twist, by);
+    }
+}
+
+/// Adds what else gives: each spring by its compliance times the load on it.
 fn links(chain: &mut Chain, sum: &mut Sum, weights: bool) {
-    if chain.robot.joints.iter().all(|j| j.beam.is_none()) {
+    let elastics = springs::elastics(chain);
+    if elastics.is_empty() {
         return;
     }
     let w = wrench(chain);
     let levers = Levers::to_tool(chain);
     let moments = weights.then(|| Levers::of_mass(chain));
-    for row in 0..chain.dof() {
-        let Some(link) = chain.robot.joints[row].beam.clone() else { continue };
-        let (chord, springs) = beam::springs(chain, &levers, row, &link);
+    for elastic in elastics {
+        let (place, springs) = springs::springs(chain, &levers, &elastic);
         let mut loads: Vec<Expr> = springs.iter().map(|s| power(chain, s.twist, w)).collect();
         if let Some(moments) = &moments {
-            let weight = weight_on(chain, moments, row, &chord, &springs);
+            let weight = place.weight_on(chain, moments, &springs);
             loads = loads.into_iter().zip(weight).map(|(a, b)| chain.g.add(a, b)).collect();
         }
         for (spring, load) in springs.iter().zip(loads) {
@@ -104,35 +137,6 @@ fn links(chain: &mut Chain, sum: &mut Sum, weights: bool) {
             sum.add(chain, spring.twist, give);
         }
     }
-}
-
-/// What the weights beyond a beam, and its own, put on each of its springs.
-fn weight_on(
-    chain: &mut Chain,
-    moments: &Levers,
-    row: usize,
-    chord: &Chord,
-    springs: &[beam::Spring; 6],
-) -> [Expr; 6] {
-    let g = gravity(chain);
-    let mass = mass_beyond(chain, chord.end);
-    let to_end = chord.to_end.map(|(half, axis)| (chain.g.mul(mass, half), axis));
-    let mass_of_beam = beam_mass(chain, row);
-    let own = chain.g.scale3(mass_of_beam, g);
-    let mut loads = beam::own_weight(chain, chord, own);
-    for (spring, load) in springs.iter().zip(&mut loads) {
-        let outer = if spring.angular {
-            let from = Point::Boundary(chord.end);
-            let moment = moments.extended(&mut chain.g, from, &to_end, Some(spring.axis));
-            let arm = chain.g.cross3(spring.axis, moment);
-            chain.g.dot3(arm, g)
-        } else {
-            let along = chain.g.dot3(spring.axis, g);
-            chain.g.mul(mass, along)
-        };
-        *load = chain.g.add(*load, outer);
-    }
-    loads
 }
 
 /// ∂(first-order deflection)/∂(compliance of joint j) = J_j J_jᵀ w, 6×n, base axes.

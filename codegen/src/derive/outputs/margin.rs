@@ -16,7 +16,12 @@ use crate::robot::{Convention, Joint, Robot, Value};
 /// the diagonal (its symmetric part), the weights with their lever moments. Of `x + y < h`, where x is the
 /// force's share and y the moment's, `2x² + 2y² < h²` is enough.
 pub(super) fn margin(robot: &Robot, weights: bool) -> Option<[Number; 2]> {
-    let arm = Levers::of(robot)?;
+    let beyond = &robot.beyond;
+    // Neither lengths nor loads are the table's then.
+    let told = !beyond.grows()
+        && beyond.wrench_scale.is_zero()
+        && beyond.load_point.iter().all(|x| x.is_zero());
+    let arm = Levers::of(robot).filter(|_| told)?;
     let n = robot.dof();
     if robot.joints.iter().filter(|joint| joint.stiffness.is_some()).count() < 3 {
         return None;

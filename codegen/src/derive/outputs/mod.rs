@@ -10,6 +10,7 @@ mod jacobian;
 mod manipulability;
 mod margin;
 mod parameters;
+mod springs;
 mod stiffness;
 mod torque;
 mod weight;

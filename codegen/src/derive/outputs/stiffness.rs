@@ -3,7 +3,7 @@
 use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
-use crate::derive::chain::{Chain, twists, wrench};
+use crate::derive::chain::{Chain, load, twists};
 use crate::expr::{Expr, Twist, Vec3, parallel3};
 
 /// The outputs of this file.
@@ -30,8 +30,16 @@ fn complementary_stiffness(chain: &mut Chain) -> Derived {
 
 /// The wrench on the tool as a load.
 pub(super) fn tool_load(chain: &mut Chain, twists: &[Twist]) -> Load {
-    let (f, m) = wrench(chain);
-    Load { force: vec![f; chain.dof()], moment: m, arms: twists.iter().map(|t| t.0).collect() }
+    let load = load(chain);
+    let arm = |(j, (v, w)): (usize, &Twist)| match chain.revolute(j) {
+        true => {
+            let beside = chain.g.cross3(*w, load.at);
+            chain.g.add3(*v, beside)
+        }
+        false => *v,
+    };
+    let arms = twists.iter().enumerate().map(arm).collect();
+    Load { force: vec![load.force; chain.dof()], moment: load.moment, arms }
 }
 
 /// With i the inner and j the outer of two joints: force part `f · (z_i × v_j)` in both triangles,

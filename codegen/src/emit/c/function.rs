@@ -5,7 +5,7 @@ use stiffarm_kernels::{Output, Side};
 use super::super::expression::{Printer, Style as _};
 use super::super::plan::{Argument, Given, Plan, Target};
 use super::super::posture::Needs;
-use super::posture::statements;
+use super::posture::Entrance;
 use super::solve::solve_name;
 use super::style::C;
 use crate::derive::{Block, Own};
@@ -19,6 +19,7 @@ pub(super) struct Function<'a> {
     pub place: Option<&'a str>,
     pub needs: &'a Needs,
     pub language: &'a C,
+    pub entrance: &'a Entrance<'a>,
 }
 
 impl<'a> Function<'a> {
@@ -67,9 +68,7 @@ impl<'a> Function<'a> {
 
     /// The head of the function of the joint values.
     pub fn by_joints(&self, module: &str) -> String {
-        let upper = module.to_uppercase();
-        let first = format!("const {} q[{upper}_JOINTS]", self.language.real());
-        self.head(&format!("{module}_{}", self.name()), &first, module)
+        self.head(&format!("{module}_{}", self.name()), &self.entrance.parameters(), module)
     }
 
     /// The head of the function of the posture.
@@ -110,14 +109,11 @@ impl<'a> Function<'a> {
         out.code(&self.by_joints(module));
         out.braces(|out| {
             out.code(&format!("{module}_posture_t own = {{0}};"));
-            if self.needs.reads.is_empty() {
-                out.blank();
-                out.code("(void)q;");
-            } else {
+            if !self.needs.reads.is_empty() {
                 out.code(&format!("{module}_posture_t *const posture = &own;"));
-                out.blank();
-                statements(&self.needs.posture).for_each(|line| out.code(&line));
             }
+            out.blank();
+            self.entrance.statements(out, &self.needs.posture);
             let returned = if self.fallible() { "return " } else { "" };
             let beside: String = self
                 .plan

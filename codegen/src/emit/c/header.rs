@@ -67,7 +67,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
  *   gcc -std=c99 -O2 -ffp-contract=off -c {name}.c
  * where {real} is evaluated as {real} (FLT_EVAL_METHOD 0) the results are the Rust kernels' bits{except}.
  *
- * Joint values are in rad (m), a wrench in N and N*m on the tool at its origin, base axes. Every
+ * Joint values are in rad (m), a wrench in N and N*m on the tool at its origin, base axes.{given} Every
  * output is one column-major block: entry (row, column) of a matrix is out[column * ROWS + row].
  * out must not be NULL. Sines and cosines: {sines}.
  * No memory is allocated, nothing recurses, no loop depends on data. The polynomial reads the bits
@@ -78,6 +78,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
 ",
         robot = harmless(robot),
         asked = asked(module.robot),
+        given = given(module),
         table = table.hash,
         real = module.language.real(),
         except = match module.options.sines {
@@ -89,6 +90,22 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
         out.verbatim(&format!("{}\n", format!(" *   {}", harmless(line)).trim_end()));
     }
     out.code(" */");
+}
+
+/// What the functions of a corrected arm are given besides.
+fn given(module: &Module) -> String {
+    let stage = module.entrance.stage;
+    let each = stage.extras().into_iter().map(|e| format!("\n * {}: {}.", e.name(), e.sentence()));
+    let extras: String = each.collect();
+    match stage.moves {
+        true => format!(
+            "\n * The functions take readings: {}_joints tells the joint values that they mean, to which\n \
+             * columns and torques belong.{extras}\n *",
+            module.name()
+        ),
+        false if extras.is_empty() => extras,
+        false => format!("{extras}\n *"),
+    }
 }
 
 fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
@@ -160,6 +177,13 @@ fn types(module: &Module, out: &mut Lines) {
         out.blank();
         out.comment(&["The posture of joint values, for all functions that take one.".to_string()]);
         out.code(&format!("{};", posture_head(module)));
+        if module.entrance.stage.moves {
+            let text =
+                "The joint values that readings mean, to which all that is told by joint belongs.";
+            out.blank();
+            out.comment(&[text.to_string()]);
+            out.code(&format!("{};", module.entrance.joints_head()));
+        }
     }
 }
 

@@ -20,10 +20,12 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
+use self::posture::Entrance;
 use super::constants::Constants;
 use super::functions;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
+use super::readings::Stage;
 use crate::derive::Program;
 use crate::robot::Robot;
 
@@ -116,11 +118,17 @@ pub(crate) fn c_with(
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
+    let stage = Stage::of(robot);
+    let entrance = Entrance { stage: &stage, language: &language, name: &options.name };
     let functions = plans.iter().zip(each).zip(&needs);
     let functions: Vec<Function> = functions
-        .map(|((plan, place), needs)| Function { plan, place, needs, language: &language })
+        .map(|((plan, place), needs)| {
+            let (language, entrance) = (&language, &entrance);
+            Function { plan, place, needs, language, entrance }
+        })
         .collect();
-    let module = Module { robot, options, language: &language, posture, functions };
+    let (language, entrance) = (&language, &entrance);
+    let module = Module { robot, options, language, entrance, posture, functions };
     let table = hash::table(robot);
     let source = source::source(&module, &table);
     let header = header::header(&module, &table, &source);
@@ -132,6 +140,7 @@ struct Module<'a> {
     robot: &'a Robot,
     options: &'a COptions,
     language: &'a style::C,
+    entrance: &'a Entrance<'a>,
     posture: Posture,
     functions: Vec<Function<'a>>,
 }

@@ -1,6 +1,8 @@
 //! The posture as a struct of C, and the statements that make it.
 
-use super::super::posture::{Posture, displacement, unit};
+use super::super::posture::{Plain, Posture};
+use super::super::readings::{Extra, Stage};
+use super::style::C;
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -21,20 +23,106 @@ pub(super) fn declaration(
         out.code(&format!("{real} s{}; /* sine of {} */", pair.suffix, pair.sum));
         out.code(&format!("{real} c{}; /* cosine of {} */", pair.suffix, pair.sum));
     }
-    for joint in &posture.prismatic {
-        let unit = unit(robot, *joint);
-        out.code(&format!("{real} {}; /* q[{joint}], {unit} */", displacement(*joint)));
+    for plain in &posture.plain {
+        let (field, source, meaning) = (plain.field(), plain.source(), plain.meaning(robot));
+        out.code(&format!("{real} {field}; /* {source}, {meaning} */"));
     }
     out.dedent();
     out.code(&format!("}} {name}_posture_t;"));
 }
 
-/// Statements that make every field.
-pub(super) fn statements(posture: &Posture) -> impl Iterator<Item = String> {
-    let angles = posture
-        .angles
-        .iter()
-        .map(|pair| format!("sin_cos({}, &posture->s{1}, &posture->c{1});", pair.sum, pair.suffix));
-    let displacements = posture.prismatic.iter();
-    angles.chain(displacements.map(|j| format!("posture->{} = q[{j}];", displacement(*j))))
+/// What stands between readings and posture, and how C spells it.
+pub(super) struct Entrance<'a> {
+    pub stage: &'a Stage,
+    pub language: &'a C,
+    /// What every name begins with.
+    pub name: &'a str,
+}
+
+impl Entrance<'_> {
+    /// The parameters before all others: readings, and what is given beside them.
+    pub fn parameters(&self) -> String {
+        let (real, upper) = (self.language.real(), self.name.to_uppercase());
+        let extra = |extra: Extra| match extra {
+            Extra::Sides => format!(", const {real} {}[{upper}_JOINTS]", extra.name()),
+            Extra::Warming => format!(", {real} {}", extra.name()),
+        };
+        let extras: String = self.stage.extras().into_iter().map(extra).collect();
+        format!("const {real} {}[{upper}_JOINTS]{extras}", self.readings())
+    }
+
+    /// What the readings are called: `q` where they are the joint values.
+    fn readings(&self) -> &'static str {
+        if self.stage.moves { "readings" } else { "q" }
+    }
+
+    /// Statements that make every field.
+    pub fn statements(&self, out: &mut Lines, posture: &Posture) {
+        let of_joints = |plain: &Plain| matches!(plain, Plain::Joint(_));
+        let reads_joints = !posture.angles.is_empty() || posture.plain.iter().any(of_joints);
+        let mut unread: Vec<Extra> = self.stage.extras();
+        if self.stage.moves && reads_joints {
+            let extras = unread.drain(..).map(|extra| format!(", {}", extra.name()));
+            let extras: String = extras.collect();
+            let (real, upper) = (self.language.real(), self.name.to_uppercase());
+            out.code(&format!("{real} q[{upper}_JOINTS];"));
+            out.blank();
+            out.code(&format!("{}_joints({}{extras}, q);", self.name, self.readings()));
+        } else if !reads_joints {
+            out.code(&format!("(void){};", self.readings()));
+        }
+        let reads = |extra: &Extra, plain: &Plain| match plain {
+            Plain::Joint(_) => false,
+            Plain::Side(_) => *extra == Extra::Sides,
+            Plain::Growth => *extra == Extra::Warming,
+        };
+        for extra in unread.iter().filter(|e| !posture.plain.iter().any(|plain| reads(e, plain))) {
+            out.code(&format!("(void){};", extra.name()));
+        }
+        for pair in &posture.angles {
+            let (sum, suffix) = (&pair.sum, &pair.suffix);
+            out.code(&format!("sin_cos({sum}, &posture->s{suffix}, &posture->c{suffix});"));
+        }
+        for plain in &posture.plain {
+            let source = match plain {
+                Plain::Growth => self.stage.growth(self.language),
+                plain => plain.source(),
+            };
+            out.code(&format!("posture->{} = {source};", plain.field()));
+        }
+    }
+
+    /// The head of the function from readings to joint values.
+    pub fn joints_head(&self) -> String {
+        let (real, upper) = (self.language.real(), self.name.to_uppercase());
+        let parameters = self.parameters().replacen("readings", "q", 1);
+        format!("void {}_joints({parameters}, {real} out[{upper}_JOINTS])", self.name)
+    }
+
+    /// The function itself.
+    pub fn joints(&self, out: &mut Lines) {
+        let (real, stage) = (self.language.real(), self.stage);
+        out.blank();
+        out.code(&self.joints_head());
+        out.braces(|out| {
+            let angles = stage.angles();
+            for angle in &angles {
+                let suffix = stage.suffix(*angle);
+                out.code(&format!("{real} s{suffix}, c{suffix};"));
+            }
+            if !angles.is_empty() {
+                out.blank();
+            }
+            for extra in stage.extras().into_iter().filter(|extra| !stage.reads(*extra)) {
+                out.code(&format!("(void){};", extra.name()));
+            }
+            for angle in &angles {
+                let (suffix, sum) = (stage.suffix(*angle), stage.print(*angle, self.language));
+                out.code(&format!("sin_cos({sum}, &s{suffix}, &c{suffix});"));
+            }
+            for (joint, value) in stage.readings.joints.iter().enumerate() {
+                out.code(&format!("out[{joint}] = {};", stage.print(*value, self.language)));
+            }
+        });
+    }
 }

@@ -1,7 +1,6 @@
 //! The source file.
 
 use super::hash::Table;
-use super::posture::statements;
 use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
@@ -70,15 +69,18 @@ fn functions(module: &Module, out: &mut Lines) {
         out.blank();
         out.code(&posture_head(module));
         out.braces(|out| {
-            statements(&module.posture).for_each(|line| out.code(&line));
+            module.entrance.statements(out, &module.posture);
         });
+        if module.entrance.stage.moves {
+            module.entrance.joints(out);
+        }
     }
 }
 
 /// The head of the function that makes the posture.
 pub(super) fn posture_head(module: &Module) -> String {
-    let (name, real, joints) = (module.name(), module.language.real(), module.constant("JOINTS"));
-    format!("void {name}_posture(const {real} q[{joints}], {name}_posture_t *posture)")
+    let (name, parameters) = (module.name(), module.entrance.parameters());
+    format!("void {name}_posture({parameters}, {name}_posture_t *posture)")
 }
 
 fn sparsity(module: &Module, out: &mut Lines) {

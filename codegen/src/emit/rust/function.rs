@@ -4,6 +4,7 @@ use stiffarm_kernels::Output;
 
 use super::super::plan::{Argument, Plan};
 use super::super::posture::{Needs, Posture};
+use super::super::readings::Stage;
 use super::shapes;
 use super::style::Rust;
 use crate::derive::{Block, Held, Own, Program};
@@ -16,6 +17,8 @@ pub(super) struct Function<'p> {
     pub posture: &'p Posture,
     /// Whether it takes the constants of a table with symbolic parameters.
     pub symbolic: bool,
+    /// What stands between readings and joint values.
+    pub stage: &'p Stage,
     /// How its text is spelt.
     pub style: &'p Rust,
     /// How many modules the text stands in, below the arm's.

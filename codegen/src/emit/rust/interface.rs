@@ -10,29 +10,33 @@ use super::table::numeric;
 use crate::derive::Held;
 use crate::emit::lines::Lines;
 use crate::emit::posture::Posture;
+use crate::emit::readings::{Extra, Stage};
 use crate::robot::Robot;
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
     robot: &Robot,
     posture: &Posture,
+    stage: &Stage,
     Functions { place, outputs, .. }: &Functions,
     depth: usize,
 ) -> String {
     let mut out = Lines::at(depth);
     let symbolic = !robot.symbols().is_empty();
-    definition(&mut out, symbolic);
-    let target = if symbolic { "Robot<S>" } else { "Robot" };
-    kernels(&mut out, target, symbolic, outputs);
-    arm(&mut out, target, robot, posture);
+    let extras = stage.extras();
+    definition(&mut out, symbolic, &extras);
+    let target = if symbolic || !extras.is_empty() { "Robot<S>" } else { "Robot" };
+    kernels(&mut out, target, (symbolic, &extras), outputs);
+    arm(&mut out, target, robot, (posture, &extras));
     if !symbolic && place.is_none() {
-        numeric(&mut out, robot);
+        let generic = if extras.is_empty() { "" } else { "<S: Scalar>" };
+        numeric(&mut out, robot, (generic, target));
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
     out.finish()
 }
 
-fn definition(out: &mut Lines, symbolic: bool) {
+fn definition(out: &mut Lines, symbolic: bool, extras: &[Extra]) {
     out.blank();
     if symbolic {
         out.doc("This arm with numbers for its parameters, as `Kernels`.");
@@ -54,6 +58,32 @@ fn definition(out: &mut Lines, symbolic: bool) {
         out.code("}");
         out.dedent();
         out.code("}");
+    } else if !extras.is_empty() {
+        out.doc("This arm as `Kernels`, and what its functions take besides readings and load.");
+        out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
+        out.code("pub struct Robot<S> {");
+        out.indent();
+        for extra in extras {
+            out.doc(&format!("{}.", capital(extra.sentence())));
+            match extra {
+                Extra::Sides => out.code("pub sides: [S; N],"),
+                Extra::Warming => out.code("pub warming: S,"),
+            }
+        }
+        out.dedent();
+        out.code("}");
+        out.blank();
+        out.code("impl<S: Scalar> Default for Robot<S> {");
+        out.indent();
+        out.doc("Of joints that came from unknown sides, as warm as when it is as its table says.");
+        let each = extras.iter().map(|extra| match extra {
+            Extra::Sides => "sides: [S::lit(0.0); N]",
+            Extra::Warming => "warming: S::lit(0.0)",
+        });
+        let each = each.collect::<Vec<_>>().join(", ");
+        method(out, "fn default() -> Self {", &format!("Robot {{ {each} }}"));
+        out.dedent();
+        out.code("}");
     } else {
         out.doc("This arm as `Kernels`.");
         out.code("#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]");
@@ -61,7 +91,27 @@ fn definition(out: &mut Lines, symbolic: bool) {
     }
 }
 
-fn kernels(out: &mut Lines, target: &str, symbolic: bool, outputs: &[Output]) {
+/// What of itself an arm hands on behind the readings.
+fn own(extras: &[Extra]) -> String {
+    let each = extras.iter().map(|extra| match extra {
+        Extra::Sides => ", &self.sides",
+        Extra::Warming => ", self.warming",
+    });
+    each.collect()
+}
+
+/// A sentence that begins as one.
+fn capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn kernels(
+    out: &mut Lines,
+    target: &str,
+    (symbolic, extras): (bool, &[Extra]),
+    outputs: &[Output],
+) {
     out.blank();
     out.code(&format!("impl<S: Scalar> Kernels<S> for {target} {{"));
     out.indent();
@@ -84,7 +134,12 @@ fn kernels(out: &mut Lines, target: &str, symbolic: bool, outputs: &[Output]) {
     out.code("match (output, joints) {");
     out.indent();
     for output in outputs {
-        let inputs = output.inputs().iter().map(|input| input.name()).collect::<Vec<_>>();
+        let readings = format!("q{}", own(extras));
+        let inputs = output.inputs().iter().map(|input| match input {
+            Input::Joints => readings.as_str(),
+            beside => beside.name(),
+        });
+        let inputs = inputs.collect::<Vec<_>>();
         let of_joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
         let of_joints = of_joints.map(|input| input.name()).collect::<Vec<_>>().join(", ");
         let first = if symbolic { "constants, " } else { "" };
@@ -101,7 +156,7 @@ fn kernels(out: &mut Lines, target: &str, symbolic: bool, outputs: &[Output]) {
     }
 }
 
-fn arm(out: &mut Lines, target: &str, robot: &Robot, posture: &Posture) {
+fn arm(out: &mut Lines, target: &str, robot: &Robot, (posture, extras): (&Posture, &[Extra])) {
     out.blank();
     out.code(&format!("impl<S: Scalar> Arm<N, S> for {target} {{"));
     out.indent();
@@ -116,7 +171,7 @@ fn arm(out: &mut Lines, target: &str, robot: &Robot, posture: &Posture) {
     method(
         out,
         "fn posture(&self, q: &[S; N]) -> Posture<S> {",
-        &format!("Posture::new({constants}q)"),
+        &format!("Posture::new({constants}q{})", own(extras)),
     );
     out.dedent();
     out.code("}");

@@ -22,7 +22,8 @@ use self::function::Function;
 use self::style::Rust;
 use super::constants::Constants;
 use super::plan::Plan;
-use super::posture::{Needs, Posture};
+use super::posture::{Needs, Plain, Posture};
+use super::readings::Stage;
 use super::{Functions, functions};
 use crate::derive::Program;
 use crate::robot::Robot;
@@ -68,32 +69,35 @@ pub(crate) fn rust_with(robot: &Robot, own: &[&Program], options: &RustOptions) 
     let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
     let programs = of_tool.chain(places.iter().flat_map(|of| &of.programs));
     let plans: Vec<Plan> = programs.map(|p| Plan::new(p, &mut constants)).collect();
+    let stage = Stage::of(robot);
     let style = Rust { fused: options.fused, constants: "constants" };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
     if posture.fields().is_empty() {
         // Of an arm that no joint value enters: a struct of numbers has to hold one.
-        posture.admit_displacement(0);
+        posture.admit_plain(Plain::Joint(0));
     }
 
     let mut text = table::header(robot, own.is_empty(), options);
     if symbolic {
         text.push_str(&table::parameters(robot, &constants));
     }
-    text.push_str(&posture::module(&posture, &needs, robot));
+    text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot));
     let mut each = plans.iter().zip(&needs);
     let mut printed = |of: &Functions, own: usize, depth: usize| {
         let mut text = String::new();
         for (plan, needs) in each.by_ref().take(of.programs.len() + own) {
-            let (posture, style) = (&posture, &style);
-            let function = Function { plan, needs, posture, symbolic, style, depth };
+            let (posture, stage, style) = (&posture, &stage, &style);
+            let function = Function { plan, needs, posture, symbolic, stage, style, depth };
             text.push_str(&function.text(robot, options));
         }
-        text + &interface::interface(robot, &posture, of, depth)
+        text + &interface::interface(robot, &posture, &stage, of, depth)
     };
     tool.iter().for_each(|of| text.push_str(&printed(of, own.len(), 0)));
     if !places.is_empty() {
-        text.push_str(&place::module(robot, options, places, |of, depth| printed(of, 0, depth)));
+        text.push_str(&place::module(robot, options, (places, &stage), |of, depth| {
+            printed(of, 0, depth)
+        }));
     }
     text
 }

@@ -6,7 +6,7 @@ use super::super::plan::Given;
 use super::RustOptions;
 use super::body::Body;
 use super::function::{Function, parameter};
-use super::posture::{INLINE, needs_constants, values};
+use super::posture::{self, INLINE, needs_constants, readings, values};
 use super::shapes;
 use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
@@ -35,27 +35,35 @@ impl Function<'_> {
         if self.symbolic {
             parameters.push("constants: &Constants<S>".to_string());
         }
-        parameters.push(format!("q: &[S; {}]", self.program().dof));
+        let n = self.program().dof;
+        let extras = posture::parameters(self.stage, n).concat();
+        parameters.push(format!("q: &[S; {n}]{extras}"));
         let arguments = self.plan.arguments();
         parameters.extend(arguments.iter().map(|a| parameter(&a.name, a.size)));
         let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
+        let names = self.stage.extras().into_iter().map(|e| format!(", {}", e.name()));
+        let names: String = names.collect();
         let posture = if all {
-            format!("Posture::new({}q)", if offsets { "constants, " } else { "" })
+            format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
         } else {
             let constants = if offsets { "constants: &Constants<S>, " } else { "" };
             let q = if self.needs.reads.is_empty() { "_q" } else { "q" };
-            let q = format!("{q}: &[S; {}]", self.program().dof);
+            let q = format!("{q}: &[S; {n}]{extras}");
+            if !names.is_empty() {
+                // What a function needs of the posture may depend on neither.
+                out.code("#[allow(unused_variables)]");
+            }
             out.code(INLINE);
             out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
             out.indent();
-            values(out, needed);
+            values(out, needed, (self.stage, self.style));
             let fields = needed.fields().into_iter().chain(["..Posture::unused()".to_string()]);
             out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
             out.dedent();
             out.code("}");
-            format!("posture({}q)", if offsets { "constants, " } else { "" })
+            format!("posture({}q{names})", if offsets { "constants, " } else { "" })
         };
         out.code(&format!("{name}::given({})", self.arguments(&format!("&{posture}"))));
         out.dedent();
@@ -123,7 +131,9 @@ impl Function<'_> {
             self.output(out);
         }
         out.doc("");
-        out.doc(&inputs(self.program().inputs(), false, self.own()));
+        let given = inputs(self.program().inputs(), false, self.own());
+        let joints = format!("`{}`: {}", Input::Joints.name(), Input::Joints.sentence());
+        out.doc(&given.replacen(&joints, &readings(self.stage), 1));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();

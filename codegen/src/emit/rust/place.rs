@@ -3,6 +3,7 @@
 use stiffarm_kernels::Form;
 
 use super::super::Functions;
+use super::super::readings::Stage;
 use super::RustOptions;
 use super::table::{angle, listed, value};
 use crate::emit::lines::Lines;
@@ -12,7 +13,7 @@ use crate::robot::Robot;
 pub(super) fn module(
     robot: &Robot,
     options: &RustOptions,
-    places: &[Functions],
+    (places, stage): (&[Functions], &Stage),
     mut printed: impl FnMut(&Functions, usize) -> String,
 ) -> String {
     let mut out = Lines::at(0);
@@ -28,7 +29,7 @@ pub(super) fn module(
         docs(&mut out, robot, place);
         out.code(&format!("pub mod {place} {{"));
         out.indent();
-        imports(&mut out, robot, options, of);
+        imports(&mut out, robot, (options, stage), of);
         out.text.push_str(&printed(of, out.depth));
         out.dedent();
         out.code("}");
@@ -60,7 +61,12 @@ fn docs(out: &mut Lines, robot: &Robot, place: &str) {
 }
 
 /// What the items of the module need.
-fn imports(out: &mut Lines, robot: &Robot, options: &RustOptions, of: &Functions) {
+fn imports(
+    out: &mut Lines,
+    robot: &Robot,
+    (options, stage): (&RustOptions, &Stage),
+    of: &Functions,
+) {
     let used = |name: &'static str, used: bool| used.then_some(name);
     let imports = [
         Some("Arm"),
@@ -77,7 +83,8 @@ fn imports(out: &mut Lines, robot: &Robot, options: &RustOptions, of: &Functions
     let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
     out.code(&format!("use {}::{{{imports}}};", options.kernels));
     let symbolic = if robot.symbols().is_empty() { "" } else { "Constants, Parameters, " };
-    out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture}};"));
+    let joints = if stage.moves { ", joints" } else { "" };
+    out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture{joints}}};"));
     out.blank();
     listed(out, &of.outputs);
 }

@@ -1,6 +1,10 @@
 //! What enters a kernel: the posture as sines, cosines and displacements.
 
-use super::super::posture::{Needs, Pair, Posture, unit};
+use stiffarm_kernels::Input;
+
+use super::super::posture::{Needs, Pair, Plain, Posture};
+use super::super::readings::{Extra, Stage};
+use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -14,9 +18,15 @@ pub(super) fn needs_constants(posture: &Posture) -> bool {
 }
 
 /// The struct `Posture`: what of the joint values the functions of the module need.
-pub(super) fn module(posture: &Posture, needs: &[Needs], robot: &Robot) -> String {
+pub(super) fn module(
+    posture: &Posture,
+    needs: &[Needs],
+    (stage, style): (&Stage, &Rust),
+    robot: &Robot,
+) -> String {
     let n = robot.dof();
     let mut out = Lines::at(0);
+    joints(&mut out, stage, style, n);
     out.blank();
     out.doc("The joint values as the kernels need them: sines, cosines, displacements.");
     out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
@@ -29,9 +39,9 @@ pub(super) fn module(posture: &Posture, needs: &[Needs], robot: &Robot) -> Strin
             out.code(&format!("pub {field}: S,"));
         }
     }
-    for joint in &posture.prismatic {
-        out.doc(&format!("`q[{joint}]`, {}", unit(robot, *joint)));
-        out.code(&format!("pub q{}: S,", joint + 1));
+    for plain in &posture.plain {
+        out.doc(&format!("`{}`, {}", plain.source(), plain.meaning(robot)));
+        out.code(&format!("pub {}: S,", plain.field()));
     }
     out.dedent();
     out.code("}");
@@ -41,9 +51,10 @@ pub(super) fn module(posture: &Posture, needs: &[Needs], robot: &Robot) -> Strin
     out.doc("All sines and cosines at once.");
     let constants = if needs_constants(posture) { "constants: &Constants<S>, " } else { "" };
     out.code(INLINE);
-    out.code(&format!("pub fn new({constants}q: &[S; {n}]) -> Self {{"));
+    let extras = parameters(stage, n).concat();
+    out.code(&format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{"));
     out.indent();
-    values(&mut out, posture);
+    values(&mut out, posture, (stage, style));
     out.code(&format!("Posture {{ {} }}", posture.fields().join(", ")));
     out.dedent();
     out.code("}");
@@ -65,8 +76,75 @@ pub(super) fn module(posture: &Posture, needs: &[Needs], robot: &Robot) -> Strin
     out.finish()
 }
 
+/// What stands behind `q` among the parameters of the arm's functions.
+pub(super) fn parameters(stage: &Stage, n: usize) -> Vec<String> {
+    let parameter = |extra: Extra| match extra {
+        Extra::Sides => format!(", {}: &[S; {n}]", extra.name()),
+        Extra::Warming => format!(", {}: S", extra.name()),
+    };
+    stage.extras().into_iter().map(parameter).collect()
+}
+
+/// The function from readings to joint values, where these are others.
+fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
+    if !stage.moves {
+        return;
+    }
+    let ops = stage.readings.ops();
+    out.blank();
+    out.doc("The joint values that readings mean, base to tip, in rad (prismatic joint: m).");
+    out.doc("");
+    out.doc("What is told by joint in this module is told of these values, not of the readings.");
+    out.doc("");
+    out.doc(&format!("{}.", readings(stage)));
+    out.doc("");
+    out.doc(&format!(
+        "{} additions, {} multiplications, {} pairs of sine and cosine, beyond those of the functions.",
+        ops.add, ops.mul, ops.sin_cos
+    ));
+    out.code(INLINE);
+    let unread = |extra: &Extra| if stage.reads(*extra) { "" } else { "_" };
+    let extras = stage.extras().into_iter().zip(parameters(stage, n));
+    let extras = extras.map(|(e, text)| text.replacen(", ", &format!(", {}", unread(&e)), 1));
+    let extras: String = extras.collect();
+    out.code(&format!("pub fn joints<S: Scalar>(q: &[S; {n}]{extras}) -> [S; {n}] {{"));
+    out.indent();
+    let angles = stage.angles();
+    if !angles.is_empty() {
+        let each = |letter: &str| {
+            let names = angles.iter().map(|a| format!("{letter}{}", stage.suffix(*a)));
+            names.collect::<Vec<_>>().join(", ")
+        };
+        let sums: Vec<String> = angles.iter().map(|a| stage.print(*a, style)).collect();
+        out.code(&format!("let ([{}], [{}]) =", each("s"), each("c")));
+        out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
+    }
+    out.code("[");
+    out.indent();
+    for joint in &stage.readings.joints {
+        out.code(&format!("{},", stage.print(*joint, style)));
+    }
+    out.dedent();
+    out.code("]");
+    out.dedent();
+    out.code("}");
+}
+
+/// The documentation of readings and of what is given beside them.
+pub(super) fn readings(stage: &Stage) -> String {
+    let extras = stage.extras().into_iter().map(|e| format!("; `{}`: {}", e.name(), e.sentence()));
+    let joints = Input::Joints.sentence();
+    let readings = joints.replacen("joint values", "readings", usize::from(stage.moves));
+    format!("`{}`: {readings}{}", Input::Joints.name(), extras.collect::<String>())
+}
+
 /// The fields as locals.
-pub(super) fn values(out: &mut Lines, posture: &Posture) {
+pub(super) fn values(out: &mut Lines, posture: &Posture, (stage, style): (&Stage, &Rust)) {
+    let of_joints = |plain: &Plain| matches!(plain, Plain::Joint(_));
+    if stage.moves && (!posture.angles.is_empty() || posture.plain.iter().any(of_joints)) {
+        let extras = stage.extras().into_iter().map(|e| format!(", {}", e.name()));
+        out.code(&format!("let q = joints(q{});", extras.collect::<String>()));
+    }
     if !posture.angles.is_empty() {
         let name = |used: bool, letter: &str, pair: &Pair| match used {
             true => format!("{letter}{}", pair.suffix),
@@ -86,7 +164,11 @@ pub(super) fn values(out: &mut Lines, posture: &Posture) {
         out.code(&format!("let ([{}], [{}]) =", sines.join(", "), cosines.join(", ")));
         out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
     }
-    for joint in &posture.prismatic {
-        out.code(&format!("let q{} = q[{joint}];", joint + 1));
+    for plain in &posture.plain {
+        let source = match plain {
+            Plain::Growth => stage.growth(style),
+            plain => plain.source(),
+        };
+        out.code(&format!("let {} = {source};", plain.field()));
     }
 }

@@ -7,7 +7,7 @@ use super::super::constants::Constants;
 use super::RustOptions;
 use crate::emit::lines::Lines;
 use crate::number::Number;
-use crate::robot::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
+use crate::robot::{Angle, Convention, Entry, Frame, Joint, Motion, Quantity, Robot, Value};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> String {
@@ -77,6 +77,7 @@ pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> Strin
         );
         out.doc(&format!("[{at}] m, turned by the rotation vector [{turned}]."));
     }
+    beyond(&mut out, robot);
     out.code("pub const DH: [DhRow; N] = [");
     out.indent();
     for joint in &robot.joints {
@@ -100,6 +101,27 @@ pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> Strin
     out.dedent();
     out.code("];");
     out.finish()
+}
+
+/// What the arm does beyond the table.
+fn beyond(out: &mut Lines, robot: &Robot) {
+    if robot.effects.is_empty() {
+        return;
+    }
+    out.doc("");
+    out.doc("Beyond the table:");
+    for effect in &robot.effects {
+        let number = |entry: &Entry<Quantity>| match &entry.value {
+            Quantity::Si(x) => format!(", {} = {x:?}", entry.key),
+            Quantity::Text(text) => format!(", {} = {text}", entry.key),
+        };
+        let numbers: String = effect.numbers.iter().map(number).collect();
+        out.doc(&format!(
+            "- {} at {}{numbers}",
+            effect.id.value.replace('_', " "),
+            effect.place.value
+        ));
+    }
 }
 
 /// A row in the notation of the input: `q` stands where the joint moves.
@@ -167,12 +189,12 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
 }
 
 /// The table in numbers.
-pub(super) fn numeric(out: &mut Lines, robot: &Robot) {
+pub(super) fn numeric(out: &mut Lines, robot: &Robot, (generic, target): (&str, &str)) {
     let number = |value: &Value| format!("{:?}", value.number().map_or(0.0, Number::to_f64));
     let three = |values: &[Value; 3]| format!("[{}]", values.each_ref().map(number).join(", "));
     let radians = |angle: &Angle| format!("{:?}", angle.radians().unwrap_or_default());
     out.blank();
-    out.code("impl Numeric<N> for Robot {");
+    out.code(&format!("impl{generic} Numeric<N> for {target} {{"));
     out.indent();
     out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
     out.code(&format!("const GRAVITY: [f64; 3] = {};", three(&robot.gravity)));

@@ -14,9 +14,10 @@ use core::ops::Range;
 use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue, Error};
 
+use super::beyond::EffectError;
 use super::diagnostic::{FileError, Located, Warning};
 use super::draft::{Cell, Draft, DraftFrame, DraftMarker, DraftNamedFrame, DraftPayload};
-use super::model::{Convention, Effect, Robot};
+use super::model::{Convention, Robot};
 use super::problem::{Problem, Report};
 use super::validate::validate;
 use fields::Fields;
@@ -59,24 +60,19 @@ impl Robot {
         }
     }
 
-    /// The same for kernels, which are made of the table alone: an `[[effect]]` is a mistake.
+    /// The same for kernels: its effects are understood ([`Robot::with_effects`]).
     ///
     /// # Errors
-    /// Every mistake in the file, else every effect in it.
-    pub fn table_from_toml(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
+    /// Every mistake in the file, else every effect of which no kernel can be made.
+    pub fn for_kernels(text: &str, path: &str) -> Result<(Robot, Vec<Warning>), FileError> {
         let (robot, warnings) = Robot::from_toml(text, path)?;
-        let mut report = Report::new();
-        for Effect { at, id, place, .. } in &robot.effects {
-            let (id, place) = (id.value.replace('_', " "), &place.value);
-            let message =
-                format!("kernels do not honour the {id} at {place}: they are of the table");
-            let help = "take the [[effect]] out of a copy of the file to go on without it";
-            report.error(Problem::new(at.span.clone(), message).help(help));
-        }
-        match report.errors.is_empty() {
-            true => Ok((robot, warnings)),
-            false => Err(FileError::new(path, text, report)),
-        }
+        let robot = robot.with_effects().map_err(|wrong| {
+            let problem =
+                |e: EffectError| Problem { at: e.at.span, message: e.message, help: e.help };
+            let errors = wrong.into_iter().map(problem).collect();
+            FileError::new(path, text, Report { errors, ..Report::new() })
+        })?;
+        Ok((robot, warnings))
     }
 }
 

@@ -3,7 +3,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::geometry::{Frame, Vector};
+use super::super::space::{Frame, Vector};
 use crate::number::Number;
 use crate::robot::{Angle, Value};
 

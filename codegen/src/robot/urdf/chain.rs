@@ -1,8 +1,8 @@
 //! What lies between base and tip: joints that move, and fixed transforms between them.
 
+use super::super::space::{Frame, Vector, norm, times};
 use super::angle::roll_pitch_yaw;
 use super::document::{Elements, Joint, Kind, Origin};
-use super::geometry::{Frame, Vector, norm, times};
 use super::masses::{self, Lump};
 use super::refusal::{Place, Refusal};
 use super::tree::{Tree, moves};

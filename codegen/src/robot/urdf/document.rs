@@ -4,7 +4,7 @@ use core::str::FromStr;
 
 use roxmltree::Node;
 
-use super::geometry::Vector;
+use super::super::space::Vector;
 use super::refusal::{Place, Refusal};
 
 /// What a `<robot>` holds of kinematics and masses.

@@ -1,8 +1,8 @@
 //! The other way: what a robot file's table is as a chain of joints that turn about their own z.
 
+use super::super::space::{Frame, norm, times};
 use super::angle::roll_pitch_yaw;
 use super::chain::{Chain, Step};
-use super::geometry::{Frame, norm, times};
 use super::masses::Lump;
 use crate::robot::{self, Angle, Convention, Joint, Robot, Value};
 

@@ -1,8 +1,8 @@
 //! Which mass moves with a joint: the links that are fixed to each other behind it.
 
+use super::super::space::{Frame, Vector, dot, plus, times};
 use super::chain::frame;
 use super::document::Link;
-use super::geometry::{Frame, Vector, dot, plus, times};
 use super::tree::{Tree, moves};
 
 /// The moments of a mass: its sum, its centre and how it is spread.

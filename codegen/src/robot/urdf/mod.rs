@@ -17,7 +17,6 @@ mod document;
 mod from_robot;
 #[cfg(test)]
 mod fuzz;
-mod geometry;
 mod invoked;
 mod masses;
 mod read;
@@ -26,9 +25,9 @@ mod robot_file;
 mod table;
 mod tree;
 
+pub use super::space::Frame;
 pub use chain::{Chain, Step};
 pub use document::Elements;
-pub use geometry::Frame;
 pub use invoked::invoked;
 pub use masses::Lump;
 pub use read::{Urdf, bytes, read};

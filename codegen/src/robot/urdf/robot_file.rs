@@ -1,9 +1,10 @@
 //! The table as a robot file.
 
+use super::super::space::Frame;
 use super::angle::{angle, value};
 use super::chain::{Chain, Step};
-use super::geometry::Frame;
 use super::table::Table;
+use crate::robot::beyond::Beyond;
 use crate::robot::{Angle, Convention, Drive, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
@@ -23,6 +24,7 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
+        beyond: Beyond::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
         at: Vec::new(),

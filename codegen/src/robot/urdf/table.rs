@@ -8,8 +8,8 @@
 
 use core::f64::consts::PI;
 
+use super::super::space::{Frame, Vector, cross, dot, norm, plus, times};
 use super::chain::Chain;
-use super::geometry::{Frame, Vector, cross, dot, norm, plus, times};
 
 /// Below this sine two axes are parallel: products of a few dozen rotations round to less.
 const PARALLEL: f64 = 1e-12;

@@ -5,7 +5,7 @@
 //! turns about: translations along the axes of a run are left to its end, and behind the last joint to nobody.
 
 use super::moments::{Moments, turned};
-use crate::derive::chain::{Chain, beam_mass, expression};
+use crate::derive::chain::{Chain, beam_mass, expression, length};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::number::Number;
 use crate::robot::{Convention, Motion, Value};
@@ -132,7 +132,7 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
     for row in 0..n {
         let joint = &robot.joints[row];
         let g = &mut chain.g;
-        let (d, theta) = (expression(g, &joint.d), Turn::constant(g, &joint.theta));
+        let (d, theta) = (length(g, robot, &joint.d), Turn::constant(g, &joint.theta));
         let (turn, slide) = match joint.motion {
             Motion::Revolute => (Turn::joint(g, row).plus(g, &theta), None),
             Motion::Prismatic => (theta, Some(g.symbol(Symbol::Joint(row)))),
@@ -194,7 +194,7 @@ fn leans(chain: &mut Chain, row: usize) -> ([Turn; 2], Vec3) {
     let joint = &chain.robot.joints[row];
     let g = &mut chain.g;
     let lean = [&joint.alpha, &joint.beta].map(|angle| Turn::constant(g, angle));
-    let along = [expression(g, &joint.a), Expr::ZERO, Expr::ZERO];
+    let along = [length(g, chain.robot, &joint.a), Expr::ZERO, Expr::ZERO];
     let offset = match chain.robot.convention {
         Convention::Standard => along,
         Convention::Modified => {

@@ -202,10 +202,47 @@ fn a_text_is_one_line() {
 }
 
 #[test]
-fn kernels_are_of_the_table() {
-    let text = format!("{HEAD}{JOINT}[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
-    let error = Robot::table_from_toml(&text, "arm.toml").expect_err("an effect");
-    let place = (error.errors[0].line, error.errors[0].message.as_str());
-    assert_eq!(place, (5, "kernels do not honour the backlash at joint 1: they are of the table"));
-    assert!(Robot::table_from_toml(&format!("{HEAD}{JOINT}"), "arm.toml").is_ok());
+fn kernels_are_of_what_posture_and_load_decide() {
+    let errors = |effect: &str| {
+        let text = format!("{HEAD}{JOINT}[[effect]]\n{effect}\n");
+        let read = Robot::for_kernels(&text, "arm.toml");
+        let each = |e: crate::robot::Located| format!("{}:{} {}", e.line, e.column, e.message);
+        read.err().map(|e| e.errors.into_iter().map(each).collect::<Vec<_>>()).unwrap_or_default()
+    };
+    for (effect, message) in [
+        (
+            "id = \"settling_lag\"\nplace = \"joint 1\"",
+            "5:1 no kernel is made of the settling lag at joint 1: it depends on the move before, which a \
+             set-point does not tell",
+        ),
+        ("id = \"backlsh\"\nplace = \"joint 1\"", "6:6 unknown effect `backlsh`"),
+        ("id = \"backlash\"\nplace = \"joint 2\"", "7:9 `joint 2` is no place of backlash"),
+        (
+            "id = \"backlash\"\nplace = \"joint 1\"\nwith = 1e-4",
+            "8:8 unknown number `with` of backlash at joint 1",
+        ),
+        (
+            "id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"1 mm\"",
+            "8:9 `1 mm` is no number and its unit: rad, mrad, urad, deg",
+        ),
+        (
+            "id = \"backlash\"\nplace = \"joint 1\"\nwidth = -1e-4",
+            "8:9 `width` is -1e-4: below 0 it is not physical",
+        ),
+        (
+            "id = \"transmission_error\"\nplace = \"joint 1\"\norder = 0",
+            "8:9 `order` of transmission_error: an order of 1 to 1000 is expected",
+        ),
+        (
+            "id = \"joint_coupling\"\nplace = \"joint 1\"\njoint = 1",
+            "8:9 `joint` of joint_coupling: another joint, 1 to 1, is expected",
+        ),
+    ] {
+        assert_eq!(errors(effect), [message], "{effect}");
+    }
+    assert_eq!(errors("id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"0.1 mrad\""), [""; 0]);
+    let symbolic =
+        format!("{HEAD}{JOINT}a = \"a1\"\n[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\n");
+    let error = Robot::for_kernels(&symbolic, "arm.toml").expect_err("a symbol");
+    assert_eq!((error.errors[0].line, error.errors.len()), (6, 1));
 }

@@ -1,6 +1,6 @@
 //! What the numbers of an effect are, and the units in which they may be written.
 
-use stiffarm_kernels::Motion;
+use crate::robot::Motion;
 
 /// A unit and what it is in SI.
 type Named = (&'static str, f64);
