@@ -6,7 +6,7 @@
 # pose, Jacobian, K_C, joint torques, compliance, and the deflection with its 6x6 solve.
 #
 #   benches/peers/run.sh                 # what is installed
-#   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (CasADi, Pinocchio)
+#   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (CasADi, Pinocchio, SymForce)
 #
 # A peer that is not installed is skipped with a sentence. FLAGS and RUSTFLAGS choose the target; the
 # default is the machine's own processor for all. Plain x86-64 instead:
@@ -23,7 +23,7 @@ python=${PYTHON:-python3}
 
 if [ "${1:-}" = --install ]; then
     apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
-    "$python" -m pip install --quiet casadi pin
+    "$python" -m pip install --quiet casadi pin symforce
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -36,6 +36,11 @@ if "$python" -c 'import casadi' 2>/dev/null; then
     gcc "${flags[@]}" -c "$work/kernels.c" -o "$work/kernels.o"
     g++ -std=c++17 "${flags[@]}" -I. casadi_peer.cpp "$work/kernels.o" -o "$work/casadi"
     "$work/casadi" "$work" >> "$work/times"
+    # Functions of one's own (examples/program), in C on both sides.
+    "$python" program_peer.py "$work"
+    cargo run --quiet --release -p stiffarm-program --example c -- "$work"
+    (cd "$work" && gcc "${flags[@]}" -I. "$OLDPWD/program_drive.c" kr240.c program_casadi.c -lm -o program)
+    "$work/program"
 else
     say "CasADi is skipped: the Python package casadi is not installed"
 fi

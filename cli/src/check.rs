@@ -3,7 +3,6 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_codegen::derive::Given;
 use stiffarm_gap::whole::{Situation, Whole};
-use stiffarm_kernels::Output;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::{Verdict, robots};
@@ -76,10 +75,11 @@ struct Checked {
 fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let robot = source.for_kernels()?;
     let (table, known) = source.as_it_stands()?;
-    let model = Model::new(&robot, &Output::EACH);
+    let outputs = robot.generated();
+    let model = Model::new(&robot, &outputs);
     let whole = Whole { arm: &table, known: &known };
     let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| Failure::new(error.to_string()))?;
-    let at = |q: &[f64], w: &[f64; 6]| drawn(q, (arm.base.rotation, w));
+    let at = |q: &[f64], w: &[f64; 6]| drawn(&q[..arm.dof()], (arm.base.rotation, w));
     let generated =
         |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w, &given(&at(q, w)));
     let evaluate = |output, q: &[f64], w: &[f64; 6]| whole.evaluate(output, q, &at(q, w));
@@ -89,7 +89,8 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let single = |output, q: &[f64], w: &[f64; 6]| model.single(output, q, w);
     // Near buckling the last digits of single precision are lost: not every arm is to be held to its limit.
     let single: Option<&Evaluate<'_>> = if source.built_in { Some(&single) } else { None };
-    let subject = Subject { arm: &arm, beyond, generated: &generated, single };
+    let outputs = &outputs;
+    let subject = Subject { outputs, arm: &arm, beyond, generated: &generated, single };
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
-use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
+use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row, bytes};
 use stiffarm_gap::simulate::moments;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Joint;
@@ -124,7 +124,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 
 /// The targets, and whether they have joint values to start from.
 fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     let starts = has_readings(&bytes);
     let layout = Layout { readings: starts, ..data::layout(source)? };
     let targets = data::from_bytes(path, &bytes, &layout)?;
@@ -134,10 +134,16 @@ fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure
     let refused = |text: &str, help: &str| {
         Err(Failure::with_help(format!("{}: {text}", path.display()), help))
     };
-    if let Kind::Displacement { .. } = targets.kind {
+    if !targets.kind.is_pose() {
         return refused(
-            "found displacements, expected poses: x, y, z",
+            "found no poses, expected x, y, z",
             "a target is a place in the base frame",
+        );
+    }
+    if targets.rows.iter().any(|row| row.payload.is_some()) {
+        return refused(
+            "found a column of payloads, expected loads: fx, fy, fz, mx, my, mz",
+            "what a payload pulls at the tool depends on the posture that is looked for",
         );
     }
     if targets.rows.iter().any(|row| row.marker.is_some()) {

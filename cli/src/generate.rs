@@ -8,7 +8,7 @@ use stiffarm_codegen::emit::{
     CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c, c_name, dot,
     flexible_latex, flexible_rust, latex, mjcf, rust, urdf,
 };
-use stiffarm_codegen::robot::Robot;
+use stiffarm_codegen::robot::{Asked, Refused, Robot};
 
 use super::Verdict;
 use crate::input::source::{self, Source};
@@ -42,11 +42,11 @@ pub struct Args {
     /// What to write
     #[arg(long, value_enum)]
     emit: Emit,
-    /// What to write: outputs, separated by commas [default: what the robot file says, else all of them; of
-    /// dot the Jacobian]
+    /// What to write: outputs, separated by commas, of a named frame or a marker as in `pose at elbow` [default:
+    /// what the robot file says, else all of the tool; of dot the Jacobian]
     #[arg(long, alias = "output", value_name = "LIST", value_delimiter = ',')]
-    #[arg(value_parser = outputs())]
-    outputs: Vec<String>,
+    #[arg(value_parser = |text: &str| Asked::read(text).map_err(told))]
+    outputs: Vec<Asked>,
     /// The pose with displacements in the chain instead, exact and in both approximations: a list
     /// of dx, dy, dz (m), dpsi, dbeta, dphi (rad, about x, y, z), of every link, or of one place
     /// like dphi1, 0 is the base [all of them everywhere if there is no LIST]
@@ -113,8 +113,9 @@ enum SinesFrom {
     Given,
 }
 
-fn outputs() -> Vec<&'static str> {
-    Output::EACH.map(Output::name).to_vec()
+/// What a parser of the command line can say.
+fn told(Refused { message, help }: Refused) -> String {
+    format!("{message}; {help}")
 }
 
 /// Runs the command.
@@ -127,8 +128,13 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     source.robot = source.for_kernels()?;
     args.fits(&source.robot)?;
     if !args.outputs.is_empty() {
-        let asked = |output: &Output| args.outputs.iter().any(|name| name == output.name());
-        source.robot.outputs = Output::EACH.into_iter().filter(asked).collect();
+        let robot = &mut source.robot;
+        (robot.outputs, robot.at) = (Vec::new(), Vec::new());
+        for asked in &args.outputs {
+            let refused =
+                |no: Refused| Failure::with_help(format!("--outputs: {}", no.message), no.help);
+            robot.ask(asked).map_err(refused)?;
+        }
     }
     let mut verdict = Verdict::Good;
     for (name, text) in args.files(&source)? {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use stiffarm_gap::measurement::bytes;
 use stiffarm_gap::readings::{Map, Sheet, import};
 
 use super::Verdict;
@@ -54,8 +55,7 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the table, the map, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let read =
-        |path: &PathBuf| std::fs::read(path).map_err(|error| Failure::io("read", path, &error));
+    let read = |path: &PathBuf| bytes(path).map_err(|error| Failure::io("read", path, &error));
     let plain = |error: stiffarm_gap::readings::ImportError| Failure::new(error.to_string());
     let mut map = match &args.map {
         None => Map::default(),

@@ -94,7 +94,8 @@ pub enum For {
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
-    let arm = source.arm_alone("poses")?;
+    let arm =
+        source.arm_alone("poses", "postures are chosen by the table, which tells the same ones")?;
     let plan = args.plan(&arm)?;
     let progress = Progress::new(&source.given, PARTS, quiet);
     let found = design(&arm, &plan, &|part| progress.reach(part, PARTS));

@@ -47,7 +47,8 @@ pub struct Args {
     effects: Vec<String>,
     #[command(flatten)]
     experiment: ExperimentArgs,
-    /// `unknown`: measure in frames that are nowhere near those of the robot file
+    /// `unknown`: measure in frames that are nowhere near those of the robot file, a base for each
+    /// session
     #[arg(long)]
     frames: Option<FramesArg>,
     /// Add sim_ columns: the robot file's model to first order in the load
@@ -115,6 +116,8 @@ enum MeasureArg {
     Position,
     /// Loaded minus unloaded, all six components
     Displacement,
+    /// Distance from a fixed point that is within the arm's reach, in from_x, from_y, from_z
+    Distance,
 }
 
 /// Most rows that are drawn.
@@ -136,7 +139,9 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         source.known.iter().filter(|known| known.is_there(&design)).cloned().collect();
     let mut plant = Plant::beyond(&arm, &known, &truths).map_err(plain)?;
     if args.frames.is_some() {
-        plant = plant.with_frames(Frames::unknown(seed));
+        let others = (1..).map(|session| Frames::unknown(seed.wrapping_add(session)).base);
+        let others = others.take(design.sessions().count().saturating_sub(1)).collect();
+        plant = plant.with_sessions(&Frames::unknown(seed), others);
     }
     if args.first_order_sim {
         plant = plant.with_first_order_sim();
@@ -255,6 +260,7 @@ impl ExperimentArgs {
                 MeasureArg::Pose => Kind::Pose { orientation: true },
                 MeasureArg::Position => Kind::Pose { orientation: false },
                 MeasureArg::Displacement => Kind::Displacement { components: [true; 6] },
+                MeasureArg::Distance => Kind::Distance,
             },
             seed: self.seed,
         })

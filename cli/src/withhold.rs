@@ -83,7 +83,10 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         return Err(Failure::new(format!("--sizes: found {found}, expected two: 8,20")));
     };
     let source = args.robot.load(quiet)?;
-    let arm = source.arm_alone("withhold")?;
+    let arm = source.arm_alone(
+        "withhold",
+        "the arms of its bench have the table and what is put into them, nothing else",
+    )?;
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),

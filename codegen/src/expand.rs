@@ -11,7 +11,9 @@ use syn::{LitStr, Visibility};
 use crate::emit::{RustOptions, rust};
 #[cfg(feature = "urdf")]
 use crate::robot::urdf::invoked as urdf;
-use crate::robot::{File, Located, Outline, Rejected, Robot, Source, closest, parse_tokens};
+use crate::robot::{
+    File, Located, Outline, Rejected, Robot, Source, SpannedError, closest, parse_tokens,
+};
 use stub::stub;
 
 /// Expands a `robot!` invocation. `root` is the folder that robot files are looked for in: the one of
@@ -32,16 +34,13 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
             read(&file, root).map(|(robot, remarks, watched)| (robot, remarks, Some(watched)))
         }
     };
-    let (mut robot, remarks, watched) = match robot {
+    let (robot, remarks, watched) = match robot {
         Ok(read) => read,
         Err(Unread { errors, watched, outline }) => {
             let stub = stub((attrs, vis, module), &kernels, &outline);
             return quote! { #errors #watched #stub };
         }
     };
-    if !invocation.outputs.is_empty() {
-        robot.outputs = invocation.outputs;
-    }
     let options = RustOptions { kernels: path_text(&kernels), fused: invocation.fused };
     let text = rust(&robot, &options);
     match text.parse::<TokenStream>() {
@@ -120,16 +119,21 @@ fn read(file: &File, root: &Path) -> Result<(Robot, Vec<String>, TokenStream), U
     })?;
     let watch = Literal::string(&path.to_string_lossy());
     let watched = quote! { const _: &[u8] = include_bytes!(#watch); };
-    let remarks = match understood(file, &text) {
-        Ok((robot, remarks)) => return Ok((robot, remarks, watched)),
-        Err(remarks) => remarks,
+    let errors: TokenStream = match understood(file, &text) {
+        Ok((mut robot, remarks)) => match file.ask(&mut robot) {
+            Ok(()) => return Ok((robot, remarks, watched)),
+            Err(errors) => errors.iter().map(SpannedError::to_compile_error).collect(),
+        },
+        Err(remarks) => {
+            let each = remarks.iter().map(|remark| {
+                let message = remark.to_string();
+                quote_spanned! { at => ::core::compile_error!(#message); }
+            });
+            each.collect()
+        }
     };
-    let errors = remarks.iter().map(|remark| {
-        let message = remark.to_string();
-        quote_spanned! { at => ::core::compile_error!(#message); }
-    });
     let outline = Outline::of_file(&text);
-    Err(Unread { errors: errors.collect(), watched: Some(watched), outline })
+    Err(Unread { errors, watched: Some(watched), outline })
 }
 
 /// The robot in a file's text, and remarks on it.

@@ -13,8 +13,9 @@ mod expand;
 pub mod expr;
 pub mod number;
 mod out_dir;
+pub mod program;
 pub mod robot;
 
 #[cfg(feature = "macro")]
 pub use expand::expand;
-pub use out_dir::{BuildError, generate_to_out_dir};
+pub use out_dir::{BuildError, generate_to_out_dir, read_robot};

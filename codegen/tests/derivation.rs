@@ -3,7 +3,7 @@
 
 mod common;
 
-use stiffarm_codegen::derive::{Output, derive_in};
+use stiffarm_codegen::derive::{Held, Output, derive_in};
 use stiffarm_codegen::expr::{Expr, Graph, Symbol};
 
 /// Values for the symbols: posture, wrench.
@@ -16,7 +16,8 @@ fn value(symbol: &Symbol) -> f64 {
 }
 
 fn entries(program: &stiffarm_codegen::derive::Program, output: Output) -> Vec<Expr> {
-    let block = program.blocks.iter().find(|b| b.output == output).expect("it was asked for");
+    let block =
+        program.blocks.iter().find(|b| b.held == Held::Output(output)).expect("it was asked for");
     block.entries.clone()
 }
 

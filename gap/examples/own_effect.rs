@@ -1,7 +1,7 @@
-//! An effect of one's own beside those that stiffarm knows: a belt that is soft until its slack is
-//! taken up.
+//! An effect of one's own beside those that stiffarm knows: a hose that holds a joint back once it is
+//! taut.
 //!
-//! Such a joint twists in proportion to its torque up to some torque, its knee, and hardly more
+//! Such a joint is where its reading says up to some angle either way, and falls behind in proportion
 //! beyond. That is one file: this one. It is put into an arm by its exact model, measured with noise,
 //! and found by a diagnosis that tries it beside everything else.
 //!
@@ -16,25 +16,27 @@ use stiffarm_gap::effects::{
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, Truth, blurred};
-use stiffarm_gap::simulate::{Actual, Moment, Site};
+use stiffarm_gap::simulate::{Actual, Moment};
 use stiffarm_gap::withhold::exact;
 use stiffarm_gap::{Diagnosis, Options, diagnose};
 use stiffarm_kernels::generic::Arm;
 
-use nalgebra::Vector6;
+/// How far the joint stays behind per angle beyond the one at which the hose is taut; the form is that
+/// angle, degrees.
+struct TautHose;
 
-/// Twist per torque up to the knee; the form is the knee, N·m.
-struct SlackBelt;
+/// The angles that are tried, degrees.
+const TAUT: [usize; 5] = [15, 30, 45, 60, 80];
 
-/// The knees that are tried, N·m.
-const KNEES: [usize; 6] = [20, 40, 60, 80, 120, 160];
+/// How far a reading is beyond an angle, with its sign, rad.
+fn beyond(degrees: f64, q: f64) -> f64 {
+    let taut = degrees.to_radians();
+    q - q.clamp(-taut, taut)
+}
 
-/// Component of a revolute joint's own load and motion: about z.
-const OWN: usize = 5;
-
-impl Effect for SlackBelt {
+impl Effect for TautHose {
     fn identifier(&self) -> &'static str {
-        "slack_belt"
+        "taut_hose"
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {
@@ -42,23 +44,20 @@ impl Effect for SlackBelt {
     }
 
     fn forms_are(&self) -> Forms {
-        Forms::Numbers("knee")
+        Forms::Numbers("taut")
     }
 
     fn named_forms(&self, _: &Arm, _: Place) -> Vec<usize> {
-        KNEES.to_vec()
+        TAUT.to_vec()
     }
 
     fn parameters(&self, _: &Arm, spot: Spot) -> Vec<Parameter> {
-        let name = format!("stretch up to {} N·m", spot.form);
-        vec![Parameter::at_least("stretch", Quantity::AnglePerMoment, 0.0).named(name)]
+        let name = format!("lag beyond {}°", spot.form);
+        vec![Parameter::at_least("lag", Quantity::Ratio, 0.0).named(name)]
     }
 
-    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, values: &[f64]) {
-        let (stretch, knee) = (values[0], spot.form as f64);
-        let law =
-            move |load: &Vector6<f64>| Vector6::ith(OWN, stretch * load[OWN].clamp(-knee, knee));
-        actual.laws.push((Site::Joint(spot.row()), Box::new(law)));
+    fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, values: &[f64]) {
+        actual.turn(spot.row(), -values[0] * beyond(spot.form as f64, row.q[spot.row()]));
     }
 
     fn carrier(&self, spot: Spot) -> Option<Carrier> {
@@ -66,42 +65,42 @@ impl Effect for SlackBelt {
     }
 
     fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
-        let knee = spot.form as f64;
-        motions.push(scene.state.torque[spot.row()].clamp(-knee, knee));
+        motions.push(-beyond(spot.form as f64, scene.row.q[spot.row()]));
     }
 
     fn idle(&self) -> &'static str {
-        "no load of this data reaches the belt"
+        "the joint never turns so far that the hose is taut"
     }
 
     fn group(&self) -> Option<Group> {
-        Some(Group::Nonlinear)
+        Some(Group::Constant)
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {
-        let name = told.numbers.first().map_or("stretch", |number| &number.name);
-        format!("the belt of {} has a {name} of {}", told.place, told.size())
+        let name = told.numbers.first().map_or("lag", |number| &number.name);
+        format!("the hose at {} makes it {name} by {}", told.place, told.size())
     }
 
     fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {
         let first = numbers.first()?;
-        let knee: f64 = first.name.split(' ').find_map(|word| word.parse().ok())?;
-        let value = Box::new(move |torque: f64| first.value * torque.clamp(-knee, knee));
-        Some(Curve { over: Over::Torque, proportional: false, value })
+        let digits: String = first.name.chars().filter(char::is_ascii_digit).collect();
+        let degrees: f64 = digits.parse().ok()?;
+        let value = Box::new(move |q: f64| -first.value * beyond(degrees, q));
+        Some(Curve { over: Over::Reading, proportional: false, value })
     }
 }
 
-/// What stiffarm knows, and the belt.
+/// What stiffarm knows, and the hose.
 pub fn catalogue() -> Catalogue {
-    Catalogue::default().with(&SlackBelt)
+    Catalogue::default().with(&TautHose)
 }
 
-/// An arm whose second joint has such a belt, measured.
+/// An arm whose second joint has such a hose, measured.
 pub fn measured(arm: &Arm) -> Measurements {
     let truth = Truth {
-        effect: &SlackBelt,
+        effect: &TautHose,
         place: Place::Joint(2),
-        values: vec![("stretch up to 80 N·m".to_owned(), 6e-6)],
+        values: vec![("lag beyond 80°".to_owned(), 4e-4)],
     };
     let kind = Kind::Pose { orientation: true };
     let design =
@@ -110,7 +109,7 @@ pub fn measured(arm: &Arm) -> Measurements {
     blurred(&shown, Noise { position: 20e-6, rotation: 40e-6 }, 7)
 }
 
-/// The diagnosis with the belt in the catalogue.
+/// The diagnosis with the hose in the catalogue.
 pub fn diagnosed(arm: &Arm, data: &Measurements) -> Diagnosis {
     let options = Options {
         catalogue: catalogue(),

@@ -6,7 +6,7 @@
 
 use stiffarm_codegen::robot::Robot;
 
-use crate::diagnose::{Diagnosed, Nuisance};
+use crate::diagnose::{Diagnosed, Nuisance, NuisanceReport};
 use crate::effects::{Catalogue, Known, KnownError, ParameterReport, RobotFile};
 use crate::robot::{RobotError, arm};
 
@@ -41,7 +41,9 @@ pub fn corrected(robot: &Robot, diagnosed: &Diagnosed) -> Corrected {
         file.place_marker(name, place);
     }
     let is_fitted = |frame: Nuisance| {
-        diagnosis.nuisances.iter().any(|nuisance| nuisance.name == frame.identifier())
+        // A file has one base: of several the robot's stays.
+        let is_one = |n: &NuisanceReport| n.name == frame.identifier() && n.session.is_none();
+        diagnosis.nuisances.iter().any(is_one)
     };
     file.place_frames(Nuisance::ALL.map(is_fitted));
     let mut known = explanation.known().to_vec();

@@ -6,7 +6,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
@@ -117,7 +117,9 @@ fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
 /// Positions and displacements that are too large for metres.
 fn lengths(data: &Measurements, reach: f64) -> Option<String> {
     let (most_metres, what) = match data.kind {
-        Kind::Pose { .. } => (MOST_REACHES * reach, "away"),
+        Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => {
+            (MOST_REACHES * reach, "away")
+        }
         Kind::Displacement { .. } => (MOST_GIVEN * reach, "displaced"),
     };
     let size = |row: &Row| row.measured.fixed_rows::<3>(0).norm();
@@ -137,8 +139,8 @@ fn lengths(data: &Measurements, reach: f64) -> Option<String> {
 /// Rotations that are too large for radians.
 fn angles(data: &Measurements) -> Option<String> {
     let most_radians = match data.kind {
-        Kind::Pose { .. } => TAU,
         Kind::Displacement { .. } => 1.0,
+        _ => TAU,
     };
     let size = |row: &Row| row.measured.fixed_rows::<3>(3).norm();
     if !most(data, |row| size(row) > most_radians) {
@@ -200,7 +202,7 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
 fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
     // Where a marker is unknown its place is fitted along in any case.
     let unknown = data.rows.iter().any(|row| row.offset.is_none());
-    if !matches!(data.kind, Kind::Pose { .. }) || data.poses < FEWEST_POSES || unknown {
+    if !data.kind.is_pose() || data.poses < FEWEST_POSES || unknown {
         return None;
     }
     let every = data.rows.len().div_ceil(ENOUGH_ROWS);
@@ -211,6 +213,10 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
     let rows = data.rows.iter().step_by(every);
     let rows: Vec<(Reading, &Row)> =
         rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect();
+    let mut ends: Vec<usize> =
+        rows.chunk_by(|a, b| a.1.session == b.1.session).map(<[_]>::len).collect();
+    (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);
+    let session = |row: usize| ends.partition_point(|end| *end <= row);
     let is = |row: &Row| row.measured.fixed_rows::<3>(0).into_owned();
     let size = |gaps: Vec<Vector3<f64>>| rms(&gaps.iter().map(Vector3::norm).collect::<Vec<_>>());
     let gap = |(sim, row): &(Reading, &Row)| row_gap(data, row, sim).fixed_rows::<3>(0).into();
@@ -220,24 +226,32 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
     }
     let to: Vec<_> = rows.iter().map(|(_, row)| is(row)).collect();
     let left = |free: &[Nuisance]| {
-        let (mut base, mut tool) = (Isometry3::identity(), Vector3::zeros());
+        let (mut bases, mut tool) = (vec![Isometry3::identity(); ends.len()], Vector3::zeros());
         // Each is exact where the other is; together they approach the best of both.
         for _ in 0..20 {
             if free.contains(&Nuisance::BaseFrame) {
                 let from: Vec<_> =
                     rows.iter().map(|(sim, _)| sim.position + sim.rotation * tool).collect();
-                base = rigid(&from, &to);
+                let mut first = 0;
+                for (base, &end) in bases.iter_mut().zip(&ends) {
+                    *base = rigid(&from[first..end], &to[first..end]);
+                    first = end;
+                }
             }
             if free.contains(&Nuisance::ToolFrame) {
-                let offset = |((sim, _), to): (&(Reading, &Row), &Vector3<f64>)| {
-                    let at = base.inverse() * nalgebra::Point3::from(*to);
+                let offset = |(k, ((sim, _), to)): (usize, (&(Reading, &Row), &Vector3<f64>))| {
+                    let at = bases[session(k)].inverse() * Point3::from(*to);
                     sim.rotation.inverse() * (at.coords - sim.position)
                 };
-                tool = rows.iter().zip(&to).map(offset).sum::<Vector3<f64>>() / rows.len() as f64;
+                let offsets = rows.iter().zip(&to).enumerate().map(offset);
+                tool = offsets.sum::<Vector3<f64>>() / rows.len() as f64;
             }
         }
-        let at = |sim: &Reading| base * nalgebra::Point3::from(sim.position + sim.rotation * tool);
-        size(rows.iter().zip(&to).map(|((sim, _), to)| to - at(sim).coords).collect())
+        let left = |(k, ((sim, _), to)): (usize, (&(Reading, &Row), &Vector3<f64>))| {
+            let at = bases[session(k)] * Point3::from(sim.position + sim.rotation * tool);
+            to - at.coords
+        };
+        size(rows.iter().zip(&to).enumerate().map(left).collect())
     };
     let explained = |free: &[Nuisance]| 1.0 - (left(free) / before).powi(2);
     if !along.is_empty() && explained(along) > NEARLY_ALL {

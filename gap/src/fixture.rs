@@ -18,6 +18,8 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
         compliance: 0.0,
         mass: 12.0,
         com: Vector3::new(-a / 2.0, 0.0, 0.02),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     }
@@ -87,5 +89,10 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
 
 /// A robot of revolute joints without markers.
 pub(crate) fn layout(joints: usize) -> Layout {
-    Layout { motions: vec![Motion::Revolute; joints], readings: true, markers: Vec::new() }
+    Layout {
+        motions: vec![Motion::Revolute; joints],
+        readings: true,
+        markers: Vec::new(),
+        payloads: None,
+    }
 }

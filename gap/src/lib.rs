@@ -22,6 +22,7 @@ mod fixture;
 pub mod gap;
 pub mod identify;
 pub mod measurement;
+pub mod performance;
 pub mod plant;
 pub mod random;
 pub mod readings;

@@ -2,12 +2,12 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Beam, Joint};
+use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
-use crate::measurement::{Layout, Marker};
+use crate::measurement::{Body, Layout, Marker, Payloads};
 
 /// A robot whose parameters are not all known cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -120,10 +120,11 @@ fn text(value: &Value) -> String {
 /// What the reader of measurement files must know of the robot.
 ///
 /// # Errors
-/// [`RobotError::Symbolic`] names every marker coordinate that is still a symbol.
+/// [`RobotError::Symbolic`] names every number of a marker or payload that is still a symbol;
+/// [`RobotError`] of the arm where there are payloads.
 pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
     let mut read = Reader::default();
-    let markers = robot
+    let markers: Vec<Marker> = robot
         .markers
         .iter()
         .map(|m| Marker {
@@ -134,8 +135,23 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
             }),
         })
         .collect();
+    let body = |p: &robot::Payload| {
+        let at = || format!("payload {}", p.name);
+        Body {
+            name: p.name.clone(),
+            mass: read.value(at, &p.mass),
+            com: read.vector(&at(), &p.com),
+        }
+    };
+    let bodies: Vec<Body> = robot.payloads.iter().map(body).collect();
     refuse_symbols(robot, read)?;
-    Ok(Layout { motions: robot.joints.iter().map(|j| j.motion).collect(), readings: true, markers })
+    let carried = (!bodies.is_empty()).then(|| Ok(Payloads { bodies, arm: arm(robot)? }));
+    Ok(Layout {
+        motions: robot.joints.iter().map(|j| j.motion).collect(),
+        readings: true,
+        markers,
+        payloads: carried.transpose()?,
+    })
 }
 
 fn refuse_symbols(robot: &Robot, read: Reader) -> Result<(), RobotError> {
@@ -174,8 +190,32 @@ fn joint(read: &mut Reader, joint: &robot::Joint) -> Joint {
         },
         mass: read.optional(at("mass"), joint.mass.as_ref()),
         com: read.vector(&at("com")(), &joint.com),
+        inertia: inertia(read, joint),
+        drive: drive(read, joint),
         limits: joint.limits,
         beam: joint.beam.as_ref().map(|b| beam(read, b, &joint.name)),
+    }
+}
+
+fn inertia(read: &mut Reader, joint: &robot::Joint) -> Matrix3<f64> {
+    let entry = |value| read.value(|| format!("inertia of {}", joint.name), value);
+    let Some([xx, xy, xz, yy, yz, zz]) = joint.inertia.as_ref().map(|i| i.each_ref().map(entry))
+    else {
+        return Matrix3::zeros();
+    };
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+fn drive(read: &mut Reader, joint: &robot::Joint) -> Drive {
+    let mut number = |what: &str, value: &Option<Value>| {
+        read.optional(|| format!("{what} of {}", joint.name), value.as_ref())
+    };
+    let drive = &joint.drive;
+    Drive {
+        gear: drive.gear.as_ref().map_or(1.0, |_| number("gear", &drive.gear)),
+        rotor_inertia: number("rotor_inertia", &drive.rotor_inertia),
+        coulomb: number("coulomb", &drive.coulomb),
+        viscous: number("viscous", &drive.viscous),
     }
 }
 
@@ -217,6 +257,8 @@ mod tests {
             stiffness: Some(number("2e5")),
             mass: None,
             com: [const { Value::ZERO }; 3],
+            inertia: None,
+            drive: Default::default(),
             limits: None,
             source: None,
             beam: None,
@@ -231,11 +273,13 @@ mod tests {
             effects: Vec::new(),
             beyond: Default::default(),
             payloads: Vec::new(),
+            frames: Vec::new(),
             markers: vec![robot::Marker {
                 name: "smr".to_owned(),
                 translation: Some([Value::ZERO, number("0.1"), Value::ZERO]),
             }],
             outputs: Vec::new(),
+            at: Vec::new(),
         }
     }
 

@@ -162,6 +162,9 @@ fn every_effect_is_written_as_it_was_fitted() {
         "slip@base:after=50,x=0.3mm,rz=0.5mrad",
         "base_frame:x=1mm,rz=1mrad",
         "tool_frame:y=1mm,rx=1mrad",
+        "loaded_backlash@joint 2=0.4 mrad",
+        "soft_zone@joint 2:threshold=150,compliance=4e-6",
+        "counterbalance@joint 2:cos=200,sin=120",
     ];
     for (k, truth) in truths.iter().enumerate() {
         let data = measured(&[truth], None, k as u64 + 10);

@@ -6,14 +6,24 @@
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use proptest::test_runner::{Config, TestRunner};
 use stiffarm_codegen::robot::Motion;
-use stiffarm_gap::measurement::{Layout, Marker};
+use stiffarm_draws::texts::{answered, mutated};
+use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Marker, Mistake};
 use stiffarm_gap::readings::{Map, Sheet, import};
 use stiffarm_gap::{Measurements, ReadError};
 
+/// Every kind of column, comment, line end and quotes.
+const VALID: &str = "# a file\r\n\
+    q1[deg],q2[mm],fx[N],mz[Nmm],s1,temperature[K],time,pose,marker,\
+    x[mm],y,z,rx,ry,rz,sim_x,note[?]\n\
+    10,20,-5,1e3,-1,293,0,p1,smr1,100,2,3,0.1,0.2,0.3,0.1,a b\n\
+    # between\n\n\
+    -1.5e1,+.5,0,0,1,294,1,p1,smr1,200,3,4,0,0,0,0.2,\"c,\"\"d\"\n\
+    30,0,7,0,0,295,2,p2,smr1,1,2,3,0,0,0,0.3,\n";
+
 /// Files of the repository, and tables that once were trouble.
-const CORPUS: [&str; 8] = [
+const CORPUS: [&str; 9] = [
+    VALID,
     include_str!("../../docs/workbench/run.csv"),
     include_str!("../../docs/workbench/plan.csv"),
     include_str!("../../docs/workbench/check.csv"),
@@ -84,35 +94,15 @@ const PIECES: [&str; 48] = [
     "1 000",
 ];
 
-/// A file with stretches replaced by pieces, or by stretches of itself, and cut off anywhere.
-fn mutated() -> impl Strategy<Value = String> {
-    let edit = (any::<Index>(), 0..9_usize, select(&PIECES[..]), any::<Option<(Index, u8)>>());
-    let edits = prop::collection::vec(edit, 0..7);
-    (select(&CORPUS[..]), 1..14_usize, edits, any::<Option<Index>>()).prop_map(
-        |(file, lines, edits, cut)| {
-            let mut text: Vec<char> =
-                file.split_inclusive('\n').take(lines).flat_map(str::chars).collect();
-            for (at, length, piece, copied) in edits {
-                let at = at.index(text.len() + 1);
-                let end = (at + length).min(text.len());
-                let copied = copied.map(|(from, length)| {
-                    let from = from.index(text.len() + 1);
-                    text[from..(from + usize::from(length)).min(text.len())].to_vec()
-                });
-                text.splice(at..end, copied.unwrap_or_else(|| piece.chars().collect()));
-            }
-            text.truncate(cut.map_or(text.len(), |cut| cut.index(text.len() + 1)));
-            text.into_iter().collect()
-        },
-    )
-}
+/// Lines of a file: a few are as good as many.
+const LINES: usize = 14;
 
 fn layout(joints: usize) -> Layout {
     let mut motions = vec![Motion::Revolute; joints];
     motions[joints / 2] = Motion::Prismatic;
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     let markers = vec![marker("smr1", None), marker("smr2", Some([0.1, 0.2, 0.3]))];
-    Layout { motions, markers, readings: true }
+    Layout { motions, markers, readings: true, payloads: None }
 }
 
 /// What is read is finite, what is refused has a place.
@@ -134,10 +124,17 @@ fn reads(bytes: &[u8]) -> Result<(), TestCaseError> {
                         prop_assert!(both.into_iter().all(f64::is_finite));
                         prop_assert!(row.group < data.poses);
                     }
+                    for column in &data.extra {
+                        prop_assert_eq!(column.cells.len(), data.rows.len());
+                    }
                 }
-                Err(ReadError::Mistakes { mistakes, .. }) => {
-                    prop_assert!(!mistakes.is_empty());
-                    prop_assert!(mistakes.iter().all(|m| m.line > 0 && !m.to_string().is_empty()));
+                Err(ReadError::Mistakes { mistakes, more, .. }) => {
+                    prop_assert!(!mistakes.is_empty() && mistakes.len() <= MOST_MISTAKES);
+                    prop_assert!(more == 0 || mistakes.len() == MOST_MISTAKES);
+                    let lines = bytes.split(|b| *b == b'\n' || *b == b'\r').count() as u64;
+                    let is_told = |m: &Mistake| m.to_string().len() > 20;
+                    let is_there = |m: &Mistake| (1..=lines).contains(&m.line) && is_told(m);
+                    prop_assert!(mistakes.iter().all(is_there), "{mistakes:?}");
                 }
                 Err(error) => prop_assert!(false, "{error}"),
             }
@@ -162,25 +159,34 @@ fn imports(text: &str, map: &str) -> Result<(), TestCaseError> {
 }
 
 fn fuzz(cases: u32) {
-    let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let map = || (select(&MAPS[..]), any::<Option<(Index, Index)>>(), select(&PIECES[..]));
-    let mut runner = TestRunner::new(config.clone());
-    runner.run(&mutated(), |text| reads(text.as_bytes())).unwrap_or_else(|e| panic!("{e}"));
-    let mut runner = TestRunner::new(config.clone());
-    let bytes = prop::collection::vec(any::<u8>(), 0..200);
-    runner.run(&bytes, |bytes| reads(&bytes)).unwrap_or_else(|e| panic!("{e}"));
-    let mut runner = TestRunner::new(config);
-    let both = (mutated(), map());
-    let imported = runner.run(&both, |(text, (map, edit, piece))| {
+    let texts = || mutated(&CORPUS, LINES, &PIECES);
+    answered(cases, &texts(), |text| reads(text.as_bytes()));
+    answered(cases / 10, &prop::collection::vec(any::<u8>(), 0..300), |bytes| reads(&bytes));
+    let flips = prop::collection::vec((any::<Index>(), 0_u8..8), 1..8);
+    answered(cases / 10, &flips, |flips| {
+        let mut bytes = VALID.as_bytes().to_vec();
+        for (at, bit) in flips {
+            let at = at.index(bytes.len());
+            bytes[at] ^= 1 << bit;
+        }
+        reads(&bytes)
+    });
+    let map = (select(&MAPS[..]), any::<Option<Index>>(), select(&PIECES[..]));
+    answered(cases, &(texts(), map), |(text, (map, edit, piece))| {
         let mut map = map.to_owned();
-        if let Some((at, _)) = edit {
+        if let Some(at) = edit {
             let places: Vec<usize> =
                 map.char_indices().map(|(k, _)| k).chain([map.len()]).collect();
             map.insert_str(places[at.index(places.len())], piece);
         }
         imports(&text, &map)
     });
-    imported.unwrap_or_else(|e| panic!("{e}"));
+}
+
+#[test]
+fn the_valid_file_is_valid() {
+    let data = Measurements::from_bytes("f", VALID.as_bytes(), &layout(2)).unwrap();
+    assert_eq!((data.rows.len(), data.poses, data.rows[2].line), (3, 2, 7));
 }
 
 #[test]

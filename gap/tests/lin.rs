@@ -28,6 +28,8 @@ fn arm() -> Arm {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: Some(Beam {
             youngs_modulus: 10e6 * PSI,
@@ -96,7 +98,12 @@ fn data() -> Measurements {
             format!("{theta1},{theta2},-1.02,-{exp},-{printed},{:e},{:e},{:e}\n", -ycd, -ytd, -yt);
         text.push_str(&line);
     }
-    let layout = Layout { motions: vec![Motion::Revolute; 2], readings: true, markers: Vec::new() };
+    let layout = Layout {
+        motions: vec![Motion::Revolute; 2],
+        readings: true,
+        markers: Vec::new(),
+        payloads: None,
+    };
     Measurements::from_bytes("lin1991_table3.csv", text.as_bytes(), &layout).unwrap()
 }
 

@@ -49,6 +49,8 @@ pub trait Numeric<const N: usize> {
 
 /// One row of the Denavit-Hartenberg table in numbers, with what hangs on it. It says nothing about beams.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Row {
     /// rad; of a revolute joint the offset.
     pub theta: f64,

@@ -6,6 +6,8 @@ use crate::{Output, Scalar, Unstable};
 
 /// A pose: the axes of a frame as columns, and its origin, m; both in base axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose<S> {
     /// `rotation[0]` is the frame's x axis, `[1]` its y, `[2]` its z.
     pub rotation: [[S; 3]; 3],
@@ -35,6 +37,8 @@ pub fn fill<S: Copy>(out: &mut [S], values: &[S]) -> Result<(), Error> {
 
 /// Operations of a kernel beyond its sines and cosines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ops {
     /// Additions and subtractions.
     pub add: u32,
@@ -57,6 +61,8 @@ impl Ops {
 
 /// The kind of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Motion {
     /// `q` adds to theta.
     Revolute,
@@ -66,6 +72,8 @@ pub enum Motion {
 
 /// How one row of the table becomes a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Convention {
     /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`: Denavit and Hartenberg as in Paul and in Lin et al.
     Standard,
@@ -75,6 +83,8 @@ pub enum Convention {
 
 /// One row of the Denavit-Hartenberg table as it was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DhRow {
     /// The row's label.
     pub joint: &'static str,
@@ -96,9 +106,11 @@ pub struct DhRow {
 
 /// Why an evaluation by slices did not take place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Error {
-    /// `q` or `out` is not of the robot's and output's length.
+    /// The state or `out` is not of the robot's and output's length.
     Length,
     /// The arm is not stable under the load.
     Unstable,
@@ -135,8 +147,12 @@ pub trait Kernels<S: Scalar> {
     /// Number of joints.
     fn dof(&self) -> usize;
 
-    /// Writes `output` at the joint values `q` (rad, m) under `wrench` (N, N·m; base axes, at the
-    /// tool origin) into `out`, column by column. Outputs that take no wrench ignore it.
+    /// The outputs that it was generated with.
+    fn outputs(&self) -> &'static [Output];
+
+    /// Writes `output` at `state` under `wrench` (N, N·m; base axes, at the tool origin) into `out`, column
+    /// by column. The state is the joint values (rad, m), and behind them what more of the joints the
+    /// output takes, as [`Output::state`] says. Outputs that take no wrench ignore it.
     ///
     /// # Errors
     /// [`Error::Length`] where a slice has the wrong length, [`Error::Unstable`] where the deflection
@@ -145,7 +161,7 @@ pub trait Kernels<S: Scalar> {
     fn evaluate(
         &self,
         output: Output,
-        q: &[S],
+        state: &[S],
         wrench: &[S; 6],
         out: &mut [S],
     ) -> Result<(), Error>;

@@ -14,6 +14,7 @@ mod arm;
 pub mod batch;
 #[cfg(feature = "generic")]
 pub mod generic;
+mod interop;
 mod kernel;
 #[cfg(feature = "lanes")]
 pub mod lanes;
@@ -26,6 +27,8 @@ mod sin_cos;
 mod solve;
 
 pub use arm::{Arm, Numeric, Row};
+#[cfg(feature = "simba")]
+pub use interop::simba;
 #[doc(hidden)]
 pub use kernel::fill;
 pub use kernel::{Convention, DhRow, Error, Kernels, Motion, Ops, Pose};

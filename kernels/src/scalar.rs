@@ -16,6 +16,9 @@ pub trait Scalar:
     /// The square root.
     fn sqrt(self) -> Self;
 
+    /// 1 above zero, −1 below it, 0 at zero.
+    fn sign(self) -> Self;
+
     /// Sines and cosines of all angles of one pose at once, so that an implementation may compute
     /// them in lanes.
     fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]);
@@ -47,6 +50,10 @@ impl Scalar for f64 {
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrt(self)
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        f64::from(self > 0.0) - f64::from(self < 0.0)
     }
     #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
     #[inline(always)]
@@ -89,6 +96,10 @@ impl Scalar for f32 {
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrtf(self)
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        f32::from(self > 0.0) - f32::from(self < 0.0)
     }
     #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
     #[inline(always)]

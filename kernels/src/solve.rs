@@ -27,6 +27,8 @@ use crate::Scalar;
 /// would buckle rather than deflect. Forces and weights reach this at the buckling load; for a moment
 /// constant in base axes, which has no potential, it is the safe side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unstable;
 
 impl fmt::Display for Unstable {

@@ -12,6 +12,10 @@ stiffarm::robot! {
     /// Something of everything.
     pub mod various from "tests/c/arm.toml";
 }
+stiffarm::robot! {
+    /// Places other than the tool.
+    pub mod framed from "tests/c/framed.toml";
+}
 
 stiffarm::robot! {
     /// Readings that are not the joint values, sides, warming, and what gives beyond the table.
@@ -31,19 +35,22 @@ pub struct Arm<S: 'static> {
     pub toml: &'static str,
     pub rows: &'static [DhRow],
     pub kernels: &'static dyn Kernels<S>,
+    /// Those of its named frames and markers, in the order of the file.
+    pub places: Vec<&'static dyn Kernels<S>>,
     pub all: fn(&[S], &[S; 6]) -> All<S>,
 }
 
 macro_rules! arm {
-    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty) => {
-        arm!($id, $($path)::+, $toml, $scalar, &$($path)::+::Robot,)
+    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty $(, $place:ident)*) => {
+        arm!($id, $($path)::+, $toml, $scalar, &$($path)::+::Robot, []; $($place),*)
     };
-    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty, $robot:expr, $($given:expr),*) => {
+    ($id:ident, $($path:ident)::+, $toml:expr, $scalar:ty, $robot:expr, [$($given:expr),*]; $($place:ident),*) => {
         Arm::<$scalar> {
             id: stringify!($id),
             toml: $toml,
             rows: &$($path)::+::DH,
             kernels: $robot,
+            places: vec![$(&framed::at::$place::Robot),*],
             all: |q, wrench| {
                 let q = q.try_into().map_err(|_| Error::Length)?;
                 let all = $($path)::+::all(q, $($given,)* wrench)?;
@@ -65,14 +72,14 @@ macro_rules! arms {
         vec![
             $(arm!($id, stiffarm_robots::$id, toml(stringify!($id)), $scalar),)*
             arm!(various, various, include_str!("arm.toml"), $scalar),
+            arm!(framed, framed, include_str!("framed.toml"), $scalar, elbow, camera, smr1),
             arm!(
                 corrected,
                 corrected,
                 include_str!("../data/corrected_modified.toml"),
                 $scalar,
                 Box::leak(Box::new(corrected::Robot { sides: sides(), warming: WARMING as $scalar })),
-                &sides(),
-                WARMING as $scalar
+                [&sides(), WARMING as $scalar];
             ),
         ]
     };
@@ -100,16 +107,20 @@ impl<S: Scalar> Arm<S> {
         self.rows.iter().all(|row| row.stiffness == "rigid")
     }
 
-    /// Every output, then those of the fused function; `None` where there is no equilibrium.
-    pub fn outputs(&self, q: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
-        let single = |output: Output| {
-            let (rows, columns) = output.shape(self.kernels.dof());
+    /// Every output, then those of the places, then those of the fused function; `None` where there is no
+    /// equilibrium.
+    pub fn outputs(&self, state: &[S], wrench: &[S; 6]) -> Vec<Option<Vec<S>>> {
+        let single = |kernels: &dyn Kernels<S>, output: Output| {
+            let (rows, columns) = output.shape(kernels.dof());
             let mut out = vec![S::lit(0.0); rows * columns];
-            let done = self.kernels.evaluate(output, q, wrench, &mut out);
-            done.is_ok().then_some(out)
+            let state = &state[..output.state(kernels.dof())];
+            kernels.evaluate(output, state, wrench, &mut out).is_ok().then_some(out)
         };
-        let mut outputs: Vec<Option<Vec<S>>> = Output::EACH.into_iter().map(single).collect();
-        match (self.all)(q, wrench) {
+        let kernels = [self.kernels].into_iter().chain(self.places.iter().copied());
+        let mut outputs: Vec<Option<Vec<S>>> = kernels
+            .flat_map(|of| of.outputs().iter().map(move |output| single(of, *output)))
+            .collect();
+        match (self.all)(&state[..self.kernels.dof()], wrench) {
             Ok(all) => outputs.extend(all.into_iter().map(Some)),
             Err(_) => outputs.extend(Output::ALL.map(|_| None)),
         }
@@ -141,6 +152,6 @@ pub fn build<S: Scalar>(
     let files = c(&robot, &options).expect("numbers only");
     folder.write(&format!("{id}.h"), &files.header);
     folder.write(&format!("{id}.c"), &files.source);
-    folder.write("main.c", &program(&robot, id, precision));
+    folder.write("main.c", &program(id, &robot, precision));
     compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id, "-lm"]);
 }

@@ -49,7 +49,7 @@ macro_rules! bits {
 bits!(f64, u64, Precision::F64);
 bits!(f32, u32, Precision::F32);
 
-/// A draw: joint values, wrench.
+/// A draw: joint values, what stands behind them, and a wrench.
 type Draw<S> = (Vec<S>, [S; 6]);
 
 /// Postures within ±3 rad, a few up to ±100 rad; loads up to 100 N, a few that no arm bears; an angle
@@ -68,6 +68,7 @@ fn draws<S: Scalar>(n: usize) -> Vec<Draw<S>> {
             3 => q[n - 1] = f64::NAN,
             _ => {}
         }
+        q.extend((0..2 * n).map(|_| 5.0 * unit()));
         (q.into_iter().map(S::lit).collect(), core::array::from_fn(|_| S::lit(load * unit())))
     };
     (0..COUNT).map(&mut each).collect()

@@ -1,17 +1,18 @@
-//! A C program around generated kernels: joint values and a wrench as the bits of numbers from standard
+//! A C program around generated kernels: a state of three numbers for each joint and a wrench as the bits of numbers from standard
 //! input, every output as bits to standard output.
 
-use stiffarm::kernels::{Input, Output};
+use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::Precision;
 use stiffarm_codegen::robot::Robot;
 
 use crate::arms::{SIDES, WARMING};
 
-/// The program for the kernels called `name` with `n` joints.
+/// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
+/// order, then those of the fused function.
 ///
 /// Every function of the joint values is called, and every function of the posture after it: where the
 /// two differ in a bit of a number, the program ends with status 2.
-pub fn program(robot: &Robot, name: &str, precision: Precision) -> String {
+pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
     let n = robot.dof();
     let (sides, warming) = (robot.beyond.takes_sides(), robot.beyond.takes_warming());
     let given = [(sides, ", sides"), (warming, ", warming")];
@@ -21,10 +22,22 @@ pub fn program(robot: &Robot, name: &str, precision: Precision) -> String {
         Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
     };
     let mut calls = String::new();
-    for output in Output::EACH {
+    let tool = robot.generated().into_iter().map(|output| (output.name().to_owned(), output));
+    let places = robot.places().into_iter().flat_map(|(place, outputs)| {
+        outputs.into_iter().map(move |output| (format!("at_{place}_{}", output.name()), output))
+    });
+    for (function, output) in tool.into_iter().chain(places) {
         let (rows, columns) = output.shape(n);
-        let (function, size) = (output.name(), rows * columns);
-        let wrench = if output.takes(Input::Wrench) { "wrench, " } else { "" };
+        let size = rows * columns;
+        // The wrench, and what stands behind the joint values.
+        let beside: String = output
+            .beside()
+            .enumerate()
+            .map(|(k, input)| match input.side() {
+                Side::Joints => format!("&q[{}], ", (k + 1) * n),
+                _ => "wrench, ".to_owned(),
+            })
+            .collect();
         let assigned = |to: &str| if output.is_fallible() { to.to_owned() } else { String::new() };
         calls.push_str(&format!(
             "
@@ -33,8 +46,8 @@ pub fn program(robot: &Robot, name: &str, precision: Precision) -> String {
             static {real} again[{size}];
             int status = 0;
             int second = 0;
-            {first}{name}_{function}(q{given}, {wrench}out);
-            {repeat}{name}_given_{function}(&posture, {wrench}again);
+            {first}{name}_{function}(q{given}, {beside}out);
+            {repeat}{name}_given_{function}(&posture, {beside}again);
             put(status, out, {size}U);
             if ((status != second) || (same(out, again, {size}U) == 0))
             {{
@@ -60,6 +73,7 @@ pub fn program(robot: &Robot, name: &str, precision: Precision) -> String {
             format!("            put(status, all.{}, {size}U);\n", o.name())
         })
         .collect();
+    let state = 3 * n;
     format!(
         "#include <inttypes.h>
 #include <stdio.h>
@@ -113,11 +127,11 @@ static int get({real} *x, unsigned int size)
 
 int main(void)
 {{
-    {real} q[{n}];
+    {real} q[{state}];
     {real} wrench[6];
     {name}_posture_t posture;
 
-    while ((get(q, {n}U) == 1) && (get(wrench, 6U) == 1))
+    while ((get(q, {state}U) == 1) && (get(wrench, 6U) == 1))
     {{
 {declared}        {name}_posture(q{given}, &posture);
 {calls}

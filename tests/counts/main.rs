@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use stiffarm_codegen::derive::{Output, Passes, derive, derive_with};
+use stiffarm_codegen::derive::{Output, Passes, Readings, derive, derive_with};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Robot, Value};
 use stiffarm_robots::ARMS;
@@ -52,11 +52,26 @@ fn counts_are_reviewed() {
     for arm in ARMS {
         let robot = sprung(arm.id);
         let _ = writeln!(table, "\n{}", arm.id);
-        for output in Output::EACH {
+        for output in robot.generated() {
             line(&mut table, output.name(), &robot, &[output]);
         }
         line(&mut table, "all", &robot, &Output::ALL);
     }
+    insta::assert_snapshot!(table);
+}
+
+/// Of an arm with effects beyond its table: what lies between readings and joint values, then the outputs.
+#[test]
+fn counts_of_a_corrected_arm_are_reviewed() {
+    let text = include_str!("../data/corrected_kuka.toml");
+    let (robot, _) = Robot::for_kernels(text, "corrected_kuka.toml").expect("effects of kernels");
+    let ops = Readings::of(&robot).ops();
+    let mut table = String::from("add + mul (sin-cos pairs)\n\ncorrected_kuka\n");
+    let _ = writeln!(table, "  joints {} + {} ({})", ops.add, ops.mul, ops.sin_cos);
+    for output in robot.generated() {
+        line(&mut table, output.name(), &robot, &[output]);
+    }
+    line(&mut table, "all", &robot, &Output::ALL);
     insta::assert_snapshot!(table);
 }
 

@@ -128,7 +128,7 @@ fn slices_that_do_not_fit_are_refused() {
     assert_eq!(run(12, 12, 12), Ok(()));
     assert_eq!(
         run(13, 12, 12),
-        Err("q holds 13 numbers, which is no multiple of 6 joints".to_string())
+        Err("q holds 13 numbers, which is no multiple of a pose's 6".to_string())
     );
     assert_eq!(run(12, 6, 12), Err("wrench holds 6 numbers where 12 are needed".to_string()));
     assert_eq!(run(12, 12, 18), Err("out holds 18 numbers where 12 are needed".to_string()));

@@ -30,6 +30,9 @@ macro_rules! parameters {
 pub trait ForArm {
     /// Joint values within ±3 rad or ±0.5 m beyond 0.6 m.
     fn posture(&mut self, arm: &Arm) -> Vec<f64>;
+    /// The same, and behind them rates, and accelerations or torques: what an output takes of it is its
+    /// beginning.
+    fn state(&mut self, arm: &Arm) -> Vec<f64>;
     /// Up to 100 N and 30 N·m, or what leaves the softest joint clearly stable at full reach.
     fn wrench(&mut self, arm: &Arm) -> [f64; 6];
 }
@@ -46,6 +49,14 @@ impl ForArm for Draws {
             .collect()
     }
 
+    fn state(&mut self, arm: &Arm) -> Vec<f64> {
+        let mut state = self.posture(arm);
+        for most in [2.0, 5.0] {
+            state.extend((0..arm.dof()).map(|_| most * self.unit()));
+        }
+        state
+    }
+
     fn wrench(&mut self, arm: &Arm) -> [f64; 6] {
         let reach: f64 = arm.joints.iter().map(|j| j.a.abs() + j.d.abs()).sum();
         let softest = arm.joints.iter().map(|j| j.compliance).fold(0.0, f64::max);
@@ -59,9 +70,10 @@ pub fn deviation<S: Scalar>(
     kernels: &dyn Kernels<S>,
     arm: &Arm,
     output: Output,
-    (q, wrench): (&[f64], &[f64; 6]),
+    (state, wrench): (&[f64], &[f64; 6]),
     (cancelled, back): (f64, impl Fn(S) -> f64),
 ) -> f64 {
+    let q = &state[..output.state(arm.dof())];
     let expected = arm.evaluate(output, q, wrench).expect("the textbook finds the arm stable");
     let (rows, columns) = output.shape(arm.dof());
     let mut got = vec![S::lit(0.0); rows * columns];

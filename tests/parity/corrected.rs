@@ -5,6 +5,7 @@
 //! with the generator, and knows nothing of springs as columns.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
+use stiffarm::kernels::parity::Comparison;
 use stiffarm::kernels::{Arm as _, Kernels, Output, Scalar, has};
 use stiffarm::robot;
 use stiffarm_codegen::derive::{Given, Program, derive};
@@ -36,7 +37,8 @@ struct Corrected {
 
 /// A posture, and what is known of it.
 struct Drawn {
-    q: Vec<f64>,
+    /// Readings, and three times as many numbers behind them for what else joints have.
+    state: Vec<f64>,
     /// In the axes of the kernels: the world's.
     wrench: [f64; 6],
     at: Situation,
@@ -49,10 +51,7 @@ impl Corrected {
         let known =
             Known::all(&file, &arm, &Catalogue::default()).expect("effects of the catalogue");
         let compiled = file.with_effects().expect("effects of kernels");
-        let mut sized = stiffarm_gap::robot::arm(&compiled).expect("a table of numbers");
-        for (row, mass) in &compiled.beyond.masses {
-            sized.joints[*row].mass += mass.to_f64();
-        }
+        let sized = stiffarm_gap::robot::arm(&compiled).expect("a table of numbers");
         Corrected { name: name.to_owned(), file, arm, known, sized }
     }
 
@@ -66,9 +65,11 @@ impl Corrected {
     }
 
     fn draw(&self, draws: &mut Draws) -> Drawn {
-        let (q, wrench) = (draws.posture(&self.arm), draws.wrench(&self.arm));
-        let sides: Vec<i8> = (0..q.len()).map(|_| (1.5 * draws.unit()).round() as i8).collect();
+        let (mut state, wrench) = (draws.posture(&self.arm), draws.wrench(&self.arm));
+        let n = state.len();
+        let sides: Vec<i8> = (0..n).map(|_| (1.5 * draws.unit()).round() as i8).collect();
         let warming = 20.0 * draws.unit();
+        state.extend((0..3 * n).map(|_| draws.unit()));
         // The situation's load is in the axes of the base, as it stands.
         let base = self.sized.base.rotation.inverse();
         let [fx, fy, fz, mx, my, mz] = wrench;
@@ -79,14 +80,30 @@ impl Corrected {
             ..Situation::under(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
         };
         let given = Given { sides: sides.into_iter().map(f64::from).collect(), warming };
-        Drawn { q, wrench, at, given }
+        Drawn { state, wrench, at, given }
     }
 
-    /// The largest deviation of an output from the effects' own laws, relative to its scale.
+    /// The largest deviation of an output from the effects' own laws, relative to its scale and to what the
+    /// arithmetic accounts for.
     fn deviation(&self, output: Output, got: &[f64], drawn: &Drawn, cancelled: f64) -> f64 {
-        let expected = self.whole().evaluate(output, &drawn.q, &drawn.at).expect("a stable arm");
-        let terms = terms(&self.sized, output, &drawn.q, &drawn.wrench);
-        relative(got, &expected, cancelled * terms)
+        let (whole, state) = (self.whole(), drawn.of(output, self.arm.dof()));
+        let (expected, limit) =
+            match whole.evaluate(output, state, &drawn.at).expect("a stable arm") {
+                Some(expected) => (expected, Comparison::Textbook.limit()),
+                None => {
+                    let slopes = whole.slopes(output, state, &drawn.at).expect("differences");
+                    (slopes, Comparison::Differences.limit())
+                }
+            };
+        let terms = terms(&self.sized, output, state, &drawn.wrench);
+        relative(got, &expected, cancelled * terms) / limit
+    }
+}
+
+impl Drawn {
+    /// What an output takes of the joints.
+    fn of(&self, output: Output, n: usize) -> &[f64] {
+        &self.state[..output.state(n)]
     }
 }
 
@@ -102,8 +119,8 @@ fn programs(robot: &Robot) -> Vec<(Output, Program)> {
 }
 
 fn by_graph(program: &Program, drawn: &Drawn) -> Vec<f64> {
-    let Drawn { q, wrench, given, .. } = drawn;
-    program.evaluate_given(q, wrench, |_| f64::NAN, given).expect("a stable arm").remove(0)
+    let Drawn { state, wrench, given, .. } = drawn;
+    program.evaluate_given(state, wrench, |_| f64::NAN, given).expect("a stable arm").remove(0)
 }
 
 fn check(arm: &Corrected, count: usize) {
@@ -113,14 +130,14 @@ fn check(arm: &Corrected, count: usize) {
         let drawn = arm.draw(&mut draws);
         for (output, program) in &programs {
             let worst = arm.deviation(*output, &by_graph(program, &drawn), &drawn, CANCELLED);
-            assert!(worst <= 1e-12, "{} {}: {worst:e} at {:?}", arm.name, output.name(), drawn.q);
+            assert!(worst <= 1.0, "{} {}: {worst:e} at {:?}", arm.name, output.name(), drawn.state);
         }
     }
 }
 
 #[test]
 fn all_effects_together_agree_with_their_own_laws() {
-    arms().for_each(|arm| check(&arm, 300));
+    arms().for_each(|arm| check(&arm, 60));
 }
 
 #[test]
@@ -130,7 +147,7 @@ fn each_effect_alone_agrees_with_its_own_law() {
         for effect in &arm.file.effects {
             let name = format!("{}: {} at {}", arm.name, effect.id.value, effect.place.value);
             let alone = Robot { effects: vec![effect.clone()], ..arm.file.clone() };
-            check(&Corrected::new(&name, alone), 20);
+            check(&Corrected::new(&name, alone), 5);
             seen.push(effect.id.value.clone());
         }
     }
@@ -196,11 +213,12 @@ fn by_kernels<S: Scalar + 'static>(
     drawn: &Drawn,
     back: impl Fn(S) -> f64,
 ) -> Vec<f64> {
-    let (rows, columns) = output.shape(drawn.q.len());
+    let n = arm.arm.dof();
+    let (rows, columns) = output.shape(n);
     let mut out = vec![S::lit(0.0); rows * columns];
-    let q: Vec<S> = drawn.q.iter().map(|x| S::lit(*x)).collect();
+    let state: Vec<S> = drawn.of(output, n).iter().map(|x| S::lit(*x)).collect();
     let kernels = kernels::<S>(&arm.name, &drawn.given);
-    kernels.evaluate(output, &q, &drawn.wrench.map(S::lit), &mut out).expect("a stable arm");
+    kernels.evaluate(output, &state, &drawn.wrench.map(S::lit), &mut out).expect("a stable arm");
     out.into_iter().map(back).collect()
 }
 
@@ -210,19 +228,20 @@ fn kernels_agree_in_both_precisions() {
         let mut draws = Draws::new(6);
         for _ in 0..200 {
             let mut drawn = arm.draw(&mut draws);
-            for output in Output::EACH {
+            for output in arm.compiled().generated() {
                 let double = by_kernels::<f64>(&arm, output, &drawn, |x| x);
                 let worst = arm.deviation(output, &double, &drawn, CANCELLED);
-                assert!(worst <= 1e-12, "{} {}: {worst:e}", arm.name, output.name());
+                assert!(worst <= 1.0, "{} {}: {worst:e}", arm.name, output.name());
             }
             // Of numbers that both precisions have.
             let single = |x: &mut f64| *x = f64::from(*x as f32);
-            drawn.q.iter_mut().chain(&mut drawn.wrench).for_each(single);
+            drawn.state.iter_mut().chain(&mut drawn.wrench).for_each(single);
             single(&mut drawn.given.warming);
-            for output in Output::EACH {
+            for output in arm.compiled().generated() {
                 let double = by_kernels::<f64>(&arm, output, &drawn, |x| x);
                 let single = by_kernels::<f32>(&arm, output, &drawn, f64::from);
-                let floor = CANCELLED_F32 * terms(&arm.sized, output, &drawn.q, &drawn.wrench);
+                let floor = CANCELLED_F32
+                    * terms(&arm.sized, output, drawn.of(output, arm.arm.dof()), &drawn.wrench);
                 let worst = relative(&single, &double, floor);
                 assert!(worst <= 4e-6, "{} {}: {worst:e} in f32", arm.name, output.name());
             }
@@ -298,11 +317,12 @@ fn what_is_left_out_is_of_second_order() {
                 };
                 let lighter = Corrected::new(&arm.name, scaled(&arm.file));
                 let at = Situation { load: drawn.at.load * part, ..drawn.at.clone() };
-                let (state, base) = lighter.whole().at(&drawn.q, &at).expect("a rest");
+                let (state, base) =
+                    lighter.whole().at(&drawn.state[..arm.arm.dof()], &at).expect("a rest");
                 let rest = base * state.tool;
                 let robot = scaled(&compiled);
                 let at = Drawn {
-                    q: drawn.q.clone(),
+                    state: drawn.state.clone(),
                     wrench: drawn.wrench.map(|w| w * part),
                     at,
                     given: drawn.given.clone(),

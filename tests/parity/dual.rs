@@ -1,62 +1,10 @@
 //! Derivatives by dual numbers (num-dual) and by central differences.
 
-use core::ops::{Add, Mul, Neg, Sub};
-
-use num_dual::{Dual64, DualNum};
+use num_dual::Dual64 as Dual;
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
 use crate::compare::{Draws, relative};
 use crate::fixtures;
-
-/// num-dual's number as a scalar of kernels.
-#[derive(Clone, Copy, Debug)]
-struct Dual(Dual64);
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Dual(self.0 + other.0)
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Dual(self.0 - other.0)
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Dual(self.0 * other.0)
-    }
-}
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Dual(-self.0)
-    }
-}
-
-impl Scalar for Dual {
-    fn lit(x: f64) -> Self {
-        Dual(Dual64::from(x))
-    }
-    fn recip(self) -> Self {
-        Dual(self.0.recip())
-    }
-    fn sqrt(self) -> Self {
-        Dual(self.0.sqrt())
-    }
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        (angles.map(|a| Dual(a.0.sin())), angles.map(|a| Dual(a.0.cos())))
-    }
-    fn is_positive(self) -> bool {
-        self.0.re > 0.0
-    }
-}
 
 fn evaluate<S: Scalar>(robot: &dyn Kernels<S>, output: Output, q: &[S], wrench: &[S; 6]) -> Vec<S> {
     let (rows, columns) = output.shape(robot.dof());
@@ -73,7 +21,7 @@ fn slopes<R: Kernels<Dual> + Kernels<f64>>(
     joint: usize,
 ) -> (Vec<f64>, Vec<f64>) {
     let mut dual: Vec<Dual> = q.iter().map(|x| Dual::lit(*x)).collect();
-    dual[joint].0.eps = 1.0;
+    dual[joint].eps = 1.0;
     let by_dual = evaluate::<Dual>(robot, output, &dual, &wrench.map(Dual::lit));
     let step = 1e-5;
     let moved = |by: f64| {
@@ -83,7 +31,7 @@ fn slopes<R: Kernels<Dual> + Kernels<f64>>(
     };
     let differences =
         moved(step).into_iter().zip(moved(-step)).map(|(a, b)| (a - b) / (2.0 * step));
-    (by_dual.into_iter().map(|d| d.0.eps).collect(), differences.collect())
+    (by_dual.into_iter().map(|d| d.eps).collect(), differences.collect())
 }
 
 /// The twist of a pose from its derivative: ω from `R' Rᵀ`.
@@ -147,10 +95,10 @@ fn the_regressor_is_the_derivative_by_joint_compliance() {
         let wrench = draws.load();
         let regressor = compliance_regressor(&Constants::new(&p), &q, &wrench);
         let mut dual = fixtures::parameters_as(Dual::lit);
-        dual.k2.0.eps = 1.0;
+        dual.k2.eps = 1.0;
         let constants: Constants<Dual> = Constants::new(&dual);
         let (q, wrench) = (q.map(Dual::lit), wrench.map(Dual::lit));
-        let slope = deflection_first_order(&constants, &q, &wrench).map(|d| -d.0.eps * p.k2 * p.k2);
+        let slope = deflection_first_order(&constants, &q, &wrench).map(|d| -d.eps * p.k2 * p.k2);
         assert!(relative(&slope, &regressor[1], 0.0) < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! Fixtures: everything a row may hold, in combinations that no catalogue arm has.
 
-use stiffarm::kernels::{Kernels, Output};
+use stiffarm::kernels::Kernels;
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 
@@ -130,8 +130,8 @@ fn check(module: &str, robot: &Robot, kernels: &dyn Kernels<f64>) {
     let arm = stiffarm_gap::robot::arm(robot).expect("every parameter has a number");
     let mut draws = Draws::new(3);
     for _ in 0..1000 {
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
-        for output in Output::EACH {
+        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
+        for &output in kernels.outputs() {
             let worst = deviation(kernels, &arm, output, (&q, &wrench), (CANCELLED, |x| x));
             assert!(worst <= 1e-12, "{module} {}: {worst:e} at {q:?} {wrench:?}", output.name());
         }

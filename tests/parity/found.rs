@@ -16,7 +16,13 @@ fn checked(output: Output, change: fn(&mut Vec<f64>)) -> Agreement {
         }
         Ok(block)
     };
-    let subject = Subject { arm: &arm, beyond: None, generated: &generated, single: None };
+    let subject = Subject {
+        outputs: &Output::EACH,
+        arm: &arm,
+        beyond: None,
+        generated: &generated,
+        single: None,
+    };
     agreement(&subject, 20, 0, &|_| {})
 }
 

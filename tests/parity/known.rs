@@ -25,8 +25,8 @@ fn check(entry: &stiffarm_robots::Arm) {
     let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
     let mut draws = Draws::new(1);
     for _ in 0..COUNT {
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
-        for output in Output::EACH {
+        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
+        for &output in entry.kernels.outputs() {
             let load = (&q[..], &wrench);
             let worst = deviation(entry.kernels, &arm, output, load, (CANCELLED, |x| x));
             assert!(
@@ -48,8 +48,9 @@ fn compiled_kernels_agree_in_every_way() {
         let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
         let double = parity::compiled(entry.kernels, |x: f64| x);
         let single = parity::compiled(entry.kernels_f32, |x: f32| f64::from(x));
+        let outputs = entry.kernels.outputs();
         let subject =
-            Subject { arm: &arm, beyond: None, generated: &double, single: Some(&single) };
+            Subject { outputs, arm: &arm, beyond: None, generated: &double, single: Some(&single) };
         for line in parity::agreement(&subject, COUNT / 20, 2, &|_| {}).lines {
             assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
             assert!(line.worst[0].is_some() && line.worst[1].is_some(), "{} {line:?}", entry.id);

@@ -2,7 +2,7 @@
 //! cosines are one polynomial.
 
 use stiffarm::kernels::lanes::{f32x8, f64x4, f64x8};
-use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm::kernels::{Kernels, Scalar};
 
 use crate::compare::Draws;
 use crate::fixtures;
@@ -23,18 +23,22 @@ fn check<S, L, const N: usize>(
     let n = Kernels::<S>::dof(robot);
     let mut draws = Draws::new(6);
     for _ in 0..COUNT {
-        let q: Vec<[S; N]> =
-            (0..n).map(|_| core::array::from_fn(|_| S::lit(0.6 + 2.5 * draws.unit()))).collect();
+        let q: Vec<[S; N]> = (0..3 * n)
+            .map(|_| core::array::from_fn(|_| S::lit(0.6 + 2.5 * draws.unit())))
+            .collect();
         let wrench: [[S; N]; 6] =
             core::array::from_fn(|_| core::array::from_fn(|_| S::lit(10.0 * draws.unit())));
         let q_lanes: Vec<L> = q.iter().map(|q| lanes(*q)).collect();
         let wrench_lanes = wrench.map(&lanes);
-        for output in Output::EACH {
+        for &output in Kernels::<S>::outputs(robot) {
             let (rows, columns) = output.shape(n);
+            let numbers = output.state(n);
             let mut together = vec![L::lit(0.0); rows * columns];
-            robot.evaluate(output, &q_lanes, &wrench_lanes, &mut together).expect("stable");
+            robot
+                .evaluate(output, &q_lanes[..numbers], &wrench_lanes, &mut together)
+                .expect("stable");
             for lane in 0..N {
-                let q: Vec<S> = q.iter().map(|q| q[lane]).collect();
+                let q: Vec<S> = q[..numbers].iter().map(|q| q[lane]).collect();
                 let mut single = vec![S::lit(0.0); rows * columns];
                 let wrench = wrench.map(|w| w[lane]);
                 robot.evaluate(output, &q, &wrench, &mut single).expect("stable");

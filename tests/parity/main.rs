@@ -15,6 +15,7 @@ mod fixtures;
 mod found;
 mod known;
 mod lanes;
+mod places;
 mod random;
 mod special;
 mod stability;

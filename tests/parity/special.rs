@@ -3,8 +3,8 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
+use stiffarm::kernels::Motion;
 use stiffarm::kernels::generic::{Arm, Convention};
-use stiffarm::kernels::{Motion, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
@@ -90,10 +90,12 @@ fn special_postures_agree_with_the_textbook() {
         let mut draws = Draws::new(13);
         for posture in postures(&arm) {
             // As in single precision, so that both are asked the same.
+            let mut posture = posture;
+            posture.extend(draws.state(&arm).split_off(arm.dof()));
             let q: Vec<f64> = posture.iter().map(|x| f64::from(*x as f32)).collect();
             let drawn = draws.wrench(&arm).map(|x| f64::from(x as f32));
             for wrench in [drawn, [0.0; 6]] {
-                for output in Output::EACH {
+                for &output in entry.kernels.outputs() {
                     let at = |q: &[f64]| {
                         let cancelled = (CANCELLED, |x| x);
                         deviation(entry.kernels, &arm, output, (q, &wrench), cancelled)

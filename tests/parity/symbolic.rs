@@ -1,7 +1,7 @@
 //! The collection's symbolic arms, with numbers put in: against the textbook, and against the same arm
 //! with the paper's numbers in its table.
 
-use stiffarm::kernels::{Kernels, Output};
+use stiffarm::kernels::Kernels;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{SYMBOLIC, lin_planar_symbolic};
 
@@ -15,8 +15,8 @@ fn check(id: &str, value: impl Fn(&str) -> Option<f64>, kernels: &dyn Kernels<f6
     let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
     let mut draws = Draws::new(6);
     for _ in 0..1000 {
-        let (q, wrench) = (draws.posture(&arm), draws.wrench(&arm));
-        for output in Output::EACH {
+        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
+        for &output in kernels.outputs() {
             let worst = deviation(kernels, &arm, output, (&q, &wrench), (CANCELLED, |x| x));
             assert!(worst <= 1e-12, "{id} {}: {worst:e} at {q:?}", output.name());
         }

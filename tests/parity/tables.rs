@@ -74,6 +74,17 @@ fn beam(telescope: bool) -> impl Strategy<Value = String> {
     })
 }
 
+/// The tensor of inertia of some body: its mass spread along three directions.
+fn inertia() -> impl Strategy<Value = [f64; 6]> {
+    prop::array::uniform3(prop::array::uniform3(-0.4f64..0.4)).prop_map(|spread| {
+        let moment =
+            |i: usize, j: usize| spread.iter().map(|along| along[i] * along[j]).sum::<f64>();
+        let trace = moment(0, 0) + moment(1, 1) + moment(2, 2);
+        let diagonal = |k| trace - moment(k, k);
+        [diagonal(0), -moment(0, 1), -moment(0, 2), diagonal(1), -moment(1, 2), diagonal(2)]
+    })
+}
+
 /// Symbols for some of a row's cells, with their numbers; `@` stands for the row.
 fn symbols() -> impl Strategy<Value = Vec<(&'static str, f64)>> {
     let numbers = (-0.5f64..0.9, 0.05f64..0.9, -3.0f64..3.0, 1e5f64..1e7, 1.0f64..30.0);
@@ -93,6 +104,7 @@ prop_compose! {
         d in length(),
         stiffness in prop::option::weighted(0.8, 1u32..100),
         mass in prop::option::of((1u32..30, -300i32..300, -300i32..300, -300i32..300)),
+        moves in prop::option::of((inertia(), prop::array::uniform4(0u32..20))),
         beam in prop::option::of(beam(prismatic)),
         symbols in prop::option::weighted(0.2, symbols()),
     ) -> Table {
@@ -113,6 +125,10 @@ prop_compose! {
         if let Some((m, x, y, z)) = mass {
             text += &cell("mass", m.to_string());
             text += &format!("com = [\"{x} mm\", \"{y} mm\", \"{z} mm\"]\n");
+            if let Some((inertia, [gear, rotor, coulomb, viscous])) = moves {
+                text += &format!("inertia = {inertia:?}\ngear = {}\nrotor_inertia = {rotor}e-3\n", gear + 1);
+                text += &format!("coulomb = {coulomb}\nviscous = {viscous}\n");
+            }
         }
         text += &beam.filter(|_| chord).unwrap_or_default();
         let values = symbols.into_iter().map(|(name, x)| (format!("{name}@"), x)).collect();

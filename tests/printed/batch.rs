@@ -3,7 +3,7 @@
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use stiffarm::kernels::Output;
-use stiffarm::kernels::generic::Arm;
+use stiffarm_codegen::robot::Robot;
 
 use crate::boundary::{KINDS, around};
 use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
@@ -22,7 +22,7 @@ pub struct Case {
     pub questions: Vec<Question>,
 }
 
-/// A posture and a load, and the answers of every output, then of those of the fused function.
+/// A state and a load, and the answers of every output, then of those of the fused function.
 pub struct Question {
     pub q: Vec<f64>,
     pub wrench: [f64; 6],
@@ -70,9 +70,9 @@ impl Answer {
     }
 }
 
-/// Every output, then those of the fused function.
-fn outputs() -> impl Iterator<Item = Output> {
-    Output::EACH.into_iter().chain(Output::ALL)
+/// Every output of an arm, then those of the fused function.
+fn outputs(robot: &Robot) -> Vec<Output> {
+    robot.generated().into_iter().chain(Output::ALL).collect()
 }
 
 impl Batch {
@@ -85,38 +85,43 @@ impl Batch {
         let cases = joints.iter().enumerate().map(|(k, joints)| {
             let rows = *joints..=*joints;
             let table = table(rows).new_tree(&mut runner).expect("nothing is filtered").current();
-            let questions = questions(&table.arm(), seed ^ (k as u64) << 32);
+            let questions = questions(&table, seed ^ (k as u64) << 32);
             Case { name: format!("arm_{k}"), table, questions }
         });
         Batch { seed, cases: cases.collect() }
     }
 }
 
-fn questions(arm: &Arm, seed: u64) -> Vec<Question> {
+fn questions(table: &Table, seed: u64) -> Vec<Question> {
+    let (arm, outputs) = (&table.arm(), outputs(&table.robot()));
     let mut draws = Draws::new(seed);
     let mut questions = Vec::new();
     for k in 0..4 {
-        let q = if k == 0 { vec![0.0; arm.dof()] } else { draws.posture(arm) };
+        let q = if k == 0 { vec![0.0; 3 * arm.dof()] } else { draws.state(arm) };
         let wrench = draws.wrench(arm);
-        let answer = |output| match arm.evaluate(output, &q, &wrench) {
-            Ok(values) => {
-                let floor = CANCELLED * terms(arm, output, &q, &wrench);
-                Answer::Numbers { output, values, floor }
+        let answer = |output: &Output| {
+            let (output, state) = (*output, &q[..output.state(arm.dof())]);
+            match arm.evaluate(output, state, &wrench) {
+                Ok(values) => {
+                    let floor = CANCELLED * terms(arm, output, state, &wrench);
+                    Answer::Numbers { output, values, floor }
+                }
+                Err(_) => Answer::Refused(output),
             }
-            Err(_) => Answer::Refused(output),
         };
-        let answers = outputs().map(answer).collect();
+        let answers = outputs.iter().map(answer).collect();
         questions.push(Question { q, wrench, answers });
     }
     for kind in KINDS {
-        let (q, direction) = (draws.posture(arm), kind.direction(&mut draws));
+        let (q, direction) = (draws.state(arm), kind.direction(&mut draws));
         for output in [Output::Deflection, Output::DeflectionWithGravity] {
-            let loads = around(arm, output, &q, &direction, f64::EPSILON);
+            let loads = around(arm, output, &q[..arm.dof()], &direction, f64::EPSILON);
             let sides: [fn(Output) -> Answer; 2] = [Answer::Borne, Answer::Refused];
             for (wrench, side) in loads.into_iter().flatten().zip(sides) {
-                let answer = |asked| if asked == output { side(asked) } else { Answer::Open };
+                let answer =
+                    |asked: &Output| if *asked == output { side(*asked) } else { Answer::Open };
                 // The fused function is refused with its deflection.
-                let answers = outputs().map(answer).collect();
+                let answers = outputs.iter().map(answer).collect();
                 questions.push(Question { q: q.clone(), wrench, answers });
             }
         }

@@ -19,7 +19,7 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
         c(&robot, &COptions { name: name.clone(), precision, sines }).expect("numbers only");
     folder.write(&format!("{name}.h"), &files.header);
     folder.write(&format!("{name}.c"), &files.source);
-    folder.write("main.c", &program(name, robot.dof(), precision));
+    folder.write("main.c", &program(name, &robot, precision));
     compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
     let mut input = String::new();
     for question in &case.questions {

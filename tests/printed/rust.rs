@@ -47,13 +47,14 @@ fn flat(pose: Pose<f64>) -> Vec<f64> {
     pose.columns().as_flattened().to_vec()
 }
 
-fn by_output(robot: &dyn Kernels<f64>, q: &[f64], wrench: &[f64; 6]) -> Answers {
+fn by_output(robot: &dyn Kernels<f64>, state: &[f64], wrench: &[f64; 6]) -> Answers {
     let one = |output: Output| {
         let (rows, columns) = output.shape(robot.dof());
         let mut out = vec![0.0; rows * columns];
-        robot.evaluate(output, q, wrench, &mut out).ok().map(|()| out)
+        let state = &state[..output.state(robot.dof())];
+        robot.evaluate(output, state, wrench, &mut out).ok().map(|()| out)
     };
-    Output::EACH.into_iter().map(one).collect()
+    robot.outputs().iter().copied().map(one).collect()
 }
 
 fn main() {
@@ -155,6 +156,7 @@ mod {module};
 
 fn of_{module}(q: &[f64], wrench: &[f64; 6]) -> Answers {{
 {setting}    let mut answers = by_output(&{kernels}, q, wrench);
+    let q = &q[..{module}::N];
     let together = {module}::all({constants}q.try_into().expect(\"as many as joints\"), wrench);
     match together {{
         Ok(all) => answers.extend([{}].map(Some)),

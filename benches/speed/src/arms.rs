@@ -1,9 +1,9 @@
 //! The generated arms, plain and fused, and their tables for the textbook.
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 use stiffarm_codegen::robot::{self, Robot, Value};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Joint};
+use stiffarm_kernels::generic::{Arm, Drive, Joint};
 
 macro_rules! arm {
     ($name:ident) => {
@@ -47,6 +47,11 @@ pub fn textbook(id: &str) -> Arm {
         Value::Number(n) => n.to_f64(),
         Value::Symbol(name) => panic!("{id}: {name} has no number"),
     };
+    let inertia = |joint: &robot::Joint| {
+        let entries = joint.inertia.as_ref().map(|entries| entries.each_ref().map(number));
+        let [xx, xy, xz, yy, yz, zz] = entries.unwrap_or_default();
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    };
     let joint = |joint: &robot::Joint| Joint {
         motion: Motion::Revolute,
         theta: joint.theta.radians().expect("a number"),
@@ -57,6 +62,8 @@ pub fn textbook(id: &str) -> Arm {
         compliance: 1.0 / joint.stiffness.as_ref().map_or(1e5, number),
         mass: joint.mass.as_ref().map_or(0.0, number),
         com: Vector3::from(joint.com.each_ref().map(number)),
+        inertia: inertia(joint),
+        drive: Drive::default(),
         limits: None,
         beam: None,
     };
@@ -83,9 +90,9 @@ mod tests {
     fn check(id: &str, kernels: [&dyn Kernels<f64>; 2]) {
         let arm = textbook(id);
         let mut draws = Draws::new(2);
-        for (q, w) in draws.postures::<7>(100).iter().zip(draws.loads(100)) {
-            let q = &q[..arm.dof()];
-            for output in Output::EACH {
+        for (q, w) in draws.postures::<21>(100).iter().zip(draws.loads(100)) {
+            for &output in kernels[0].outputs() {
+                let q = &q[..output.state(arm.dof())];
                 let expected = arm.evaluate(output, q, &w).expect("the arm is stable");
                 let scale = expected.iter().fold(1e-6f64, |m, x| m.max(x.abs()));
                 for kernels in kernels {

@@ -1,32 +1,94 @@
-//! The robot file with what was found: at its top stands what was put in, and where.
+//! The arm with what was found, as a robot file (at its top stands what was put in, and where) and as
+//! other programs read it.
 
+use std::cell::OnceCell;
+
+use stiffarm_codegen::emit::{lost_in_mjcf, lost_in_urdf, mjcf, urdf};
 use stiffarm_gap::Measurements;
-use stiffarm_gap::corrected::{Outcome, corrected};
+use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
 
 use crate::input::source::Source;
+use crate::report::capital;
+use crate::terminal::failure::Failure;
 
-/// The file.
-pub fn text(source: &Source, data: &Measurements, diagnosed: &Diagnosed) -> String {
-    let diagnosis = &diagnosed.diagnosis;
-    let found = corrected(&source.robot, diagnosed);
-    let version = &diagnosis.stiffarm;
-    let mut lines = vec![format!(
-        "Corrected by stiffarm {version} from {}, diagnosed with {}.",
-        source.given, data.file
-    )];
-    if data.sim_given.contains(&true) {
-        lines.push("What was found is what the simulator of the sim_ columns lacks.".to_owned());
+/// The corrected arm, worked out once something asks for it.
+pub struct Corrections<'a> {
+    source: &'a Source,
+    data: &'a Measurements,
+    diagnosed: &'a Diagnosed,
+    found: OnceCell<Corrected>,
+}
+
+/// What other programs read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Links and joints.
+    Urdf,
+    /// MuJoCo's.
+    Mjcf,
+}
+
+impl<'a> Corrections<'a> {
+    pub fn new(source: &'a Source, data: &'a Measurements, diagnosed: &'a Diagnosed) -> Self {
+        Corrections { source, data, diagnosed, found: OnceCell::new() }
     }
-    lines.push(String::new());
-    lines.push("Put in, with 95 % intervals:".to_owned());
-    lines.extend(found.outcomes.iter().map(line));
-    lines.extend(diagnosis.nuisances.iter().map(frame));
-    if found.outcomes.is_empty() && diagnosis.nuisances.is_empty() {
-        lines.push("  nothing".to_owned());
+
+    fn found(&self) -> &Corrected {
+        self.found.get_or_init(|| corrected(&self.source.robot, self.diagnosed))
     }
-    let head: String = lines.iter().map(|line| comment(line)).collect();
-    format!("{head}\n{}", found.robot.to_toml())
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    pub fn caveats(&self) -> Vec<String> {
+        let mut caveats = Vec::new();
+        if self.data.sim_given.contains(&true) {
+            let text = "the arm is corrected by what the simulator of the sim_ columns lacks";
+            caveats.push(text.to_owned());
+        }
+        let bases = self.diagnosed.diagnosis.nuisances.iter().filter(|n| n.session.is_some());
+        if bases.count() > 0 {
+            let text = "every session was measured in a frame of its own: [base] stays as it was, and \
+                        another diagnosis of these rows takes --nuisance base_frame";
+            caveats.push(text.to_owned());
+        }
+        caveats
+    }
+
+    /// As another program reads it, and a sentence on what it has no place for.
+    ///
+    /// # Errors
+    /// [`Failure`] if the table has cells that are no numbers.
+    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        let robot = &self.found().robot;
+        let (written, lost, name) = match format {
+            Format::Urdf => (urdf(robot), lost_in_urdf(robot), "URDF"),
+            Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "MJCF"),
+        };
+        let text = written.map_err(|error| Failure::new(error.to_string()))?;
+        let sentence =
+            format!("a {name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
+        Ok((text, (!lost.is_empty()).then_some(sentence)))
+    }
+
+    /// The robot file.
+    pub fn text(&self) -> String {
+        let (diagnosis, found) = (&self.diagnosed.diagnosis, self.found());
+        let version = &diagnosis.stiffarm;
+        let mut lines = vec![format!(
+            "Corrected by stiffarm {version} from {}, diagnosed with {}.",
+            self.source.given, self.data.file
+        )];
+        lines.extend(self.caveats().iter().map(|caveat| capital(caveat) + "."));
+        lines.push(String::new());
+        lines.push("Put in, with 95 % intervals:".to_owned());
+        lines.extend(found.outcomes.iter().map(line));
+        lines.extend(diagnosis.nuisances.iter().map(frame));
+        if found.outcomes.is_empty() && diagnosis.nuisances.is_empty() {
+            lines.push("  nothing".to_owned());
+        }
+        let head: String = lines.iter().map(|line| comment(line)).collect();
+        format!("{head}\n{}", found.robot.to_toml())
+    }
 }
 
 fn line(outcome: &Outcome) -> String {
@@ -45,7 +107,8 @@ fn line(outcome: &Outcome) -> String {
 fn frame(n: &NuisanceReport) -> String {
     let list = |v: [f64; 3]| v.map(|x| format!("{x:.9}")).join(", ");
     let (at, turned) = (list(n.translation), list(n.rotation));
-    format!("  {}, fitted along: at [{at}] m, turned by [{turned}] rad", n.name)
+    let of = n.session.as_ref().map_or_else(String::new, |name| format!(" in session {name}"));
+    format!("  {}{of}, fitted along: at [{at}] m, turned by [{turned}] rad", n.name)
 }
 
 /// A line of comment, whatever the names in it hold.

@@ -37,13 +37,13 @@ impl Source {
         Ok((arm, known))
     }
 
-    /// Refuses an effect, for a command that does not honour it.
+    /// Refuses an effect, for a command that does not honour it, and says why.
     ///
     /// # Errors
     /// [`Failure`] names the effect where it stands.
-    pub fn refuse_effects(&self, command: &str) -> Result<(), Failure> {
+    pub fn refuse_effects(&self, command: &str, because: &str) -> Result<(), Failure> {
         let first = self.known.first();
-        first.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
+        first.map_or(Ok(()), |known| Err(self.refusal(command, known, &format!(": {because}"))))
     }
 
     /// Refuses an effect that nothing decides: neither posture and load nor what else is known.

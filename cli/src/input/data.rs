@@ -4,7 +4,7 @@ use std::path::Path;
 
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
-use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
+use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake, bytes};
 use stiffarm_gap::{Measurements, ReadError};
 use stiffarm_kernels::generic::Arm;
 
@@ -29,7 +29,7 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     told(from_bytes(path, &bytes, layout), quiet)
 }
 
@@ -56,7 +56,7 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     let file = path.display().to_string();
     let data = Measurements::plan_from_bytes(&file, &bytes, layout);
     told(data.map_err(|error| refused(&file, &bytes, &error)), quiet)

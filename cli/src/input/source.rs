@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Isometry3;
 use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
 use stiffarm_gap::effects::Known;
-use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::measurement::{Dimension, bytes};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -35,7 +35,7 @@ pub struct Source {
     /// The model without any effect taken into the table.
     pub(super) file: Robot,
     /// The file's text.
-    pub(super) text: String,
+    pub text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
 }
@@ -101,8 +101,8 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::arm`] and [`Source::refuse_effects`].
-    pub fn arm_alone(&self, command: &str) -> Result<Arm, Failure> {
-        self.refuse_effects(command)?;
+    pub fn arm_alone(&self, command: &str, because: &str) -> Result<Arm, Failure> {
+        self.refuse_effects(command, because)?;
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 
@@ -175,7 +175,7 @@ fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
 /// # Errors
 /// [`Failure`]: it cannot be read, or is not UTF-8.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     String::from_utf8(bytes).map_err(|error| {
         let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
         let line = bytes[..valid].iter().filter(|b| **b == b'\n').count() + 1;

@@ -6,7 +6,6 @@ use nalgebra::Vector6;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::effects::{Curve, Over};
 use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
-use stiffarm_gap::measurement::Kind;
 
 use super::experiment::{Experiment, Share};
 use super::shape::{Shaped, lever, torque};
@@ -43,7 +42,7 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
             lever(experiment, row, joint) * (torque * change)
         };
         let mut moves: Vec<Vector6<f64>> = rows.iter().map(move_of).collect();
-        if matches!(experiment.data.kind, Kind::Pose { .. }) {
+        if !experiment.data.kind.is_difference() {
             subtract_means(&mut moves, experiment.data);
         }
         let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };

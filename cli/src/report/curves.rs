@@ -14,7 +14,11 @@ pub fn curves<'a>(
     data: &Measurements,
     catalogue: &Catalogue,
 ) -> Vec<Shaped<'a>> {
-    let displaced = matches!(data.kind, Kind::Displacement { .. });
+    let displaced = data.kind.is_difference();
+    // A joint's part of a distance is told only where the point is known.
+    if data.kind == Kind::Distance && data.rows.iter().any(|row| row.from.is_none()) {
+        return Vec::new();
+    }
     let curve = |finding: &'a Finding| {
         let Ok(Place::Joint(joint)) = finding.place.parse() else { return None };
         let curve = catalogue.named(finding.effect)?.curve(&finding.parameters)?;

@@ -8,6 +8,7 @@ use stiffarm_gap::diagnose::Diagnosis;
 
 use super::Report;
 use super::curves::curves;
+use super::experiment::Drawn;
 use super::rows::{Rows, rows};
 use super::scene::{Scene, scene};
 use super::shape::{Shape, shape};
@@ -28,7 +29,9 @@ struct Embedded<'a> {
 /// # Errors
 /// [`serde_json::Error`] if something in it is no JSON.
 pub fn json(report: &Report<'_>) -> Result<String, serde_json::Error> {
-    let experiment = report.experiment();
+    let whole = report.experiment();
+    let drawn = Drawn::of(&whole);
+    let experiment = whole.with(&drawn);
     let curves = curves(report.found, report.data, &report.options.catalogue);
     let embedded = Embedded {
         rows: rows(&experiment),

@@ -38,6 +38,52 @@ pub struct Share {
     pub found: bool,
 }
 
+/// Rows that a page draws at most: more lie on top of one another, and make it slow.
+const MOST_DRAWN: usize = 4000;
+
+/// Of so many rows each this many-th is drawn.
+fn every(rows: usize) -> usize {
+    rows.div_ceil(MOST_DRAWN).max(1)
+}
+
+/// What a page says of the rows that it draws; nothing where these are all.
+pub fn drawn_of(rows: usize) -> String {
+    match every(rows) {
+        1 => String::new(),
+        every => format!(
+            "Of {rows} rows {} are drawn, evenly chosen: one in {every}. The CSV has these.",
+            rows.div_ceil(every)
+        ),
+    }
+}
+
+/// The rows that are drawn of very many, with their gaps.
+pub struct Drawn {
+    data: Measurements,
+    gaps: [Vec<Vector6<f64>>; 2],
+}
+
+impl Drawn {
+    /// Of an experiment.
+    pub fn of(experiment: &Experiment<'_>) -> Drawn {
+        let Experiment { data, gaps, .. } = experiment;
+        let every = every(data.rows.len());
+        let rows = data.rows.iter().step_by(every).cloned().collect();
+        Drawn {
+            data: Measurements::new(&data.file, data.kind, rows),
+            gaps: gaps.map(|gaps| gaps.iter().step_by(every).copied().collect()),
+        }
+    }
+}
+
+impl<'a> Experiment<'a> {
+    /// The same of the rows that are drawn.
+    pub fn with(self, drawn: &'a Drawn) -> Experiment<'a> {
+        let [before, after] = &drawn.gaps;
+        Experiment { data: &drawn.data, gaps: [before, after], ..self }
+    }
+}
+
 impl Experiment<'_> {
     /// Whether positions are measured; else rotations are what is judged.
     pub fn has_positions(&self) -> bool {

@@ -8,12 +8,11 @@ use serde_json::Value;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::identify::measured::{Answer, Parameter};
-use stiffarm_gap::measurement::Kind;
 use stiffarm_kernels::generic::Arm;
 
 use super::corrections::{corrected, curve, shares};
 use super::embedded::within_script;
-use super::experiment::Experiment;
+use super::experiment::{Drawn, Experiment, drawn_of};
 use super::forest::{Forest, Multiple, forest};
 use super::page::{SCRIPT, percent};
 use super::rows::{Rows, rows};
@@ -90,6 +89,8 @@ struct Page<'a> {
     style: &'static str,
     script: &'static str,
     data: String,
+    /// Which rows are drawn, where these are not all.
+    drawn: String,
 }
 
 /// A place with its share, as text and for the bar.
@@ -117,18 +118,23 @@ impl Identified<'_> {
         let mut experiment = self.experiment();
         experiment.shares = shares(&experiment, self.answer);
         let curves: Vec<Shaped<'_>> = corrected(self.answer).map(curve).collect();
-        let embedded = Embedded {
-            rows: rows(&experiment),
-            scene: scene(&experiment),
-            shapes: curves.iter().filter_map(|curve| shape(&experiment, curve)).collect(),
-            tables: self.tables(&experiment),
-            identified: &self.json,
-        };
+        let tables = self.tables(&experiment);
+        let waterfall = waterfall(self.steps(&experiment), experiment.main_unit());
         let bars = experiment.shares.iter().filter_map(|s| {
             let share = s.share?;
             let width = format!("{:.1}", (100.0 * share).clamp(0.0, 100.0));
             Some(Bar { name: s.place.clone(), share: percent(share), width })
         });
+        let places = bars.collect();
+        let drawn = Drawn::of(&experiment);
+        let experiment = experiment.with(&drawn);
+        let embedded = Embedded {
+            rows: rows(&experiment),
+            scene: scene(&experiment),
+            shapes: curves.iter().filter_map(|curve| shape(&experiment, curve)).collect(),
+            tables,
+            identified: &self.json,
+        };
         let page = Page {
             version: self.version,
             robot: &self.arm.name,
@@ -139,9 +145,10 @@ impl Identified<'_> {
             forest: forest(&self.multiples()),
             lines: &self.said,
             advice: &self.advice,
-            waterfall: waterfall(self.steps(&experiment), experiment.main_unit()),
-            places: bars.collect(),
-            poses_alone: matches!(self.data.kind, Kind::Pose { .. }),
+            waterfall,
+            places,
+            drawn: drawn_of(self.data.rows.len()),
+            poses_alone: !self.data.kind.is_difference(),
             method: METHOD,
             facts: &self.facts,
             style: include_str!("style.css"),

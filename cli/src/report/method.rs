@@ -49,6 +49,9 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
     };
     vec![
         ("stiffarm", found.stiffarm.clone()),
+        ("command", report.made.command.clone()),
+        ("SHA-256 of the measurements", report.made.hashes.data_sha256.clone()),
+        ("SHA-256 of the robot file", report.made.hashes.robot_sha256.clone()),
         ("robot", found.robot.clone()),
         ("measurements", data.file.clone()),
         ("rows", found.measurements.to_string()),

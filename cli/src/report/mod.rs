@@ -14,6 +14,7 @@ mod forest;
 pub mod identified;
 mod method;
 mod page;
+mod performance;
 mod rows;
 mod scene;
 mod shape;
@@ -24,12 +25,15 @@ mod tests;
 mod waterfall;
 pub mod withheld;
 mod words;
+mod worst;
 
 use stiffarm_gap::diagnose::{Diagnosis, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
+use crate::diagnose::Provenance;
 use experiment::{Experiment, Share};
+pub use page::capital;
 pub use words::{Told, Unit, Words};
 
 /// What a report is made of.
@@ -48,6 +52,8 @@ pub struct Report<'a> {
     pub options: &'a Options,
     /// The diagnosis as it is said.
     pub words: &'a Words,
+    /// Of what and how it was made.
+    pub made: &'a Provenance,
 }
 
 impl<'a> Report<'a> {

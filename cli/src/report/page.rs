@@ -3,8 +3,11 @@
 use askama::Template;
 use stiffarm_gap::diagnose::{Finding, NuisanceReport};
 
+use super::experiment::drawn_of;
+use super::performance::{Figures, figures};
 use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
+use super::worst::worst;
 use super::{Report, embedded, method};
 
 /// Places or rivals that are named one by one.
@@ -36,15 +39,23 @@ struct Page<'a> {
     parts: Vec<(&'static str, String)>,
     places: Vec<Place<'a>>,
     unexplained: Option<Left<'a>>,
+    acceptance: Option<&'a (bool, String)>,
+    changes: &'a [String],
+    since: &'a str,
+    performance: Figures,
+    worst: Vec<Worst>,
+    date: String,
     hidden: &'a [String],
     covers: Vec<String>,
-    frames: Vec<Frame<'a>>,
+    frames: Vec<Frame>,
     rivals: Vec<Compared<'a>>,
     method: &'static str,
     facts: Vec<(&'static str, String)>,
     style: &'static str,
     script: &'static str,
     data: String,
+    /// Which rows are drawn, where these are not all.
+    drawn: String,
 }
 
 /// A finding.
@@ -78,10 +89,18 @@ struct Left<'a> {
 }
 
 /// A frame that was fitted along.
-struct Frame<'a> {
-    name: &'a str,
+struct Frame {
+    name: String,
     translation: String,
     rotation: String,
+}
+
+/// A pose that is far off.
+struct Worst {
+    name: String,
+    rows: usize,
+    before: String,
+    after: String,
 }
 
 /// Another model's predictions.
@@ -113,6 +132,12 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
             places: places(&left.places),
             depends_on: &left.depends_on,
         }),
+        acceptance: report.words.acceptance.as_ref(),
+        changes: &report.words.changes,
+        since: &report.words.since,
+        performance: figures(report),
+        worst: worst_poses(report),
+        date: date(report),
         hidden: &report.words.hidden,
         covers: covers(report),
         frames: found.nuisances.iter().map(frame).collect(),
@@ -121,6 +146,7 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         facts: method::facts(report),
         style: include_str!("style.css"),
         script: SCRIPT,
+        drawn: drawn_of(report.data.rows.len()),
         data: embedded::json(report).map_err(askama::Error::custom)?,
     };
     page.render()
@@ -202,13 +228,32 @@ fn covers(report: &Report<'_>) -> Vec<String> {
     lines
 }
 
-fn frame(found: &NuisanceReport) -> Frame<'_> {
+fn frame(found: &NuisanceReport) -> Frame {
     let list = |v: [f64; 3]| v.map(|x| format!("{:.3}", 1e3 * x).replacen('-', "−", 1)).join(", ");
     Frame {
-        name: &found.name,
+        name: match &found.session {
+            Some(session) => format!("{} in session {session}", found.name),
+            None => found.name.clone(),
+        },
         translation: list(found.translation),
         rotation: list(found.rotation),
     }
+}
+
+fn worst_poses(report: &Report<'_>) -> Vec<Worst> {
+    let unit = report.main_unit();
+    let pose = |pose: super::worst::Pose| Worst {
+        name: pose.name,
+        rows: pose.rows,
+        before: unit.with_unit(pose.before),
+        after: unit.with_unit(pose.after),
+    };
+    worst(report).into_iter().map(pose).collect()
+}
+
+fn date(report: &Report<'_>) -> String {
+    let date = report.made.date.as_ref();
+    date.map_or_else(String::new, |(what, day)| format!("; {what} {day}"))
 }
 
 fn rivals<'a>(report: &Report<'a>) -> Vec<Compared<'a>> {
@@ -233,7 +278,7 @@ pub(super) fn percent(part: f64) -> String {
 }
 
 /// With a capital letter at its beginning.
-pub(super) fn capital(text: &str) -> String {
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()

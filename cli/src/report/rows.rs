@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use serde::Serialize;
 use serde_json::Value;
-use stiffarm_gap::measurement::Row;
+use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_kernels::Motion;
 
 use super::experiment::Experiment;
@@ -142,6 +142,9 @@ fn circumstances(rows: &[Row], columns: &mut Columns) -> Vec<Against> {
 
 /// Where the translation stands, or the rotation without one.
 fn vectors(experiment: &Experiment<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
+    if experiment.data.kind == Kind::Distance {
+        return [[None; 3]; 2];
+    }
     let first = if experiment.has_positions() { 0 } else { 3 };
     let names = &experiment.data.kind.names()[first..first + 3];
     let find = |k: usize| components.iter().find(|c| c.name == names[k]);

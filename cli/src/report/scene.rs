@@ -70,11 +70,11 @@ fn middle(rows: &[Row]) -> usize {
     (0..rows.len()).min_by(|a, b| far(&rows[*a]).total_cmp(&far(&rows[*b]))).unwrap_or(0)
 }
 
-/// Where a row was measured: as measured, or for a displacement where the model has the point.
+/// Where a row was measured: as measured, or of what is no whole position where the model has the point.
 fn measured(experiment: &Experiment<'_>, row: &Row) -> Vector3<f64> {
     match experiment.data.kind {
         Kind::Pose { .. } => row.measured.fixed_rows::<3>(0).into_owned(),
-        Kind::Displacement { .. } => {
+        Kind::Displacement { .. } | Kind::Coordinates { .. } | Kind::Distance => {
             (experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row))).coords
         }
     }

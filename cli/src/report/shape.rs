@@ -4,7 +4,7 @@
 //! is as a motion of the joint (its projection on the joint's Jacobian column, at the measured
 //! point). Points that lie along the curve say that the shape is right; a bend says what it lacks.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Point3, Vector3, Vector6};
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::effects::{Curve, Over};
@@ -109,8 +109,8 @@ pub(super) fn torque(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Op
     };
     let loaded = under(&row.wrench)?;
     match experiment.data.kind {
-        Kind::Pose { .. } => Some(loaded),
         Kind::Displacement { .. } => Some(loaded - under(&Vector6::zeros())?),
+        Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => Some(loaded),
     }
 }
 
@@ -122,6 +122,11 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
     let arm = experiment.placed.pose(&row.q).rotation * Vector3::from(experiment.offset(row));
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
     let frame = experiment.placed.base.rotation;
+    if let (Kind::Distance, Some(from)) = (experiment.data.kind, row.from) {
+        let point = experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row));
+        let along = (point - Point3::from(from)).try_normalize(0.0).unwrap_or_default();
+        return Vector6::ith(0, along.dot(&(frame * moved)));
+    }
     let (from, part) =
         if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
     let measured = experiment.data.kind.components();

@@ -10,6 +10,7 @@ use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
 use super::{Report, Told, Unit, Words};
+use crate::diagnose::{Hashes, Provenance};
 
 const ROBOT: &str = r#"
 name = "shoulder <& elbow>"
@@ -68,6 +69,9 @@ impl Bench {
             sentence: "Joint 2 twists </script> more; modelling it helps.".to_owned(),
             findings: diagnosed.diagnosis.findings.iter().map(told).collect(),
             hidden: vec!["backlash at joint 1: one side & no other".to_owned()],
+            acceptance: Some((false, "Not accepted: 1 < 2".to_owned())),
+            changes: vec!["new: a > b".to_owned()],
+            since: "last.json".to_owned(),
             length: Unit { name: "mm", si: 1e-3, decimals: 3 },
             angle: Unit { name: "mrad", si: 1e-3, decimals: 3 },
         };
@@ -85,6 +89,11 @@ impl Bench {
             gaps: &gaps,
             options: &self.options,
             words: &self.words,
+            made: &Provenance {
+                command: "stiffarm diagnose 'a <b>'".to_owned(),
+                date: Some(("made", "2026-11-22".to_owned())),
+                hashes: Hashes { data_sha256: "0a".repeat(32), robot_sha256: "1b".repeat(32) },
+            },
         };
         report.html().expect("a page")
     }

@@ -42,6 +42,12 @@ pub struct Words {
     pub findings: Vec<Told>,
     /// What this data could not have shown, one entry for each reason.
     pub hidden: Vec<String>,
+    /// Whether the corrected arm is accepted, and why; `None` where nobody asked.
+    pub acceptance: Option<(bool, String)>,
+    /// What is different from an earlier diagnosis.
+    pub changes: Vec<String>,
+    /// Its file.
+    pub since: String,
     /// In what translations are shown.
     pub length: Unit,
     /// In what rotations are shown.

@@ -1,5 +1,6 @@
 //! A diagnosis on one screen.
 
+mod campaign;
 mod effect;
 mod finding;
 mod hidden;
@@ -17,7 +18,7 @@ use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{Diagnosis, Measurements};
 use stiffarm_kernels::generic::Arm;
 
-use super::diagnose::Check;
+use super::diagnose::{Accepted, Check, Compared};
 use crate::input::quantity::counted;
 use crate::terminal::text::{
     Align, bad, bar, bold, dim, fixed, good, indented, minus, table, wrapped,
@@ -46,6 +47,10 @@ pub struct Screen<'a> {
     pub rivals: &'a [String],
     /// Another file, predicted.
     pub check: Option<&'a Check>,
+    /// Against a tolerance.
+    pub accepted: Option<&'a Accepted>,
+    /// Against an earlier diagnosis.
+    pub compared: Option<&'a Compared>,
 }
 
 impl Screen<'_> {
@@ -56,9 +61,11 @@ impl Screen<'_> {
             self.head(),
             self.stopped(),
             format!("\n{sentence}\n"),
+            self.verdict_on_tolerance(),
             self.gap(),
             self.findings(),
             self.compared(),
+            self.campaigns(),
         ];
         let mut text = parts.concat();
         text.push_str(&self.notes(text.lines().count()));
@@ -86,6 +93,15 @@ impl Screen<'_> {
         let poses = counted(data.poses, "pose");
         let facts =
             format!("{}: {rows} of {} at {poses}, {held_out}", data.file, measured.join(" "));
+        let sittings = data.sessions().count();
+        let each = match self.found.nuisances.iter().any(|frame| frame.session.is_some()) {
+            true => ", each with a frame of its own",
+            false => "",
+        };
+        let sessions = match sittings {
+            0 | 1 => String::new(),
+            _ => format!(", in {sittings} sessions{each}"),
+        };
         let own = match data.sim_given.contains(&true) {
             true => ", against the simulator of its sim_ columns",
             false => "",
@@ -93,7 +109,7 @@ impl Screen<'_> {
         format!(
             "{}\n{}\n",
             bold(&found.robot),
-            dim(wrapped(&format!("{facts}{own}"), WIDTH, 2).trim_end())
+            dim(wrapped(&format!("{facts}{sessions}{own}"), WIDTH, 2).trim_end())
         )
     }
 

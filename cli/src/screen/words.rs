@@ -17,6 +17,9 @@ impl Screen<'_> {
             sentence: self.sentence(),
             findings: self.found.findings.iter().map(told).collect(),
             hidden: self.hidden(),
+            acceptance: self.acceptance(),
+            changes: self.changes(),
+            since: self.compared.map_or_else(String::new, |compared| compared.file.clone()),
             length: unit(length),
             angle: unit(angle),
         }

@@ -112,7 +112,7 @@ fn targets_that_cannot_be_used_are_refused() {
     };
     refused("x,y,z\n1,a,0\n", &[], "path.csv:2:3\n");
     refused("x,y\n1,0\n", &[], "found `x` without z");
-    refused("dx,dy,dz\n1,0,0\n", &[], "found displacements, expected poses");
+    refused("dx,dy,dz\n1,0,0\n", &[], "found no poses, expected x, y, z");
     refused("q1,x,y,z\n0,1,0,0\n", &[], "found no column q2");
     refused("x,y,z\n1,0,0\n", &["--tolerance", "3"], "expected a positive number and its unit");
     refused("x,y,z\n1,0,0\n", &["--wrench", "3"], "--wrench: found 1 value");

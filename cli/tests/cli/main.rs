@@ -19,6 +19,7 @@ mod others;
 mod papers;
 mod pinocchio;
 mod poses;
+mod readme;
 mod report;
 mod simulate;
 mod support;

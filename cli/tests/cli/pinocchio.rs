@@ -2,6 +2,9 @@
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use serde_json::Value;
+use stiffarm_codegen::derive::derive;
+use stiffarm_codegen::number::Number;
+use stiffarm_codegen::robot::{Robot, Value as Cell};
 use stiffarm_kernels::Output;
 use stiffarm_kernels::generic::Arm;
 
@@ -155,5 +158,52 @@ fn the_textbook_agrees() {
         near(panda.jacobian(&sample.q).as_slice(), &sample.jacobian, 1e-12, "jacobian");
         let torque = panda.weight_torque(&sample.q);
         near(torque.as_slice(), &sample.weight_torque, 1e-11, "gravity");
+    }
+}
+
+/// The links of a robot of the collection as Pinocchio had them.
+fn with_links(arm: &str, links: &Value) -> Robot {
+    let toml = stiffarm_robots::arm(arm).expect("built in").toml;
+    let (mut robot, _) = Robot::from_toml(toml, arm).expect("sound");
+    let exact = |x: &f64| Cell::Number(Number::from_decimal(&format!("{x:?}")).expect("a number"));
+    for (joint, link) in robot.joints.iter_mut().zip(links.as_array().expect("links")) {
+        let three = |key: &str| numbers(&link[key]).iter().map(exact).collect::<Vec<_>>();
+        let one = |key: &str| Some(exact(&link[key].as_f64().expect("a number")));
+        joint.mass = one("mass");
+        joint.com = three("com").try_into().expect("three");
+        joint.inertia = Some(three("inertia").try_into().expect("six"));
+        joint.drive.gear = one("gear");
+        joint.drive.rotor_inertia = one("rotor_inertia");
+    }
+    robot
+}
+
+/// The textbook and the graph that every kernel is printed from, at twenty states of six arms. Two programs each sum
+/// some hundred products whose sizes are those of the largest entry, and a few powers of ten above where links fold
+/// back on each other: 1e-12 of the largest.
+#[test]
+fn the_equations_of_motion_agree() {
+    let outputs = [Output::InverseDynamics, Output::Bias, Output::MassMatrix];
+    for arm in ["panda", "ur10", "kuka_kr240", "iiwa14", "stanford", "puma560"] {
+        let text = read(&format!("tests/data/pinocchio/dynamics/{arm}.json"));
+        let file: Value = serde_json::from_str(&text).expect("JSON");
+        let robot = with_links(arm, &file["links"]);
+        let textbook: Arm = stiffarm_gap::robot::arm(&robot).expect("numbers");
+        let samples = file["samples"].as_array().expect("samples");
+        assert_eq!(samples.len(), 20);
+        for output in outputs {
+            let graph = derive(&robot, &[output]);
+            for sample in samples {
+                let state = ["q", "qd", "qdd"].map(|key| numbers(&sample[key])).concat();
+                let state = &state[..output.state(robot.dof())];
+                let expected = numbers(&sample[output.name()]);
+                let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let by_textbook = textbook.evaluate(output, state, &[0.0; 6]).expect("stable");
+                let by_graph = graph.evaluate(state, &[0.0; 6], |_| f64::NAN).expect("stable");
+                let what = format!("{arm}, {}", output.name());
+                near(&by_textbook, &expected, 1e-12 * largest, &what);
+                near(&by_graph.concat(), &expected, 1e-12 * largest, &what);
+            }
+        }
     }
 }

@@ -33,7 +33,7 @@ use proc_macro::TokenStream;
 ///
 /// # Settings
 ///
-/// Each ends with `;` and stands once, `marker` as often as there are markers. Beside a file only
+/// Each ends with `;` and stands once, `frame` and `marker` as often as there are some. Beside a file only
 /// `outputs`, `products` and `crate` can be set.
 ///
 /// | setting | values | without it |
@@ -43,7 +43,8 @@ use proc_macro::TokenStream;
 /// | `gravity` | `[x, y, z]`, an acceleration in base axes | `[0, 0, -9.80665 m/s^2]` |
 /// | `tool` | `translation [x, y, z] rotation [rx, ry, rz]`, either or both: the tool in the last frame, rotation as a rotation vector (axis × angle) | the last frame |
 /// | `marker` | `name` or `name [x, y, z]`: a measured point in the tool frame | none |
-/// | `outputs` | `pose, jacobian, …`: what is generated, and `all` of what of them can be had together | every output, or what the robot file says |
+/// | `frame` | `name on a3 translation [x, y, z] rotation [rx, ry, rz]`, either part or neither, in numbers: a frame in that of the row `a3` (or `3`), named like a module | none |
+/// | `outputs` | `pose, jacobian, pose at elbow, …`: what is generated, of the tool and at frames and markers, and `all` of what of the tool's can be had together | every output of the tool, or what the robot file says |
 /// | `products` | `separate`, or `fused`: products fused into sums, faster where the target has the instruction and the kernels' feature `fma` asks for it, and not the same bits everywhere | `separate` |
 /// | `crate` | the path of the kernels' crate | `::stiffarm::kernels` |
 ///
@@ -88,6 +89,7 @@ use proc_macro::TokenStream;
 /// | `pose::OPS`, … | its additions, multiplications, sign changes, divisions, sine-cosine pairs |
 /// | `pose::SPARSITY`, … | which of its entries are not structurally zero, `[column][row]` |
 /// | `all::All` | what `all` returns |
+/// | `at::elbow` | the same functions, figures and `Robot` of a frame or marker at which outputs are asked for: of the arm whose tool is there |
 /// | `Parameters` | a field for each symbolic parameter; only where the table has some |
 /// | `Constants`, `Constants::new(&parameters)` | what is worked out of the parameters once; every function takes them first |
 /// | `Robot` | the arm as a value: `Arm<N>` and `has::Pose<N>`, … for what is written against any arm, `Numeric<N>` where the table has numbers only, `Kernels`, every output by its name from slices; with symbolic parameters it holds `Constants` |

@@ -11,6 +11,7 @@ use stiffarm_kernels::Output;
 
 use super::chain::{Place, Step, expression, frame_rotation, row_steps};
 use super::displacements::Displacements;
+use super::own::Held;
 use super::program::{Block, Program};
 use super::readings::Readings;
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
@@ -57,9 +58,9 @@ pub fn flexible(robot: &Robot, displacements: &Displacements, form: Form) -> Pro
     walk.frame(&robot.tool);
     walk.displace(n + 1);
     let entries = walk.pose();
-    let blocks = vec![Block { output: Output::Pose, entries }];
+    let blocks = vec![Block { held: Held::Output(Output::Pose), entries }];
     let readings = Readings::of(robot);
-    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n, readings }
+    Program { graph: walk.g, blocks, solves: Vec::new(), cut: 0, dof: n, readings, own: None }
 }
 
 /// A displacement of the strict first order: where the chain stood, and by how much it turned.

@@ -2,11 +2,13 @@
 //! worked out.
 
 use num_traits::Float;
-use stiffarm_kernels::{Output, Unstable};
+use stiffarm_kernels::{Input, Output, Unstable};
 
 use super::chain::ROW;
+use super::own::{Held, Own};
 use super::readings::{Given, Readings};
-use crate::expr::{Expr, Graph, OpCount, Symbol};
+use super::ways::by_link;
+use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
 use crate::number::Number;
 
 /// Expressions for a set of outputs of one arm.
@@ -24,13 +26,15 @@ pub struct Program {
     pub dof: usize,
     /// What the joint values are that its joints stand for.
     pub readings: Readings,
+    /// What it says of itself, where it is a function of one's own.
+    pub own: Option<Own>,
 }
 
-/// One output's entries, column-major in [`Output::shape`].
+/// The entries of one output or result, column-major in [`Held::shape`].
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Which output.
-    pub output: Output,
+    /// Which one.
+    pub held: Held,
     /// Its entries.
     pub entries: Vec<Expr>,
 }
@@ -52,6 +56,11 @@ pub struct Solve {
 }
 
 impl Solve {
+    /// Matrix and right-hand side.
+    pub fn inputs(&self) -> impl Iterator<Item = &Expr> {
+        self.matrix.iter().chain(&self.right)
+    }
+
     /// Size of the leading block, whose unknowns are solved for together: nothing depends on the others,
     /// so that each follows from its own row. A tool on the axis of the last joint is not moved by it.
     pub fn leading(&self) -> usize {
@@ -67,16 +76,34 @@ impl Solve {
 impl Program {
     /// Every expression that the program computes.
     pub fn roots(&self) -> Vec<Expr> {
-        let outputs: Vec<Output> = self.blocks.iter().map(|b| b.output).collect();
-        self.roots_of(&outputs)
+        let systems = self.solves.iter().flat_map(Solve::inputs);
+        systems.chain(self.blocks.iter().flat_map(|b| &b.entries)).copied().collect()
     }
 
     /// What it computes for some of its outputs.
     pub(super) fn roots_of(&self, outputs: &[Output]) -> Vec<Expr> {
         let solves = self.solves.iter().filter(|s| outputs.contains(&s.output));
-        let blocks = self.blocks.iter().filter(|b| outputs.contains(&b.output));
-        let systems = solves.flat_map(|s| s.matrix.iter().chain(&s.right));
-        systems.chain(blocks.flat_map(|b| &b.entries)).copied().collect()
+        let asked = |block: &&Block| block.held.output().is_some_and(|o| outputs.contains(&o));
+        let blocks = self.blocks.iter().filter(asked);
+        solves.flat_map(Solve::inputs).chain(blocks.flat_map(|b| &b.entries)).copied().collect()
+    }
+
+    /// What is given to some output, or enters a function of one's own, in the order of arguments.
+    pub fn inputs(&self) -> impl Iterator<Item = Input> {
+        let reached = self.own.as_ref().map(|_| self.graph.reachable(&self.roots()));
+        let entered = reached.map(|reached| {
+            let nodes = self.graph.nodes().iter().zip(reached).filter(|(_, reached)| *reached);
+            let inputs = nodes.filter_map(|(node, _)| match node {
+                Node::Symbol(s) => Some(self.graph.symbol_of(*s).input()?.0),
+                _ => None,
+            });
+            inputs.chain([Input::Joints]).collect::<Vec<Input>>()
+        });
+        let taken = move |input: &Input| match &entered {
+            Some(entered) => entered.contains(input),
+            None => self.blocks.iter().any(|b| b.held.output().is_some_and(|o| o.takes(*input))),
+        };
+        Input::EACH.into_iter().filter(taken)
     }
 
     /// Operations beyond the solve itself.
@@ -86,6 +113,9 @@ impl Program {
 
     /// The working frame in words.
     pub fn frame(&self) -> String {
+        if self.blocks.iter().all(|block| block.held.output().is_some_and(by_link)) {
+            return "the links' own axes".to_string();
+        }
         match (self.cut / ROW, self.cut % ROW) {
             (0, 0) => "base axes".to_string(),
             (row, 0) => format!("the axes of frame {row}"),
@@ -93,17 +123,19 @@ impl Program {
         }
     }
 
-    /// Evaluates every block at readings `q`, under `wrench`, with the parameters' values.
+    /// Evaluates every block at a state, under `wrench`, with the parameters' values. The state is the
+    /// readings and behind them rates, accelerations and torques as far as some block takes them, in the
+    /// order of [`Input::EACH`].
     ///
     /// # Errors
     /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate<T: Float>(
         &self,
-        q: &[T],
+        state: &[T],
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
     ) -> Result<Vec<Vec<T>>, Unstable> {
-        self.evaluate_given(q, wrench, parameter, &Given::default())
+        self.evaluate_given(state, wrench, parameter, &Given::default())
     }
 
     /// The same of joints that came from some sides, of an arm that has warmed.
@@ -112,31 +144,39 @@ impl Program {
     /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate_given<T: Float>(
         &self,
-        q: &[T],
+        state: &[T],
         wrench: &[T; 6],
         parameter: impl Fn(&str) -> T,
         given: &Given,
     ) -> Result<Vec<Vec<T>>, Unstable> {
-        let (q, growth) = self.readings.evaluate(q, given);
+        let (q, growth) = self.readings.evaluate(state, given);
         let mut solved: Vec<(Expr, T)> = Vec::new();
+        let taken: Vec<Input> = self.inputs().collect();
+        let joints = |input: Input| {
+            let at = taken.iter().position(|known| *known == input).unwrap_or(0);
+            &state[at * self.dof..]
+        };
         let value = |symbol: &Symbol, solved: &[(Expr, T)]| match symbol {
-            Symbol::Joint(joint) => q[*joint],
+            Symbol::Joint(k) => q[*k],
+            Symbol::Rate(k) => joints(Input::Rates)[*k],
+            Symbol::Acceleration(k) => joints(Input::Accelerations)[*k],
+            Symbol::Torque(k) => joints(Input::Torques)[*k],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
             Symbol::Growth => growth,
             Symbol::Side(_) | Symbol::Warming => given.value(symbol),
-            // An undisplaced chain; no output of a table has displacements.
-            Symbol::Displacement { .. } => T::zero(),
+            // An undisplaced chain; no output of a table has displacements or inputs of one's own.
+            Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
             Symbol::Deflection { .. } => {
                 let known = solved.iter().find(|(e, _)| {
-                    matches!(self.graph.node(*e), crate::expr::Node::Symbol(s)
+                    matches!(self.graph.node(*e), Node::Symbol(s)
                         if self.graph.symbol_of(s) == symbol)
                 });
                 known.map_or_else(T::zero, |(_, x)| *x)
             }
         };
         for solve in &self.solves {
-            let inputs: Vec<Expr> = solve.matrix.iter().chain(&solve.right).copied().collect();
+            let inputs: Vec<Expr> = solve.inputs().copied().collect();
             let mut values = self.graph.evaluate(&inputs, |s| value(s, &solved));
             let right = values.split_off(solve.matrix.len());
             let x = eliminate(values, right)?;

@@ -1,10 +1,11 @@
 //! The way in which a set of outputs costs least: in which frame of the chain it is worked out, and
 //! whether twists are worked out run by run.
 
-use stiffarm_kernels::Output;
+use stiffarm_kernels::{Output, Part};
 
 use super::chain::{Chain, lay_out};
 use super::outputs::derived;
+use super::own::Held;
 use super::passes::Passes;
 use super::program::{Block, Program};
 use super::readings::Readings;
@@ -38,58 +39,94 @@ pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
 
 /// One way to work things out: in which frame, and twists run by run or not.
 #[derive(Clone, Copy)]
-struct Way {
+pub(crate) struct Way {
     cut: usize,
     passes: Passes,
 }
 
-/// The cheapest way for each set: every frame is laid out once, with all outputs in it; run by run only
-/// those that are then the cheapest of some set.
+impl Way {
+    /// In base axes, twists from the axes of the frames.
+    pub const PLAIN: Way = Way { cut: 0, passes: Passes { runs: false, ..Passes::ALL } };
+
+    /// Boundary of the working frame.
+    pub fn cut(self) -> usize {
+        self.cut
+    }
+
+    /// The arm laid out in this way.
+    pub fn lay_out(self, robot: &Robot) -> Chain<'_> {
+        lay_out(robot, self.cut, self.passes)
+    }
+}
+
+/// The cheapest way for each set: every frame is laid out once, with all outputs in it.
 fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
+    // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
+    let own: Vec<bool> = sets.iter().map(|set| set.iter().all(|output| by_link(*output))).collect();
+    let framed = sets.iter().zip(&own).filter(|(_, own)| !**own);
+    let mut wanted: Vec<Output> = framed.flat_map(|(set, _)| set.iter().copied()).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    if wanted.is_empty() {
+        return vec![Way::PLAIN; sets.len()];
+    }
+    cheapest(robot, sets.len(), passes, |way| {
+        let laid_out = derive_by(robot, &wanted, way);
+        let free = laid_out.graph.parameter_only();
+        let cost = |(set, own): (&&[Output], &bool)| match own {
+            true => 0,
+            false => laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost(),
+        };
+        sets.iter().zip(&own).map(cost).collect()
+    })
+}
+
+/// The cheapest way for each of `sets` functions, whose `costs` are asked for all of them way by way: every frame,
+/// and run by run only those that are then the cheapest of some function.
+pub(crate) fn cheapest(
+    robot: &Robot,
+    sets: usize,
+    passes: Passes,
+    costs: impl Fn(Way) -> Vec<u32>,
+) -> Vec<Way> {
     let cuts = if passes.frame { Chain::cuts(robot) } else { vec![0] };
     let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
     let plain = Passes { runs: false, ..passes };
-    let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets.len()];
-    for cut in cuts.into_iter().step_by(stride) {
-        try_way(robot, sets, Way { cut, passes: plain }, &mut best);
-    }
+    let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets];
+    // The first of equals stays: the frame nearest the base. Run by run is for the functions whose frame it is
+    // already, so that a function's way does not depend on the others.
+    let attempt = |best: &mut [(u32, Way)], way: Way| {
+        for (best, cost) in best.iter_mut().zip(costs(way)) {
+            if cost < best.0 && (!way.passes.runs || way.cut == best.1.cut) {
+                *best = (cost, way);
+            }
+        }
+    };
+    cuts.into_iter().step_by(stride).for_each(|cut| attempt(&mut best, Way { cut, passes: plain }));
     if passes.runs {
         let mut cuts: Vec<usize> = best.iter().map(|(_, way)| way.cut).collect();
         cuts.sort_unstable();
         cuts.dedup();
-        for cut in cuts {
-            try_way(robot, sets, Way { cut, passes }, &mut best);
-        }
+        cuts.into_iter().for_each(|cut| attempt(&mut best, Way { cut, passes }));
     }
     best.into_iter().map(|(_, way)| way).collect()
 }
 
-/// Takes a way for the sets that cost less in it. The first of equals stays: the frame nearest the base.
-/// Run by run is for the sets whose frame it is already, so that a set's way does not depend on the
-/// other sets.
-fn try_way(robot: &Robot, sets: &[&[Output]], way: Way, best: &mut [(u32, Way)]) {
-    let mut wanted: Vec<Output> = sets.iter().flat_map(|set| set.iter().copied()).collect();
-    wanted.sort_unstable();
-    wanted.dedup();
-    let laid_out = derive_by(robot, &wanted, way);
-    let free = laid_out.graph.parameter_only();
-    for (set, best) in sets.iter().zip(best) {
-        let cost = laid_out.graph.count_without(&free, &laid_out.roots_of(set)).cost();
-        if cost < best.0 && (!way.passes.runs || way.cut == best.1.cut) {
-            *best = (cost, way);
-        }
-    }
+/// Whether an output is worked out link by link, each in its own axes.
+pub(super) fn by_link(output: Output) -> bool {
+    output.depends_on(Part::Inertias)
 }
 
-fn derive_by(robot: &Robot, outputs: &[Output], Way { cut, passes }: Way) -> Program {
-    let mut chain = lay_out(robot, cut, passes);
+fn derive_by(robot: &Robot, outputs: &[Output], way: Way) -> Program {
+    let mut chain = way.lay_out(robot);
     let mut solves = Vec::new();
     let mut blocks = Vec::new();
     for &output in outputs {
         let derived = derived(&mut chain, output);
         solves.extend(derived.solve);
-        blocks.push(Block { output, entries: derived.entries });
+        blocks.push(Block { held: Held::Output(output), entries: derived.entries });
     }
     let readings = Readings::of(robot);
-    Program { graph: chain.g, blocks, solves, cut, dof: robot.dof(), readings }
+    let (cut, dof) = (way.cut, robot.dof());
+    Program { graph: chain.g, blocks, solves, cut, dof, readings, own: None }
 }

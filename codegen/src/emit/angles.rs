@@ -12,6 +12,8 @@ pub(super) struct Angle {
     pub suffix: String,
     pub sine: bool,
     pub cosine: bool,
+    /// The two of an angle that is not the posture's.
+    pub nodes: [Option<Expr>; 2],
 }
 
 /// What stands behind `s` and `c`: the joints and displacements of the sum, or its parameters.
@@ -26,26 +28,6 @@ pub(super) fn last_joint(g: &Graph, sum: Expr) -> Option<usize> {
     joints_of(g, sum).iter().map(|(joint, _)| *joint).max()
 }
 
-/// The terms of an angle: joints in order, then symbolic offsets, then the constant.
-pub(super) fn angle_terms(g: &Graph, sum: Expr) -> Vec<Expr> {
-    let mut terms = Vec::new();
-    let mut stack = vec![sum];
-    while let Some(e) = stack.pop() {
-        match g.node(e) {
-            Node::Add(a, b) => stack.extend([a, b].map(|o| o.signed(e.is_negative()))),
-            _ => terms.push(e),
-        }
-    }
-    terms.sort_by_key(|e| match g.node(*e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Joint(joint) => (0, *joint),
-            _ => (1, e.node()),
-        },
-        _ => (2, e.node()),
-    });
-    terms
-}
-
 /// The joints in a sum of angles, each with whether it is subtracted.
 fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
     let joint = |e: Expr| match g.node(e) {
@@ -55,7 +37,7 @@ fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
         },
         _ => None,
     };
-    angle_terms(g, sum).into_iter().filter_map(joint).collect()
+    g.terms(sum).into_iter().filter_map(joint).collect()
 }
 
 /// The parameters in an angle without joints.
@@ -67,13 +49,13 @@ fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
         },
         _ => None,
     };
-    angle_terms(g, sum).into_iter().filter_map(parameter).collect()
+    g.terms(sum).into_iter().filter_map(parameter).collect()
 }
 
 /// What displacements add to an angle's name: `d1` behind joints for dφ1, alone `phi1`.
 fn displaced(g: &Graph, sum: Expr, alone: bool) -> String {
     let mut places = Vec::new();
-    for e in angle_terms(g, sum) {
+    for e in g.terms(sum) {
         if let Node::Symbol(s) = g.node(e)
             && let Symbol::Displacement { place, component } = g.symbol_of(s)
         {

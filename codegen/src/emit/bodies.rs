@@ -2,7 +2,7 @@
 
 use super::SymbolicTable;
 use crate::robot::Robot;
-use crate::robot::urdf::Chain;
+use crate::robot::urdf::{Chain, Frame, Lump};
 
 /// A robot as bodies.
 pub(super) struct Bodies {
@@ -36,10 +36,15 @@ impl Bodies {
     }
 }
 
-/// Moment of inertia of a ball of aluminium of this mass, kg·m²: 2/5 m r².
-pub(super) fn ball(mass: f64) -> f64 {
-    let radius = (3.0 * mass / (4.0 * core::f64::consts::PI * 2700.0)).cbrt();
-    0.4 * mass * radius * radius
+/// The tensor of inertia of a lump, xx, xy, xz, yy, yz, zz, kg·m²: where the table does not tell, that of a ball of
+/// aluminium of its mass, 2/5 m r².
+pub(super) fn tensor(lump: &Lump) -> [f64; 6] {
+    let ball = || {
+        let radius = (3.0 * lump.mass / (4.0 * core::f64::consts::PI * 2700.0)).cbrt();
+        let i = 0.4 * lump.mass * radius * radius;
+        [i, 0.0, 0.0, i, 0.0, i]
+    };
+    lump.tensor(&Frame::IDENTITY.axes).unwrap_or_else(ball)
 }
 
 /// Numbers as an attribute has them; what rounding left of a zero is one.

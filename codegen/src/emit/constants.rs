@@ -87,6 +87,7 @@ fn text(g: &Graph, e: Expr) -> String {
         Node::Mul(a, b) => format!("{sign}({} * {})", inner(a), inner(b)),
         Node::Recip(a) => format!("{sign}{}.recip()", inner(a)),
         Node::Sqrt(a) => format!("{sign}{}.sqrt()", inner(a)),
+        Node::Sign(a) => format!("{sign}{}.sign()", inner(a)),
         Node::Sin(a) => format!("{sign}S::sin_cos_all([{}]).0[0]", inner(a)),
         Node::Cos(a) => format!("{sign}S::sin_cos_all([{}]).1[0]", inner(a)),
     }

@@ -2,9 +2,27 @@
 
 use stiffarm_kernels::{Form, Input, Output, Side};
 
-/// What it is; what its rows and columns are, and their units; its formula and where that is printed.
-/// `order` says how a language indexes a matrix.
-pub(super) fn docs(output: Output, n: usize, order: &str) -> [String; 3] {
+use crate::derive::{Held, Own, Quantity, Size};
+
+/// What it is; what its rows and columns are, and their units; of an output its formula and where that is
+/// printed. `order` says how a language indexes a matrix.
+pub(super) fn docs(held: &Held, n: usize, order: &str) -> Vec<String> {
+    match held {
+        Held::Output(output) => of_output(*output, n, order).into(),
+        Held::Own(quantity) => of_own(quantity, order).into(),
+    }
+}
+
+fn of_own(Quantity { unit, sentence, size, .. }: &Quantity, order: &str) -> [String; 2] {
+    let shape = match size {
+        Size::Scalar => format!("A number, in {unit}."),
+        Size::Vector(rows) => format!("A vector of {rows}, in {unit}."),
+        Size::Matrix { rows, columns } => format!("{rows}×{columns}{order}, in {unit}."),
+    };
+    [format!("{}.", sentence.trim_end_matches('.')), shape]
+}
+
+fn of_output(output: Output, n: usize, order: &str) -> [String; 3] {
     let source = match output.source() {
         "" => String::new(),
         source => format!(" ({source})"),
@@ -28,6 +46,11 @@ fn shape(output: Output, n: usize, order: &str) -> String {
             format!("{rows}×{columns}: {}.", sides(&parts, output.columns()))
         }
         Form::Matrix => format!("{rows}×{columns}{order}: {}.", sides(&parts, output.columns())),
+        Form::Stack => {
+            let each = output.columns().each().count(n);
+            let order = order.replace("[column]", "[joint][column]");
+            format!("{n} of {rows}×{each}{order}: {}.", sides(&parts, output.columns()))
+        }
     }
 }
 
@@ -36,12 +59,18 @@ fn sides(rows: &str, columns: Side) -> String {
 }
 
 /// What goes into a function, each input with its unit; the joint values as a `posture` or as they are.
-pub(super) fn inputs(taken: &[Input], posture: bool) -> String {
-    let each = taken.iter().map(|input| match input {
+pub(super) fn inputs(
+    taken: impl IntoIterator<Item = Input>,
+    posture: bool,
+    own: Option<&Own>,
+) -> String {
+    let own = own.into_iter().flat_map(|own| &own.inputs);
+    let own = own.map(|input| format!("`{}`: {}, in {}", input.name, input.sentence, input.unit));
+    let each = taken.into_iter().map(|input| match input {
         Input::Joints if posture => {
             "`posture`: sines and cosines of the joint values, displacements in m".to_string()
         }
         input => format!("`{}`: {}", input.name(), input.sentence()),
     });
-    format!("{}.", each.collect::<Vec<_>>().join("; "))
+    format!("{}.", each.chain(own).collect::<Vec<_>>().join("; "))
 }

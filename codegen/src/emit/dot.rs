@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::plan::component;
 use crate::derive::{COMPONENTS, Output, derive};
 use crate::expr::{Expr, Graph, Node, Symbol};
 use crate::robot::Robot;
@@ -31,11 +32,11 @@ pub fn dot(robot: &Robot, outputs: &[Output]) -> String {
         }
     }
     for block in &program.blocks {
-        let rows = block.output.shape(program.dof).0;
+        let rows = block.held.shape(program.dof).0;
         for (entry, e) in block.entries.iter().enumerate().filter(|(_, e)| !e.is_zero()) {
             let (row, column) = (entry % rows + 1, entry / rows + 1);
-            let name = format!("{}_{row}_{column}", block.output.name());
-            let label = format!("{} {row},{column}", block.output.name());
+            let name = format!("{}_{row}_{column}", block.held.name());
+            let label = format!("{} {row},{column}", block.held.name());
             let _ = writeln!(text, "  {name} [label=\"{label}\", shape=doubleoctagon];");
             edge(&mut text, *e, &name);
         }
@@ -54,19 +55,24 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Number(n) => (n.to_string(), "plaintext"),
         Node::Symbol(s) => match g.symbol_of(s) {
             Symbol::Joint(joint) => (format!("q{}", joint + 1), "box"),
-            Symbol::Wrench(k) => (super::plan::WRENCH[*k].to_string(), "box"),
             Symbol::Side(joint) => (format!("side{}", joint + 1), "box"),
             Symbol::Warming => ("warming".to_string(), "box"),
             Symbol::Growth => ("growth".to_string(), "box"),
+            Symbol::Rate(_) | Symbol::Acceleration(_) | Symbol::Torque(_) | Symbol::Wrench(_) => {
+                let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
+                (named.unwrap_or_default(), "box")
+            }
             Symbol::Parameter(name) => (name.clone(), "box"),
             Symbol::Displacement { place, component } => {
                 (format!("{}{place}", COMPONENTS[*component]), "box")
             }
             Symbol::Deflection { joint, .. } => (format!("dq{}", joint + 1), "box"),
+            Symbol::Own { input, entry } => (format!("input {input}, {entry}"), "box"),
         },
         Node::Add(..) => ("+".to_string(), "circle"),
         Node::Mul(..) => ("×".to_string(), "circle"),
         Node::Recip(_) => ("1/x".to_string(), "circle"),
+        Node::Sign(_) => ("sign".to_string(), "circle"),
         Node::Sqrt(_) => ("√".to_string(), "circle"),
         Node::Sin(_) => ("sin".to_string(), "ellipse"),
         Node::Cos(_) => ("cos".to_string(), "ellipse"),

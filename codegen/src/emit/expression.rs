@@ -18,6 +18,8 @@ pub(super) trait Style {
     fn recip(&self, a: &str) -> String;
     /// `√a`, `a` bare.
     fn sqrt(&self, a: &str) -> String;
+    /// The sign of `a`, a name.
+    fn sign(&self, a: &str) -> String;
     /// `a·b + c`, each bare, where the text asks for one rounding.
     fn fused(&self, _a: &str, _b: &str, _c: &str) -> Option<String> {
         None
@@ -86,6 +88,7 @@ impl Printer<'_> {
             Node::Mul(a, b) => self.product(a, b, negative),
             Node::Recip(a) => self.function(|s, a| s.recip(a), a, negative),
             Node::Sqrt(a) => self.function(|s, a| s.sqrt(a), a, negative),
+            Node::Sign(a) => self.function(|s, a| s.sign(a), a, negative),
             // Symbols, sines and cosines always have names.
             Node::Symbol(_) | Node::Sin(_) | Node::Cos(_) => {
                 Text { text: format!("node{node}"), binds: Binds::Atom }

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
-use super::angles::angle_terms;
 use super::constants::Constants;
 use super::expression::{Printer, Style};
 use super::plan::{Plan, Target};
@@ -45,9 +44,10 @@ fn document(robot: &Robot, sections: impl Iterator<Item = String>) -> String {
 }
 
 fn section(program: &Program, title: &str) -> String {
+    // Functions of one's own are not written here.
+    let Some(output) = program.blocks[0].held.output() else { return String::new() };
     let plan = Plan::new(program, &mut Constants::written_in_place());
     let printer = Printer { plan: &plan, style: &Latex };
-    let output = program.blocks[0].output;
     let mut out = format!("\\subsection*{{{title}}}\nWorked out in {}.\n", program.frame());
     for angle in plan.angles.iter().filter(|a| has_offset(program, a.sum)) {
         let name = &angle.suffix;
@@ -68,6 +68,7 @@ fn section(program: &Program, title: &str) -> String {
                     lines.push(format!("{place} &= {}", printer.print(e)));
                 }
                 Target::Solve(k) => lines.extend(system(&printer, program, k)),
+                Target::Angles(_) => {}
             },
         }
     }
@@ -138,6 +139,10 @@ fn place(output: Output, n: usize, entry: usize) -> String {
         Form::Poses => pose(column % 4, &(column / 4 + 1).to_string()),
         Form::Vector => format!("[{symbol}]_{{{i}}}"),
         Form::Matrix => format!("[{symbol}]_{{{i}{comma}{j}}}"),
+        Form::Stack => {
+            let each = output.columns().each().count(n);
+            format!("[{symbol}_{{{}}}]_{{{i}{comma}{}}}", column / each + 1, column % each + 1)
+        }
     }
 }
 
@@ -148,13 +153,13 @@ fn has_offset(program: &Program, sum: Expr) -> bool {
         Node::Symbol(s) => matches!(g.symbol_of(s), Symbol::Joint(_)),
         _ => false,
     };
-    !angle_terms(g, sum).iter().all(joint)
+    !g.terms(sum).iter().all(joint)
 }
 
 fn angle_text(program: &Program, sum: Expr) -> String {
     let g = &program.graph;
     let mut text = String::new();
-    for e in angle_terms(g, sum) {
+    for e in g.terms(sum) {
         text.push_str(match (text.is_empty(), e.is_negative()) {
             (true, false) => "",
             (_, true) => "-",
@@ -212,6 +217,11 @@ impl Style for Latex {
             return displacement(place, component);
         }
         let name = name.strip_prefix("constants.").unwrap_or(name);
+        for (word, letter) in [("qdd", "\\ddot q"), ("qd", "\\dot q"), ("tau", "\\tau")] {
+            if let Some(joint) = name.strip_prefix(word).filter(|k| k.parse::<u32>().is_ok()) {
+                return format!("{letter}_{{{joint}}}");
+            }
+        }
         let split = name.find(|c: char| c.is_ascii_digit() || c == '_').unwrap_or(name.len());
         let axis = name.len() == 2 && "fmnoap".contains(&name[..1]);
         let (letters, rest) = name.split_at(if axis { 1 } else { split });
@@ -239,6 +249,10 @@ impl Style for Latex {
 
     fn sqrt(&self, a: &str) -> String {
         format!("\\sqrt{{{a}}}")
+    }
+
+    fn sign(&self, a: &str) -> String {
+        format!("\\operatorname{{sign}}({a})")
     }
 }
 

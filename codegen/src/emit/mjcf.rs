@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use super::SymbolicTable;
-use super::bodies::{Bodies, ball, words};
+use super::bodies::{Bodies, tensor, words};
+use crate::number::Number;
 use crate::robot::urdf::Frame;
-use crate::robot::{Motion, Robot, Value};
+use crate::robot::{Drive, Motion, Robot, Value};
 
 /// The robot as an MJCF model with the site `tool`. At rest under gravity and a load the joints' springs
 /// give as the robot file says: a spring rests at `qpos_spring`, which is what the joint is commanded to.
@@ -17,7 +18,7 @@ pub fn mjcf(robot: &Robot) -> Result<String, SymbolicTable> {
     let chain = &bodies.chain;
     let mut text = format!(
         "<!-- The spring of a joint rests at its commanded reading: set qpos_spring to it. Moments of \
-         inertia are not known: they are those of a ball of aluminium, and weightless links have the \
+         inertia that the robot file does not tell are those of a ball of aluminium, and weightless links have the \
          least that MuJoCo takes. -->\n<mujoco model=\"{}\">\n  <compiler angle=\"radian\" \
          autolimits=\"true\" boundmass=\"1e-9\" boundinertia=\"1e-12\"/>\n  <option gravity=\"{}\"/>\n  \
          <worldbody>\n",
@@ -37,17 +38,20 @@ pub fn mjcf(robot: &Robot) -> Result<String, SymbolicTable> {
         let _ = write!(
             text,
             "{indent}<body name=\"{}\"{}>\n{indent}  <joint name=\"{}\" type=\"{kind}\" axis=\"0 0 \
-             1\"{range}{spring}/>\n",
+             1\"{range}{spring}{}/>\n",
             names.link,
             place(&step.before),
-            names.joint
+            names.joint,
+            drive(&robot.joints[k].drive)
         );
         let (centre, mass) = (step.lump.centre().unwrap_or_default(), step.lump.mass.max(1e-9));
-        let i = ball(mass).max(1e-12);
+        let [xx, xy, xz, yy, yz, zz] = tensor(&step.lump);
+        let [xx, yy, zz] = [xx, yy, zz].map(|moment| moment.max(1e-12));
         let _ = writeln!(
             text,
-            "{indent}  <inertial pos=\"{}\" mass=\"{mass}\" diaginertia=\"{i} {i} {i}\"/>",
-            words(centre)
+            "{indent}  <inertial pos=\"{}\" mass=\"{mass}\" fullinertia=\"{xx} {yy} {zz} {}\"/>",
+            words(centre),
+            words([xy, xz, yz])
         );
     }
     let depth = chain.steps.len();
@@ -57,6 +61,17 @@ pub fn mjcf(robot: &Robot) -> Result<String, SymbolicTable> {
     }
     text.push_str("  </worldbody>\n</mujoco>\n");
     Ok(text)
+}
+
+/// Friction, and the rotor's inertia as the joint feels it.
+fn drive(drive: &Drive) -> String {
+    let number = |value: &Option<Value>, none: f64| {
+        value.as_ref().and_then(Value::number).map_or(none, Number::to_f64)
+    };
+    let armature = number(&drive.gear, 1.0).powi(2) * number(&drive.rotor_inertia, 0.0);
+    let (viscous, dry) = (number(&drive.viscous, 0.0), number(&drive.coulomb, 0.0));
+    let each = [("damping", viscous), ("frictionloss", dry), ("armature", armature)].into_iter();
+    each.filter(|(_, x)| *x != 0.0).map(|(name, x)| format!(" {name}=\"{x}\"")).collect()
 }
 
 fn place(frame: &Frame) -> String {

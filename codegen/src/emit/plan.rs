@@ -3,6 +3,8 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use stiffarm_kernels::Input;
+
 use super::angles::{Angle, last_joint, name};
 use super::constants::Constants;
 use super::posture::Plain;
@@ -16,8 +18,10 @@ pub(super) struct Plan<'p> {
     /// What each item of the schedule is.
     pub targets: Vec<Target>,
     pub schedule: Schedule,
-    /// Angles whose sine or cosine enters, in the order of the joints.
+    /// Angles of the posture whose sine or cosine enters, in the order of the joints.
     pub angles: Vec<Angle>,
+    /// Angles that the function takes sines and cosines of itself, by the item of the schedule.
+    pub own_angles: Vec<Vec<Angle>>,
     /// What enters as it is: displacements of prismatic joints, sides, growth.
     pub plain: Vec<Plain>,
     /// Fields of the constants that enter.
@@ -33,27 +37,55 @@ pub(super) enum Target {
     Entry { block: usize, entry: usize },
     /// Linear system number `0`.
     Solve(usize),
+    /// Sines and cosines of own angles.
+    Angles(usize),
+}
+
+/// What a function is given beside the posture.
+pub(super) struct Argument {
+    pub name: String,
+    /// How many numbers; `None` is one by itself.
+    pub size: Option<usize>,
+    pub of: Given,
+}
+
+/// Whose an argument is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Given {
+    /// The arm's.
+    Arm(Input),
+    /// One's own: which one.
+    Own(usize),
 }
 
 /// Names of the wrench's components.
-pub(super) const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// The name of a number of an input.
+pub(super) fn component(input: Input, k: usize) -> String {
+    match input {
+        Input::Wrench => WRENCH[k].to_string(),
+        of_joints => format!("{}{}", of_joints.name(), k + 1),
+    }
+}
 
 /// Names that generated functions use for other things.
-const RESERVED: [&str; 8] = ["out", "posture", "constants", "q", "wrench", "live", "fn", "as"];
+const RESERVED: [&str; 8] = ["out", "posture", "constants", "live", "zero", "status", "fn", "as"];
 
 impl<'p> Plan<'p> {
     /// Plans the function that computes all of `program`; parameter-only values go to `constants`.
     pub fn new(program: &'p Program, constants: &mut Constants) -> Self {
         let g = &program.graph;
-        let (items, targets) = items(program);
-        let roots: Vec<Expr> = program.roots();
         let only = constants.hoisted(g);
-        let reachable = reachable_outside(g, &roots, &only);
+        let own_angles = own_angles(g, &program.roots(), &only);
+        let (items, targets) = items(program, &own_angles);
+        let reachable = reachable_outside(g, &program.roots(), &only);
         let mut plan = Plan {
             program,
             schedule: g.schedule(&items, |node| is_input(g, &only, node)),
             targets,
             angles: Vec::new(),
+            own_angles,
             plain: Vec::new(),
             constants: Vec::new(),
             names: HashMap::new(),
@@ -87,21 +119,67 @@ impl<'p> Plan<'p> {
 
     /// Force and moment below which a load of system `k` needs no test: only where the wrench is read.
     pub fn margin(&self, k: usize) -> Option<[Number; 2]> {
-        self.program.solves[k].margin.filter(|_| self.wrench().contains(&true))
+        let wrench = |argument: &Argument| argument.of == Given::Arm(Input::Wrench);
+        let read = self.arguments().iter().any(|argument| wrench(argument) && self.reads(argument));
+        self.program.solves[k].margin.filter(|_| read)
     }
 
-    /// Components of the wrench that are read.
-    pub fn wrench(&self) -> [bool; 6] {
+    /// What the function is given beside the posture.
+    pub fn arguments(&self) -> Vec<Argument> {
+        let (program, n) = (self.program, self.program.dof);
+        let of_arm = program.inputs().filter(|input| *input != Input::Joints).map(|input| {
+            let size = Some(input.side().count(n));
+            Argument { name: input.name().to_string(), size, of: Given::Arm(input) }
+        });
+        let own = program.own.iter().flat_map(|own| &own.inputs).enumerate();
+        let own = own.map(|(k, input)| Argument {
+            name: input.name.clone(),
+            size: input.size,
+            of: Given::Own(k),
+        });
+        of_arm.chain(own).collect()
+    }
+
+    /// Which numbers of an argument are among some nodes.
+    pub fn read<'n>(
+        &self,
+        argument: &Argument,
+        among: impl IntoIterator<Item = &'n usize>,
+    ) -> Vec<bool> {
         let g = &self.program.graph;
-        let mut read = [false; 6];
-        for node in self.names.keys() {
-            if let Node::Symbol(s) = g.nodes()[*node]
-                && let Symbol::Wrench(k) = g.symbol_of(s)
+        let mut read = vec![false; argument.size.unwrap_or(1)];
+        for node in among {
+            let Node::Symbol(s) = g.nodes()[*node] else { continue };
+            let given = match g.symbol_of(s) {
+                Symbol::Own { input, entry } => Some((Given::Own(*input), *entry)),
+                symbol => symbol.input().map(|(input, k)| (Given::Arm(input), k)),
+            };
+            if let Some((of, k)) = given
+                && of == argument.of
             {
-                read[*k] = true;
+                read[k] = true;
             }
         }
         read
+    }
+
+    /// What the text calls a number of an argument.
+    pub fn entry(&self, argument: &Argument, k: usize) -> String {
+        match (argument.of, &self.program.own) {
+            (Given::Arm(input), _) => component(input, k),
+            (Given::Own(which), Some(own)) => own.inputs[which].entry(k),
+            (Given::Own(_), None) => argument.name.clone(),
+        }
+    }
+
+    /// Every node that has a name.
+    pub fn named(&self) -> impl Iterator<Item = &usize> {
+        self.names.keys()
+    }
+
+    /// Whether anything of an argument is read.
+    pub fn reads(&self, argument: &Argument) -> bool {
+        self.read(argument, self.named()).contains(&true)
     }
 
     fn name_inputs(
@@ -129,10 +207,20 @@ impl<'p> Plan<'p> {
                     Symbol::Displacement { place, component } => {
                         self.names.insert(node, format!("{}{place}", COMPONENTS[*component]));
                     }
-                    Symbol::Wrench(k) => drop(self.names.insert(node, WRENCH[*k].to_string())),
+                    Symbol::Rate(_)
+                    | Symbol::Acceleration(_)
+                    | Symbol::Torque(_)
+                    | Symbol::Wrench(_) => {
+                        let named = g.symbol_of(s).input().map(|(input, k)| component(input, k));
+                        self.names.extend(named.map(|name| (node, name)));
+                    }
                     Symbol::Deflection { joint, weights } => {
                         let prefix = if *weights { "dqg" } else { "dq" };
                         self.names.insert(node, format!("{prefix}{}", joint + 1));
+                    }
+                    Symbol::Own { input, entry } => {
+                        let name = self.program.own.as_ref().map(|own| &own.inputs[*input]);
+                        self.names.extend(name.map(|input| (node, input.entry(*entry))));
                     }
                     Symbol::Parameter(_) | Symbol::Warming => {}
                 },
@@ -140,6 +228,9 @@ impl<'p> Plan<'p> {
             }
         }
         self.plain.sort_unstable();
+        for angle in self.own_angles.iter().flatten() {
+            angles.remove(&angle.sum);
+        }
         for sum in angles.keys().copied() {
             self.name_offsets(g, sum, only, constants);
         }
@@ -151,7 +242,7 @@ impl<'p> Plan<'p> {
             while !taken.insert(suffix.clone()) {
                 suffix.push('o');
             }
-            self.angles.push(Angle { sum, suffix, sine, cosine });
+            self.angles.push(Angle { sum, suffix, sine, cosine, nodes: [None; 2] });
         }
         for node in (0..g.nodes().len()).filter(|node| reachable[*node] && !only[*node]) {
             let (letter, angle) = match g.nodes()[node] {
@@ -159,7 +250,8 @@ impl<'p> Plan<'p> {
                 Node::Cos(angle) => ("c", angle),
                 _ => continue,
             };
-            if let Some(known) = self.angles.iter().find(|a| a.sum == angle) {
+            let mut all = self.angles.iter().chain(self.own_angles.iter().flatten());
+            if let Some(known) = all.find(|a| a.sum == angle) {
                 self.names.insert(node, format!("{letter}{}", known.suffix));
             }
         }
@@ -188,7 +280,10 @@ impl<'p> Plan<'p> {
     fn name_bindings(&mut self, g: &Graph) {
         let mut taken: HashSet<String> = self.names.values().cloned().collect();
         taken.extend(RESERVED.map(str::to_string));
+        taken.extend(Input::EACH.map(|input| input.name().to_string()));
         taken.extend(WRENCH.map(str::to_string));
+        let own = self.program.own.iter().flat_map(|own| &own.inputs);
+        taken.extend(own.map(|input| input.name.clone()));
         let mut anonymous = 0;
         for step in &self.schedule.steps {
             let Binding::Let(node) = step else { continue };
@@ -207,16 +302,23 @@ impl<'p> Plan<'p> {
     }
 }
 
-/// Stores in the order of the outputs, each linear system just before the output that needs it.
-fn items(program: &Program) -> (Vec<Item>, Vec<Target>) {
+/// Own sines and cosines, then stores in the order of the outputs, each linear system just before the output that
+/// needs it.
+fn items(program: &Program, own_angles: &[Vec<Angle>]) -> (Vec<Item>, Vec<Target>) {
     let (mut items, mut targets) = (Vec::new(), Vec::new());
+    for (k, angles) in own_angles.iter().enumerate() {
+        let inputs = angles.iter().map(|angle| angle.sum).collect();
+        let unknowns = angles.iter().flat_map(|a| a.nodes.into_iter().flatten()).collect();
+        items.push(Item::Solve { inputs, unknowns });
+        targets.push(Target::Angles(k));
+    }
     let mut solved = vec![false; program.solves.len()];
     for (at, block) in program.blocks.iter().enumerate() {
         let used = program.graph.reachable(&block.entries);
         for (k, solve) in program.solves.iter().enumerate() {
             if !solved[k] && solve.unknowns.iter().any(|u| used[u.node()]) {
                 solved[k] = true;
-                let inputs = solve.matrix.iter().chain(&solve.right).copied().collect();
+                let inputs = solve.inputs().copied().collect();
                 items.push(Item::Solve { inputs, unknowns: solve.unknowns.clone() });
                 targets.push(Target::Solve(k));
             }
@@ -233,14 +335,53 @@ fn is_input(g: &Graph, only: &[bool], node: usize) -> bool {
     only[node] || matches!(g.nodes()[node], Node::Symbol(_) | Node::Sin(_) | Node::Cos(_))
 }
 
-/// Nodes that are reached from the roots without entering inputs.
+/// Nodes that are reached from the roots without entering inputs of the function.
 fn reachable_outside(g: &Graph, roots: &[Expr], only: &[bool]) -> Vec<bool> {
     let mut reached = vec![false; g.nodes().len()];
     roots.iter().for_each(|e| reached[e.node()] = true);
     for node in (0..reached.len()).rev() {
-        if reached[node] && !is_input(g, only, node) {
+        if reached[node] && (!is_input(g, only, node) || own_angle(g, only, node).is_some()) {
             g.nodes()[node].operands().for_each(|o| reached[o.node()] = true);
         }
     }
     reached
+}
+
+/// The angle of a sine or cosine that is not the posture's.
+fn own_angle(g: &Graph, only: &[bool], node: usize) -> Option<Expr> {
+    match g.nodes()[node] {
+        Node::Sin(angle) | Node::Cos(angle) if !only[node] => {
+            (!g.is_of_posture(angle, only)).then_some(angle)
+        }
+        _ => None,
+    }
+}
+
+/// The angles that are not the posture's: first those that no other enters, then those that only these enter, and so
+/// on, so that each lot is taken at once.
+fn own_angles(g: &Graph, roots: &[Expr], only: &[bool]) -> Vec<Vec<Angle>> {
+    let reached = reachable_outside(g, roots, only);
+    let mut lots: Vec<Vec<Angle>> = Vec::new();
+    // How many lots have to be taken before a node.
+    let mut depth = vec![0; reached.len()];
+    let mut count = 0;
+    for node in (0..reached.len()).filter(|node| reached[*node]) {
+        depth[node] = g.nodes()[node].operands().map(|o| depth[o.node()]).max().unwrap_or(0);
+        let Some(sum) = own_angle(g, only, node) else { continue };
+        let lot = depth[sum.node()];
+        depth[node] = lot + 1;
+        lots.resize_with(lots.len().max(lot + 1), Vec::new);
+        let known = lots[lot].iter().position(|angle| angle.sum == sum);
+        let at = known.unwrap_or_else(|| {
+            count += 1;
+            let suffix = format!("a{count}");
+            lots[lot].push(Angle { sum, suffix, sine: false, cosine: false, nodes: [None; 2] });
+            lots[lot].len() - 1
+        });
+        let angle = &mut lots[lot][at];
+        let sine = matches!(g.nodes()[node], Node::Sin(_));
+        *(if sine { &mut angle.sine } else { &mut angle.cosine }) = true;
+        angle.nodes[usize::from(!sine)] = Some(Expr::of_node(node));
+    }
+    lots
 }

@@ -1,10 +1,10 @@
 //! The posture: sines and cosines of all angles that any function of a module needs, and the displacements
 //! of prismatic joints. One struct for all functions, so that a control loop makes it once.
 
-use super::angles::angle_terms;
 use super::expression::Style;
 use super::plan::Plan;
 use crate::expr::{Expr, Node, Symbol};
+use crate::robot::{Motion, Robot};
 
 /// Fields of the posture: all of them, or what one function needs.
 #[derive(Default)]
@@ -44,9 +44,12 @@ impl Plain {
     }
 
     /// What it is, behind where it comes from.
-    pub fn meaning(self) -> &'static str {
+    pub fn meaning(self, robot: &Robot) -> &'static str {
         match self {
-            Plain::Joint(_) => "m",
+            Plain::Joint(joint) => match robot.joints[joint].motion {
+                Motion::Revolute => "rad",
+                Motion::Prismatic => "m",
+            },
             Plain::Side(_) => "-1, 0 or 1",
             Plain::Growth => "what all lengths are of those of the table",
         }
@@ -141,7 +144,7 @@ fn sum(plan: &Plan, sum: Expr, style: &dyn Style) -> String {
         _ => named(e),
     };
     let mut text = String::new();
-    for e in angle_terms(g, sum) {
+    for e in g.terms(sum) {
         text.push_str(match (text.is_empty(), e.is_negative()) {
             (true, false) => "",
             (true, true) => "-",

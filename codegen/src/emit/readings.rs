@@ -145,6 +145,7 @@ impl Stage {
             }
             Node::Recip(a) => style.recip(&self.print(a, style)),
             Node::Sqrt(a) => style.sqrt(&self.print(a, style)),
+            Node::Sign(a) => style.sign(&self.print(a, style)),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::SymbolicTable;
-use super::bodies::{Bodies, words};
+use super::bodies::{Bodies, tensor, words};
 use crate::robot::urdf::Frame;
 use crate::robot::{Motion, Robot};
 
@@ -21,8 +21,8 @@ pub fn urdf(robot: &Robot) -> Result<String, SymbolicTable> {
     let chain = &bodies.chain;
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<!-- Effort and velocity are not known, and stand at 1e9. Moments of \
-         inertia are not known: they are those of a ball of aluminium. A URDF has neither springs nor \
-         gravity; the robot file's is {} m/s². -->\n<robot name=\"{}\">\n  <link name=\"base\"/>\n",
+         inertia that the robot file does not tell are those of a ball of aluminium. A URDF has neither \
+         springs nor rotors nor gravity; the robot file's is {} m/s². -->\n<robot name=\"{}\">\n  <link name=\"base\"/>\n",
         words(chain.gravity),
         bodies.name
     );
@@ -30,11 +30,12 @@ pub fn urdf(robot: &Robot) -> Result<String, SymbolicTable> {
     for (step, names) in chain.steps.iter().zip(&bodies.names) {
         let _ = writeln!(text, "  <link name=\"{}\">", names.link);
         if let Some(centre) = step.lump.centre() {
-            let i = super::bodies::ball(step.lump.mass);
+            let [xx, xy, xz, yy, yz, zz] = tensor(&step.lump);
             let _ = write!(
                 text,
                 "    <inertial>\n      <origin xyz=\"{}\"/>\n      <mass value=\"{}\"/>\n      <inertia \
-                 ixx=\"{i}\" ixy=\"0\" ixz=\"0\" iyy=\"{i}\" iyz=\"0\" izz=\"{i}\"/>\n    </inertial>\n",
+                 ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" izz=\"{zz}\"/>\n    \
+                 </inertial>\n",
                 words(centre),
                 step.lump.mass
             );
@@ -59,7 +60,12 @@ pub fn urdf(robot: &Robot) -> Result<String, SymbolicTable> {
                 format!("lower=\"{low}\" upper=\"{high}\" ")
             }
         };
-        let _ = writeln!(text, "    <limit {bounds}effort=\"1e9\" velocity=\"1e9\"/>\n  </joint>");
+        let _ = writeln!(text, "    <limit {bounds}effort=\"1e9\" velocity=\"1e9\"/>");
+        let [damping, friction] = step.friction;
+        if step.friction != [0.0; 2] {
+            let _ = writeln!(text, "    <dynamics damping=\"{damping}\" friction=\"{friction}\"/>");
+        }
+        text.push_str("  </joint>\n");
         parent.clone_from(&names.link);
     }
     let _ = write!(

@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use stiffarm_kernels::{Form, Input, Output, Side};
+use stiffarm_kernels::{Form, Output, Side};
 use syn::{Attribute, Ident, Visibility};
 
 use crate::robot::Outline;
@@ -26,6 +26,8 @@ pub(super) fn stub(
     let parameters = symbolic.then(|| parameters(&symbols));
     let all = all(constants.as_ref());
     let robot = robot(symbolic);
+    let places = outline.places.iter().filter_map(|name| syn::parse_str::<Ident>(name).ok());
+    let places = places.map(|name| quote!(pub mod #name { pub use super::super::*; }));
     quote! {
         #(#attrs)*
         #[allow(unused, missing_docs, clippy::all, clippy::pedantic)]
@@ -43,11 +45,13 @@ pub(super) fn stub(
                 beta: "",
                 stiffness: "",
             }; N];
+            pub const OUTPUTS: [Output; Output::EACH.len()] = Output::EACH;
             pub const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
             #parameters
             #(#functions)*
             #all
             #robot
+            pub mod at { #(#places)* }
         }
     }
 }
@@ -63,6 +67,10 @@ fn ty(output: Output) -> TokenStream {
         Form::Poses => quote!([Pose<S>; M]),
         Form::Vector => quote!([S; #rows]),
         Form::Matrix => quote!([[S; #rows]; #columns]),
+        Form::Stack => {
+            let each = size(output.columns().each(), &quote!(M), &quote!(N));
+            quote!([[[S; #rows]; #each]; M])
+        }
     }
 }
 
@@ -70,6 +78,7 @@ fn ty(output: Output) -> TokenStream {
 fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
     match (side, side.count(0), side.count(1)) {
         (Side::Joints, ..) => joints.clone(),
+        (Side::JointsByJoints, ..) => quote!(#joints * #joints),
         (_, none, one) if none == one => quote!(#one),
         (_, none, one) => {
             let slope = one - none;
@@ -81,7 +90,13 @@ fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
 /// The function of an output, and the figures in its module.
 fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
     let name = format_ident!("{}", output.name());
-    let wrench = output.takes(Input::Wrench).then(|| quote!(, _: &[S; 6]));
+    let beside = output.beside().map(|input| match input.side() {
+        Side::Joints => quote!(, _: &[S; M]),
+        side => {
+            let count = side.count(0);
+            quote!(, _: &[S; #count])
+        }
+    });
     let ty = match (ty(output), output.is_fallible()) {
         (ty, true) => quote!(Result<#ty, Unstable>),
         (ty, false) => ty,
@@ -89,7 +104,7 @@ fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
     let n = quote!(super::N);
     let (rows, columns) = (size(output.rows(), &n, &n), size(output.columns(), &n, &n));
     quote! {
-        pub fn #name<S: Scalar, const M: usize>(#constants _: &[S; M] #wrench) -> #ty {
+        pub fn #name<S: Scalar, const M: usize>(#constants _: &[S; M] #(#beside)*) -> #ty {
             ::core::unreachable!()
         }
         pub mod #name {
@@ -161,6 +176,7 @@ fn robot(symbolic: bool) -> TokenStream {
         impl<S: Scalar> Kernels<S> for #ty {
             fn name(&self) -> &'static str { NAME }
             fn dof(&self) -> usize { N }
+            fn outputs(&self) -> &'static [Output] { &OUTPUTS }
             fn evaluate(
                 &self, _: Output, _: &[S], _: &[S; 6], _: &mut [S]
             ) -> Result<(), Error> {

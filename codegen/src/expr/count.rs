@@ -62,7 +62,7 @@ impl Graph {
     }
 
     /// Counts what `outputs` cost together at every evaluation: what depends on parameters alone is
-    /// worked out once and free. What the angles of sines and cosines are made of (sums of joint
+    /// worked out once and free. What the angles of the posture are made of (sums of joint
     /// angles) is not counted: it belongs to the trigonometry.
     pub fn count(&self, outputs: &[Expr]) -> OpCount {
         self.count_without(&self.parameter_only(), outputs)
@@ -83,12 +83,15 @@ impl Graph {
             match self.nodes()[at] {
                 Node::Sin(a) | Node::Cos(a) => {
                     angles.insert(a);
-                    continue;
+                    if self.is_of_posture(a, once) {
+                        continue;
+                    }
                 }
                 Node::Add(..) => count.add += 1,
                 Node::Mul(..) => count.mul += 1,
                 Node::Recip(_) | Node::Sqrt(_) => count.div += 1,
-                Node::Number(_) | Node::Symbol(_) => {}
+                // A comparison: neither a sum nor a product.
+                Node::Sign(_) | Node::Number(_) | Node::Symbol(_) => {}
             }
             for operand in self.nodes()[at].operands() {
                 used[operand.node()] = true;

@@ -23,6 +23,8 @@ impl Graph {
                 Node::Mul(a, b) => of(a) * of(b),
                 Node::Recip(a) => of(a).recip(),
                 Node::Sqrt(a) => of(a).sqrt(),
+                Node::Sign(a) if of(a).is_zero() => T::zero(),
+                Node::Sign(a) => of(a).signum(),
                 Node::Sin(a) => of(a).sin(),
                 Node::Cos(a) => of(a).cos(),
             };

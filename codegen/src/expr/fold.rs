@@ -78,17 +78,28 @@ impl Graph {
         }
     }
 
-    /// `sin a` of an angle that depends on a symbol; [`Turn`](super::Turn) folds constants first.
-    pub fn sin(&mut self, a: Expr) -> Expr {
+    /// The sign of `a`, which is no constant but zero.
+    pub fn sign(&mut self, a: Expr) -> Expr {
         if a.is_zero() {
-            return Expr::ZERO;
+            return a;
         }
-        self.intern(Node::Sin(a.abs())).signed(a.is_negative())
+        self.intern(Node::Sign(a.abs())).signed(a.is_negative())
+    }
+
+    /// `sin a`; [`Turn`](super::Turn) folds multiples of π exactly before.
+    pub fn sin(&mut self, a: Expr) -> Expr {
+        match self.number_of(a) {
+            Some(n) => self.number(Number::cosine(libm::sin(n.to_f64()))),
+            None => self.intern(Node::Sin(a.abs())).signed(a.is_negative()),
+        }
     }
 
     /// `cos a`.
     pub fn cos(&mut self, a: Expr) -> Expr {
-        if a.is_zero() { Expr::ONE } else { self.intern(Node::Cos(a.abs())) }
+        match self.number_of(a) {
+            Some(n) => self.number(Number::cosine(libm::cos(n.to_f64()))),
+            None => self.intern(Node::Cos(a.abs())),
+        }
     }
 
     /// The canonical order of two operands: constants first, then the older node.

@@ -1,6 +1,7 @@
 //! The arena: nodes are stored once, handles carry a sign.
 
 use rustc_hash::FxHashMap;
+use stiffarm_kernels::Input;
 
 use crate::number::Number;
 
@@ -62,6 +63,12 @@ impl core::ops::Neg for Expr {
 pub enum Symbol {
     /// `q_i`, rad or m; joints count from 0 here.
     Joint(usize),
+    /// `q̇_i`, rad/s or m/s.
+    Rate(usize),
+    /// `q̈_i`, rad/s² or m/s².
+    Acceleration(usize),
+    /// The torque of motor i, N·m or N.
+    Torque(usize),
     /// Component 0..6 of the wrench.
     Wrench(usize),
     /// From which side joint i came to rest: −1, 0, 1; joints count from 0 here.
@@ -86,6 +93,33 @@ pub enum Symbol {
         /// Whether the links' weights are part of the load.
         weights: bool,
     },
+    /// An entry of an input that a program of one's own declares.
+    Own {
+        /// Which input, in the order of declaration.
+        input: usize,
+        /// Which of its entries.
+        entry: usize,
+    },
+}
+
+impl Symbol {
+    /// Which number of which input it is, if it is one.
+    pub fn input(&self) -> Option<(Input, usize)> {
+        match self {
+            Symbol::Joint(k) => Some((Input::Joints, *k)),
+            Symbol::Rate(k) => Some((Input::Rates, *k)),
+            Symbol::Acceleration(k) => Some((Input::Accelerations, *k)),
+            Symbol::Torque(k) => Some((Input::Torques, *k)),
+            Symbol::Wrench(k) => Some((Input::Wrench, *k)),
+            Symbol::Parameter(_)
+            | Symbol::Displacement { .. }
+            | Symbol::Deflection { .. }
+            | Symbol::Side(_)
+            | Symbol::Warming
+            | Symbol::Growth
+            | Symbol::Own { .. } => None,
+        }
+    }
 }
 
 /// A node of the graph. Operands are handles of earlier nodes.
@@ -103,6 +137,8 @@ pub enum Node {
     Recip(Expr),
     /// `√a`.
     Sqrt(Expr),
+    /// 1, 0 or −1 as `a`, unsigned, is above, at or below zero.
+    Sign(Expr),
     /// `sin a`, `a` unsigned.
     Sin(Expr),
     /// `cos a`, `a` unsigned.
@@ -114,7 +150,9 @@ impl Node {
     pub fn operands(self) -> impl DoubleEndedIterator<Item = Expr> {
         let (a, b) = match self {
             Node::Number(_) | Node::Symbol(_) => (None, None),
-            Node::Recip(a) | Node::Sqrt(a) | Node::Sin(a) | Node::Cos(a) => (Some(a), None),
+            Node::Recip(a) | Node::Sqrt(a) | Node::Sign(a) | Node::Sin(a) | Node::Cos(a) => {
+                (Some(a), None)
+            }
             Node::Add(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)

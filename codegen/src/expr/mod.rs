@@ -11,6 +11,7 @@ mod evaluate;
 mod fold;
 mod graph;
 mod schedule;
+mod solve;
 mod trig;
 mod vector;
 

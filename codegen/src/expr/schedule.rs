@@ -7,11 +7,11 @@ use super::graph::{Expr, Graph, Node};
 pub enum Item {
     /// Stores the value of an expression.
     Store(Expr),
-    /// Solves a linear system.
+    /// Works out what is no arithmetic of the graph: a linear system, or sines and cosines of own angles.
     Solve {
-        /// Matrix and right-hand side.
+        /// Matrix and right-hand side; the angles.
         inputs: Vec<Expr>,
-        /// The symbols that it defines.
+        /// The symbols that it defines; the sines and cosines.
         unknowns: Vec<Expr>,
     },
 }

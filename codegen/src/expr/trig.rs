@@ -3,7 +3,7 @@
 use num_rational::Ratio;
 use num_traits::CheckedAdd;
 
-use super::graph::{Expr, Graph, Symbol};
+use super::graph::{Expr, Graph, Node, Symbol};
 use crate::number::Number;
 use crate::robot::Angle;
 
@@ -110,6 +110,40 @@ impl Turn {
             2 => (-s, -c),
             _ => (-c, s),
         }
+    }
+}
+
+impl Graph {
+    /// The terms of an angle: joints in order, then symbolic offsets, then the constant.
+    pub fn terms(&self, angle: Expr) -> Vec<Expr> {
+        let mut terms = Vec::new();
+        let mut stack = vec![angle];
+        while let Some(e) = stack.pop() {
+            match self.node(e) {
+                Node::Add(a, b) => stack.extend([a, b].map(|o| o.signed(e.is_negative()))),
+                _ => terms.push(e),
+            }
+        }
+        terms.sort_by_key(|e| match self.node(*e) {
+            Node::Symbol(s) => match self.symbol_of(s) {
+                Symbol::Joint(joint) => (0, *joint),
+                _ => (1, e.node()),
+            },
+            _ => (2, e.node()),
+        });
+        terms
+    }
+
+    /// Whether an angle is one of the posture's: a sum of joint values and of what does not change with them (`once`).
+    pub fn is_of_posture(&self, angle: Expr, once: &[bool]) -> bool {
+        self.terms(angle).iter().all(|e| match self.node(*e) {
+            Node::Number(_) => true,
+            Node::Symbol(s) => !matches!(
+                self.symbol_of(s),
+                Symbol::Own { .. } | Symbol::Wrench(_) | Symbol::Deflection { .. }
+            ),
+            _ => once[e.node()],
+        })
     }
 }
 

@@ -30,6 +30,18 @@ pub enum Dimension {
     SecondMoment,
     /// A material's density: kg/m³.
     Density,
+    /// A moment of inertia: kg·m².
+    Inertia,
+    /// A torque: N·m.
+    Torque,
+    /// A force: N.
+    Force,
+    /// Viscous friction of a revolute joint: N·m·s/rad.
+    AngularDamping,
+    /// Viscous friction of a prismatic joint: N·s/m.
+    LinearDamping,
+    /// The gear of a prismatic joint: rad/m.
+    TurnPerLength,
     /// A pure number, such as a shear coefficient.
     Ratio,
 }
@@ -40,6 +52,30 @@ impl Dimension {
         match motion {
             Motion::Revolute => Dimension::AngularStiffness,
             Motion::Prismatic => Dimension::LinearStiffness,
+        }
+    }
+
+    /// What the load on a joint, and so its dry friction, is measured as.
+    pub fn load(motion: Motion) -> Dimension {
+        match motion {
+            Motion::Revolute => Dimension::Torque,
+            Motion::Prismatic => Dimension::Force,
+        }
+    }
+
+    /// What the viscous friction of a joint is measured as.
+    pub fn damping(motion: Motion) -> Dimension {
+        match motion {
+            Motion::Revolute => Dimension::AngularDamping,
+            Motion::Prismatic => Dimension::LinearDamping,
+        }
+    }
+
+    /// What the gear of a joint is measured as.
+    pub fn gear(motion: Motion) -> Dimension {
+        match motion {
+            Motion::Revolute => Dimension::Ratio,
+            Motion::Prismatic => Dimension::TurnPerLength,
         }
     }
 
@@ -56,6 +92,12 @@ impl Dimension {
             Dimension::Area => "m²",
             Dimension::SecondMoment => "m⁴",
             Dimension::Density => "kg/m³",
+            Dimension::Inertia => "kg·m²",
+            Dimension::Torque => "N·m",
+            Dimension::Force => "N",
+            Dimension::AngularDamping => "N·m·s/rad",
+            Dimension::LinearDamping => "N·s/m",
+            Dimension::TurnPerLength => "rad/m",
             Dimension::Ratio => "",
         }
     }
@@ -72,14 +114,21 @@ impl Dimension {
             Dimension::Area => [2, 0, 0, 0],
             Dimension::SecondMoment => [4, 0, 0, 0],
             Dimension::Density => [-3, 1, 0, 0],
+            Dimension::Inertia => [2, 1, 0, 0],
+            Dimension::Torque => TORQUE,
+            Dimension::Force => [1, 1, -2, 0],
+            Dimension::AngularDamping => [2, 1, -1, -1],
+            Dimension::LinearDamping => [0, 1, -1, 0],
+            Dimension::TurnPerLength => [-1, 0, 0, 1],
             Dimension::Ratio => [0; 4],
         }
     }
 
-    /// Whether a unit of these powers measures this quantity. A torque stands for a torque per
-    /// radian: the radian is often left out.
+    /// Whether a unit of these powers measures this quantity. Per radian may be left out: a torque stands
+    /// for a torque per radian.
     pub(crate) fn fits(self, powers: Powers) -> bool {
-        self.powers() == powers || (self == Dimension::AngularStiffness && powers == TORQUE)
+        let [length, mass, time, angle] = self.powers();
+        self.powers() == powers || (angle < 0 && powers == [length, mass, time, 0])
     }
 
     pub(crate) fn example(self) -> &'static str {
@@ -94,6 +143,12 @@ impl Dimension {
             Dimension::Area => "24 cm^2",
             Dimension::SecondMoment => "5.2e6 mm^4",
             Dimension::Density => "2700 kg/m^3",
+            Dimension::Inertia => "0.35 kg*m^2",
+            Dimension::Torque => "12 N*m",
+            Dimension::Force => "80 N",
+            Dimension::AngularDamping => "5 N*m*s/rad",
+            Dimension::LinearDamping => "300 N*s/m",
+            Dimension::TurnPerLength => "628 rad/m",
             Dimension::Ratio => "0.85",
         }
     }
@@ -112,12 +167,18 @@ impl fmt::Display for Dimension {
             Dimension::Area => "an area",
             Dimension::SecondMoment => "a second moment of area",
             Dimension::Density => "a density",
+            Dimension::Inertia => "a moment of inertia",
+            Dimension::Torque => "a torque",
+            Dimension::Force => "a force",
+            Dimension::AngularDamping => "a torque per angular speed",
+            Dimension::LinearDamping => "a force per speed",
+            Dimension::TurnPerLength => "an angle per length",
             Dimension::Ratio => "a pure number",
         })
     }
 }
 
-const ALL: [Dimension; 11] = [
+const ALL: [Dimension; 17] = [
     Dimension::Length,
     Dimension::Angle,
     Dimension::Mass,
@@ -128,6 +189,12 @@ const ALL: [Dimension; 11] = [
     Dimension::Area,
     Dimension::SecondMoment,
     Dimension::Density,
+    Dimension::Inertia,
+    Dimension::Torque,
+    Dimension::Force,
+    Dimension::AngularDamping,
+    Dimension::LinearDamping,
+    Dimension::TurnPerLength,
     Dimension::Ratio,
 ];
 
@@ -139,12 +206,9 @@ pub(crate) fn describe(powers: Powers) -> String {
         return dimension.to_string();
     }
     match powers {
-        TORQUE => "a torque".to_owned(),
-        [1, 1, -2, 0] => "a force".to_owned(),
         [0, 0, 1, 0] => "a time".to_owned(),
         [1, 0, -1, 0] => "a speed".to_owned(),
         [3, 0, 0, 0] => "a volume".to_owned(),
-        [2, 1, 0, 0] => "a moment of inertia".to_owned(),
         _ => {
             let factors: Vec<String> = ["m", "kg", "s", "rad"]
                 .iter()

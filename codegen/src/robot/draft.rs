@@ -1,7 +1,8 @@
 //! A table as read: every cell with its place, so that the one validator can point at it.
 
 use super::dimension::Dimension;
-use super::model::{Angle, Convention, Effect, Motion, Output, Value};
+use super::frames::Asked;
+use super::model::{Angle, Convention, Effect, Motion, Value};
 use super::symbols::Symbolic;
 
 /// What a cell holds, and where. A cell that could not be read has no value and has already been
@@ -13,6 +14,9 @@ pub(crate) struct Cell<T, L> {
     /// Where it stands.
     pub at: L,
 }
+
+/// How the entries of a tensor of inertia stand.
+pub(crate) const INERTIA: &str = "[xx, xy, xz, yy, yz, zz]";
 
 /// Three cells.
 pub(crate) type Vector<T, L> = [Cell<T, L>; 3];
@@ -26,10 +30,11 @@ pub(crate) struct Draft<L> {
     pub joints: Vec<DraftJoint<L>>,
     pub base: DraftFrame<L>,
     pub tool: DraftFrame<L>,
+    pub frames: Vec<DraftNamedFrame<L>>,
     pub markers: Vec<DraftMarker<L>>,
     pub effects: Vec<Effect>,
     pub payloads: Vec<DraftPayload<L>>,
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<Cell<Asked, L>>,
 }
 
 /// A fixed transform.
@@ -43,6 +48,23 @@ impl<L> Default for DraftFrame<L> {
     fn default() -> Self {
         DraftFrame { translation: None, rotation: None }
     }
+}
+
+/// A frame with a name.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftNamedFrame<L> {
+    pub name: Cell<String, L>,
+    pub joint: Cell<JointName, L>,
+    pub frame: DraftFrame<L>,
+}
+
+/// How a joint is told.
+#[derive(Clone, Debug)]
+pub(crate) enum JointName {
+    /// Counted from 1 at the base.
+    Number(usize),
+    /// By the label of its row.
+    Label(String),
 }
 
 /// A load with a name.
@@ -68,9 +90,21 @@ pub(crate) struct DraftJoint<L> {
     pub mass: Option<Cell<Value, L>>,
     /// The place of the whole vector, and its entries.
     pub com: Option<(L, Vector<Value, L>)>,
+    /// The place of the whole tensor, and its entries.
+    pub inertia: Option<(L, [Cell<Value, L>; 6])>,
+    pub drive: DraftDrive<L>,
     pub limits: Option<Cell<[f64; 2], L>>,
     pub source: Option<Cell<String, L>>,
     pub beam: Option<DraftBeam<L>>,
+}
+
+/// Motor, gear and friction.
+#[derive(Clone, Debug)]
+pub(crate) struct DraftDrive<L> {
+    pub gear: Option<Cell<Value, L>>,
+    pub rotor_inertia: Option<Cell<Value, L>>,
+    pub coulomb: Option<Cell<Value, L>>,
+    pub viscous: Option<Cell<Value, L>>,
 }
 
 /// A link as a beam.
@@ -136,6 +170,12 @@ impl<L> DraftJoint<L> {
         visit_cell(visit, stiffness, &self.stiffness);
         visit_cell(visit, Dimension::Mass, &self.mass);
         visit_cell(visit, Dimension::Length, self.com.iter().flat_map(|(_, com)| com));
+        visit_cell(visit, Dimension::Inertia, self.inertia.iter().flat_map(|(_, i)| i));
+        let motion = self.motion.value.unwrap_or(Motion::Revolute);
+        visit_cell(visit, Dimension::gear(motion), &self.drive.gear);
+        visit_cell(visit, Dimension::Inertia, &self.drive.rotor_inertia);
+        visit_cell(visit, Dimension::load(motion), &self.drive.coulomb);
+        visit_cell(visit, Dimension::damping(motion), &self.drive.viscous);
         if let Some(beam) = &self.beam {
             visit_cell(visit, Dimension::Pressure, [&beam.youngs_modulus, &beam.shear_modulus]);
             let [area, moments @ ..] = &beam.section;

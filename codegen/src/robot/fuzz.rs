@@ -1,7 +1,11 @@
-//! Whatever the input, the readers answer; they never panic.
+//! Whatever the input, the readers of robot files and of the macro's tables answer; they never panic.
+//!
+//! A million inputs each, in minutes:
+//! `cargo test --release -p stiffarm-codegen --features macro,urdf -- --ignored a_million`
 
 use proptest::prelude::*;
 use proptest::sample::select;
+use stiffarm_draws::texts::{answered, mutated};
 
 use super::{Robot, parse_tokens};
 
@@ -105,20 +109,6 @@ const PIECES: &[&str] = &[
     "\0",
 ];
 
-/// Replaces stretches of a text by pieces, at any places.
-fn mutated(text: &'static str) -> impl Strategy<Value = String> {
-    let edit = (0..text.len(), 0..12_usize, select(PIECES));
-    prop::collection::vec(edit, 1..6).prop_map(move |edits| {
-        let mut text: Vec<char> = text.chars().collect();
-        for (at, length, piece) in edits {
-            let at = at.min(text.len());
-            let end = (at + length).min(text.len());
-            text.splice(at..end, piece.chars());
-        }
-        text.into_iter().collect()
-    })
-}
-
 fn read_file(text: &str) {
     match Robot::from_toml(text, "arm.toml") {
         Ok((robot, warnings)) => {
@@ -153,38 +143,63 @@ fn the_seeds_are_sound() {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+/// Cells of pieces, for a key of a joint.
+fn cells() -> impl Strategy<Value = (&'static str, String)> {
+    let keys = ["a", "alpha", "stiffness", "mass", "limits", "com"];
+    let pieces = prop::collection::vec(select(PIECES), 0..8);
+    (select(keys.to_vec()), pieces.prop_map(|pieces| pieces.concat()))
+}
 
-    #[test]
-    fn a_mutated_file_is_answered(text in mutated(FILE)) {
+fn fuzz_files(cases: u32) {
+    answered(cases, &mutated(&[FILE], usize::MAX, PIECES), |text| {
         read_file(&text);
-    }
-
-    #[test]
-    fn any_bytes_are_answered(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        Ok(())
+    });
+    let bytes = prop::collection::vec(any::<u8>(), 0..200);
+    answered(cases / 10, &bytes, |bytes| {
         read_file(&String::from_utf8_lossy(&bytes));
-    }
-
-    #[test]
-    fn any_cell_is_answered(
-        cell in prop::collection::vec(select(PIECES), 0..8),
-        key in select(&["a", "alpha", "stiffness", "mass", "limits", "com"][..]),
-    ) {
-        let cell = cell.concat();
+        Ok(())
+    });
+    answered(cases / 10, &cells(), |(key, cell)| {
         let joint = "[[joint]]\ntype = \"revolute\"\n";
-        read_file(&format!("name = \"x\"\nconvention = \"standard\"\n{joint}{key} = '{cell}'\n"));
-    }
+        let head = "name = \"x\"\nconvention = \"standard\"\n";
+        read_file(&format!("{head}{joint}{key} = '{cell}'\n"));
+        Ok(())
+    });
+}
 
-    #[test]
-    fn a_mutated_table_is_answered(text in mutated(TABLE)) {
+fn fuzz_tables(cases: u32) {
+    answered(cases, &mutated(&[TABLE], usize::MAX, PIECES), |text| {
         read_tokens(&text);
-    }
-
-    #[test]
-    fn a_table_of_pieces_is_answered(pieces in prop::collection::vec(select(PIECES), 0..30)) {
+        Ok(())
+    });
+    let pieces = prop::collection::vec(select(PIECES), 0..30);
+    answered(cases / 10, &pieces, |pieces| {
         let table = pieces.join(" ");
         read_tokens(&format!("mod x; convention: standard_dh; joint | theta | d | a\n{table}"));
         read_tokens(&table);
-    }
+        Ok(())
+    });
+}
+
+#[test]
+fn any_robot_file_is_answered() {
+    fuzz_files(2000);
+}
+
+#[test]
+fn any_table_is_answered() {
+    fuzz_tables(2000);
+}
+
+#[test]
+#[ignore = "a million inputs take minutes"]
+fn a_million_robot_files_are_answered() {
+    fuzz_files(1_000_000);
+}
+
+#[test]
+#[ignore = "a million inputs take minutes"]
+fn a_million_tables_are_answered() {
+    fuzz_tables(1_000_000);
 }

@@ -11,8 +11,10 @@ mod decimal;
 mod diagnostic;
 mod dimension;
 mod draft;
+mod frames;
 #[cfg(all(test, feature = "macro"))]
 mod fuzz;
+mod inertia;
 mod lexeme;
 mod model;
 mod names;
@@ -33,10 +35,12 @@ mod validate;
 
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
+pub use frames::{Asked, Refused};
 pub use model::{
-    Angle, Beam, Convention, Effect, Entry, Frame, Joint, Marker, Motion, Output, Payload,
-    Quantity, Robot, Section, Spot, Value,
+    Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
+    Output, Payload, Quantity, Robot, Section, Spot, Value,
 };
+pub(crate) use names::is_keyword;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
 pub use symbols::Symbol;

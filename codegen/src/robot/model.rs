@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use num_rational::Ratio;
+use stiffarm_kernels::Part;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use super::beyond::Beyond;
@@ -24,6 +25,8 @@ pub struct Robot {
     pub base: Frame,
     /// The fixed transform from the last frame to the tool; the identity if the file has none.
     pub tool: Frame,
+    /// Frames with names, on any link.
+    pub frames: Vec<NamedFrame>,
     /// Measured points other than the tool origin.
     pub markers: Vec<Marker>,
     /// What the real arm does beyond the table.
@@ -32,8 +35,10 @@ pub struct Robot {
     pub beyond: Beyond,
     /// Loads that rows of data name.
     pub payloads: Vec<Payload>,
-    /// The outputs that are generated of it; every one if there are none.
+    /// The outputs that are generated of its tool; every one if there are none.
     pub outputs: Vec<Output>,
+    /// The outputs that are generated of named frames and markers.
+    pub at: Vec<At>,
 }
 
 /// One row of the table, with what hangs on it.
@@ -59,12 +64,30 @@ pub struct Joint {
     pub mass: Option<Value>,
     /// Its centre of mass in the row's own frame, m.
     pub com: [Value; 3],
+    /// Its moments of inertia about that centre in the row's own axes: xx, xy, xz, yy, yz, zz of the
+    /// tensor, kg·m²; `None` is a point mass.
+    pub inertia: Option<[Value; 6]>,
+    /// What turns the joint, and what holds it back.
+    pub drive: Drive,
     /// Joint limits, rad or m.
     pub limits: Option<[f64; 2]>,
     /// Where the row's numbers come from.
     pub source: Option<String>,
     /// The link as a beam from the previous frame's origin to this one's.
     pub beam: Option<Beam>,
+}
+
+/// Motor, gear and friction of a joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drive {
+    /// Turns of the motor per turn of the joint; rad/m of a prismatic joint. `None` is 1.
+    pub gear: Option<Value>,
+    /// Moment of inertia of all that turns with the motor, at the motor, kg·m².
+    pub rotor_inertia: Option<Value>,
+    /// Friction that knows the direction alone, at the joint: N·m, N of a prismatic joint.
+    pub coulomb: Option<Value>,
+    /// Friction in proportion to the rate, at the joint: N·m·s/rad, N·s/m of a prismatic joint.
+    pub viscous: Option<Value>,
 }
 
 /// A prismatic elastic beam.
@@ -104,6 +127,26 @@ pub struct Frame {
     pub translation: [Value; 3],
     /// Rotation vector (axis × angle).
     pub rotation: [Angle; 3],
+}
+
+/// A frame with a name, fixed in the frame of a row as a link's mass is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFrame {
+    /// Its name, which becomes a module's.
+    pub name: String,
+    /// The row, from 0.
+    pub row: usize,
+    /// The frame in the row's own; numbers, no parameters.
+    pub frame: Frame,
+}
+
+/// An output of a named frame or a marker: that of the arm whose tool is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct At {
+    /// The name of the frame or of the marker.
+    pub place: String,
+    /// The output.
+    pub output: Output,
 }
 
 /// A measured point on the tool.
@@ -248,9 +291,15 @@ impl Robot {
         self.joints.len()
     }
 
-    /// What is generated: the outputs that are asked for, each once, in the order of [`Output::EACH`].
+    /// What is generated, each output once, in the order of [`Output::EACH`]: what is asked for, or else
+    /// every output but those that are [on request](Output::is_on_request), those of dynamics where the file says of
+    /// some link more than its mass.
     pub fn generated(&self) -> Vec<Output> {
-        let asked = |output: &Output| self.outputs.is_empty() || self.outputs.contains(output);
+        let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
+        let asked = |output: &Output| match self.outputs.as_slice() {
+            [] => !output.is_on_request() && (moves || !output.depends_on(Part::Inertias)),
+            asked => asked.contains(output),
+        };
         Output::EACH.into_iter().filter(asked).collect()
     }
 }

@@ -19,6 +19,8 @@ pub(crate) fn check<L: Place>(draft: &Draft<L>, report: &mut Report<L>) {
     unique("joint", joints.filter_map(|c| Some((c.value.as_deref()?, &c.at))), report);
     let markers = draft.markers.iter();
     unique("marker", markers.filter_map(|m| Some((m.name.value.as_deref()?, &m.name.at))), report);
+    let frames = draft.frames.iter();
+    unique("frame", frames.filter_map(|f| Some((f.name.value.as_deref()?, &f.name.at))), report);
     let payloads = draft.payloads.iter();
     unique(
         "payload",
@@ -76,6 +78,18 @@ pub(crate) fn plain<L: Place>(text: &str, at: &L, report: &mut Report<L>) {
     }
 }
 
+/// Why a name cannot be a module's, nor a part of names in C, and what to do.
+pub(crate) fn no_module(name: &str) -> Option<(String, &'static str)> {
+    let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
+    if !plain {
+        let help = "such a name is a lower-case letter, then lower-case letters, digits and `_`";
+        return Some((format!("`{name}` cannot be the name of a module"), help));
+    }
+    let keyword = KEYWORDS.contains(&name);
+    keyword.then(|| (format!("`{name}` is a keyword of Rust"), "choose another name"))
+}
+
 /// Why a name cannot be a parameter's, and what to do.
 fn refused(name: &str) -> Option<(String, &'static str)> {
     let help = "choose another name";
@@ -88,8 +102,12 @@ fn refused(name: &str) -> Option<(String, &'static str)> {
         let help = "a name is a letter, then letters, digits and `_`, without accents";
         return Some((format!("`{name}` cannot be a parameter's name"), help));
     }
-    let keyword = KEYWORDS.contains(&name);
-    keyword.then(|| (format!("`{name}` is a keyword of Rust"), help))
+    is_keyword(name).then(|| (format!("`{name}` is a keyword of Rust"), help))
+}
+
+/// Whether Rust means something else by a name.
+pub(crate) fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
 }
 
 /// The keywords of every edition of Rust, reserved ones included (The Rust Reference, 2.3).

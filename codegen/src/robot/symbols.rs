@@ -2,7 +2,7 @@
 
 use super::decimal;
 use super::dimension::Dimension;
-use super::model::{Angle, Joint, Robot, Value};
+use super::model::{Angle, Drive, Joint, Robot, Value};
 
 /// A parameter that stays symbolic.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,7 +64,7 @@ fn values<'a>(
 
 impl Robot {
     /// The symbolic parameters, each once, in order of first appearance: gravity, the joints row by
-    /// row (theta, d, a, alpha, beta, stiffness, mass, com, beam), the tool.
+    /// row (theta, d, a, alpha, beta, stiffness, mass, com, inertia, drive, beam), the tool.
     pub fn symbols(&self) -> Vec<Symbol> {
         let mut found: Vec<Symbol> = Vec::new();
         self.clone().each_slot(&mut |slot, dimension| {
@@ -119,6 +119,12 @@ impl Joint {
         values(visit, Dimension::stiffness(self.motion), &mut self.stiffness);
         values(visit, Dimension::Mass, &mut self.mass);
         values(visit, Dimension::Length, &mut self.com);
+        values(visit, Dimension::Inertia, self.inertia.iter_mut().flatten());
+        let Drive { gear, rotor_inertia, coulomb, viscous } = &mut self.drive;
+        values(visit, Dimension::gear(self.motion), gear);
+        values(visit, Dimension::Inertia, rotor_inertia);
+        values(visit, Dimension::load(self.motion), coulomb);
+        values(visit, Dimension::damping(self.motion), viscous);
         if let Some(beam) = &mut self.beam {
             let moduli = [&mut beam.youngs_modulus, &mut beam.shear_modulus];
             values(visit, Dimension::Pressure, moduli);

@@ -1,12 +1,13 @@
 //! The one validator: both readers hand it a draft, and it makes the [`Robot`].
 
 use super::beyond::Beyond;
-use super::draft::{Cell, Draft, DraftBeam, DraftFrame, DraftJoint, DraftPayload, Vector};
+use super::draft::{Cell, Draft, DraftBeam, DraftFrame, DraftJoint, DraftPayload, INERTIA, Vector};
+use super::inertia;
 use super::model::{
-    Angle, Beam, Convention, Frame, Joint, Marker, Motion, Payload, Robot, Section, Value,
+    Angle, Beam, Convention, Drive, Frame, Joint, Marker, Motion, Payload, Robot, Section, Value,
 };
-use super::names;
 use super::problem::{Place, Problem, Report};
+use super::{frames, names};
 use crate::number::Number;
 
 /// More joints than any arm has; a bound on the work that a file can ask for.
@@ -26,11 +27,13 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         report.error(Problem::new(joint.at.clone(), message));
     }
     names::check(draft, report);
-    let joints = draft.joints.iter().enumerate().map(|(i, row)| joint(i, row, report)).collect();
-    Robot {
+    let joints: Vec<Joint> =
+        draft.joints.iter().enumerate().map(|(i, row)| joint(i, row, report)).collect();
+    let mut robot = Robot {
         name: content(&draft.name).unwrap_or_default(),
         convention: content(&draft.convention).unwrap_or(Convention::Standard),
         gravity: draft.gravity.as_ref().map_or_else(standard_gravity, vector),
+        frames: draft.frames.iter().filter_map(|f| frames::named(f, &joints, report)).collect(),
         joints,
         base: frame(&draft.base),
         tool: frame(&draft.tool),
@@ -45,11 +48,14 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         effects: draft.effects.clone(),
         beyond: Beyond::default(),
         payloads: draft.payloads.iter().map(|p| payload(p, report)).collect(),
-        outputs: draft.outputs.clone(),
-    }
+        outputs: Vec::new(),
+        at: Vec::new(),
+    };
+    frames::ask(&mut robot, &draft.outputs, report);
+    robot
 }
 
-fn frame<L>(frame: &DraftFrame<L>) -> Frame {
+pub(crate) fn frame<L>(frame: &DraftFrame<L>) -> Frame {
     let none = Frame::default();
     Frame {
         translation: frame.translation.as_ref().map_or(none.translation, vector),
@@ -93,6 +99,32 @@ fn joint<L: Place>(index: usize, row: &DraftJoint<L>, report: &mut Report<L>) ->
         let problem = Problem::new(at.clone(), "a centre of mass without a mass");
         report.error(problem.help("give the link's `mass` too, or leave `com` out"));
     }
+    if let Some((at, inertia)) = &row.inertia {
+        let entries = inertia.each_ref().map(|entry| entry.value.as_ref());
+        if row.mass.is_none() && entries.iter().all(Option::is_some) {
+            let problem = Problem::new(at.clone(), "moments of inertia without a mass");
+            report.error(problem.help("give the link's `mass` too, or leave `inertia` out"));
+        }
+        if let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = entries.map(|e| e?.number())
+        {
+            let message = inertia::unphysical([a, b, c, d, e, f].map(Number::to_f64));
+            let help =
+                format!("`inertia` is {INERTIA} about the centre of mass, in the row's axes");
+            report.errors.extend(message.map(|m| Problem::new(at.clone(), m).help(help)));
+        }
+    }
+    let drive = &row.drive;
+    if let Some(cell) = &drive.gear {
+        above_zero("the gear", cell, "leave it out for a motor at the joint", report);
+    }
+    let frictions = [
+        ("the rotor's inertia", &drive.rotor_inertia),
+        ("the dry friction", &drive.coulomb),
+        ("the viscous friction", &drive.viscous),
+    ];
+    for (what, cell) in frictions {
+        cell.iter().for_each(|cell| not_below_zero(what, cell, report));
+    }
     if let Some(Cell { value: Some([lo, hi]), at }) = &row.limits
         && lo >= hi
     {
@@ -110,6 +142,16 @@ fn joint<L: Place>(index: usize, row: &DraftJoint<L>, report: &mut Report<L>) ->
         stiffness: content(&row.stiffness),
         mass: content(&row.mass),
         com: row.com.as_ref().map_or([Value::ZERO; 3], |(_, com)| vector(com)),
+        inertia: row
+            .inertia
+            .as_ref()
+            .map(|(_, entries)| entries.each_ref().map(|c| c.value.clone().unwrap_or(Value::ZERO))),
+        drive: Drive {
+            gear: content(&drive.gear),
+            rotor_inertia: content(&drive.rotor_inertia),
+            coulomb: content(&drive.coulomb),
+            viscous: content(&drive.viscous),
+        },
         limits: content(&row.limits),
         source: content(&row.source),
         beam: row.beam.as_ref().map(|b| beam(row, b, report)),
@@ -223,6 +265,42 @@ mod tests {
                 "the section's iy is 0.0: it must be above zero",
                 "the section's iz is 0.0: it must be above zero",
                 "the section's j is -1.0: it must be above zero",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_tensor_of_inertia_is_that_of_some_body() {
+        let with = |inertia: &str| revolute(&format!("mass = 1\ninertia = {inertia}"));
+        assert!(with("[0.3, 0.01, 0, 0.4, 0, 0.2]").is_empty());
+        // A disc, whose third moment is the sum of the others, and a rod.
+        assert!(with("[0.1, 0, 0, 0.2, 0, 0.3]").is_empty());
+        assert!(with("[0.2, 0, 0, 0.2, 0, 0]").is_empty());
+        assert_eq!(
+            with("[0.1, 0, 0, 0.2, 0, 0.4]"),
+            [
+                "the principal moments of inertia are 0.1, 0.2 and 0.4: no body has one that is larger than \
+              the sum of the others"
+            ]
+        );
+        assert_eq!(
+            with("[0.1, 0.2, 0, 0.1, 0, 0.1]"),
+            ["the principal moments of inertia are -0.1, 0.1 and 0.3: none can be below zero"]
+        );
+        let weightless = "moments of inertia without a mass";
+        assert_eq!(revolute("inertia = [1, 0, 0, 1, 0, 1]"), [weightless]);
+        assert_eq!(revolute("mass = 1\ninertia = [1, 0, 0]").len(), 1);
+    }
+
+    #[test]
+    fn friction_and_gears_have_signs() {
+        assert_eq!(
+            revolute("gear = 0\nrotor_inertia = -1\ncoulomb = -2\nviscous = -3"),
+            [
+                "the gear is 0.0: it must be above zero",
+                "the rotor's inertia is -1.0: it must not be below zero",
+                "the dry friction is -2.0: it must not be below zero",
+                "the viscous friction is -3.0: it must not be below zero",
             ]
         );
     }

@@ -21,6 +21,8 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         stiffness: Some(Value::Number(Number::integer(1_000_000))),
         mass: None,
         com: [Value::ZERO, Value::ZERO, Value::ZERO],
+        inertia: None,
+        drive: Default::default(),
         limits: None,
         source: None,
         beam: None,
@@ -32,11 +34,13 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         joints: joints.collect(),
         base: Default::default(),
         tool: Default::default(),
+        frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
         beyond: Default::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
+        at: Vec::new(),
     }
 }
 

@@ -118,7 +118,7 @@ fn the_written_robot_does_what_the_effect_does() {
             let mut most = 0.0_f64;
             for place in effect.places(&nominal) {
                 let form = match effect.forms_are() {
-                    Forms::Rows => 3,
+                    Forms::Searched { steps, .. } => 3 * steps,
                     _ => effect.named_forms(&nominal, place).last().copied().unwrap_or_default(),
                 };
                 let spot = Spot { place, form };

@@ -36,6 +36,7 @@ use stiffarm_kernels::generic::Arm;
 
 pub use crate::effects::ParameterReport;
 pub(crate) use fit::rigid;
+use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};
@@ -161,6 +162,30 @@ pub fn diagnose_with(
     Ok(Diagnosed { diagnosis, explanation })
 }
 
+/// Every fold must leave poses by which the base of each session is told.
+fn enough_of_each_session(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
+    let sessions = &problem.sessions;
+    if sessions.len() == 1 || !problem.is_unknown(Nuisance::BaseFrame) {
+        return Ok(());
+    }
+    let mut held = vec![vec![0; folds.count]; sessions.len()];
+    let mut seen = vec![false; problem.data.poses];
+    for (row, session) in problem.data.rows.iter().zip(&problem.session_of) {
+        if !std::mem::replace(&mut seen[row.group], true) {
+            held[*session][folds.of_pose(row.group)] += 1;
+        }
+    }
+    for (session, held) in sessions.iter().zip(held) {
+        let most: usize = held.iter().copied().max().unwrap_or(0);
+        let poses = held.iter().sum::<usize>() - most;
+        if poses < LEAST_POSES {
+            let (file, session) = (problem.data.file.clone(), session.clone());
+            return Err(DiagnoseError::ShortSession { file, session, poses });
+        }
+    }
+    Ok(())
+}
+
 /// Every fold must leave more measured numbers than there are frames to fit.
 fn enough_rows(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
     let parameters = Model::nuisances(problem) + 1;
@@ -168,7 +193,7 @@ fn enough_rows(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError
     let kept = |fold| rows.iter().filter(|r| folds.of_pose(r.group) != fold).count();
     let least = (0..folds.count).map(kept).min().unwrap_or(0) * problem.measured.len();
     if least >= parameters {
-        return Ok(());
+        return enough_of_each_session(problem, folds);
     }
     Err(DiagnoseError::TooFewRows { file: problem.data.file.clone(), rows: rows.len(), parameters })
 }

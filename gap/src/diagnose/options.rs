@@ -136,6 +136,25 @@ pub enum DiagnoseError {
     )]
     NewMarker { file: String, marker: String },
     #[error(
+        "{file}: found {}, expected one of the diagnosed data ({known}): where the base stood was \
+         fitted for each of them",
+        if session.is_empty() { "no session".to_owned() } else { format!("the session `{session}`") }
+    )]
+    NewSession { file: String, session: String, known: String },
+    #[error(
+        "{file}: found distances from {}, expected a point of the diagnosed data or its place in \
+         from_x, from_y, from_z: where it is was never fitted",
+        if point.is_empty() { "an unknown point".to_owned() } else { format!("the point `{point}`") }
+    )]
+    NewPoint { file: String, point: String },
+    #[error(
+        "{file}: session `{session}` has {poses} pose{} beside those that are held out, expected at \
+         least {LEAST_POSES}: where its base stands is fitted; measure more in it, leave it out, or \
+         take more folds",
+        if *poses == 1 { "" } else { "s" }
+    )]
+    ShortSession { file: String, session: String, poses: usize },
+    #[error(
         "found the unknown effect `{found}`, expected one of {known}{}",
         suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
@@ -162,6 +181,9 @@ pub enum DiagnoseError {
     )]
     RivalUnit { file: String, number: usize, header: String, found: String, expected: String },
 }
+
+/// Poses of a session that its base's frame takes: three points that are on no line.
+pub(crate) const LEAST_POSES: usize = 3;
 
 impl Options {
     /// The effects to be tried.

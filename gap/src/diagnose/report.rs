@@ -101,12 +101,16 @@ pub struct Slice {
 /// A frame that was fitted along.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NuisanceReport {
-    /// `base_frame`, `tool_frame` or a marker's name.
+    /// `base_frame`, `tool_frame`, a marker's name, or that of a point from which distances are
+    /// measured (`centre` without one).
     pub name: String,
-    /// Where it is: the base in the measuring frame, the tool in the last frame, the marker in the
-    /// tool frame; m.
+    /// The session whose base or point it is, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
+    /// Where it is: the base and a distance's point in the measuring frame, the tool in the last frame,
+    /// the marker in the tool frame; m.
     pub translation: [f64; 3],
-    /// Rotation vector, rad; 0 of a marker.
+    /// Rotation vector, rad; 0 of a point.
     pub rotation: [f64; 3],
 }
 

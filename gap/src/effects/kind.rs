@@ -1,5 +1,9 @@
 //! What sets effects apart: their forms, what they go with, what they depend on.
 
+use stiffarm_kernels::generic::Arm;
+
+use super::Quantity;
+
 /// The largest order of a periodic effect.
 pub const MOST_ORDERS: usize = 1000;
 
@@ -17,9 +21,16 @@ pub enum Forms {
         /// From this one on an order is so particular that nothing else comes near to it.
         fine: usize,
     },
-    /// Numbers of rows after which something happens: a search begins with some of them, goes on
-    /// to all between, and reports the one that it ends with.
-    Rows,
+    /// Steps of a number in which nothing is linear: a search begins with some of them, goes on to
+    /// all between, and reports the one that it ends with.
+    Searched {
+        /// What the number is called.
+        key: &'static str,
+        /// Of what kind it is.
+        quantity: Quantity,
+        /// Steps in one SI unit.
+        steps: usize,
+    },
     /// Any other numbers, called so.
     Numbers(&'static str),
 }
@@ -31,8 +42,45 @@ impl Forms {
             Forms::One => None,
             Forms::Joints => Some("joint"),
             Forms::Orders { .. } => Some("order"),
-            Forms::Rows => Some("after"),
-            Forms::Numbers(key) => Some(key),
+            Forms::Searched { key, .. } | Forms::Numbers(key) => Some(key),
+        }
+    }
+
+    /// The number that stands for a form in files and options.
+    pub fn number(self, form: usize) -> f64 {
+        match self {
+            Forms::Joints => (form + 1) as f64,
+            Forms::Searched { steps, .. } => form as f64 / steps as f64,
+            _ => form as f64,
+        }
+    }
+
+    /// The form that a number stands for; `None` if it is none.
+    pub fn form(self, number: f64) -> Option<usize> {
+        let least = if matches!(self, Forms::One | Forms::Numbers(_)) { 0.0 } else { 1.0 };
+        let number = match self {
+            Forms::Searched { steps, .. } => {
+                let (number, whole) = (number * steps as f64, (number * steps as f64).round());
+                // A decimal number times the steps is rounded.
+                if (number - whole).abs() <= 4.0 * f64::EPSILON * whole { whole } else { number }
+            }
+            _ => number,
+        };
+        let is_one = number.fract() == 0.0 && (least..1e9).contains(&number);
+        let form = if self == Forms::Joints { number - 1.0 } else { number };
+        is_one.then_some(form as usize)
+    }
+
+    /// What its number has to be, as a message says it.
+    pub(crate) fn expected(self, arm: &Arm) -> String {
+        match self {
+            Forms::Joints => format!("another joint, 1 to {}", arm.dof()),
+            Forms::Orders { .. } => format!("an order of 1 to {MOST_ORDERS}"),
+            Forms::Searched { steps: 1, .. } => "the row after which it happens".to_owned(),
+            Forms::Searched { quantity, steps, .. } => {
+                format!("more than 0 and a multiple of {} {}", 1.0 / steps as f64, quantity.unit())
+            }
+            Forms::One | Forms::Numbers(_) => "a whole number".to_owned(),
         }
     }
 

@@ -118,8 +118,7 @@ impl Known {
         let text =
             |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
         let forms = self.effect.forms_are();
-        let counted = if forms == Forms::Joints { self.spot.form + 1 } else { self.spot.form };
-        let form = forms.key().map(|key| entry(key, Given::Si(counted as f64)));
+        let form = forms.key().map(|key| entry(key, Given::Si(forms.number(self.spot.form))));
         let session = self.session.iter().map(|file| entry(SESSION, Given::Text(file.clone())));
         let parameters = self.effect.parameters(arm, self.spot);
         let each = parameters.iter().zip(&self.values).filter(|(_, value)| **value != 0.0);
@@ -134,7 +133,8 @@ impl Known {
 
     /// Its values by the names in which truths and findings tell them.
     pub fn named(&self, arm: &Arm) -> Vec<(String, f64)> {
-        let form = self.effect.form_number().map(|p| (p.name.into_owned(), self.spot.form as f64));
+        let number = self.effect.forms_are().number(self.spot.form);
+        let form = self.effect.form_number().map(|p| (p.name.into_owned(), number));
         let parameters = self.effect.parameters(arm, self.spot);
         let each = parameters.into_iter().map(|p| p.name.into_owned()).zip(self.values.clone());
         form.into_iter().chain(each).collect()
@@ -177,26 +177,23 @@ fn form(
 ) -> Result<usize, KnownError> {
     let forms = effect.forms_are();
     let joint = |form: &usize| *form < arm.dof() && *form != place.row();
-    let (expected, least, most) = match forms {
-        Forms::Joints => (format!("another joint, 1 to {}", arm.dof()), 1, arm.dof()),
-        Forms::Orders { .. } => (format!("an order of 1 to {MOST_ORDERS}"), 1, MOST_ORDERS),
-        Forms::Rows => ("the row after which it happens".to_owned(), 1, usize::MAX),
-        Forms::One | Forms::Numbers(_) => ("a whole number".to_owned(), 0, usize::MAX),
+    let most = match forms {
+        Forms::Joints => arm.dof(),
+        Forms::Orders { .. } => MOST_ORDERS,
+        _ => usize::MAX,
     };
     let entry = table.numbers.iter().find(|number| number.key == key);
-    let whole = |x: &f64| x.fract() == 0.0 && (0.0..1e9).contains(x);
-    let given = entry.and_then(|entry| match &entry.value {
-        Given::Si(x) => Some(*x),
-        Given::Text(text) => text.trim().parse().ok(),
+    let given = entry.and_then(|entry| match (&entry.value, forms) {
+        (Given::Si(x), _) => Some(*x),
+        (Given::Text(text), Forms::Searched { quantity, .. }) => quantity.read(text),
+        (Given::Text(text), _) => text.trim().parse().ok(),
     });
-    let number = given.filter(whole).map(|x| x as usize);
-    let within = number.filter(|number| (least..=most).contains(number));
-    let form = within.map(|number| if forms == Forms::Joints { number - 1 } else { number });
+    let form = given.and_then(|number| forms.form(number)).filter(|form| *form <= most);
     form.filter(|form| forms != Forms::Joints || joint(form)).ok_or_else(|| {
         let at = entry.map_or(&table.at, |entry| &entry.at);
         let found = if entry.is_some() { "is not" } else { "is missing:" };
-        let message = format!("`{key}` of {} {found} {expected}", effect.identifier());
-        KnownError::new(at, message, Some(format!("write {key} = {}", least.max(1))))
+        let message = format!("`{key}` of {} {found} {}", effect.identifier(), forms.expected(arm));
+        KnownError::new(at, message, Some(format!("write {key} = 1")))
     })
 }
 

@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
+use super::{Effect, Forms, MOST_ORDERS, Parameter, Place, Spot};
 
 impl core::fmt::Debug for dyn Effect + '_ {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -18,11 +18,10 @@ impl PartialEq for dyn Effect + '_ {
 }
 
 impl dyn Effect + '_ {
-    /// What stands in place of the form among the numbers of a finding: `after` of a jump.
+    /// What stands for the form among the numbers of a finding: `after` of a jump.
     pub fn form_number(&self) -> Option<Parameter> {
-        let forms = self.forms_are();
-        let key = forms.key().filter(|_| forms == Forms::Rows)?;
-        Some(Parameter::free(key, Quantity::Row))
+        let Forms::Searched { key, quantity, .. } = self.forms_are() else { return None };
+        Some(Parameter::free(key, quantity))
     }
 
     /// All its numbers at a place that may be named without data.
@@ -67,10 +66,11 @@ impl dyn Effect + '_ {
             Some((form, parameter, *value))
         });
         let known: Vec<(Option<usize>, Parameter, f64)> = known.collect();
-        let row = known.iter().find(|(form, ..)| form.is_none()).map(|(.., value)| *value as usize);
+        let searched = known.iter().find(|(form, ..)| form.is_none());
+        let searched = searched.and_then(|(.., value)| self.forms_are().form(*value));
         let mut spots: Vec<(Spot, Vec<f64>)> = Vec::new();
         for (form, named, value) in known.iter().filter_map(|(form, p, v)| Some(((*form)?, p, v))) {
-            let spot = Spot { place, form: row.unwrap_or(form) };
+            let spot = Spot { place, form: searched.unwrap_or(form) };
             let all = self.parameters(arm, spot);
             let at = spots.iter().position(|(there, _)| *there == spot).unwrap_or_else(|| {
                 spots.push((spot, vec![0.0; all.len()]));

@@ -48,6 +48,12 @@ impl<'a> Told<'a> {
         self.numbers.iter().find(|p| p.name == name).map_or(0.0, |p| p.value)
     }
 
+    /// A number by its name, in its own unit; nothing if there is none.
+    pub fn named(&self, name: &str) -> String {
+        let number = self.numbers.iter().find(|p| p.name == name);
+        number.map_or_else(String::new, |p| (self.write)(p.unit, p.value.abs(), p.value))
+    }
+
     /// A value in the unit of the first number.
     pub fn sized(&self, value: f64) -> String {
         let unit = self.numbers.first().map_or("", |p| p.unit);

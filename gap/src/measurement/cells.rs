@@ -6,7 +6,8 @@ use nalgebra::Vector6;
 use super::Row;
 use super::header::Head;
 use super::mistake::{Fault, Mistake};
-use super::role::{Layout, Role};
+use super::payload::Payloads;
+use super::role::{Family, Layout, Role};
 use super::table::Record;
 use super::unit::{Unit, nearest};
 
@@ -65,7 +66,12 @@ pub(crate) fn row(
             mistakes.push(Mistake { line, column: Some(head.column.clone()), fault });
         }
     }
-    if mistakes.is_empty() { Ok(row) } else { Err(mistakes) }
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    // Where it hangs takes the readings, which may stand behind it.
+    layout.payloads.iter().for_each(|payloads| payloads.hang(&mut row));
+    Ok(row)
 }
 
 fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), Fault> {
@@ -83,19 +89,37 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
         Some(Role::Pose) => row.pose = Some(name(cell, "the id of a pose")?),
         Some(Role::Marker) => {
             let found = name(cell, "the name of a marker")?;
-            let names = || layout.markers.iter().map(|m| m.name.as_str());
+            let names: Vec<&str> = layout.markers.iter().map(|m| m.name.as_str()).collect();
             let Some(marker) = layout.markers.iter().find(|m| m.name == found) else {
-                let suggestion = nearest(&found, names()).map(str::to_owned);
-                let known = names().map(|n| format!("`{n}`")).collect();
+                let (known, suggestion) = known(&found, &names);
                 return Err(Fault::UnknownMarker { found, known, suggestion });
             };
             row.offset = marker.translation;
             row.marker = Some(found);
         }
+        Some(Role::Session) => row.session = Some(name(cell, "the name of a session")?),
+        Some(Role::Payload) => {
+            let found = name(cell, "the name of a payload, or `none`")?;
+            row.payload = Some(Box::new(Payloads::named(layout.payloads.as_ref(), &found)?));
+        }
+        Some(Role::From) => row.from_point = Some(name(cell, "the name of a point")?),
+        Some(Role::FromAt(k)) => row.from.get_or_insert([0.0; 3])[k] = value()?,
+        Some(Role::Measured(Family::Distance, _)) => {
+            row.measured[0] = value()?;
+            if row.measured[0] < 0.0 {
+                return Err(Fault::Negative { found: cell.to_owned() });
+            }
+        }
         Some(Role::Measured(_, k)) => row.measured[k] = value()?,
         Some(Role::Sim(_, k)) => row.sim.get_or_insert_with(Vector6::zeros)[k] = value()?,
     }
     Ok(())
+}
+
+/// The names that there are, as a message lists them, and the one that may have been meant.
+pub(crate) fn known(found: &str, names: &[&str]) -> (Vec<String>, Option<String>) {
+    let suggestion = nearest(found, names.iter().copied()).map(str::to_owned);
+    (names.iter().map(|n| format!("`{n}`")).collect(), suggestion)
 }
 
 fn direction(cell: &str) -> Result<i8, Fault> {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::Kind;
 use super::mistake::{Column, Fault, Mistakes};
-use super::role::{Family, Layout, Role, nearest_name};
+use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, nearest_name};
 use super::table::Record;
 use super::unit::{Unit, nearest_unit};
 
@@ -108,6 +108,15 @@ fn unit_of(
     }
 }
 
+/// To which kind of columns that belongs which is measured.
+pub(crate) fn family(kind: Kind) -> Family {
+    match kind {
+        Kind::Pose { .. } | Kind::Coordinates { .. } => Family::Pose,
+        Kind::Displacement { .. } => Family::Displacement,
+        Kind::Distance => Family::Distance,
+    }
+}
+
 /// Which components are measured and which are simulated by the user. What is missing or does not
 /// fit goes to `mistakes`; `None` if nothing is measured.
 pub(crate) fn kind(
@@ -121,55 +130,70 @@ pub(crate) fn kind(
     let measured = |family| (0..6).map(move |k| find(Role::Measured(family, k)));
     let first = |family| measured(family).flatten().min_by_key(|h| h.column.number);
     let mut wrong = |head: &Head, fault| mistakes.add(line, Some(head.column.clone()), fault);
-    let kind = match (first(Family::Pose), first(Family::Displacement)) {
-        (None, None) => {
-            mistakes.add(line, None, Fault::NothingMeasured);
-            return None;
+    let mut of_each = Family::ALL.into_iter().filter_map(|f| first(f).map(|head| (f, head)));
+    let Some((family, of_it)) = of_each.next() else {
+        mistakes.add(line, None, Fault::NothingMeasured);
+        return None;
+    };
+    if let Some((other, head)) = of_each.next() {
+        let fault = Fault::TwoKinds {
+            found: of_it.name.clone(),
+            is: family.words(),
+            other: head.name.clone(),
+            other_is: other.words(),
+        };
+        wrong(head, fault);
+        return None;
+    }
+    let has: Vec<_> = measured(family).collect();
+    let components: [bool; 6] = core::array::from_fn(|k| has[k].is_some());
+    let kind = match family {
+        Family::Displacement => Kind::Displacement { components },
+        Family::Distance => Kind::Distance,
+        Family::Pose if components[3..] == [false; 3] && components[..3] != [true; 3] => {
+            let [x, y, z, ..] = components;
+            Kind::Coordinates { components: [x, y, z] }
         }
-        (Some(pose), Some(displacement)) => {
-            let fault = Fault::TwoKinds {
-                pose: pose.name.clone(),
-                displacement: displacement.name.clone(),
-            };
-            wrong(displacement, fault);
-            return None;
-        }
-        (Some(pose), None) => {
-            let has: Vec<_> = measured(Family::Pose).collect();
-            let missing = absent(&has[..3], Family::Pose, 0);
+        Family::Pose => {
+            let missing = absent(&has[..3], &POSE_NAMES);
             if !missing.is_empty() {
-                wrong(pose, Fault::PositionIncomplete { found: pose.name.clone(), missing });
+                wrong(of_it, Fault::PositionIncomplete { found: of_it.name.clone(), missing });
             }
-            if let Some((head, missing)) = partial(&has[3..]) {
+            if let Some((head, missing)) = partial(&has[3..], &POSE_NAMES[3..]) {
                 wrong(head, incomplete(head, missing, "rx, ry, rz"));
             }
-            Kind::Pose { orientation: has[3..].iter().all(Option::is_some) }
-        }
-        (None, Some(_)) => {
-            let mut components = [false; 6];
-            for (flag, head) in components.iter_mut().zip(measured(Family::Displacement)) {
-                *flag = head.is_some();
-            }
-            Kind::Displacement { components }
+            Kind::Pose { orientation: components[3..] == [true; 3] }
         }
     };
-    let (family, other) = match kind {
-        Kind::Pose { .. } => (Family::Pose, Family::Displacement),
-        Kind::Displacement { .. } => (Family::Displacement, Family::Pose),
-    };
-    for (k, name) in family.names().iter().enumerate() {
+    let others = Family::ALL.into_iter().filter(|other| *other != family);
+    for (other, k) in others.flat_map(|other| (0..6).map(move |k| (other, k))) {
         if let Some(head) = find(Role::Sim(other, k)) {
-            let (is, measures) = match kind {
-                Kind::Pose { .. } => ("a displacement", "a pose"),
-                Kind::Displacement { .. } => ("a pose", "a displacement"),
+            let expected = of_it.name.clone();
+            let fault = Fault::SimOfOtherKind {
+                found: head.name.clone(),
+                is: other.words(),
+                measures: family.words(),
+                expected: format!("sim_{expected}"),
             };
-            let (found, expected) = (head.name.clone(), format!("sim_{name}"));
-            wrong(head, Fault::SimOfOtherKind { found, is, measures, expected });
+            wrong(head, fault);
         }
     }
     let sim: Vec<_> = (0..6).map(|k| find(Role::Sim(family, k))).collect();
-    if let (Kind::Pose { .. }, Some((head, missing))) = (&kind, partial(&sim[3..])) {
+    if let (Kind::Pose { .. }, Some((head, missing))) =
+        (&kind, partial(&sim[3..], &POSE_NAMES[3..]))
+    {
         wrong(head, incomplete(head, format!("sim_{missing}"), "sim_rx, sim_ry, sim_rz"));
+    }
+    let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
+    let from = at.iter().flatten().copied().chain(find(Role::From)).next();
+    if let Some(head) = from.filter(|_| family != Family::Distance) {
+        wrong(head, Fault::FromWithout { found: head.name.clone() });
+    }
+    if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
+        wrong(head, Fault::FromIncomplete { found: head.name.clone(), missing });
+    }
+    if let (Some(named), Some(head)) = (find(Role::From), at.iter().flatten().next()) {
+        wrong(named, Fault::FromTwice { found: head.name.clone() });
     }
     let mut given = [false; 6];
     for (flag, head) in given.iter_mut().zip(sim) {
@@ -194,15 +218,14 @@ fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mis
     }
 }
 
-fn absent(has: &[Option<&Head>], family: Family, offset: usize) -> String {
-    let names = family.names();
-    let lacking = has.iter().enumerate().filter(|(_, h)| h.is_none());
-    lacking.map(|(k, _)| names[offset + k]).collect::<Vec<_>>().join(", ")
+fn absent(has: &[Option<&Head>], names: &[&'static str]) -> String {
+    let lacking = names.iter().zip(has).filter(|(_, h)| h.is_none());
+    lacking.map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
 }
 
-/// Some of the three but not all: the first present, and the names of the absent.
-fn partial<'a>(has: &[Option<&'a Head>]) -> Option<(&'a Head, String)> {
-    let missing = absent(has, Family::Pose, 3);
+/// Some of them but not all: the first present, and the names of the absent.
+fn partial<'a>(has: &[Option<&'a Head>], names: &[&'static str]) -> Option<(&'a Head, String)> {
+    let missing = absent(has, names);
     let head = has.iter().copied().flatten().next()?;
     (!missing.is_empty()).then_some((head, missing))
 }

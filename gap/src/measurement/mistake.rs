@@ -107,9 +107,9 @@ fn suggest(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
 }
 
-fn known_markers(names: &[String]) -> String {
+fn known_names(table: &str, names: &[String]) -> String {
     if names.is_empty() {
-        "the robot file has no [[marker]]".to_owned()
+        format!("the robot file has no [[{table}]]")
     } else {
         format!("the robot file has {}", names.join(", "))
     }
@@ -169,18 +169,18 @@ pub enum Fault {
     )]
     MissingJoint { missing: String, suggestion: Option<String> },
     #[error(
-        "found no measured column, expected `x,y,z` (a position) or any of `dx dy dz drx dry drz` \
-         (a displacement): add what was measured"
+        "found no measured column, expected any of `x y z` (a position), any of \
+         `dx dy dz drx dry drz` (a displacement) or `distance`: add what was measured"
     )]
     NothingMeasured,
     #[error(
-        "found both a measured pose (`{pose}`) and a measured displacement (`{displacement}`), \
-         expected one kind: split the file in two"
+        "found both {is} (`{found}`) and {other_is} (`{other}`) that were measured, expected one \
+         kind: split the file in two"
     )]
-    TwoKinds { pose: String, displacement: String },
+    TwoKinds { found: String, is: &'static str, other: String, other_is: &'static str },
     #[error(
-        "found `{found}` without {missing}, expected all of x, y, z: a measured position has \
-         three coordinates"
+        "found `{found}` without {missing}, expected all of x, y, z beside an orientation: it is \
+         that of the tool at a position"
     )]
     PositionIncomplete { found: String, missing: String },
     #[error(
@@ -194,9 +194,43 @@ pub enum Fault {
     )]
     SimOfOtherKind { found: String, is: &'static str, measures: &'static str, expected: String },
     #[error(
+        "found `{found}` without {missing}, expected all of from_x, from_y, from_z or none: the \
+         point from which a distance is measured has three coordinates"
+    )]
+    FromIncomplete { found: String, missing: String },
+    #[error(
+        "found `{found}` in a file that measures no distance, expected a column `distance`: add it, \
+         or remove the point"
+    )]
+    FromWithout { found: String },
+    #[error(
+        "found both a point's name (`from`) and its place (`{found}`), expected one of them: a point \
+         with a name alone is fitted"
+    )]
+    FromTwice { found: String },
+    #[error(
+        "found session `{found}` again, expected another: its rows end in line {ended}: bring the \
+         rows of a session together, in the order of measuring, or give what was measured later \
+         another name"
+    )]
+    SessionAgain { found: String, ended: u64 },
+    #[error("found {found}, expected a distance: it is not below zero")]
+    Negative { found: String },
+    #[error(
+        "found the unknown payload `{found}`, {}{}: name one of them, or `none`, or add it to the \
+         robot file",
+        known_names("payload", known), suggest(suggestion.as_deref())
+    )]
+    UnknownPayload { found: String, known: Vec<String>, suggestion: Option<String> },
+    #[error(
         "found no rows, expected at least one measurement below the header: add the measurements"
     )]
     NoRows,
+    #[error(
+        "found more than {} rows, expected no more: thin the file out, or split it",
+        super::MOST_ROWS
+    )]
+    TooManyRows,
     #[error(
         "found {found} cells, expected {expected} as in the header: {}",
         if found > expected {
@@ -233,7 +267,7 @@ pub enum Fault {
     Direction { found: String },
     #[error(
         "found the unknown marker `{found}`, {}{}: name one of them or add it to the robot file",
-        known_markers(known), suggest(suggestion.as_deref())
+        known_names("marker", known), suggest(suggestion.as_deref())
     )]
     UnknownMarker { found: String, known: Vec<String>, suggestion: Option<String> },
 }

@@ -2,24 +2,37 @@
 //!
 //! A header row, then one row per measurement; `#` begins a comment line. A column is `name` or
 //! `name[unit]`; the order is free. A file measures *either* poses (`x y z`, and all or none of `rx
-//! ry rz`) *or* displacements (any subset of `dx dy dz drx dry drz`). Nothing is guessed: an angle
-//! without a unit is in radians, and a column that is not known is kept as it is and reported.
+//! ry rz`) *or* some coordinates of positions (a touch probe's `x` alone) *or* displacements (any
+//! subset of `dx dy dz drx dry drz`) *or* distances from a fixed point (`distance`: a ball bar, a
+//! wire). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
+//! kept as it is and reported.
+//!
+//! Rows of one `session` are one sitting of the instrument, and stand together: its frame is its own,
+//! and nothing that happens in time reaches from one into another.
 
 mod cells;
 mod group;
 mod header;
 mod mistake;
+mod payload;
 mod role;
 mod seen;
 mod table;
 mod unit;
 
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use nalgebra::Vector6;
 
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
-pub use role::{DISPLACEMENT_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX, WRENCH_NAMES};
+pub use payload::{Body, Hung, Payloads};
+pub use role::{
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIM_PREFIX,
+    WRENCH_NAMES,
+};
 pub use unit::{Dimension, UNITS, Unit};
 
 use mistake::Mistakes;
@@ -53,6 +66,12 @@ pub struct Measurements {
     pub wrench_in: [Option<Unit>; 6],
 }
 
+/// Largest file that is read, bytes.
+pub const MOST_BYTES: u64 = 512 << 20;
+
+/// Most rows that are read: with all that is worked out about them they take some two gigabytes.
+pub const MOST_ROWS: usize = 2_000_000;
+
 /// A file of which more than one row in so many has holes is refused: a campaign loses a reading now
 /// and then (a beam that was cut), not every tenth.
 pub const ONE_IN: usize = 10;
@@ -73,14 +92,32 @@ pub enum Kind {
         /// Which of `dx dy dz drx dry drz` are there.
         components: [bool; 6],
     },
+    /// Some coordinates of the tool's position in the base frame: a touch probe's.
+    Coordinates {
+        /// Which of `x y z` are there; not all three.
+        components: [bool; 3],
+    },
+    /// How far the measured point is from a fixed one: a ball bar's.
+    Distance,
 }
 
 impl Kind {
+    /// Whether it is the difference of two states, loaded minus unloaded.
+    pub fn is_difference(self) -> bool {
+        matches!(self, Kind::Displacement { .. })
+    }
+
+    /// Whether all three coordinates of a position are measured.
+    pub fn is_pose(self) -> bool {
+        matches!(self, Kind::Pose { .. })
+    }
+
     /// The names of the six components.
     pub fn names(self) -> [&'static str; 6] {
         match self {
-            Kind::Pose { .. } => POSE_NAMES,
+            Kind::Pose { .. } | Kind::Coordinates { .. } => POSE_NAMES,
             Kind::Displacement { .. } => DISPLACEMENT_NAMES,
+            Kind::Distance => DISTANCE_NAMES,
         }
     }
 
@@ -95,6 +132,8 @@ impl Kind {
         match self {
             Kind::Pose { orientation: o } => [true, true, true, o, o, o],
             Kind::Displacement { components } => components,
+            Kind::Coordinates { components: [x, y, z] } => [x, y, z, false, false, false],
+            Kind::Distance => [true, false, false, false, false, false],
         }
     }
 }
@@ -126,7 +165,17 @@ pub struct Row {
     pub marker: Option<String>,
     /// Where the measured point is in the tool frame, m; `None` is unknown. Zero without a marker.
     pub offset: Option<[f64; 3]>,
-    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured.
+    /// What the `session` column calls the sitting of the instrument; all one without a column.
+    pub session: Option<String>,
+    /// What the `payload` column hangs on the tool; its weight is part of the wrench.
+    pub payload: Option<Box<Hung>>,
+    /// Of a distance the point from which it is measured, in the measuring frame, m; `None` is
+    /// unknown.
+    pub from: Option<[f64; 3]>,
+    /// The name of such a point; unknown ones of one name and session are one point.
+    pub from_point: Option<String>,
+    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. A distance
+    /// is the first of them.
     pub measured: Vector6<f64>,
     /// The same by the user's own simulator; 0 where [`Measurements::sim_given`] is false.
     pub sim: Option<Vector6<f64>>,
@@ -146,6 +195,10 @@ impl Row {
             group: 0,
             marker: None,
             offset: Some([0.0; 3]),
+            session: None,
+            payload: None,
+            from: None,
+            from_point: None,
             measured: Vector6::zeros(),
             sim: None,
         }
@@ -186,6 +239,11 @@ impl Measurements {
         }
     }
 
+    /// The rows of each session, in the order of measuring; at least one where there are rows.
+    pub fn sessions(&self) -> impl Iterator<Item = &[Row]> {
+        self.rows.chunk_by(|a, b| a.session == b.session)
+    }
+
     /// Whether every row has a time.
     pub fn is_timed(&self) -> bool {
         self.rows.iter().all(|row| row.time.is_some())
@@ -197,7 +255,7 @@ impl Measurements {
     /// [`ReadError`]: the file cannot be opened, or all its mistakes.
     pub fn read(path: &Path, layout: &Layout) -> Result<Measurements, ReadError> {
         let file = path.display().to_string();
-        match std::fs::read(path) {
+        match bytes(path) {
             Ok(bytes) => Measurements::from_bytes(&file, &bytes, layout),
             Err(source) => Err(ReadError::Open { file, source }),
         }
@@ -248,6 +306,27 @@ impl Measurements {
     }
 }
 
+/// The bytes of a file, which are held in memory.
+///
+/// # Errors
+/// What the system says, and more than [`MOST_BYTES`].
+pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let large = || {
+        let most = MOST_BYTES >> 20;
+        let fault =
+            format!("it has more than the {most} MB that are read: thin it out or split it");
+        io::Error::new(io::ErrorKind::FileTooLarge, fault)
+    };
+    // A device or a pipe has no length, and may have no end.
+    if file.metadata()?.len() > MOST_BYTES {
+        return Err(large());
+    }
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES { Err(large()) } else { Ok(bytes) }
+}
+
 /// `None` only if there is a mistake.
 fn read_into(
     mistakes: &mut Mistakes,
@@ -256,40 +335,45 @@ fn read_into(
     layout: &Layout,
     planned: bool,
 ) -> Option<Measurements> {
-    let records = match table::records(bytes) {
+    let mut records = match table::records(bytes) {
         Ok(records) => records,
         Err(not) => {
             mistakes.add(not.line, not.column, not.fault);
             return None;
         }
     };
-    let Some((top, body)) = records.split_first() else {
+    let Some(top) = records.next() else {
         mistakes.add(1, None, Fault::EmptyFile);
         return None;
     };
-    if let Some(fault) = no_header(top) {
+    if let Some(fault) = no_header(&top) {
         mistakes.add(top.line, None, fault);
         return None;
     }
-    let heads = header::read(top, layout, mistakes);
+    let heads = header::read(&top, layout, mistakes);
     let kind = header::kind(&heads, top.line, layout, mistakes);
-    if body.is_empty() {
-        mistakes.add(top.line, None, Fault::NoRows);
-    }
-    let mut rows = Vec::with_capacity(body.len());
-    let mut whole = Vec::with_capacity(body.len());
-    let mut skipped = Vec::new();
-    for record in body {
-        match cells::row(record, &heads, layout, planned) {
+    let mut extra = extra(&heads, layout);
+    let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
+    for record in records {
+        count += 1;
+        if count > MOST_ROWS {
+            mistakes.add(record.line, None, Fault::TooManyRows);
+            return None;
+        }
+        match cells::row(&record, &heads, layout, planned) {
             Ok(row) => {
                 rows.push(row);
-                whole.push(record);
+                extra.iter_mut().for_each(|extra| extra.take(&record));
             }
             Err(found) if found.iter().all(|m| m.fault.is_hole()) => skipped.push(found),
             Err(found) => mistakes.extend(found),
         }
     }
-    if skipped.len() * ONE_IN > body.len() {
+    sessions_stand_together(mistakes, &rows, &heads);
+    if count == 0 {
+        mistakes.add(top.line, None, Fault::NoRows);
+    }
+    if skipped.len() * ONE_IN > count {
         skipped.drain(..).for_each(|found| mistakes.extend(found));
     }
     let (kind, sim_given) = kind.filter(|_| mistakes.is_empty())?;
@@ -297,22 +381,33 @@ fn read_into(
     let measured = kind.components();
     let unused = |h: &&header::Head| matches!(h.role, Some(Role::Sim(_, k)) if !measured[k]);
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
-    let family = match kind {
-        Kind::Pose { .. } => role::Family::Pose,
-        Kind::Displacement { .. } => role::Family::Displacement,
-    };
+    let family = header::family(kind);
     Some(Measurements {
         file: file.to_owned(),
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
-        extra: extra(&heads, &whole, layout),
+        extra: extra.into_iter().map(ExtraColumn::with_values).collect(),
         skipped: skipped.into_iter().flatten().collect(),
         rows,
         kind,
         sim_given,
         poses,
     })
+}
+
+fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[header::Head]) {
+    let column = heads.iter().find(|head| head.role == Some(Role::Session));
+    let Some(column) = column.map(|head| &head.column) else { return };
+    let mut ended: HashMap<&str, u64> = HashMap::new();
+    for session in rows.chunk_by(|a, b| a.session == b.session) {
+        let ([first, .., last] | [first @ last]) = session else { continue };
+        let Some(name) = first.session.as_deref() else { continue };
+        if let Some(ended) = ended.insert(name, last.line) {
+            let fault = Fault::SessionAgain { found: name.to_owned(), ended };
+            mistakes.add(first.line, Some(column.clone()), fault);
+        }
+    }
 }
 
 /// A first row that is no header at all.
@@ -326,23 +421,30 @@ fn no_header(top: &table::Record) -> Option<Fault> {
     Some(Fault::Separator { separator })
 }
 
-fn extra(heads: &[header::Head], body: &[&table::Record], layout: &Layout) -> Vec<ExtraColumn> {
+/// The columns without a meaning, still without cells.
+fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
     let unknown = heads.iter().filter(|h| h.role == Some(Role::Extra));
-    unknown
-        .map(|head| {
-            let index = head.column.number - 1;
-            let cells: Vec<String> =
-                body.iter().map(|r| r.cells.get(index).unwrap_or_default().to_owned()).collect();
-            ExtraColumn {
-                column: head.column.clone(),
-                name: head.name.clone(),
-                unit: head.unit_text.clone(),
-                values: cells.iter().map(|c| cells::number(c, "a number").ok()).collect(),
-                cells,
-                suggestion: role::nearest_name(&head.name, layout),
-            }
-        })
-        .collect()
+    let column = |head: &header::Head| ExtraColumn {
+        column: head.column.clone(),
+        name: head.name.clone(),
+        unit: head.unit_text.clone(),
+        values: None,
+        cells: Vec::new(),
+        suggestion: role::nearest_name(&head.name, layout),
+    };
+    unknown.map(column).collect()
+}
+
+impl ExtraColumn {
+    fn take(&mut self, record: &table::Record) {
+        let cell = record.cells.get(self.column.number - 1).unwrap_or_default();
+        self.cells.push(cell.to_owned());
+    }
+
+    fn with_values(self) -> ExtraColumn {
+        let values = self.cells.iter().map(|c| cells::number(c, "a number").ok()).collect();
+        ExtraColumn { values, ..self }
+    }
 }
 
 #[cfg(test)]

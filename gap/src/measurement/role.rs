@@ -3,6 +3,7 @@
 use stiffarm_kernels::Motion;
 
 use super::mistake::Fault;
+use super::payload::Payloads;
 use super::unit::{Dimension, nearest};
 
 /// Components of a measured pose, in the order of a twist.
@@ -10,6 +11,12 @@ pub const POSE_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Components of a measured displacement, in the order of a twist.
 pub const DISPLACEMENT_NAMES: [&str; 6] = ["dx", "dy", "dz", "drx", "dry", "drz"];
+
+/// What a distance measures: one number, told as the first of six.
+pub const DISTANCE_NAMES: [&str; 6] = ["distance", "", "", "", "", ""];
+
+/// The point from which a distance is measured.
+pub const FROM_NAMES: [&str; 3] = ["from_x", "from_y", "from_z"];
 
 /// Components of a wrench.
 pub const WRENCH_NAMES: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
@@ -26,6 +33,8 @@ pub struct Layout {
     pub readings: bool,
     /// The `[[marker]]` of the robot file.
     pub markers: Vec<Marker>,
+    /// The `[[payload]]` of the robot file, and the arm that carries them; `None` without any.
+    pub payloads: Option<Payloads>,
 }
 
 /// A measured point on the tool.
@@ -37,11 +46,12 @@ pub struct Marker {
     pub translation: Option<[f64; 3]>,
 }
 
-/// Which of the two kinds of measurement a column belongs to.
+/// Which of the kinds of measurement a column belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
     Pose,
     Displacement,
+    Distance,
 }
 
 /// The meaning of a column; indices count from 0.
@@ -54,24 +64,41 @@ pub(crate) enum Role {
     Time,
     Pose,
     Marker,
+    Session,
+    Payload,
+    /// The name of the point from which a distance is measured.
+    From,
+    /// A coordinate of it.
+    FromAt(usize),
     Measured(Family, usize),
     Sim(Family, usize),
     Extra,
 }
 
 impl Family {
+    pub(crate) const ALL: [Family; 3] = [Family::Pose, Family::Displacement, Family::Distance];
+
     pub(crate) const fn names(self) -> [&'static str; 6] {
         match self {
             Family::Pose => POSE_NAMES,
             Family::Displacement => DISPLACEMENT_NAMES,
+            Family::Distance => DISTANCE_NAMES,
+        }
+    }
+
+    /// As a sentence has it.
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Family::Pose => "a pose",
+            Family::Displacement => "a displacement",
+            Family::Distance => "a distance",
         }
     }
 
     /// The family and component of `x`, `drz`, ….
     pub(crate) fn component(name: &str) -> Option<(Family, usize)> {
-        [Family::Pose, Family::Displacement]
-            .into_iter()
-            .find_map(|f| f.names().iter().position(|n| *n == name).map(|k| (f, k)))
+        let of = |f: Family| f.names().iter().position(|n| *n == name).map(|k| (f, k));
+        Family::ALL.into_iter().filter(|_| !name.is_empty()).find_map(of)
     }
 }
 
@@ -98,7 +125,13 @@ impl Role {
         if let Some((family, k)) = name.strip_prefix(SIM_PREFIX).and_then(Family::component) {
             return Ok(Role::Sim(family, k));
         }
+        if let Some(k) = FROM_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::FromAt(k));
+        }
         Ok(match name {
+            "session" => Role::Session,
+            "payload" => Role::Payload,
+            "from" => Role::From,
             "temperature" => Role::Temperature,
             "time" => Role::Time,
             "pose" => Role::Pose,
@@ -118,7 +151,9 @@ impl Role {
             Role::Temperature => Some(Dimension::Temperature),
             Role::Time => Some(Dimension::Time),
             Role::Measured(_, k) | Role::Sim(_, k) => Some(component_dimension(k)),
+            Role::FromAt(_) => Some(Dimension::Length),
             Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
+            Role::Session | Role::Payload | Role::From => None,
         }
     }
 }
@@ -140,7 +175,8 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 /// The known column that an unknown one may have been meant to be.
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
-    let fixed = ["temperature", "time", "pose", "marker"].map(str::to_owned);
+    let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
+    let fixed = fixed.into_iter().chain(FROM_NAMES).map(str::to_owned);
     let sim = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).map(|n| format!("{SIM_PREFIX}{n}"));
     let plain = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).chain(&WRENCH_NAMES);
     let names: Vec<String> =
@@ -160,6 +196,7 @@ mod tests {
             motions: vec![Motion::Revolute, Motion::Prismatic],
             readings: true,
             markers: Vec::new(),
+            payloads: None,
         }
     }
 
@@ -171,7 +208,9 @@ mod tests {
         assert_eq!(role("mz"), Role::Wrench(5));
         assert_eq!(role("drx"), Role::Measured(Family::Displacement, 3));
         assert_eq!(role("sim_rz"), Role::Sim(Family::Pose, 5));
-        for extra in ["Q1", "q", "qa", "q1b", "speed", "sim_q1", "", "ycd_dy"] {
+        assert_eq!(role("sim_distance"), Role::Sim(Family::Distance, 0));
+        assert_eq!((role("from_z"), role("session")), (Role::FromAt(2), Role::Session));
+        for extra in ["Q1", "q", "qa", "q1b", "speed", "sim_q1", "sim_", "", "ycd_dy"] {
             assert_eq!(role(extra), Role::Extra, "{extra}");
         }
     }

@@ -6,8 +6,15 @@ use super::{Kind, Measurements};
 
 impl Measurements {
     /// What was measured, told in a frame that stands at `base` in the measuring frame; `None` where
-    /// a displacement's components that are not measured would be needed.
+    /// components that are not measured would be needed.
     pub fn seen_from(&self, base: &Isometry3<f64>) -> Option<Measurements> {
+        if self.kind == Kind::Distance {
+            let mut seen = self.clone();
+            for from in seen.rows.iter_mut().filter_map(|row| row.from.as_mut()) {
+                *from = (base.inverse() * Point3::from(*from)).into();
+            }
+            return Some(seen);
+        }
         let measured = self.kind.components();
         let whole = |k: usize| measured[k..k + 3].iter().all(|is| *is == measured[k]);
         let turned = base.rotation != UnitQuaternion::identity();
@@ -19,13 +26,12 @@ impl Measurements {
         for row in &mut seen.rows {
             let part =
                 |k: usize| Vector3::new(row.measured[k], row.measured[k + 1], row.measured[k + 2]);
-            let (position, rotation) = match self.kind {
-                Kind::Displacement { .. } => (back.rotation * part(0), back.rotation * part(3)),
-                Kind::Pose { orientation } => {
-                    let turn = back.rotation * UnitQuaternion::from_scaled_axis(part(3));
-                    let rotation = if orientation { turn.scaled_axis() } else { part(3) };
-                    ((back * Point3::from(part(0))).coords, rotation)
-                }
+            let (position, rotation) = if self.kind.is_difference() {
+                (back.rotation * part(0), back.rotation * part(3))
+            } else {
+                let turn = back.rotation * UnitQuaternion::from_scaled_axis(part(3));
+                let rotation = if measured[3] { turn.scaled_axis() } else { part(3) };
+                ((back * Point3::from(part(0))).coords, rotation)
             };
             row.measured.fixed_rows_mut::<3>(0).copy_from(&position);
             row.measured.fixed_rows_mut::<3>(3).copy_from(&rotation);

@@ -1,6 +1,6 @@
 //! From bytes to records, each with the line of the file on which it begins.
 
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 
 use super::mistake::{Column, Fault};
 
@@ -21,29 +21,42 @@ pub(crate) struct NotText {
     pub(crate) fault: Fault,
 }
 
-/// The records of a file: comment lines and blank lines left out, a byte order mark and either
-/// line ending accepted.
-pub(crate) fn records(bytes: &[u8]) -> Result<Vec<Record>, NotText> {
-    let text = text(bytes)?;
-    let mut reader = ReaderBuilder::new()
+/// The records of a file one after the other: comment lines and blank lines left out, a byte order
+/// mark and either line ending accepted.
+pub(crate) struct Records<'t> {
+    reader: Reader<&'t [u8]>,
+    lines: Lines<'t>,
+    cells: StringRecord,
+}
+
+/// The records of `bytes`.
+pub(crate) fn records(bytes: &[u8]) -> Result<Records<'_>, NotText> {
+    let text = text(bytes)?.as_bytes();
+    let reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let mut lines = Lines { text: text.as_bytes(), at: 0, line: 1 };
-    let mut records = Vec::new();
-    let mut cells = StringRecord::new();
-    while reader.read_record(&mut cells).unwrap_or(false) {
-        // The csv crate's position is where it began to read: before comments and blank lines.
-        let from = cells.position().map_or(0, csv::Position::byte);
-        let line = lines.of_record_from(usize::try_from(from).unwrap_or(usize::MAX));
-        let blank = cells.len() == 1 && cells[0].is_empty();
-        if !blank && !cells[0].starts_with('#') {
-            records.push(Record { line, cells: cells.clone() });
+        .from_reader(text);
+    let lines = Lines { text, at: 0, line: 1 };
+    Ok(Records { reader, lines, cells: StringRecord::new() })
+}
+
+impl Iterator for Records<'_> {
+    type Item = Record;
+
+    fn next(&mut self) -> Option<Record> {
+        while self.reader.read_record(&mut self.cells).unwrap_or(false) {
+            // The csv crate's position is where it began to read: before comments and blank lines.
+            let from = self.cells.position().map_or(0, csv::Position::byte);
+            let line = self.lines.of_record_from(usize::try_from(from).unwrap_or(usize::MAX));
+            let blank = self.cells.len() == 1 && self.cells[0].is_empty();
+            if !blank && !self.cells[0].starts_with('#') {
+                return Some(Record { line, cells: self.cells.clone() });
+            }
         }
+        None
     }
-    Ok(records)
 }
 
 fn text(bytes: &[u8]) -> Result<&str, NotText> {
@@ -105,11 +118,8 @@ mod tests {
     use super::*;
 
     fn lines(bytes: &[u8]) -> Vec<(u64, String)> {
-        let records = records(bytes).unwrap();
-        records
-            .into_iter()
-            .map(|r| (r.line, r.cells.iter().collect::<Vec<_>>().join("|")))
-            .collect()
+        let records = records(bytes).unwrap_or_else(|not| panic!("{not:?}"));
+        records.map(|r| (r.line, r.cells.iter().collect::<Vec<_>>().join("|"))).collect()
     }
 
     fn want(expected: &[(u64, &str)]) -> Vec<(u64, String)> {
@@ -131,9 +141,9 @@ mod tests {
 
     #[test]
     fn says_where_the_text_ends() {
-        let not_text = records(b"a,b\n1,2\n3,\xe9\n").unwrap_err();
+        let not_text = records(b"a,b\n1,2\n3,\xe9\n").err().unwrap();
         assert_eq!((not_text.line, not_text.column.map(|c| c.number)), (3, Some(2)));
         assert_eq!(not_text.fault, Fault::NotUtf8 { byte: 0xe9 });
-        assert_eq!(records(b"\xff\xfea\0").unwrap_err().fault, Fault::Utf16);
+        assert_eq!(records(b"\xff\xfea\0").err().unwrap().fault, Fault::Utf16);
     }
 }

@@ -1,13 +1,44 @@
 use super::*;
+use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
 
-/// Two revolute joints, a prismatic one, two markers.
+fn body(name: &str, mass: f64, com: [f64; 3]) -> Body {
+    Body { name: name.to_owned(), mass, com: com.into() }
+}
+
+/// Turns about z twice, then slides along it; the base of the file is turned about x.
+fn carrier() -> Arm {
+    let text = r#"
+name = "carrier"
+convention = "standard"
+[base]
+rotation = ["90 deg", 0, 0]
+[[joint]]
+type = "revolute"
+a = 0.3
+[[joint]]
+type = "revolute"
+[[joint]]
+type = "prismatic"
+[tool]
+rotation = [0, "90 deg", 0]
+"#;
+    let (robot, _) = Robot::from_toml(text, "carrier.toml").expect("a robot");
+    crate::robot::arm(&robot).expect("numbers")
+}
+
+/// Two revolute joints, a prismatic one, two markers, two payloads.
 fn layout() -> Layout {
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     Layout {
         readings: true,
         motions: vec![Motion::Revolute, Motion::Revolute, Motion::Prismatic],
         markers: vec![marker("smr1", Some([0.0, 0.1, 0.02])), marker("smr2", None)],
+        payloads: Some(Payloads {
+            bodies: vec![body("5kg", 5.0, [0.0, 0.0, 0.06]), body("ball", 0.5, [0.01, 0.0, 0.0])],
+            arm: carrier(),
+        }),
     }
 }
 
@@ -50,6 +81,45 @@ fn every_column_of_the_format_is_read_in_si() {
         ("note", &["hi".into()][..])
     );
     assert_eq!(data.extra[0].values, None);
+}
+
+/// By hand: the tool's z lies along x turned by θ1 + θ2 about z, whatever the base in the world.
+#[test]
+fn a_payload_pulls_where_it_hangs() {
+    let text = "payload,q1[deg],q2[deg],q3,fz,dz\n\
+                5kg,30,60,0.2,0,1\nnone,30,60,0.2,-7,1\nball,0,0,0,0,1\n";
+    let data = good(text);
+    let weight = 5.0 * 9.80665;
+    let near = |row: &Row, want: [f64; 6]| {
+        assert!((row.wrench - Vector6::from(want)).amax() < 1e-12, "{}", row.wrench);
+    };
+    // The centre of mass is 6 cm along y of the base: y × −z is −x.
+    near(&data.rows[0], [0.0, 0.0, -weight, -0.06 * weight, 0.0, 0.0]);
+    near(&data.rows[1], [0.0, 0.0, -7.0, 0.0, 0.0, 0.0]);
+    // Its x is −z of the base, the weight's own line.
+    near(&data.rows[2], [0.0, 0.0, -0.5 * 9.80665, 0.0, 0.0, 0.0]);
+    let names: Vec<_> =
+        data.rows.iter().map(|r| r.payload.as_ref().unwrap().name.as_str()).collect();
+    assert_eq!(names, ["5kg", "none", "ball"]);
+    // Written, it is a name again, and no load beside it.
+    let file = crate::plant::csv(&carrier(), &data, &[]);
+    let again = good(&file);
+    for (row, was) in again.rows.iter().zip(&data.rows) {
+        assert!((row.wrench - was.wrench).amax() < 1e-12, "{file}");
+    }
+}
+
+#[test]
+fn distances_and_single_coordinates_are_measured() {
+    let ball = good("q1,q2,q3,distance[mm],from_x,from_y,from_z[mm]\n0,0,0,300,1,2,3000\n");
+    assert_eq!((ball.kind, ball.rows[0].measured[0]), (Kind::Distance, 0.3));
+    assert_eq!((ball.rows[0].from, ball.components()), (Some([1.0, 2.0, 3.0]), 1));
+    let wire = good("q1,q2,q3,distance,from,sim_distance\n0,0,0,0.3,socket 1,0.2\n");
+    assert_eq!((wire.rows[0].from, wire.sim_given[0]), (None, true));
+    assert_eq!(wire.rows[0].from_point.as_deref(), Some("socket 1"));
+    let probe = good("q1,q2,q3,y[mm]\n0,0,0,5\n");
+    assert_eq!(probe.kind, Kind::Coordinates { components: [false, true, false] });
+    assert_eq!((probe.kind.measured(), probe.rows[0].measured[1]), (vec!["y"], 5e-3));
 }
 
 #[test]
@@ -207,22 +277,56 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "NothingMeasured",
         "q1,q2,q3,fx\n0,0,0,1\n",
-        "line 1: found no measured column, expected `x,y,z` (a position) or any of \
-         `dx dy dz drx dry drz` (a displacement): add what was measured",
+        "line 1: found no measured column, expected any of `x y z` (a position), any of \
+         `dx dy dz drx dry drz` (a displacement) or `distance`: add what was measured",
     ),
     (
         "TwoKinds",
         "q1,q2,q3,x,y,z,dz\n0,0,0,1,1,1,1\n",
-        "line 1, column 7 `dz`: found both a measured pose (`x`) and a measured displacement \
-         (`dz`), \
-         expected one kind: split the file in two",
+        "line 1, column 7 `dz`: found both a pose (`x`) and a displacement (`dz`) that were \
+         measured, expected one kind: split the file in two",
     ),
     (
         "PositionIncomplete",
-        "q1,q2,q3,x\n0,0,0,1\n",
-        "line 1, column 4 `x`: found `x` without y, z, expected all of x, y, z: a measured \
-         position \
-         has three coordinates",
+        "q1,q2,q3,x,rx,ry,rz\n0,0,0,1,1,1,1\n",
+        "line 1, column 4 `x`: found `x` without y, z, expected all of x, y, z beside an \
+         orientation: it is that of the tool at a position",
+    ),
+    (
+        "FromIncomplete",
+        "q1,q2,q3,distance,from_x,from_z\n0,0,0,1,1,1\n",
+        "line 1, column 5 `from_x`: found `from_x` without from_y, expected all of from_x, from_y, \
+         from_z or none: the point from which a distance is measured has three coordinates",
+    ),
+    (
+        "FromWithout",
+        "q1,q2,q3,dz,from\n0,0,0,1,a\n",
+        "line 1, column 5 `from`: found `from` in a file that measures no distance, expected a column \
+         `distance`: add it, or remove the point",
+    ),
+    (
+        "FromTwice",
+        "q1,q2,q3,distance,from,from_x,from_y,from_z\n0,0,0,1,a,1,1,1\n",
+        "line 1, column 5 `from`: found both a point's name (`from`) and its place (`from_x`), \
+         expected one of them: a point with a name alone is fitted",
+    ),
+    (
+        "SessionAgain",
+        "q1,q2,q3,dz,session\n0,0,0,1,a\n0,0,0,1,b\n0,0,0,1,a\n",
+        "line 4, column 5 `session`: found session `a` again, expected another: its rows end in line \
+         2: bring the rows of a session together, in the order of measuring, or give what was \
+         measured later another name",
+    ),
+    (
+        "Negative",
+        "q1,q2,q3,distance\n0,0,0,-1\n",
+        "line 2, column 4 `distance`: found -1, expected a distance: it is not below zero",
+    ),
+    (
+        "UnknownPayload",
+        "q1,q2,q3,dz,payload\n0,0,0,1,5KG\n",
+        "line 2, column 5 `payload`: found the unknown payload `5KG`, the robot file has `5kg`, \
+         `ball`; did you mean `5kg`?: name one of them, or `none`, or add it to the robot file",
     ),
     (
         "OrientationIncomplete",
@@ -358,7 +462,7 @@ fn every_mistake_has_its_own_message() {
 
 #[test]
 fn a_robot_without_markers_says_so() {
-    let layout = Layout { markers: Vec::new(), ..layout() };
+    let layout = Layout { markers: Vec::new(), payloads: None, ..layout() };
     let text = b"q1,q2,q3,dz,marker\n0,0,0,1,a\n";
     let error = Measurements::from_bytes("run.csv", text, &layout).unwrap_err().to_string();
     assert!(error.contains("marker `a`, the robot file has no [[marker]]: name"), "{error}");
@@ -390,4 +494,18 @@ fn a_file_that_is_not_there_is_named() {
         text.starts_with("no/such.csv: ") && text.ends_with("measurement file (CSV)"),
         "{text}"
     );
+}
+
+#[test]
+fn more_than_memory_holds_is_refused() {
+    let row = "0,0,0,1\n";
+    let text = format!("q1,q2,q3,dz\n{}", row.repeat(MOST_ROWS + 1));
+    let error = read(&text).unwrap_err().to_string();
+    assert!(error.starts_with("run.csv: line 2000002: found more than 2000000 rows"), "{error}");
+    // A file of zeros that takes no room on the disk.
+    let large = std::env::temp_dir().join(format!("stiffarm-large-{}.csv", std::process::id()));
+    let made = std::fs::File::create(&large).and_then(|file| file.set_len(MOST_BYTES + 1));
+    let error = made.and_then(|()| bytes(&large)).unwrap_err().to_string();
+    std::fs::remove_file(&large).unwrap();
+    assert!(error.starts_with("it has more than the 512 MB"), "{error}");
 }

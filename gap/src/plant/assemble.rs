@@ -5,7 +5,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Convention;
 
 use super::chain::Chain;
-use super::law::Law;
+use super::law::{Gear, Law};
 use super::reality::{RealJoint, Reality};
 use super::transform::{displaced, from_parts, origin, rotation, slide, turn};
 
@@ -141,16 +141,25 @@ impl RowOf<'_> {
     }
 
     fn spring(&self, chain: &mut Chain) {
-        let RealJoint { compliance, cubic, windup, motion, .. } = *self.joint;
-        let windup = windup * self.side;
-        if compliance == 0.0 && cubic == 0.0 && windup == 0.0 {
+        let joint = self.joint;
+        let [cos, sin] = joint.counterbalance;
+        let mut gear = Gear {
+            compliance: joint.compliance,
+            cubic: joint.cubic,
+            windup: joint.windup * self.side,
+            play: joint.play,
+            zones: joint.zones.clone(),
+            preload: 0.0,
+        };
+        if gear == Gear::default() {
             return;
         }
-        let component = match motion {
+        gear.preload = cos * self.value.cos() + sin * self.value.sin();
+        let component = match joint.motion {
             Motion::Revolute => 5,
             Motion::Prismatic => 2,
         };
-        chain.site(&[component], Law::Joint { compliance, cubic, windup });
+        chain.site(&[component], Law::Joint(gear));
     }
 
     /// A beam on a prismatic joint counts as weightless.

@@ -153,7 +153,7 @@ fn square_root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 mod tests {
     use nalgebra::Vector3;
 
-    use super::super::law::Law;
+    use super::super::law::{Gear, Law};
     use super::super::transform::slide;
     use super::*;
 
@@ -162,7 +162,7 @@ mod tests {
     fn the_bound_is_on_the_safe_side() {
         for (share, expected) in [(0.5, true), (0.99, true), (1.01, false), (3.0, false)] {
             let mut chain = Chain::default();
-            chain.site(&[5], Law::Joint { compliance: 1e-4, cubic: 0.0, windup: 0.0 });
+            chain.site(&[5], Law::Joint(Gear { compliance: 1e-4, ..Gear::default() }));
             chain.fixed(slide(1, 0.8));
             chain.force = Vector3::new(0.0, -share / (1e-4 * 0.8), 0.0);
             let u = DVector::zeros(1);

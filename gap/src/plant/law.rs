@@ -4,11 +4,54 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::reality::RealBeam;
 
+/// What a joint's drive makes of a torque; all zero is rigid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Gear {
+    pub(super) compliance: f64,
+    pub(super) cubic: f64,
+    /// With the direction's sign.
+    pub(super) windup: f64,
+    /// Width of the clearance across which the torque pushes.
+    pub(super) play: f64,
+    /// Torques up to which it gives so much more.
+    pub(super) zones: Vec<(f64, f64)>,
+    /// What is added to the torque.
+    pub(super) preload: f64,
+}
+
+/// Half a unit of torque to either side the drive floats from flank to flank.
+const ACROSS: f64 = 2.0;
+
+impl Gear {
+    /// `compliance·τ + cubic·τ³ − windup·|τ|` and clearance and zones, piece by piece.
+    fn twist(&self, torque: f64) -> f64 {
+        let torque = torque + self.preload;
+        let (size, side) = (torque.abs(), if torque < 0.0 { -1.0 } else { 1.0 });
+        let across = if size < ACROSS / 2.0 { size / ACROSS } else { 0.5 };
+        let zone = |(ends, more): &(f64, f64)| more * if size < *ends { size } else { *ends };
+        let odd = self.compliance * size
+            + self.cubic * size.powi(3)
+            + self.play * across
+            + self.zones.iter().map(zone).sum::<f64>();
+        side * odd - self.windup * size
+    }
+
+    /// Its derivative.
+    fn slope(&self, torque: f64) -> f64 {
+        let torque = torque + self.preload;
+        let (size, sign) = (torque.abs(), if torque == 0.0 { 0.0 } else { torque.signum() });
+        let across = if size < ACROSS / 2.0 { self.play / ACROSS } else { 0.0 };
+        let zones = self.zones.iter().filter(|(ends, _)| size < *ends).map(|(_, more)| more);
+        self.compliance + 3.0 * self.cubic * size * size + across + zones.sum::<f64>()
+            - self.windup * sign
+    }
+}
+
 /// How a site's displacement follows from its generalised forces.
 #[derive(Clone, Debug)]
 pub(super) enum Law {
-    /// A joint: `compliance·τ + cubic·τ³ − windup·|τ|`, the last with the direction's sign.
-    Joint { compliance: f64, cubic: f64, windup: f64 },
+    /// A joint.
+    Joint(Gear),
     /// Each component by itself.
     Diagonal(Vec<f64>),
     /// A cantilever, and its weight in base axes, N/m.
@@ -19,10 +62,7 @@ impl Law {
     /// The displacement under the forces; `axes` is where the site's axes point.
     pub(super) fn displacement(&self, forces: &[f64], axes: &Matrix3<f64>) -> Vec<f64> {
         match self {
-            Law::Joint { compliance, cubic, windup } => {
-                let torque = forces[0];
-                vec![compliance * torque + cubic * torque.powi(3) - windup * torque.abs()]
-            }
+            Law::Joint(gear) => vec![gear.twist(forces[0])],
             Law::Diagonal(compliances) => {
                 compliances.iter().zip(forces).map(|(c, force)| c * force).collect()
             }
@@ -37,12 +77,7 @@ impl Law {
     /// Its derivative by the forces, at the forces.
     pub(super) fn slope(&self, forces: &[f64]) -> DMatrix<f64> {
         match self {
-            Law::Joint { compliance, cubic, windup } => {
-                let torque = forces[0];
-                let sign = if torque == 0.0 { 0.0 } else { torque.signum() };
-                let slope = compliance + 3.0 * cubic * torque * torque - windup * sign;
-                DMatrix::from_element(1, 1, slope)
-            }
+            Law::Joint(gear) => DMatrix::from_element(1, 1, gear.slope(forces[0])),
             _ => self.flexibility(),
         }
     }
@@ -50,7 +85,7 @@ impl Law {
     /// The elastic and linear part.
     pub(super) fn flexibility(&self) -> DMatrix<f64> {
         match self {
-            Law::Joint { compliance, .. } => DMatrix::from_element(1, 1, *compliance),
+            Law::Joint(gear) => DMatrix::from_element(1, 1, gear.compliance),
             Law::Diagonal(compliances) => {
                 DMatrix::from_diagonal(&nalgebra::DVector::from_row_slice(compliances))
             }
@@ -159,9 +194,17 @@ mod tests {
 
     #[test]
     fn the_slope_is_the_derivative() {
-        let law = Law::Joint { compliance: 2e-6, cubic: -3e-12, windup: 1e-7 };
+        let gear = Gear {
+            compliance: 2e-6,
+            cubic: -3e-12,
+            windup: 1e-7,
+            play: 3e-4,
+            zones: vec![(50.0, 4e-6), (100.0, 1e-6)],
+            preload: -7.0,
+        };
+        let law = Law::Joint(gear);
         let at = |torque: f64| law.displacement(&[torque], &Matrix3::identity())[0];
-        for torque in [-120.0, 80.0] {
+        for torque in [-120.0, -30.0, 6.7, 7.4, 20.0, 80.0] {
             let difference = (at(torque + 0.01) - at(torque - 0.01)) / 0.02;
             assert!((difference - law.slope(&[torque])[(0, 0)]).abs() < 1e-13);
         }

@@ -11,7 +11,7 @@ use nalgebra::{Vector3, Vector6};
 pub(super) type Law = fn(&mut Reality, &Truth);
 
 /// Every effect that the plant can have, in the order of the format.
-const LAWS: [(&dyn Effect, Law); 28] = [
+const LAWS: [(&dyn Effect, Law); 31] = [
     (&JointOffset, |arm, t| arm.joint(t).offset += t.value("offset")),
     (&LinkGeometry, |arm, t| {
         let row = arm.joint(t);
@@ -50,6 +50,15 @@ const LAWS: [(&dyn Effect, Law); 28] = [
         arm.payload += Vector3::new(t.value("x"), t.value("y"), t.value("z"));
     }),
     (&Backlash, |arm, t| arm.joint(t).width += t.value("width")),
+    (&LoadedBacklash, |arm, t| arm.joint(t).play += t.value("width")),
+    (&SoftZone, |arm, t| {
+        arm.joint(t).zones.push((t.value("threshold"), t.value("compliance")));
+    }),
+    (&Counterbalance, |arm, t| {
+        let [cos, sin] = &mut arm.joint(t).counterbalance;
+        *cos += t.value("cos");
+        *sin += t.value("sin");
+    }),
     (&FrictionHysteresis, |arm, t| arm.joint(t).windup += t.value("windup")),
     (&TransmissionError, |arm, t| {
         let terms = t.values.iter().filter_map(|(name, v)| Some((Order::named(name)?, *v)));

@@ -90,7 +90,8 @@ pub enum PlantError {
 pub struct Plant {
     nominal: Reality,
     reality: Reality,
-    frames: Frames,
+    /// Of each session in order; further ones are measured as the last.
+    frames: Vec<Frames>,
     first_order_sim: bool,
 }
 
@@ -119,12 +120,18 @@ impl Plant {
         let known: Vec<Truth> = known.iter().map(|known| Truth::known(known, arm)).collect();
         let (nominal, reality) = (real(&known)?, real(&[&known, truths].concat())?);
         let first_order_sim = reality.geometric != 0.0;
-        Ok(Plant { nominal, reality, frames: Frames::default(), first_order_sim })
+        Ok(Plant { nominal, reality, frames: vec![Frames::default()], first_order_sim })
     }
 
     /// The same plant, measured in frames that nobody knows.
     pub fn with_frames(self, frames: Frames) -> Plant {
-        Plant { frames, ..self }
+        Plant { frames: vec![frames], ..self }
+    }
+
+    /// The same of several sessions, each with a base of its own beyond the frames'.
+    pub fn with_sessions(self, frames: &Frames, bases: Vec<nalgebra::Isometry3<f64>>) -> Plant {
+        let each = bases.into_iter().map(|base| Frames { base, ..frames.clone() });
+        Plant { frames: std::iter::once(frames.clone()).chain(each).collect(), ..self }
     }
 
     /// The same plant; what is measured has `sim_` columns of first order in the load, as far as
@@ -161,10 +168,17 @@ impl Plant {
         let components = design.kind.components();
         let mut measured = design.clone();
         measured.sim_given = components.map(|measured| measured && self.first_order_sim);
+        let (mut sessions, mut session) = (design.sessions(), (1, 0));
+        let (mut following, mut frames) = (self.frames.iter(), &self.frames[0]);
         for (k, row) in measured.rows.iter_mut().enumerate() {
-            let at = in_order(design, k);
+            if k == session.1 {
+                let rows = sessions.next().map_or(0, <[Row]>::len);
+                session = (k + 1, k + rows);
+                frames = following.next().unwrap_or(frames);
+            }
+            let at = InOrder { row: &design.rows[k], number: k + 1, all: &design.rows, session };
             self.same_joints(design, at.row)?;
-            let shown = self.shown(&self.reality, &self.frames, design, at)?;
+            let shown = self.shown(&self.reality, frames, design, at)?;
             row.measured = only(shown.vector(), components);
             row.sim = None;
             if self.first_order_sim {
@@ -196,10 +210,6 @@ impl Plant {
             .shown(at, design.kind, frames)
             .map_err(|_| PlantError::Unstable { file: design.file.clone(), line: at.row.line })
     }
-}
-
-fn in_order(design: &Measurements, k: usize) -> InOrder<'_> {
-    InOrder { row: &design.rows[k], number: k + 1, all: &design.rows }
 }
 
 /// Measurements with noise added. Of a rotation of which only some components are measured, those

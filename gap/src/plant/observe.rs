@@ -69,6 +69,15 @@ impl Shown {
         }
     }
 
+    /// How far it is from the row's fixed point, as the first number; one that is not known is the
+    /// measuring frame's origin.
+    fn from(&self, row: &Row) -> Shown {
+        let [x, y, z] = row.from.unwrap_or_default();
+        let [dx, dy, dz] = [self.position.x - x, self.position.y - y, self.position.z - z];
+        let distance = (dx * dx + dy * dy + dz * dz).sqrt();
+        Shown { position: Vector3::new(distance, 0.0, 0.0), rotation: Matrix3::identity() }
+    }
+
     pub(super) fn noisy(mut self, noise: Noise, dice: &mut Dice) -> Shown {
         self.position += noise.position * dice.normal3();
         self.rotation = rotation_of(&(noise.rotation * dice.normal3())) * self.rotation;
@@ -101,20 +110,32 @@ pub(super) struct InOrder<'a> {
     /// From 1.
     pub(super) number: usize,
     pub(super) all: &'a [Row],
+    /// The rows of its session, numbers from 1.
+    pub(super) session: (usize, usize),
 }
 
 impl InOrder<'_> {
-    /// The row before it.
-    pub(super) fn before(&self) -> Option<&Row> {
-        self.all.get(self.number.checked_sub(2)?)
+    /// The rows of its session.
+    pub(super) fn sitting(&self) -> &[Row] {
+        &self.all[self.session.0 - 1..self.session.1]
     }
 
-    /// Seconds since the first row; rows where there is no time.
+    /// The row before it, in its session.
+    pub(super) fn before(&self) -> Option<&Row> {
+        (self.number > self.session.0).then(|| &self.all[self.number - 2])
+    }
+
+    /// Seconds since the first row of its session; rows where there is no time.
     fn elapsed(&self) -> f64 {
-        match (self.row.time, self.all[0].time) {
+        match (self.row.time, self.sitting()[0].time) {
             (Some(now), Some(then)) => now - then,
-            _ => (self.number - 1) as f64,
+            _ => (self.number - self.session.0) as f64,
         }
+    }
+
+    /// Whether it comes after a jump in its session.
+    fn follows(&self, slip: &Jump) -> bool {
+        self.number > slip.after && slip.after + 1 >= self.session.0
     }
 
     /// Kelvin above the first row; 0 where there is no temperature.
@@ -129,7 +150,7 @@ impl InOrder<'_> {
 impl Reality {
     fn situation(&self, at: InOrder<'_>, wrench: &Vector6<f64>) -> Situation {
         let after = |slips: &[Jump]| {
-            let over = slips.iter().filter(|slip| at.number > slip.after);
+            let over = slips.iter().filter(|slip| at.follows(slip));
             over.map(|slip| slip.by).sum::<Vector6<f64>>()
         };
         Situation {
@@ -160,7 +181,7 @@ impl Reality {
 
     /// The arm's base in the measuring frame; its small displacements add up.
     fn standing(&self, at: InOrder<'_>, frames: &Frames) -> Matrix4<f64> {
-        let over = self.base_slips.iter().filter(|slip| at.number > slip.after);
+        let over = self.base_slips.iter().filter(|slip| at.follows(slip));
         let slipped: Vector6<f64> = over.map(|slip| slip.by).sum();
         let all = self.base_frame + slipped + at.elapsed() * self.drift;
         frames.base.to_homogeneous() * self.base * displaced(&all)
@@ -192,8 +213,9 @@ impl Reality {
         };
         let loaded: Shown = under(&at.row.wrench)?;
         match kind {
-            Kind::Pose { .. } => Ok(loaded),
             Kind::Displacement { .. } => Ok(loaded.less(&under(&Vector6::zeros())?)),
+            Kind::Distance => Ok(loaded.from(at.row)),
+            Kind::Pose { .. } | Kind::Coordinates { .. } => Ok(loaded),
         }
     }
 
@@ -217,8 +239,9 @@ impl Reality {
         };
         let loaded = under(&at.row.wrench);
         match kind {
-            Kind::Pose { .. } => loaded,
             Kind::Displacement { .. } => loaded.less(&under(&Vector6::zeros())),
+            Kind::Distance => loaded.from(at.row),
+            Kind::Pose { .. } | Kind::Coordinates { .. } => loaded,
         }
     }
 }

@@ -12,7 +12,7 @@ impl Reality {
     /// Real joint values, rad (m if prismatic), when a row is measured.
     pub(super) fn joint_values(&self, at: InOrder<'_>) -> Vec<f64> {
         let row = at.row;
-        let late = || late::readings_at(at.all, row.time? - self.delay);
+        let late = || late::readings_at(at.sitting(), row.time? - self.delay);
         let then = if self.delay == 0.0 { None } else { late() };
         let q = then.as_ref().unwrap_or(&row.q);
         let one = |(j, joint): (usize, &RealJoint)| {

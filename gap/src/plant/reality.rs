@@ -64,6 +64,12 @@ pub(super) struct RealJoint {
     pub(super) compliance: f64,
     pub(super) cubic: f64,
     pub(super) windup: f64,
+    /// Width of the clearance across which the torque pushes.
+    pub(super) play: f64,
+    /// Torques, N·m, up to which the joint gives so much more.
+    pub(super) zones: Vec<(f64, f64)>,
+    /// Cosine and sine of the reading, N·m.
+    pub(super) counterbalance: [f64; 2],
     pub(super) tilt: [f64; 2],
     /// About x and y, cosine and sine of twice the reading.
     pub(super) wobble: [[f64; 2]; 2],
@@ -134,6 +140,9 @@ impl Reality {
             compliance: joint.compliance,
             cubic: 0.0,
             windup: 0.0,
+            play: 0.0,
+            zones: Vec::new(),
+            counterbalance: [0.0; 2],
             tilt: [0.0; 2],
             wobble: [[0.0; 2]; 2],
             mass: joint.mass,

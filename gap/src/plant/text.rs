@@ -5,7 +5,7 @@ use core::fmt::Write as _;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::measurement::{Measurements, Row, SIM_PREFIX, WRENCH_NAMES};
+use crate::measurement::{FROM_NAMES, Kind, Measurements, Row, SIM_PREFIX, WRENCH_NAMES};
 
 /// One column: its header, and its cell of a row.
 struct Column {
@@ -16,7 +16,8 @@ struct Column {
 /// The measurement file of some measurements: comment lines, a header with SI units, and one line
 /// per row. Numbers have as many digits as it takes to read the same numbers back.
 ///
-/// Columns that no row uses (directions, temperature, time, pose, marker) are left out.
+/// Columns that no row uses (directions, temperature, time, pose, marker, session, payload) are left
+/// out.
 pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
     let mut text = String::new();
     for line in comments.iter().flat_map(|comment| comment.lines()) {
@@ -41,6 +42,15 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
     if all(|r| r.pose.is_some()) {
         add("pose".to_owned(), Box::new(|r| quoted(r.pose.as_deref())));
     }
+    if all(|r| r.session.is_some()) {
+        add("session".to_owned(), Box::new(|r| quoted(r.session.as_deref())));
+    }
+    if all(|r| r.payload.is_some()) {
+        add(
+            "payload".to_owned(),
+            Box::new(|r| quoted(r.payload.as_ref().map(|p| p.name.as_str()))),
+        );
+    }
     if all(|r| r.time.is_some()) {
         add("time[s]".to_owned(), Box::new(|r| number(r.time.unwrap_or_default())));
     }
@@ -62,9 +72,19 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
         add("marker".to_owned(), Box::new(|r| quoted(r.marker.as_deref())));
     }
     for (k, name) in WRENCH_NAMES.iter().enumerate() {
-        if data.rows.iter().any(|r| r.wrench[k] != 0.0) {
+        // A payload is told by its name.
+        let load = move |r: &Row| r.wrench[k] - r.payload.as_ref().map_or(0.0, |p| p.weight[k]);
+        if data.rows.iter().any(|r| load(r) != 0.0) {
             let unit = if k < 3 { "N" } else { "Nm" };
-            add(format!("{name}[{unit}]"), Box::new(move |r| number(r.wrench[k])));
+            add(format!("{name}[{unit}]"), Box::new(move |r| number(load(r))));
+        }
+    }
+    if data.kind == Kind::Distance && all(|r| r.from_point.is_some()) {
+        add("from".to_owned(), Box::new(|r| quoted(r.from_point.as_deref())));
+    }
+    if data.kind == Kind::Distance && all(|r| r.from.is_some()) {
+        for (k, name) in FROM_NAMES.iter().enumerate() {
+            add(format!("{name}[m]"), Box::new(move |r| number(r.from.unwrap_or_default()[k])));
         }
     }
     let names = data.kind.names();

@@ -113,8 +113,14 @@ impl Truth {
         let is_form = |name: &String| form.as_deref() == Some(name);
         if let Some(form) = form.as_deref().filter(|_| !values.iter().any(|(n, _)| is_form(n))) {
             let at = format!("{}@{place}", effect.identifier());
-            let expected = format!("expected the row after which it happens: `{at}:{form}=40,…`");
-            return Err(format!("found no `{form}`, {expected}"));
+            return Err(format!(
+                "found no `{form}`, expected it beside the size: `{at}:{form}=40,…`"
+            ));
+        }
+        let forms = effect.forms_are();
+        let wrong = values.iter().find(|(name, v)| is_form(name) && forms.form(*v).is_none());
+        if let Some((name, value)) = wrong {
+            return Err(format!("`{name}`: found {value}, expected {}", forms.expected(arm)));
         }
         if values.iter().all(|(name, value)| is_form(name) || *value == 0.0) {
             let names = effect.names(arm, *place);
@@ -152,7 +158,7 @@ impl Numbers<'_> {
 
     fn first(&self, text: &str) -> Result<(String, f64), String> {
         let Numbers { effect, place, arm } = self;
-        let natural = !matches!(effect.forms_are(), Forms::Joints | Forms::Rows);
+        let natural = !matches!(effect.forms_are(), Forms::Joints | Forms::Searched { .. });
         if let Some(first) = effect.numbers(arm, *place).first().filter(|_| natural) {
             return self.value(&first.name, text);
         }

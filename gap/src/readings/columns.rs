@@ -162,7 +162,7 @@ pub(super) fn dimension(ours: &str, unit: Option<&str>) -> Option<Dimension> {
         return Some(found.filter(|d| *d == Dimension::Length).unwrap_or(Dimension::Angle));
     }
     // Of what is not a joint's the reader of measurements knows the quantity, whatever the arm.
-    let any = Layout { motions: Vec::new(), markers: Vec::new(), readings: false };
+    let any = Layout { motions: Vec::new(), markers: Vec::new(), readings: false, payloads: None };
     Role::of(name, &any).ok()?.dimension(&any)
 }
 

@@ -12,8 +12,12 @@ fn import_with(text: &str, map: &str) -> Result<Imported, ImportError> {
 /// The rows that the measurement reader finds in what is written.
 fn rows(text: &str, map: &str, joints: usize) -> Measurements {
     let imported = import_with(text, map).unwrap_or_else(|e| panic!("{e}"));
-    let layout =
-        Layout { motions: vec![Motion::Revolute; joints], markers: Vec::new(), readings: true };
+    let layout = Layout {
+        motions: vec![Motion::Revolute; joints],
+        markers: Vec::new(),
+        readings: true,
+        payloads: None,
+    };
     let read = Measurements::from_bytes("out.csv", imported.csv.as_bytes(), &layout);
     read.unwrap_or_else(|e| panic!("{e}\n{}", imported.csv))
 }

@@ -29,6 +29,9 @@ pub struct Actual<'a> {
     pub wrench: Vector6<f64>,
     /// Where the force acts, tool frame, m.
     pub load_point: Vector3<f64>,
+    /// What turns each joint beside its load, N·m (N): springs between the links before and behind
+    /// it, that load no other joint. Empty where there are none.
+    pub preload: Vec<f64>,
     /// Displacements that do not depend on the load, one for each site.
     pub fixed: Vec<Vector6<f64>>,
     /// What else gives, beside the arm's own springs and beams.
@@ -54,6 +57,7 @@ impl<'a> Actual<'a> {
             joints: q.to_vec(),
             wrench: *wrench,
             load_point: Vector3::zeros(),
+            preload: Vec::new(),
             fixed: vec![Vector6::zeros(); Site::count(arm.dof())],
             laws: Vec::new(),
             base: arm.base,
@@ -68,7 +72,7 @@ impl<'a> Actual<'a> {
     pub(crate) fn is_but_for_joints(&self, plain: &Actual<'_>) -> bool {
         matches!(self.arm, Cow::Borrowed(_))
             && self.laws.is_empty()
-            && self.fixed == plain.fixed
+            && (&self.fixed, &self.preload) == (&plain.fixed, &plain.preload)
             && (self.wrench, self.load_point) == (plain.wrench, plain.load_point)
             && (self.base, self.metre) == (plain.base, plain.metre)
             && self.loaded_geometry == plain.loaded_geometry
@@ -83,6 +87,20 @@ impl<'a> Actual<'a> {
     /// Moves a joint, rad (m if prismatic).
     pub fn turn(&mut self, joint: usize, by: f64) {
         self.joints[joint] += by;
+    }
+
+    /// Turns a joint by a torque, N·m (N), of which the other joints bear nothing.
+    pub fn pull(&mut self, joint: usize, torque: f64) {
+        self.preload.resize(self.joints.len(), 0.0);
+        self.preload[joint] += torque;
+    }
+
+    /// What a joint bears of a load at its site.
+    pub(super) fn borne(&self, row: usize, load: &Vector6<f64>) -> Vector6<f64> {
+        match self.preload.get(row) {
+            Some(torque) => load + Vector6::ith(axis(self.arm.joints[row].motion), *torque),
+            None => *load,
+        }
     }
 
     /// The transforms of row `row` before its joint's motion and from there to its frame.

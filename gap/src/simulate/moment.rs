@@ -1,4 +1,4 @@
-//! When a row was measured: the move before it, the warmth, the time.
+//! When a row was measured: the session, the move before it, the warmth, the time.
 
 use std::sync::Arc;
 
@@ -10,41 +10,45 @@ use crate::measurement::Measurements;
 pub struct Moment {
     /// Number of the row, from 0.
     pub index: usize,
-    /// Readings minus those of the row before, n, rad (m if prismatic); 0 at the first row.
+    /// That of the first row of its session.
+    pub first: usize,
+    /// Readings minus those of the row before, n, rad (m if prismatic); 0 at the first row of a
+    /// session.
     pub last_move: Vec<f64>,
-    /// Temperature minus that of the first row, K; 0 without the column.
+    /// Temperature minus that of the first row of all, K; 0 without the column.
     pub warming: f64,
-    /// Time since the first row, s; without the column, the number of the row.
+    /// Time since the first row of the session, s; without the column, the rows since then.
     pub clock: f64,
-    /// The readings of all rows over this time, where they are a stream.
+    /// The readings of the session's rows over this time, where they are a stream.
     pub stream: Option<Arc<Stream>>,
 }
 
 impl Moment {
     /// Of a row by itself, at the beginning.
     pub fn at_rest(last_move: Vec<f64>, warming: f64) -> Moment {
-        Moment { index: 0, last_move, warming, clock: 0.0, stream: None }
+        Moment { index: 0, first: 0, last_move, warming, clock: 0.0, stream: None }
     }
 }
 
 /// One for each row.
 pub fn moments(data: &Measurements) -> Vec<Moment> {
-    let first = data.rows.first();
-    let start = |of: fn(&crate::measurement::Row) -> Option<f64>| first.and_then(of);
-    let (t0, k0) = (start(|r| r.time), start(|r| r.temperature));
-    let stream = Stream::of(&data.rows).map(Arc::new);
-    let mut before: Option<&Vec<f64>> = None;
+    let cold = data.rows.first().and_then(|row| row.temperature);
     let mut moments = Vec::with_capacity(data.rows.len());
-    for (index, row) in data.rows.iter().enumerate() {
-        let last = before.unwrap_or(&row.q);
-        moments.push(Moment {
-            index,
-            last_move: row.q.iter().zip(last).map(|(now, then)| now - then).collect(),
-            warming: row.temperature.zip(k0).map_or(0.0, |(now, first)| now - first),
-            clock: row.time.zip(t0).map_or(index as f64, |(now, first)| now - first),
-            stream: stream.clone(),
-        });
-        before = Some(&row.q);
+    for rows in data.sessions() {
+        let (first, start) = (moments.len(), rows[0].time);
+        let stream = Stream::of(rows).map(Arc::new);
+        let mut before = &rows[0].q;
+        for (k, row) in rows.iter().enumerate() {
+            moments.push(Moment {
+                index: first + k,
+                first,
+                last_move: row.q.iter().zip(before).map(|(now, then)| now - then).collect(),
+                warming: row.temperature.zip(cold).map_or(0.0, |(now, first)| now - first),
+                clock: row.time.zip(start).map_or(k as f64, |(now, first)| now - first),
+                stream: stream.clone(),
+            });
+            before = &row.q;
+        }
     }
     moments
 }
@@ -53,7 +57,7 @@ pub fn moments(data: &Measurements) -> Vec<Moment> {
 mod tests {
     use super::*;
     use crate::fixture::{row, table};
-    use crate::measurement::Kind;
+    use crate::measurement::{Kind, Row};
     use nalgebra::Vector6;
 
     #[test]
@@ -67,5 +71,22 @@ mod tests {
         assert!((moments[1].last_move[0] - 0.3).abs() < 1e-15);
         assert_eq!((moments[0].warming, moments[1].warming), (0.0, 1.5));
         assert_eq!((moments[1].clock, moments[1].index), (1.0, 1));
+    }
+
+    #[test]
+    fn time_and_moves_begin_anew_with_a_session_and_warmth_does_not() {
+        let of = |session: &str, q: f64, time: f64| Row {
+            session: Some(session.to_owned()),
+            time: Some(time),
+            temperature: Some(20.0 + q),
+            ..row(&[q], Vector6::zeros())
+        };
+        let rows = vec![of("a", 0.1, 5.0), of("a", 0.4, 7.0), of("b", 0.8, 1.0), of("b", 0.9, 4.0)];
+        let moments = moments(&table(rows, Kind::Pose { orientation: false }));
+        let clocks: Vec<f64> = moments.iter().map(|m| m.clock).collect();
+        assert_eq!(clocks, [0.0, 2.0, 0.0, 3.0]);
+        assert_eq!((moments[2].last_move[0], moments[2].first, moments[3].index), (0.0, 2, 3));
+        assert!((moments[3].last_move[0] - 0.1).abs() < 1e-15);
+        assert!((moments[2].warming - 0.7).abs() < 1e-14);
     }
 }

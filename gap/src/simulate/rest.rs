@@ -230,7 +230,8 @@ impl Posture {
             of[index][component]
         };
         let tool = frames[walk.sites - 1].behind;
-        let torque = DVector::from_fn(n, |row, _| own(row, &loads));
+        let borne = |row: usize| actual.borne(row, &loads[axis(row).0])[axis(row).1];
+        let torque = DVector::from_fn(n, |row, _| borne(row));
         let joints = (0..n).map(|row| actual.joints[row] + own(row, &displacements)).collect();
         let finite = tool.translation.vector.iter().chain(tool.rotation.coords.iter());
         if !finite.chain(torque.iter()).all(|x| x.is_finite()) {

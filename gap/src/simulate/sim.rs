@@ -10,7 +10,8 @@ use super::{rotation, translation};
 use crate::measurement::Kind;
 
 /// What an instrument reads: of a pose its position and orientation, of a displacement the
-/// difference and the rotation from the unloaded to the loaded tool; axes of the measuring frame.
+/// difference and the rotation from the unloaded to the loaded tool; axes of the measuring frame. A
+/// distance is the first number of a position, the others 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// m.
@@ -48,9 +49,21 @@ pub struct Sim {
     pub base: Isometry3<f64>,
     /// What the instrument makes of a metre.
     pub metre: f64,
+    /// Where a distance is measured from, in the measuring frame, m; `None` if none is.
+    pub from: Option<Vector3<f64>>,
 }
 
 impl Sim {
+    /// The same arm, of which an instrument at `from` (measuring frame, m) reads how far away it is.
+    pub fn seen_from(self, from: Option<Vector3<f64>>) -> Sim {
+        Sim { from, ..self }
+    }
+
+    /// From where a distance is measured to the measured point, measuring frame, m.
+    fn line(&self, from: &Vector3<f64>) -> Vector3<f64> {
+        (self.base * Point3::from(self.point(&self.loaded))).coords * self.metre - from
+    }
+
     /// Brings the arm to rest as `actual` has it with the row's wrench (`true`) and, for a
     /// displacement, without. `near` is a simulation of the same row to begin from.
     ///
@@ -71,7 +84,7 @@ impl Sim {
                 let turn = UnitQuaternion::from_scaled_axis(rotation(&more));
                 state.tool.rotation = turn * state.tool.rotation;
             }
-            if matches!(kind, Kind::Displacement { .. }) {
+            if kind.is_difference() {
                 follow_loads(actual, &mut state);
             }
             Ok(state)
@@ -80,12 +93,12 @@ impl Sim {
         let (base, metre) = (with_load.base, with_load.metre);
         let loaded = at_rest(&with_load, near.map(|n| &n.loaded))?;
         let unloaded = match kind {
-            Kind::Pose { .. } => None,
             Kind::Displacement { .. } => {
                 Some(at_rest(&actual(false), near.and_then(|n| n.unloaded.as_ref()))?)
             }
+            Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => None,
         };
-        Ok(Sim { loaded, unloaded, measured, base, metre })
+        Ok(Sim { loaded, unloaded, measured, base, metre, from: None })
     }
 
     /// The measured point of a state in the arm's base frame, m.
@@ -95,6 +108,10 @@ impl Sim {
 
     /// What the instrument would read.
     pub fn reading(&self) -> Reading {
+        if let Some(from) = &self.from {
+            let position = Vector3::new(self.line(from).norm(), 0.0, 0.0);
+            return Reading { position, rotation: UnitQuaternion::identity() };
+        }
         let loaded = self.point(&self.loaded);
         let rotation = self.loaded.tool.rotation * self.measured.rotation;
         match &self.unloaded {
@@ -132,6 +149,15 @@ impl Sim {
             let turn = self.base.rotation * column.fixed_rows::<3>(3);
             column.fixed_rows_mut::<3>(0).copy_from(&shift);
             column.fixed_rows_mut::<3>(3).copy_from(&turn);
+        }
+        if let Some(from) = &self.from {
+            // Where the two points are one, nothing moves them apart to first order.
+            let along = self.line(from).try_normalize(0.0).unwrap_or_default();
+            for mut column in change.column_iter_mut() {
+                let longer = along.dot(&column.fixed_rows::<3>(0));
+                column.fill(0.0);
+                column[0] = longer;
+            }
         }
         change
     }

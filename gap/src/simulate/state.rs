@@ -13,7 +13,7 @@ pub struct State {
     pub tool: Isometry3<f64>,
     /// Joint values where the springs have come to rest, n, rad (m if prismatic).
     pub joints: Vec<f64>,
-    /// What the load does to each joint there, n, N·m (N if prismatic).
+    /// What turns each joint there, loads and springs beside it, n, N·m (N if prismatic).
     pub torque: DVector<f64>,
     /// For each site the frame in which its displacement is expressed, in the base frame.
     pub(super) frames: Vec<Isometry3<f64>>,
@@ -119,11 +119,28 @@ impl State {
         for (site, law) in actual.laws.iter().filter(|(site, _)| reached(*site)) {
             // Laws need not be linear: the difference about the load there is, as small as the
             // change.
-            let (at, change) = (self.load(*site), at_site(*site));
+            let (at, change) = (self.borne(actual, *site), at_site(*site));
             let gives = (law(&(at + change * STEP)) - law(&(at - change * STEP))) / (2.0 * STEP);
             twist += self.carry(*site, &gives);
         }
         twist
+    }
+
+    /// What the laws of a site bear there.
+    fn borne(&self, actual: &Actual<'_>, site: Site) -> Vector6<f64> {
+        match site {
+            Site::Joint(row) => actual.borne(row, self.load(site)),
+            _ => *self.load(site),
+        }
+    }
+
+    /// How far a joint gives per unit of a torque about it: rad/(N·m), of a prismatic one m/N.
+    pub fn gives(&self, actual: &Actual<'_>, joint: usize) -> f64 {
+        let (site, axis) = (Site::Joint(joint), axis(self.motions[joint]));
+        let (at, change) = (self.borne(actual, site), Vector6::ith(axis, 1.0));
+        let laws = actual.laws.iter().filter(|(of, _)| *of == site);
+        let each = laws.map(|(_, law)| (law(&(at + change)) - law(&(at - change)))[axis] / 2.0);
+        actual.arm.joints[joint].compliance + each.sum::<f64>()
     }
 
     /// Twist of the tool to first order as gravity changes by so much (base axes, m/s²): what the

@@ -282,8 +282,9 @@ fn roots(giving: &Giving) -> Vec<(usize, Vector6<f64>)> {
 
 /// The compliance of a site about its load, 6×6.
 fn slope(walk: &Walk<'_>, site: usize, load: &Vector6<f64>) -> Matrix6<f64> {
-    let mut slope = Matrix6::zeros();
+    let (mut slope, mut load) = (Matrix6::zeros(), *load);
     if let Some(row) = walk.spring(site) {
+        load = walk.actual.borne(row, &load);
         slope += Matrix6::from_diagonal(&walk.actual.spring(row, &Vector6::repeat(1.0)));
     } else if let Some(link) = walk.link(site) {
         let weightless = Vector3::zeros();

@@ -164,13 +164,14 @@ impl<'a> Walk<'a> {
     }
 
     pub(super) fn give(&self, index: usize, frames: &Frames, load: &Vector6<f64>) -> Vector6<f64> {
-        let mut sum = Vector6::zeros();
+        let (mut sum, mut load) = (Vector6::zeros(), *load);
         if let Some(row) = self.spring(index) {
-            sum += self.actual.spring(row, load);
+            load = self.actual.borne(row, &load);
+            sum += self.actual.spring(row, &load);
         } else if let Some(link) = self.link(index) {
             let gravity = frames.before.rotation.inverse() * self.actual.arm.gravity;
-            sum += link.give(load, &link.weight(&gravity));
+            sum += link.give(&load, &link.weight(&gravity));
         }
-        self.laws(index).fold(sum, |sum, law| sum + law(load))
+        self.laws(index).fold(sum, |sum, law| sum + law(&load))
     }
 }

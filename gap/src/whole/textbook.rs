@@ -1,7 +1,7 @@
 //! A corrected arm as its kernels tell it: the textbook on the table as it is in a situation, and what gives
 //! beyond the table, by the effects' own laws.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{DMatrix, Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Unstable};
 
@@ -21,20 +21,26 @@ impl Whole<'_> {
     /// so to first order in its displacement, as beams do: under the loads of the undeformed arm. A force of
     /// `at` that hangs is not told from another here.
     ///
+    /// `None` of what is the derivative of such an output by the joints: [`Whole::slopes`] tells it.
+    ///
     /// # Errors
     /// [`Unstable`] as from [`Arm::evaluate`].
     pub fn evaluate(
         &self,
         output: Output,
-        q: &[f64],
+        state: &[f64],
         at: &Situation,
-    ) -> Result<Vec<f64>, Unstable> {
-        told(self.actual(q, at), output)
+    ) -> Result<Option<Vec<f64>>, Unstable> {
+        let (q, beside) = state.split_at(self.arm.dof());
+        match output {
+            Output::ComplianceByJoints | Output::DeflectionByJoints => Ok(None),
+            output => told(self.actual(q, at), beside, output).map(Some),
+        }
     }
 }
 
 /// An output of the arm as it is.
-fn told(mut actual: Actual<'_>, output: Output) -> Result<Vec<f64>, Unstable> {
+fn told(mut actual: Actual<'_>, beside: &[f64], output: Output) -> Result<Vec<f64>, Unstable> {
     let fixed = Displacement::new(&actual.fixed[Site::Tool.index(actual.arm.dof())]);
     let tool = actual.arm.tool * fixed.transform();
     let tool_rotation_vector = match fixed == Displacement::ZERO {
@@ -90,7 +96,7 @@ fn told(mut actual: Actual<'_>, output: Output) -> Result<Vec<f64>, Unstable> {
             let mut column = |k| (under(Vector6::ith(k, 1.0)) - under(Vector6::ith(k, -1.0))) / 2.0;
             each.flat_map(|(k, block)| plus(block.to_vec(), column(k))).collect()
         }
-        _ => arm.evaluate(output, joints, &w)?,
+        _ => arm.evaluate(output, &[joints, beside].concat(), &w)?,
     })
 }
 
@@ -99,29 +105,36 @@ const STEP: f64 = 1e-5;
 
 impl Whole<'_> {
     /// What an output must be by central differences of another by the joint values; `None` where none says
-    /// it. What the effects make of the arm stays as the readings have it.
-    pub fn slopes(&self, output: Output, q: &[f64], at: &Situation) -> Option<Vec<f64>> {
+    /// it. The differences are by the readings: how joint values go with these is taken out of them.
+    pub fn slopes(&self, output: Output, state: &[f64], at: &Situation) -> Option<Vec<f64>> {
         let of = match output {
             Output::Jacobian => Output::Pose,
             Output::ComplementaryStiffness => Output::JointTorque,
             Output::WeightStiffness => Output::WeightTorque,
+            Output::ComplianceByJoints => Output::Compliance,
+            Output::DeflectionByJoints => Output::Deflection,
             _ => return None,
         };
-        let mut slopes = Vec::new();
-        for j in 0..q.len() {
+        let n = self.arm.dof();
+        let (mut changes, mut moved) = (Vec::new(), Vec::new());
+        for j in 0..n {
             let end = |by: f64| {
-                let mut actual = self.actual(q, at);
-                actual.turn(j, by);
-                told(actual, of).ok()
+                let mut q = state[..n].to_vec();
+                q[j] += by;
+                let actual = self.actual(&q, at);
+                let joints = actual.joints.clone();
+                Some((told(actual, &[], of).ok()?, joints))
             };
-            let (low, high) = (end(-STEP)?, end(STEP)?);
-            let change = match output {
-                Output::Jacobian => twist(&low, &high),
-                _ => low.iter().zip(&high).map(|(low, high)| high - low).collect(),
-            };
-            slopes.extend(change.into_iter().map(|x| x / (2.0 * STEP)));
+            let ((low, before), (high, after)) = (end(-STEP)?, end(STEP)?);
+            match output {
+                Output::Jacobian => changes.extend(twist(&low, &high)),
+                _ => changes.extend(low.iter().zip(&high).map(|(low, high)| high - low)),
+            }
+            moved.extend(before.iter().zip(&after).map(|(before, after)| after - before));
         }
-        Some(slopes)
+        let changes = DMatrix::from_vec(changes.len() / n, n, changes);
+        let by_joints = changes * DMatrix::from_vec(n, n, moved).try_inverse()?;
+        Some(by_joints.as_slice().to_vec())
     }
 }
 

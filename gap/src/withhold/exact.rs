@@ -6,7 +6,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::measurement::{Measurements, Row};
 use crate::plant::{Frames, Plant, PlantError, Truth, has_law};
-use crate::simulate::{Actual, Moment, Sim, moments};
+use crate::simulate::{Actual, Moment, Sim, moments, origin};
 
 /// A design as an arm with these truths shows it, in frames that nobody knows if there are any.
 ///
@@ -49,6 +49,7 @@ pub fn exact(
                 truths.iter().for_each(|truth| put(truth, &mut actual, row, &when, sign));
                 actual
             })?;
+            let sim = sim.seen_from(origin(design.kind, row));
             let mask = Vector6::from_iterator(design.kind.components().map(f64::from));
             Ok(sim.reading().vector().component_mul(&mask))
         };

@@ -22,6 +22,8 @@ pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     }
@@ -79,6 +81,13 @@ pub fn loaded(convention: Convention) -> Arm {
     }
     arm.joints[1].beam = Some(beam());
     arm.joints[3].beam = Some(beam());
+    arm
+}
+
+/// The same without beams: plant and model then agree to the rounding.
+pub fn sprung(convention: Convention) -> Arm {
+    let mut arm = loaded(convention);
+    arm.joints.iter_mut().for_each(|joint| joint.beam = None);
     arm
 }
 

@@ -3,7 +3,9 @@
 
 mod arms;
 mod closed_forms;
+mod distances;
 mod kinematic;
 mod nominal;
 mod same_as_file;
 mod session;
+mod sessions;

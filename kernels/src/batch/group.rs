@@ -47,11 +47,11 @@ where
 {
     pub fn new(robot: &'r R, output: Output, size: Size) -> Self {
         let zero = T::Lanes::lit(0.0);
-        let (q, out) = (vec![zero; size.dof], vec![zero; size.entries]);
+        let (q, out) = (vec![zero; size.state], vec![zero; size.entries]);
         Group { robot, output, q, wrench: [zero; 6], out }
     }
 
-    /// Joint values of `count` poses; lanes beyond them repeat the last.
+    /// States of `count` poses; lanes beyond them repeat the last.
     #[inline(always)]
     pub fn read_joints(&mut self, count: usize, read: impl Fn(usize, usize) -> T) {
         for (joint, lanes) in self.q.iter_mut().enumerate() {

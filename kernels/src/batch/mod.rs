@@ -70,7 +70,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Length { slice: "q", found, expected } => {
-                write!(f, "q holds {found} numbers, which is no multiple of {expected} joints")
+                write!(f, "q holds {found} numbers, which is no multiple of a pose's {expected}")
             }
             Error::Length { slice, found, expected } => {
                 write!(f, "{slice} holds {found} numbers where {expected} are needed")
@@ -86,8 +86,9 @@ impl fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// Writes `output` at every pose of `q` (rad, m) into `out`, both in `layout`; each result is column
-/// after column, as [`Kernels::evaluate`] writes it.
+/// Writes `output` at every pose of `q` into `out`, both in `layout`. Of a pose there are the joint values
+/// (rad, m), and behind them what more [the output takes of the joints](Output::state); each result is
+/// column after column, as [`Kernels::evaluate`] writes it.
 ///
 /// # Errors
 /// [`Error::Length`] where the slices do not fit each other, [`Error::Unstable`] where a deflection has
@@ -127,7 +128,8 @@ where
 #[derive(Clone, Copy, Debug)]
 struct Size {
     poses: usize,
-    dof: usize,
+    /// Numbers of the joints at one pose.
+    state: usize,
     entries: usize,
 }
 
@@ -139,13 +141,13 @@ impl Size {
         wrenches: Wrenches<'_, T>,
         out: &[T],
     ) -> Result<Size, Error> {
-        let dof = robot.dof();
-        let (rows, columns) = output.shape(dof);
-        if !q.len().is_multiple_of(dof) {
-            return Err(Error::Length { slice: "q", found: q.len(), expected: dof });
+        let state = output.state(robot.dof());
+        let (rows, columns) = output.shape(robot.dof());
+        if !q.len().is_multiple_of(state) {
+            return Err(Error::Length { slice: "q", found: q.len(), expected: state });
         }
-        let poses = q.len().checked_div(dof).unwrap_or(0);
-        let size = Size { poses, dof, entries: rows * columns };
+        let poses = q.len().checked_div(state).unwrap_or(0);
+        let size = Size { poses, state, entries: rows * columns };
         let check = |slice, found, expected| {
             if found == expected { Ok(()) } else { Err(Error::Length { slice, found, expected }) }
         };
@@ -175,13 +177,13 @@ where
     T: Number,
     R: Kernels<T> + Kernels<T::Lanes> + ?Sized,
 {
-    let Size { poses, dof, entries } = size;
+    let Size { poses, state, entries } = size;
     let mut unstable = Unstable::default();
     for first in (0..poses).step_by(T::WIDTH) {
         let count = T::WIDTH.min(poses - first);
         let whole = count == T::WIDTH;
-        let here = &q[first * dof..(first + count) * dof];
-        group.read_joints(count, |joint, lane| here[lane * dof + joint]);
+        let here = &q[first * state..(first + count) * state];
+        group.read_joints(count, |joint, lane| here[lane * state + joint]);
         match wrenches {
             Wrenches::One(wrench) => group.read_wrench(1, |k, _| wrench[k]),
             Wrenches::Each(each) => {

@@ -53,9 +53,9 @@ where
 {
     // rayon refuses chunks of nothing.
     let out = out.par_chunks_mut((RUN * size.entries).max(1));
-    let runs = q.par_chunks((RUN * size.dof).max(1)).zip(out).enumerate();
+    let runs = q.par_chunks((RUN * size.state).max(1)).zip(out).enumerate();
     let run = |(k, (q, out)): (usize, (&[T], &mut [T]))| {
-        let poses_here = q.len() / size.dof;
+        let poses_here = q.len() / size.state;
         let wrenches = match wrenches {
             Wrenches::One(wrench) => Wrenches::One(wrench),
             Wrenches::Each(each) => Wrenches::Each(&each[6 * RUN * k..][..6 * poses_here]),

@@ -3,7 +3,7 @@
 use std::string::String;
 use std::vec::Vec;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector3};
 
 pub use crate::Convention;
 use crate::Motion;
@@ -49,10 +49,34 @@ pub struct Joint {
     pub mass: f64,
     /// Its centre of mass in the row's own frame, m.
     pub com: Vector3<f64>,
+    /// Its tensor of inertia about that centre in the row's own axes, kg·m².
+    pub inertia: Matrix3<f64>,
+    /// What turns the joint, and what holds it back.
+    pub drive: Drive,
     /// Joint limits, rad or m. Nothing here depends on them.
     pub limits: Option<[f64; 2]>,
     /// The link as an elastic beam; without one it is rigid, and weightless but for its mass.
     pub beam: Option<Beam>,
+}
+
+/// Motor, gear and friction of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Turns of the motor per turn of the joint; rad/m if it is prismatic.
+    pub gear: f64,
+    /// Moment of inertia of all that turns with the motor, at the motor, kg·m².
+    pub rotor_inertia: f64,
+    /// Friction that knows the direction alone, at the joint, N·m (N if it is prismatic).
+    pub coulomb: f64,
+    /// Friction in proportion to the rate, at the joint, N·m·s/rad (N·s/m if it is prismatic).
+    pub viscous: f64,
+}
+
+impl Default for Drive {
+    /// A motor at the joint that has neither inertia nor friction.
+    fn default() -> Self {
+        Drive { gear: 1.0, rotor_inertia: 0.0, coulomb: 0.0, viscous: 0.0 }
+    }
 }
 
 /// A straight elastic beam from the origin of frame i−1 to the origin of frame i.

@@ -18,10 +18,20 @@ impl Beam {
     /// A force along y bends the beam about z, turning the tip by +; a force along z bends it about
     /// y, turning the tip by −.
     pub(super) fn flexibility(&self, l: f64) -> Matrix6<f64> {
+        self.by_powers([l, l.powi(2), l.powi(3)])
+    }
+
+    /// How the flexibility changes with the length.
+    pub(super) fn flexibility_by_length(&self, l: f64) -> Matrix6<f64> {
+        self.by_powers([1.0, 2.0 * l, 3.0 * l.powi(2)])
+    }
+
+    /// The flexibility by length, its square and its cube.
+    fn by_powers(&self, [l, l2, l3]: [f64; 3]) -> Matrix6<f64> {
         let (ea, gj) = (self.youngs_modulus * self.area, self.shear_modulus * self.j);
         let (eiy, eiz) = (self.youngs_modulus * self.iy, self.youngs_modulus * self.iz);
-        let bend = |ei: f64| l.powi(3) / (3.0 * ei) + l * self.shear();
-        let slope = |ei: f64| l.powi(2) / (2.0 * ei);
+        let bend = |ei: f64| l3 / (3.0 * ei) + l * self.shear();
+        let slope = |ei: f64| l2 / (2.0 * ei);
         let turn = |ei: f64| l / ei;
         #[rustfmt::skip]
         let flexibility = Matrix6::new(

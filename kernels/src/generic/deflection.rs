@@ -70,7 +70,7 @@ impl Arm {
 
     /// `δθ` of all joints under `torque` where the arm is stable (as in [`crate::solve`]): `(Kθ − K) δθ = τ` over the compliant joints, 0 for the
     /// rigid ones (Dumas et al., eqs. 4-8).
-    fn joints_deflection(
+    pub(super) fn joints_deflection(
         &self,
         torque: &DVector<f64>,
         load_stiffness: &DMatrix<f64>,

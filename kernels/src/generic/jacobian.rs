@@ -1,6 +1,6 @@
 //! The geometric Jacobian (Dumas et al., eq. 1; Lin et al., eqs. 37-41).
 
-use nalgebra::{DVector, Matrix6xX, Vector6};
+use nalgebra::{DVector, Matrix6xX, Vector3, Vector6};
 
 use super::arm::Arm;
 use super::spatial::{lower, stack, upper};
@@ -11,6 +11,7 @@ use crate::Output;
 pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
     (Output::Jacobian, |arm, q, _| Ok(block(arm.jacobian(q)))),
     (Output::JacobianTool, |arm, q, _| Ok(block(arm.jacobian_tool(q)))),
+    (Output::JacobianSpatial, |arm, q, _| Ok(block(arm.jacobian_spatial(q)))),
     (Output::JointTorque, |arm, q, w| Ok(block(arm.joint_torque(q, w)))),
     (Output::ComplianceRegressor, |arm, q, w| Ok(block(arm.compliance_regressor(q, w)))),
 ];
@@ -22,10 +23,20 @@ impl Arm {
     /// Column i is `[z_i × (p − p_i); z_i]` for a revolute joint and `[z_i; 0]` for a prismatic
     /// one.
     pub fn jacobian(&self, q: &[f64]) -> Matrix6xX<f64> {
-        let p = self.tool_origin(q);
+        self.jacobian_at(q, &self.tool_origin(q))
+    }
+
+    /// The twists of the last body at the world's origin, world axes, 6×n: the spatial Jacobian (Murray, Li & Sastry
+    /// 1994, eq. 3.54).
+    pub fn jacobian_spatial(&self, q: &[f64]) -> Matrix6xX<f64> {
+        self.jacobian_at(q, &Vector3::zeros())
+    }
+
+    /// The twists of the last body at its point `p`, base axes, 6×n.
+    fn jacobian_at(&self, q: &[f64], p: &Vector3<f64>) -> Matrix6xX<f64> {
         let mut jacobian = Matrix6xX::zeros(self.dof());
         for (i, axis) in self.axes(q).iter().enumerate() {
-            jacobian.set_column(i, &stack(axis.velocity(&p), axis.spin()));
+            jacobian.set_column(i, &stack(axis.velocity(p), axis.spin()));
         }
         jacobian
     }

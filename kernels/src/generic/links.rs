@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
 use super::arm::{Arm, Beam, Convention};
 use super::kinematics::origin;
-use super::spatial::{lower, stack, upper, wrench_transport};
+use super::spatial::{blocks, lower, stack, upper, wrench_transport};
 use crate::Motion;
 
 /// Below this sine of the angle between chord and axis the two count as parallel: far above the
@@ -27,7 +27,9 @@ pub(super) struct Link<'a> {
     /// Length of the chord, m.
     pub(super) length: f64,
     /// Where the beam ends, in the base frame, m.
-    tip: Vector3<f64>,
+    pub(super) tip: Vector3<f64>,
+    /// z of the frame that it begins in, base axes.
+    begins: Vector3<f64>,
 }
 
 /// The axes of a beam along `chord` as [`Beam`] defines them. `x` is the x axis of the frame that
@@ -57,16 +59,30 @@ impl<'a> Link<'a> {
             }
             Convention::Modified => previous * Vector3::x(),
         };
-        let rotation = beam_axes(&chord, &(previous * Vector3::z()), &x);
-        Some(Link { beam, motion: joint.motion, row, rotation, length, tip: origin(own) })
+        let begins = previous * Vector3::z();
+        let rotation = beam_axes(&chord, &begins, &x);
+        Some(Link { beam, motion: joint.motion, row, rotation, length, tip: origin(own), begins })
     }
 
     /// The beam's weight per unit length, base axes, N/m.
-    pub(super) fn load(&self, gravity: &Vector3<f64>) -> Vector3<f64> {
+    fn load(&self, gravity: &Vector3<f64>) -> Vector3<f64> {
+        self.mass_per_length() * gravity
+    }
+
+    fn mass_per_length(&self) -> f64 {
         match self.motion {
-            Motion::Revolute => self.beam.density * self.beam.area * gravity,
-            Motion::Prismatic => Vector3::zeros(),
+            Motion::Revolute => self.beam.density * self.beam.area,
+            Motion::Prismatic => 0.0,
         }
+    }
+
+    /// Its mass, kg, and its tensor of inertia about its middle in base axes as a thin rod's.
+    pub(super) fn rod(&self) -> (f64, Matrix3<f64>) {
+        let chord = self.rotation * Vector3::x() * self.length;
+        let mass = self.mass_per_length() * self.length;
+        let across =
+            Matrix3::from_diagonal_element(chord.norm_squared()) - chord * chord.transpose();
+        (mass, across * (mass / 12.0))
     }
 
     /// The middle of the chord, in the base frame, m.
@@ -75,11 +91,29 @@ impl<'a> Link<'a> {
     }
 
     /// Flexibility of the tip in base axes, 6×6.
-    fn flexibility(&self) -> Matrix6<f64> {
-        let mut turn = Matrix6::zeros();
-        turn.fixed_view_mut::<3, 3>(0, 0).copy_from(self.rotation.matrix());
-        turn.fixed_view_mut::<3, 3>(3, 3).copy_from(self.rotation.matrix());
+    pub(super) fn flexibility(&self) -> Matrix6<f64> {
+        let turn = blocks(self.rotation.matrix());
         turn * self.beam.flexibility(self.length) * turn.transpose()
+    }
+
+    /// How that changes as the tip moves at velocity `v`: the beam grows, and its axes turn with the chord.
+    pub(super) fn stretched(&self, v: &Vector3<f64>) -> Matrix6<f64> {
+        let [x, z] = [Vector3::x(), Vector3::z()].map(|axis| self.rotation * axis);
+        let dx = (v - x * x.dot(v)) / self.length;
+        // z is the part of `begins` across the chord, of length 1; along a chord that is parallel to it nothing turns.
+        let across = self.begins - x * x.dot(&self.begins);
+        let dz = match across.norm() > PARALLEL {
+            true => {
+                let change = -(dx * x.dot(&self.begins) + x * dx.dot(&self.begins));
+                (change - z * z.dot(&change)) / across.norm()
+            }
+            false => -x * dx.dot(&z),
+        };
+        let turned = blocks(&Matrix3::from_columns(&[dx, dz.cross(&x) + z.cross(&dx), dz]));
+        let turn = blocks(self.rotation.matrix());
+        let half = turned * self.beam.flexibility(self.length) * turn.transpose();
+        let grown = self.beam.flexibility_by_length(self.length) * x.dot(v);
+        half + half.transpose() + turn * grown * turn.transpose()
     }
 
     /// Twist of the tip in base axes under the beam's own weight.

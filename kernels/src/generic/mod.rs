@@ -41,7 +41,9 @@
 
 mod arm;
 mod beam;
+mod by_joints;
 mod deflection;
+mod dynamics;
 mod evaluate;
 mod jacobian;
 mod kinematics;
@@ -54,4 +56,4 @@ mod tests;
 mod textbook;
 mod weight;
 
-pub use arm::{Arm, Beam, Convention, Joint};
+pub use arm::{Arm, Beam, Convention, Drive, Joint};

@@ -7,7 +7,7 @@ use nalgebra::{Dim, Matrix, RawStorage, Vector6};
 use super::arm::Arm;
 use crate::Unstable;
 
-/// An output at joint values under a wrench: its numbers column by column.
+/// An output at a state under a wrench: its numbers column by column.
 pub(super) type Textbook = fn(&Arm, &[f64], &Vector6<f64>) -> Result<Vec<f64>, Unstable>;
 
 /// The numbers of a matrix, column by column.

@@ -3,7 +3,7 @@
 
 use std::vec::Vec;
 
-use nalgebra::{DMatrix, DVector, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
 use super::arm::{Arm, Convention};
 use super::kinematics::origin;
@@ -15,12 +15,16 @@ use crate::Output;
 
 /// One weight at one posture.
 pub(super) struct Weight {
+    /// kg.
+    pub(super) mass: f64,
     /// m·g in base axes, N.
     force: Vector3<f64>,
     /// Where it acts, in the base frame, m.
-    centre: Vector3<f64>,
+    pub(super) centre: Vector3<f64>,
+    /// Its tensor of inertia about that place, base axes, kg·m².
+    pub(super) inertia: Matrix3<f64>,
     /// Joints 1..=`moved_by` move it.
-    moved_by: usize,
+    pub(super) moved_by: usize,
     /// It hangs beyond the tips of the beams of rows 1..=`beyond`.
     pub(super) beyond: usize,
 }
@@ -47,21 +51,30 @@ impl Arm {
     /// Every weight of the arm: of link i its mass, fixed in frame i, and its beam.
     pub(super) fn weights(&self, q: &[f64]) -> Vec<Weight> {
         let frames = self.frames(q);
-        let masses =
-            self.joints.iter().zip(&frames[1..]).enumerate().map(|(k, (joint, frame))| Weight {
+        let masses = self.joints.iter().zip(&frames[1..]).enumerate().map(|(k, (joint, frame))| {
+            let turn = frame.rotation.to_rotation_matrix();
+            Weight {
+                mass: joint.mass,
                 force: joint.mass * self.falling(),
                 centre: origin(frame) + frame.rotation * joint.com,
+                inertia: turn * joint.inertia * turn.transpose(),
                 moved_by: k + 1,
                 beyond: k + 1,
-            });
-        let beams = self.links(q).into_iter().map(|link: Link<'_>| Weight {
-            force: link.length * link.load(&self.falling()),
-            centre: link.middle(),
-            moved_by: match self.convention {
-                Convention::Standard => link.row,
-                Convention::Modified => link.row - 1,
-            },
-            beyond: link.row - 1,
+            }
+        });
+        let beams = self.links(q).into_iter().map(|link: Link<'_>| {
+            let (mass, inertia) = link.rod();
+            Weight {
+                mass,
+                force: mass * self.falling(),
+                centre: link.middle(),
+                inertia,
+                moved_by: match self.convention {
+                    Convention::Standard => link.row,
+                    Convention::Modified => link.row - 1,
+                },
+                beyond: link.row - 1,
+            }
         });
         masses.chain(beams).collect()
     }

@@ -82,6 +82,11 @@ macro_rules! scalar_lanes {
             fn sqrt(self) -> Self {
                 <$lanes>::sqrt(self)
             }
+            #[inline(always)]
+            fn sign(self) -> Self {
+                let one = |mask: Self| mask & <$lanes>::ONE;
+                one(self.simd_gt(<$lanes>::ZERO)) - one(self.simd_lt(<$lanes>::ZERO))
+            }
             #[cfg(feature = "fma")]
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {

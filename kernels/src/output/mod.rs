@@ -14,18 +14,28 @@ pub use table::{Output, has};
 pub enum Input {
     /// The joint values, base to tip: rad, m of a prismatic joint.
     Joints,
+    /// Their rates: rad/s, m/s.
+    Rates,
+    /// Their accelerations: rad/s², m/s².
+    Accelerations,
+    /// The torques of the joints' motors: N·m, N of a prismatic joint.
+    Torques,
     /// The wrench on the tool: force, moment; N, N·m; base axes, at the tool origin.
     Wrench,
 }
 
 impl Input {
     /// Every input, in the order of arguments.
-    pub const EACH: [Input; 2] = [Input::Joints, Input::Wrench];
+    pub const EACH: [Input; 5] =
+        [Input::Joints, Input::Rates, Input::Accelerations, Input::Torques, Input::Wrench];
 
     /// The argument's name in generated code.
     pub const fn name(self) -> &'static str {
         match self {
             Input::Joints => "q",
+            Input::Rates => "qd",
+            Input::Accelerations => "qdd",
+            Input::Torques => "tau",
             Input::Wrench => "wrench",
         }
     }
@@ -34,9 +44,20 @@ impl Input {
     pub const fn sentence(self) -> &'static str {
         match self {
             Input::Joints => "joint values, base to tip, in rad (prismatic joint: m)",
+            Input::Rates => "their rates, in rad/s (prismatic joint: m/s)",
+            Input::Accelerations => "their accelerations, in rad/s² (prismatic joint: m/s²)",
+            Input::Torques => "torques of the joints' motors, in N·m (prismatic joint: N)",
             Input::Wrench => {
                 "force and moment on the tool, in N and N·m, base axes, at the tool origin"
             }
+        }
+    }
+
+    /// What its numbers stand for; how many there are is the side's [count](Side::count).
+    pub const fn side(self) -> Side {
+        match self {
+            Input::Wrench => Side::Wrench,
+            _ => Side::Joints,
         }
     }
 }
@@ -53,12 +74,25 @@ pub enum Part {
     Beams,
     /// Gravity, the links' masses and the distributed weight of beams.
     Weights,
+    /// The links' masses and moments of inertia, motors, gears and friction.
+    Inertias,
 }
 
 impl Output {
+    /// What its function is given beside the joint values, in the order of its arguments.
+    pub fn beside(self) -> impl Iterator<Item = Input> {
+        Input::EACH.into_iter().filter(move |input| *input != Input::Joints && self.takes(*input))
+    }
+
     /// Whether its function takes `input`.
     pub fn takes(self, input: Input) -> bool {
         self.inputs().contains(&input)
+    }
+
+    /// How many numbers of the joints of an arm of `n` its function takes: the joint values, and behind them
+    /// rates, accelerations and torques as it takes them, in the order of [`Input::EACH`], each base to tip.
+    pub fn state(self, n: usize) -> usize {
+        self.inputs().iter().filter(|input| input.side() == Side::Joints).count() * n
     }
 
     /// Whether `part` of the arm's file enters.
@@ -77,6 +111,7 @@ impl Output {
             Side::Frame => Form::Pose,
             Side::Frames => Form::Poses,
             Side::One => Form::Vector,
+            Side::JointsByJoints | Side::WrenchByJoints => Form::Stack,
             _ => Form::Matrix,
         }
     }

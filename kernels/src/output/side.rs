@@ -18,6 +18,10 @@ pub enum Side {
     Wrench,
     /// The joints, base to tip.
     Joints,
+    /// For each joint by which is differentiated, all joints.
+    JointsByJoints,
+    /// For each joint by which is differentiated, a wrench.
+    WrenchByJoints,
     /// The entries of the table: theta, d, a, alpha of each row, then the tool's translation and its
     /// rotation vector.
     Entries,
@@ -33,7 +37,18 @@ impl Side {
             Side::Frames => 4 * n,
             Side::Twist | Side::Wrench => 6,
             Side::Joints => n,
+            Side::JointsByJoints => n * n,
+            Side::WrenchByJoints => 6 * n,
             Side::Entries => 4 * n + 6,
+        }
+    }
+
+    /// What each matrix of a stack has as columns; of a single one these.
+    pub const fn each(self) -> Side {
+        match self {
+            Side::JointsByJoints => Side::Joints,
+            Side::WrenchByJoints => Side::Wrench,
+            side => side,
         }
     }
 
@@ -47,6 +62,8 @@ impl Side {
             Side::Twist => &["translation", "rotation"],
             Side::Wrench => &["force", "moment"],
             Side::Joints => &["joints"],
+            Side::JointsByJoints => &["joints, for each joint differentiated by"],
+            Side::WrenchByJoints => &["force, moment, for each joint differentiated by"],
             Side::Entries => {
                 &["theta, d, a, alpha of each row, the tool's translation, its rotation vector"]
             }
@@ -65,4 +82,6 @@ pub enum Form {
     Vector,
     /// Columns of rows: `[column][row]`.
     Matrix,
+    /// A matrix for each joint: `[joint][column][row]`.
+    Stack,
 }

@@ -19,11 +19,15 @@ macro_rules! outputs {
             parts: [$($part:ident),*],
             fallible: $fallible:tt,
             fused: $fused:literal,
+            $(on_request: $on_request:literal,)?
         }
     )+) => {
         /// The quantities that a robot module computes; [`Kernels::evaluate`](crate::Kernels::evaluate)
         /// writes each as one column-major block of [`Output::shape`].
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
         #[non_exhaustive]
         pub enum Output {
             $(
@@ -100,6 +104,14 @@ macro_rules! outputs {
             }
         }
 
+        impl Output {
+            /// Whether it is generated only where it is asked for by its name: second derivatives, whose text is as long as that of
+            /// all other outputs together.
+            pub const fn is_on_request(self) -> bool {
+                match self { $(Output::$output => false $(|| $on_request)?,)+ }
+            }
+        }
+
         /// A trait for each output, implemented by the arms whose modules were generated with it: what asks for an
         /// output that an arm does not have does not compile.
         pub mod has {
@@ -161,6 +173,20 @@ outputs! {
         columns: Joints,
         inputs: [Joints],
         parts: [Tool],
+        fallible: false,
+        fused: false,
+    }
+    JacobianSpatial {
+        name: jacobian_spatial,
+        sentence: "Geometric Jacobian, base axes, at the base's origin (of the world, in which the base stands): the \
+                   spatial Jacobian.",
+        formula: "[p_j × z_j; z_j] of a revolute joint, [z_j; 0] of a prismatic one",
+        source: "Murray, Li & Sastry 1994, eq. 3.54",
+        symbol: "J^{s}",
+        rows: Twist ["m/rad (prismatic joint: 1)", "rad/rad (prismatic joint: 0)"],
+        columns: Joints,
+        inputs: [Joints],
+        parts: [],
         fallible: false,
         fused: false,
     }
@@ -300,5 +326,132 @@ outputs! {
         parts: [Tool],
         fallible: false,
         fused: false,
+    }
+    InverseDynamics {
+        name: inverse_dynamics,
+        sentence: "Torques of the joints' motors for a motion, at the joints.",
+        formula: "τ = M(q) q̈ + b(q, q̇), b with the weights, with centrifugal and Coriolis forces and with \
+                  friction; sign(0) = 0 of a joint at rest",
+        source: "Luh, Walker & Paul 1980, eqs. 6 to 15",
+        symbol: "\\tau",
+        rows: Joints ["N·m (prismatic joint: N)"],
+        columns: One,
+        inputs: [Joints, Rates, Accelerations],
+        parts: [Weights, Inertias],
+        fallible: false,
+        fused: false,
+    }
+    Bias {
+        name: bias,
+        sentence: "Torques of the joints' motors where no joint accelerates: weights, centrifugal and \
+                   Coriolis forces, friction; at rest g(q), the opposite of the weight torque.",
+        formula: "b(q, q̇) = τ(q, q̇, 0)",
+        source: "Walker & Orin 1982",
+        symbol: "b",
+        rows: Joints ["N·m (prismatic joint: N)"],
+        columns: One,
+        inputs: [Joints, Rates],
+        parts: [Weights, Inertias],
+        fallible: false,
+        fused: false,
+    }
+    MassMatrix {
+        name: mass_matrix,
+        sentence: "Mass matrix: torques of the joints' motors per unit of each joint's acceleration.",
+        formula: "M_ji = ∂τ_j/∂q̈_i; twice the kinetic energy is q̇ᵀ M q̇",
+        source: "Walker & Orin 1982",
+        symbol: "M",
+        rows: Joints ["kg·m² (prismatic joint: kg·m, two of them: kg)"],
+        columns: Joints,
+        inputs: [Joints],
+        parts: [Inertias],
+        fallible: false,
+        fused: false,
+    }
+    Hessian {
+        name: hessian,
+        sentence: "Kinematic Hessian: how the geometric Jacobian, base axes, at the tool origin, changes by each joint.",
+        formula: "H_i = ∂J/∂q_i",
+        source: "Haviland & Corke 2023, part 2",
+        symbol: "H",
+        rows: Twist ["m/rad² (a prismatic joint: m/rad)", "rad/rad²"],
+        columns: JointsByJoints,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: true,
+    }
+    JacobianRate {
+        name: jacobian_rate,
+        sentence: "Rate of the geometric Jacobian, base axes, at the tool origin: the tool accelerates by J q̈ + J̇ q̇.",
+        formula: "J̇ = Σ_i ∂J/∂q_i q̇_i",
+        source: "",
+        symbol: "\\dot{J}",
+        rows: Twist ["m/(rad s) (prismatic joint: 1/s)", "1/s"],
+        columns: Joints,
+        inputs: [Joints, Rates],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: true,
+    }
+    ComplianceByJoints {
+        name: compliance_by_joints,
+        sentence: "How the compliance of the tool, base axes, at the tool origin, changes by each joint.",
+        formula: "∂C/∂q_i",
+        source: "",
+        symbol: "\\partial C",
+        rows: Twist ["m/N and m/(N·m), per rad (prismatic joint: m)", "rad/N and rad/(N·m), per rad (m)"],
+        columns: WrenchByJoints,
+        inputs: [Joints],
+        parts: [Tool, Stiffness, Beams],
+        fallible: false,
+        fused: false,
+        on_request: true,
+    }
+    DeflectionByJoints {
+        name: deflection_by_joints,
+        sentence: "How the displacement of the tool under the wrench, base axes, at the tool origin, changes by each \
+                   joint, with the stiffness of the loaded geometry.",
+        formula: "∂δd/∂q_i, of J x with (K_θ − K_C) ∂x/∂q_i = ∂τ/∂q_i + ∂K_C/∂q_i x",
+        source: "",
+        symbol: "\\partial \\delta d",
+        rows: Twist ["m/rad (prismatic joint: 1)", "rad/rad (prismatic joint: rad/m)"],
+        columns: Joints,
+        inputs: [Joints, Wrench],
+        parts: [Tool, Stiffness, Beams],
+        fallible: true,
+        fused: false,
+        on_request: true,
+    }
+    Manipulability {
+        name: manipulability,
+        sentence: "Manipulability at the tool origin: the product of the Jacobian's singular values, zero where the tool \
+                   cannot move in some direction.",
+        formula: "w = √det(J Jᵀ); of fewer than six joints √det(Jᵀ J)",
+        source: "Yoshikawa 1985",
+        symbol: "w",
+        rows: One ["m per rad for each singular value of a translation"],
+        columns: One,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: true,
+    }
+    ManipulabilityByJoints {
+        name: manipulability_by_joints,
+        sentence: "Gradient of the manipulability by the joints; zero at a singular posture, where there is none.",
+        formula: "∂w/∂q_i = w tr(J⁺ ∂J/∂q_i)",
+        source: "Haviland & Corke 2023, part 2",
+        symbol: "\\partial w",
+        rows: Joints ["that of the manipulability, per rad (prismatic joint: m)"],
+        columns: One,
+        inputs: [Joints],
+        parts: [Tool],
+        fallible: false,
+        fused: false,
+        on_request: true,
     }
 }

@@ -10,6 +10,8 @@ macro_rules! value {
     (false [Joints One] $S:ident $N:ident) => { [$S; $N] };
     (false [Twist Wrench] $S:ident $N:ident) => { [[$S; 6]; 6] };
     (false [Twist Joints] $S:ident $N:ident) => { [[$S; 6]; $N] };
+    (false [Twist JointsByJoints] $S:ident $N:ident) => { [[[$S; 6]; $N]; $N] };
+    (false [Twist WrenchByJoints] $S:ident $N:ident) => { [[[$S; 6]; 6]; $N] };
     (false [Joints Joints] $S:ident $N:ident) => { [[$S; $N]; $N] };
 }
 
@@ -24,16 +26,25 @@ macro_rules! has {
             fn $name(&self, posture: &Self::Posture) -> Self::Columns;
         }
     };
-    ($doc:literal $output:ident $name:ident [Joints] $sides:tt $fallible:tt) => {
-        has! { $doc $output
-            #[doc = $doc]
-            fn $name(&self, posture: &Self::Posture) -> value!($fallible $sides S N);
-        }
+    ($doc:literal $output:ident $name:ident [Joints $($input:ident)*] $sides:tt $fallible:tt) => {
+        has! { $doc $output $name [$($input)*] [] value!($fallible $sides S N) }
     };
-    ($doc:literal $output:ident $name:ident [Joints Wrench] $sides:tt $fallible:tt) => {
+    ($doc:literal $output:ident $name:ident [Rates $($more:ident)*] [$($to:tt)*] $value:ty) => {
+        has! { $doc $output $name [$($more)*] [$($to)* qd: &[S; N],] $value }
+    };
+    ($doc:literal $output:ident $name:ident [Accelerations $($more:ident)*] [$($to:tt)*] $value:ty) => {
+        has! { $doc $output $name [$($more)*] [$($to)* qdd: &[S; N],] $value }
+    };
+    ($doc:literal $output:ident $name:ident [Torques $($more:ident)*] [$($to:tt)*] $value:ty) => {
+        has! { $doc $output $name [$($more)*] [$($to)* tau: &[S; N],] $value }
+    };
+    ($doc:literal $output:ident $name:ident [Wrench] [$($to:tt)*] $value:ty) => {
+        has! { $doc $output $name [] [$($to)* wrench: &[S; 6],] $value }
+    };
+    ($doc:literal $output:ident $name:ident [] [$($to:tt)*] $value:ty) => {
         has! { $doc $output
             #[doc = $doc]
-            fn $name(&self, posture: &Self::Posture, wrench: &[S; 6]) -> value!($fallible $sides S N);
+            fn $name(&self, posture: &Self::Posture, $($to)*) -> $value;
         }
     };
     ($doc:literal $output:ident $($item:item)+) => {

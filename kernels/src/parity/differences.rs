@@ -24,6 +24,14 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
             };
             twists(arm, q).iter().flat_map(in_tool_axes).collect()
         }
+        Output::JacobianSpatial => {
+            let p = arm.pose(q).translation.vector;
+            let at_origin = |t: [f64; 6]| {
+                let v = p.cross(&Vector3::new(t[3], t[4], t[5]));
+                [t[0] + v.x, t[1] + v.y, t[2] + v.z, t[3], t[4], t[5]]
+            };
+            twists(arm, q).into_iter().flat_map(at_origin).collect()
+        }
         Output::JointTorque => {
             let work = |t: &[f64; 6]| t.iter().zip(w).map(|(t, w)| t * w).sum();
             twists(arm, q).iter().map(work).collect()
@@ -39,6 +47,21 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
         }
         Output::ComplianceRegressor => regressor(arm, q, &wrench),
         Output::ParameterJacobian => parameters(arm, q),
+        Output::Hessian => slopes(q, |q| arm.jacobian(q).as_slice().to_vec()),
+        Output::JacobianRate => {
+            let (q, rates) = q.split_at(arm.dof());
+            let moved = |by: f64| q.iter().zip(rates).map(|(q, rate)| q + by * rate).collect();
+            let [low, high] = [-STEP, STEP].map(|by| arm.jacobian(&moved(by) as &Vec<f64>));
+            ((high - low) / (2.0 * STEP)).as_slice().to_vec()
+        }
+        Output::ComplianceByJoints => slopes(q, |q| arm.compliance(q).as_slice().to_vec()),
+        Output::DeflectionByJoints => {
+            // Beside a load that is borne one that is not: there is nothing to compare with.
+            let borne = |q: &[f64]| arm.deflection(q, &wrench).map(|d| d.as_slice().to_vec());
+            let all = slopes(q, |q| borne(q).unwrap_or_else(|_| vec![f64::NAN; 6]));
+            return all.iter().all(|x| x.is_finite()).then_some(all);
+        }
+        Output::ManipulabilityByJoints => slopes(q, |q| Vec::from([arm.manipulability(q)])),
         _ => return None,
     })
 }

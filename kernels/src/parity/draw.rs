@@ -12,8 +12,9 @@ use super::scale::reach;
 /// A posture and a load; every number is one of single precision too, so that both
 /// precisions are asked the same question.
 pub struct Sample {
-    /// Joint values, rad (m if prismatic).
-    pub q: Vec<f64>,
+    /// Joint values, rad (m if prismatic); behind them as many numbers within ±2 and as many within ±5: rates,
+    /// and accelerations or torques.
+    pub state: Vec<f64>,
     /// Wrench, N and N·m.
     pub w: [f64; 6],
 }
@@ -27,17 +28,23 @@ const FORCE: f64 = 100.0;
 /// So many of them; a seed always gives the same.
 pub fn samples(arm: &Arm, count: usize, seed: u64) -> Vec<Sample> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let mut unit = || (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    // What moves is drawn apart: postures and loads are the same with it and without.
+    let mut moving = ChaCha8Rng::seed_from_u64(!seed);
+    let unit_of = |from: &mut ChaCha8Rng| (from.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let mut unit = || unit_of(&mut generator);
     let ranges: Vec<[f64; 2]> = arm.joints.iter().map(range).collect();
     let single = |x: f64| f64::from(x as f32);
     let sample = |_| {
-        let q: Vec<f64> = ranges.iter().map(|[a, b]| single(a + (b - a) * unit())).collect();
+        let mut q: Vec<f64> = ranges.iter().map(|[a, b]| single(a + (b - a) * unit())).collect();
         let lever = reach(arm, &q).max(1e-3);
         let force = force(arm, lever);
         let w = std::array::from_fn(|k| {
             single((2.0 * unit() - 1.0) * if k < 3 { force } else { force * lever })
         });
-        Sample { q, w }
+        for most in [2.0, 5.0] {
+            q.extend(ranges.iter().map(|_| single(most * (2.0 * unit_of(&mut moving) - 1.0))));
+        }
+        Sample { state: q, w }
     };
     (0..count).map(sample).collect()
 }

@@ -11,16 +11,16 @@ use crate::{Motion, Output};
 use num_dual::{Dual64, DualNum, HyperDual64};
 
 /// A number with derivatives.
-trait Number: DualNum<Primitive = f64> + Copy {}
+pub(super) trait Number: DualNum<Primitive = f64> + Copy {}
 impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
 
 /// Rows of a homogeneous matrix without the last: rotation, then the origin.
-type Frame<T> = [[T; 4]; 3];
+pub(super) type Frame<T> = [[T; 4]; 3];
 
 /// The table's entries as numbers with derivatives.
-struct Table<T> {
+pub(super) struct Table<T> {
     /// theta, d, a, alpha, joint values included.
-    rows: Vec<[T; 4]>,
+    pub(super) rows: Vec<[T; 4]>,
     /// beta of each row.
     tilts: Vec<T>,
     /// The base in the world.
@@ -35,11 +35,15 @@ pub struct Derivatives {
     jacobian: Vec<[f64; 6]>,
     /// The tool's axes as columns.
     rotation: [[f64; 3]; 3],
+    /// Its origin.
+    origin: [f64; 3],
     joint_torque: Vec<f64>,
     complementary_stiffness: Vec<f64>,
     weight_torque: Vec<f64>,
     weight_stiffness: Vec<f64>,
     parameter_jacobian: Vec<f64>,
+    /// By the joint differentiated by, column by column.
+    hessian: Vec<[f64; 6]>,
 }
 
 impl Derivatives {
@@ -50,11 +54,13 @@ impl Derivatives {
         let mut found = Derivatives {
             jacobian: vec![[0.0; 6]; n],
             rotation: std::array::from_fn(|c| std::array::from_fn(|r| real[r][c])),
+            origin: origin(&real),
             joint_torque: vec![0.0; n],
             complementary_stiffness: vec![0.0; n * n],
             weight_torque: vec![0.0; n],
             weight_stiffness: vec![0.0; n * n],
             parameter_jacobian: parameter_jacobian(arm, q),
+            hessian: vec![[0.0; 6]; n * n],
         };
         for i in 0..n {
             for j in 0..=i {
@@ -73,11 +79,20 @@ impl Derivatives {
                 let turned = |t: &[f64; 6]| [along(&t[..3]), along(&t[3..])].concat();
                 self.jacobian.iter().flat_map(turned).collect()
             }
+            Output::JacobianSpatial => {
+                let [x, y, z] = self.origin;
+                let moved = |t: &[f64; 6]| {
+                    let [a, b, c] = [t[3], t[4], t[5]];
+                    [t[0] + y * c - z * b, t[1] + z * a - x * c, t[2] + x * b - y * a, a, b, c]
+                };
+                self.jacobian.iter().flat_map(moved).collect()
+            }
             Output::JointTorque => self.joint_torque.clone(),
             Output::ComplementaryStiffness => self.complementary_stiffness.clone(),
             Output::WeightTorque => self.weight_torque.clone(),
             Output::WeightStiffness => self.weight_stiffness.clone(),
             Output::ParameterJacobian => self.parameter_jacobian.clone(),
+            Output::Hessian => self.hessian.concat(),
             _ => return None,
         })
     }
@@ -99,15 +114,17 @@ impl Derivatives {
         let part = |of: fn(&HyperDual64) -> f64| tool.map(|row| row.map(|x| of(&x)));
         let (r, by_j, by_i) = (part(|x| x.re), part(|x| x.eps1), part(|x| x.eps2));
         let both = part(|x| x.eps1eps2);
-        // K_C at row `of`, column `by`: f · ∂²p + m · vee(∂²R Rᵀ + ∂_of R (∂_by R)ᵀ).
+        // How the column of joint `of` changes by joint `by`: ∂²p and vee(∂²R Rᵀ + ∂_of R (∂_by R)ᵀ). K_C is that
+        // times the wrench, at row `of`, column `by`.
         let curved = origin(&both);
-        let entry = |of: &Frame<f64>, by: &Frame<f64>| {
-            let (own, cross) = (vee(&both, &r), vee(of, by));
+        for ([of, by], [of_slope, by_slope]) in [([j, i], [&by_j, &by_i]), ([i, j], [&by_i, &by_j])]
+        {
+            let (own, cross) = (vee(&both, &r), vee(of_slope, by_slope));
             let spin: [f64; 3] = std::array::from_fn(|k| own[k] + cross[k]);
-            dot(&w[..3], &curved) + dot(&w[3..], &spin)
-        };
-        self.complementary_stiffness[i * n + j] = entry(&by_j, &by_i);
-        self.complementary_stiffness[j * n + i] = entry(&by_i, &by_j);
+            let column = [curved[0], curved[1], curved[2], spin[0], spin[1], spin[2]];
+            self.hessian[by * n + of] = column;
+            self.complementary_stiffness[by * n + of] = dot(&column, w);
+        }
         let energy = energy(arm, &frames);
         self.weight_stiffness[i * n + j] = energy.eps1eps2;
         self.weight_stiffness[j * n + i] = energy.eps1eps2;
@@ -140,7 +157,7 @@ fn parameter_jacobian(arm: &Arm, q: &[f64]) -> Vec<f64> {
     columns
 }
 
-fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T> {
+pub(super) fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T> {
     let rows = arm.joints.iter().zip(q).map(|(joint, q)| {
         let (theta, d) = match joint.motion {
             Motion::Revolute => (joint.theta + q, joint.d),
@@ -157,7 +174,7 @@ fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T>
 }
 
 /// Frames 1 to n, and the tool's frame after them.
-fn frames<T: Number>(convention: Convention, table: &Table<T>) -> Vec<Frame<T>> {
+pub(super) fn frames<T: Number>(convention: Convention, table: &Table<T>) -> Vec<Frame<T>> {
     let mut frames = Vec::with_capacity(table.rows.len() + 1);
     let mut frame = table.base;
     for ([theta, d, a, alpha], beta) in table.rows.iter().zip(&table.tilts) {
@@ -242,7 +259,7 @@ fn energy<T: Number>(arm: &Arm, frames: &[Frame<T>]) -> T {
     energy
 }
 
-fn origin<T: Copy>(frame: &Frame<T>) -> [T; 3] {
+pub(super) fn origin<T: Copy>(frame: &Frame<T>) -> [T; 3] {
     frame.map(|row| row[3])
 }
 

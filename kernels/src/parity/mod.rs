@@ -8,6 +8,7 @@
 mod differences;
 pub mod draw;
 mod dual;
+mod motion;
 pub mod scale;
 
 use std::num::NonZero;
@@ -27,7 +28,7 @@ pub enum Comparison {
     Single,
     /// Central differences of another output of the textbook.
     Differences,
-    /// Derivatives of the forward kinematics by dual numbers.
+    /// Derivatives of the forward kinematics by dual numbers, and what d'Alembert's principle makes of them.
     Dual,
 }
 
@@ -46,7 +47,7 @@ impl Comparison {
     }
 }
 
-/// An implementation: an output as one column-major block, at joint values, under a wrench.
+/// An implementation: an output as one column-major block, at a state, under a wrench.
 pub type Evaluate<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Vec<f64>, Unstable> + Sync + 'a;
 
 /// Compiled kernels of any scalar as such an implementation; `back` makes a double of their numbers.
@@ -72,16 +73,22 @@ pub fn compiled<S: Scalar>(
 /// What an output must be by the differences of another; `None` where none says it.
 pub type Slopes<'a> = dyn Fn(Output, &[f64], &[f64; 6]) -> Option<Vec<f64>> + Sync + 'a;
 
+/// An implementation that does not tell every output.
+pub type Tells<'a> =
+    dyn Fn(Output, &[f64], &[f64; 6]) -> Result<Option<Vec<f64>>, Unstable> + Sync + 'a;
+
 /// What stands in the place of the textbook, of an arm that is more than its table.
 pub struct Beyond<'a> {
     /// Its outputs.
-    pub evaluate: &'a Evaluate<'a>,
+    pub evaluate: &'a Tells<'a>,
     /// Differences of these.
     pub slopes: &'a Slopes<'a>,
 }
 
 /// What is to be compared.
 pub struct Subject<'a> {
+    /// What is compared.
+    pub outputs: &'a [Output],
     /// The arm as the textbook has it.
     pub arm: &'a Arm,
     /// What it is compared with in place of the textbook: dual numbers know the table alone.
@@ -116,7 +123,7 @@ impl Line {
 
 /// The result over all postures.
 pub struct Agreement {
-    /// One per output, in the order of [`Output::EACH`].
+    /// One per output of the subject.
     pub lines: Vec<Line>,
     /// Evaluations left out since the textbook finds the arm unstable there.
     pub unstable: usize,
@@ -141,13 +148,13 @@ pub fn agreement(
         };
         running.into_iter().map(join).collect()
     });
-    parts.into_iter().fold(Agreement::none(), Agreement::and)
+    parts.into_iter().fold(Agreement::none(subject), Agreement::and)
 }
 
 impl Agreement {
-    fn none() -> Agreement {
-        let line = |output| Line { output, worst: [None; 4] };
-        Agreement { lines: Output::EACH.map(line).to_vec(), unstable: 0 }
+    fn none(subject: &Subject<'_>) -> Agreement {
+        let line = |output: &Output| Line { output: *output, worst: [None; 4] };
+        Agreement { lines: subject.outputs.iter().map(line).collect(), unstable: 0 }
     }
 
     fn and(mut self, other: Agreement) -> Agreement {
@@ -165,7 +172,7 @@ impl Agreement {
 const MESSAGE: usize = 16;
 
 fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)) -> Agreement {
-    let mut result = Agreement::none();
+    let mut result = Agreement::none(subject);
     let mut arm = subject.arm.clone();
     for part in samples.chunks(MESSAGE) {
         for sample in part {
@@ -177,14 +184,15 @@ fn over(subject: &Subject<'_>, samples: &[Sample], done: &(dyn Fn(usize) + Sync)
 }
 
 /// `arm` is the subject's, to be changed and changed back.
-fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &mut Agreement) {
+fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { state, w }: &Sample, result: &mut Agreement) {
     let beyond = subject.beyond.as_ref();
-    let dual = beyond.is_none().then(|| dual::Derivatives::at(arm, q, w));
+    let dual = beyond.is_none().then(|| dual::Derivatives::at(arm, &state[..arm.dof()], w));
     for line in &mut result.lines {
         let output = line.output;
+        let q = &state[..output.state(arm.dof())];
         let textbook = match beyond {
             Some(beyond) => (beyond.evaluate)(output, q, w),
-            None => arm.evaluate(output, q, w),
+            None => arm.evaluate(output, q, w).map(Some),
         };
         let Ok(textbook) = textbook else {
             result.unstable += 1;
@@ -193,11 +201,13 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
         let terms = scale::terms(arm, output, q, w);
         let fine = |a: &[f64], b: &[f64]| scale::deviation(a, b, scale::CANCELLED * terms);
         let generated = (subject.generated)(output, q, w).unwrap_or_default();
-        line.note(0, fine(&generated, &textbook));
-        if let Some(single) = subject.single {
+        if let Some(textbook) = &textbook {
+            line.note(0, fine(&generated, textbook));
+        }
+        if let (Some(single), Some(textbook)) = (subject.single, &textbook) {
             let got = single(output, q, w).unwrap_or_default();
             let floor = scale::CANCELLED_SINGLE * terms;
-            line.note(1, scale::deviation(&got, &textbook, floor));
+            line.note(1, scale::deviation(&got, textbook, floor));
         }
         let slopes = match beyond {
             Some(beyond) => (beyond.slopes)(output, q, w),
@@ -206,7 +216,9 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { q, w }: &Sample, result: &m
         if let Some(slopes) = slopes {
             line.note(2, fine(&generated, &slopes));
         }
-        if let Some(slopes) = dual.as_ref().and_then(|dual| dual.of(output)) {
+        let slopes =
+            dual.as_ref().and_then(|dual| dual.of(output).or_else(|| motion::of(arm, output, q)));
+        if let Some(slopes) = slopes {
             line.note(3, fine(&generated, &slopes));
         }
     }

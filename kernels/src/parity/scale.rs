@@ -31,7 +31,8 @@ pub fn reach(arm: &Arm, q: &[f64]) -> f64 {
 }
 
 /// The size of the terms that an output is summed of.
-pub fn terms(arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) -> f64 {
+pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
+    let (q, moving) = state.split_at(arm.dof());
     let reach = reach(arm, q);
     let lever = reach.max(1.0);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -39,6 +40,9 @@ pub fn terms(arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) -> f64 {
     // The moment on a joint, where a load enters; else a unit of whatever loads it.
     let moment = |joint: usize| {
         let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
+        if output.depends_on(Part::Inertias) {
+            return inertial(arm, reach, moving) + if heavy { weight(arm, 0, reach) } else { 0.0 };
+        }
         let load = if loaded { wrench } else { 0.0 };
         let weight = if heavy { weight(arm, joint, reach) } else { 0.0 };
         if loaded || heavy { load + weight } else { 1.0 }
@@ -61,6 +65,24 @@ fn weight(arm: &Arm, from: usize, reach: f64) -> f64 {
         j.mass * (reach + j.com.norm()) + beam * reach
     };
     arm.gravity.norm() * arm.joints[from..].iter().map(moment).sum::<f64>()
+}
+
+/// The moment that moves the arm, and what holds it back; of the mass matrix, which no motion enters, the
+/// moment per unit of acceleration.
+fn inertial(arm: &Arm, reach: f64, moving: &[f64]) -> f64 {
+    let (rates, accelerations) = moving.split_at(moving.len().min(arm.dof()));
+    let sum = |of: &[f64]| of.iter().map(|x| x.abs()).sum::<f64>();
+    let (spin, spin_rate) = (sum(rates), sum(accelerations));
+    let level = if moving.is_empty() { 1.0 } else { spin_rate + spin * spin };
+    let of_joint = |j: &Joint| {
+        let lever = reach.max(1.0) + j.com.norm();
+        let beam = j.beam.as_ref().map_or(0.0, |b| b.density * b.area * reach);
+        let rotor = j.drive.gear * j.drive.gear * j.drive.rotor_inertia;
+        let moved = (j.mass + beam) * lever * lever + j.inertia.norm() + rotor;
+        let held = if rates.is_empty() { 0.0 } else { j.drive.coulomb + j.drive.viscous * spin };
+        moved * level + held
+    };
+    arm.joints.iter().map(of_joint).sum()
 }
 
 /// What the joints and links give under the moment on each, rad.

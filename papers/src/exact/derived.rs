@@ -171,7 +171,7 @@ fn output(
     }
     let n = robot.dof();
     let program = derivation.derive(&robot)?;
-    let (rows, columns) = program.blocks[0].output.shape(n);
+    let (rows, columns) = program.blocks[0].held.shape(n);
     let joints = match &setting.joints {
         Some(joints) => joints.clone(),
         None => (1..=n).map(|k| Angle::single(&format!("theta{k}"))).collect(),

@@ -53,6 +53,7 @@ impl Reading {
             Node::Mul(a, b) => of(a)?.times(&of(b)?),
             Node::Recip(a) => of(a)?.reciprocal(),
             Node::Sqrt(a) => of(a)?.root(),
+            Node::Sign(_) => Err(Inexact::Rounded),
             Node::Sin(a) => self.trig(graph, Function::Sin, a),
             Node::Cos(a) => self.trig(graph, Function::Cos, a),
         }
@@ -75,10 +76,15 @@ impl Reading {
             Symbol::Displacement { place, component } => {
                 Ok(Polynomial::symbol(&displacement(*place, *component)).into())
             }
-            // Of an arm beyond its table, which no paper prints.
-            Symbol::Deflection { .. } | Symbol::Side(_) | Symbol::Warming | Symbol::Growth => {
-                Err(Inexact::Root)
-            }
+            // None of the papers' equations has these.
+            Symbol::Deflection { .. }
+            | Symbol::Rate(_)
+            | Symbol::Acceleration(_)
+            | Symbol::Torque(_)
+            | Symbol::Side(_)
+            | Symbol::Warming
+            | Symbol::Growth
+            | Symbol::Own { .. } => Err(Inexact::Root),
         }
     }
 

@@ -83,6 +83,8 @@ fn row(a: f64, alpha: f64, d: f64, section: Option<(f64, f64)>) -> Joint {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam,
     }

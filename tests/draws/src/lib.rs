@@ -1,6 +1,9 @@
 //! Random numbers for tests and benches: the same in every run, on every machine.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "texts")]
+pub mod texts;
+
 /// Knuth's 64-bit linear congruential generator, of which the upper 53 bits are used.
 pub struct Draws(u64);
 

@@ -252,7 +252,7 @@ fn as_read(arm: &Arm, measured: &Measurements, file: &str) -> (Measurements, Str
     }
     let text = csv(arm, &rounded, &[]);
     let motions = arm.joints.iter().map(|joint| joint.motion).collect();
-    let layout = Layout { motions, readings: true, markers: Vec::new() };
+    let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None };
     let data = Measurements::from_bytes(file, text.as_bytes(), &layout).expect("our own file");
     (data, text)
 }

@@ -51,18 +51,9 @@ pub fn rows(model: &Model, arm: &Arm, orientation: bool, loads: bool, seed: u64)
             let mut wrench = nalgebra::Vector6::from_fn(|k, _| scales[k] * load.normal());
             wrench[2] = -force;
             let row = Row {
-                line: 0,
-                q: q.clone(),
                 wrench: wrench.map(|f| (f * 1e4).round() / 1e4 + 0.0),
-                direction: None,
-                temperature: None,
-                time: None,
                 pose: Some(format!("p{pose}-{level:.1}")),
-                group: 0,
-                marker: None,
-                offset: Some([0.0; 3]),
-                measured: nalgebra::Vector6::zeros(),
-                sim: None,
+                ..Row::new(0, q.clone())
             };
             let again = number + 1 == levels.len() && pose < AGAIN;
             visits.extend(vec![row; if again { 1 + REPEATS } else { 1 }]);

@@ -156,6 +156,12 @@ impl<'r> Chain<'r> {
         combined(&mut self.g, own, world)
     }
 
+    /// A place told from the base, told from the world in which the base stands.
+    pub fn in_world(&mut self, place: Vec3) -> Vec3 {
+        let base = self.robot.base.translation.each_ref().map(|length| self.value(length));
+        self.g.add3(base, place)
+    }
+
     /// A vector given in these axes, in the working frame.
     pub fn in_frame(&mut self, v: Vec3) -> Vec3 {
         let own = match self.base_axes() {

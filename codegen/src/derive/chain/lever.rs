@@ -3,7 +3,6 @@
 use super::layout::Chain;
 use super::mass::masses;
 use crate::expr::{Expr, Graph, Vec3, parallel3};
-use crate::number::Number;
 
 /// One translation: `length · axis` in the working frame.
 #[derive(Clone, Copy, Debug)]
@@ -47,19 +46,22 @@ impl Point {
 impl Levers {
     /// The translations of the chain up to the tool origin.
     pub fn to_tool(chain: &mut Chain) -> Levers {
-        let mut segments = translations(chain, |_, _, length| length);
         let end = chain.steps().len();
-        let axes = chain.axes(end);
-        for (length, axis) in chain.tool_lengths().into_iter().zip(axes) {
-            segments.push(Segment { at: 2 * end, length, axis });
-        }
-        Levers::sorted(chain, segments)
+        let offsets = tool_offsets(chain);
+        Levers::to(chain, end, &offsets, [Expr::ZERO; 3])
     }
 
     /// The translations before boundary `cut`, continued by `beyond` from there on.
     pub fn inside(chain: &mut Chain, cut: usize, beyond: Vec3) -> Levers {
+        Levers::to(chain, cut, &[], beyond)
+    }
+
+    /// The translations before boundary `cut`, those of `offsets` there, and what is `beyond`.
+    pub fn to(chain: &mut Chain, cut: usize, offsets: &[(Expr, Vec3)], beyond: Vec3) -> Levers {
         let mut segments = translations(chain, |_, _, length| length);
         segments.retain(|segment| segment.at < 2 * cut);
+        let fixed = offsets.iter().map(|&(length, axis)| Segment { at: 2 * cut, length, axis });
+        segments.extend(fixed);
         Levers { beyond, ..Levers::sorted(chain, segments) }
     }
 
@@ -77,13 +79,6 @@ impl Levers {
             let axes = chain.axes(point.boundary);
             for (offset, axis) in point.com.into_iter().zip(axes) {
                 let length = chain.g.mul(point.mass, offset);
-                segments.push(Segment { at: 2 * point.boundary, length, axis });
-            }
-            for s in point.back_by_half.into_iter().flatten() {
-                let Some((length, axis)) = chain.translation(s) else { continue };
-                let half = chain.g.number(Number::ratio(-1, 2));
-                let share = chain.g.mul(half, point.mass);
-                let length = chain.g.mul(share, length);
                 segments.push(Segment { at: 2 * point.boundary, length, axis });
             }
         }
@@ -139,6 +134,13 @@ impl Levers {
         }
         pending.map_or(sum, |last| accumulate(g, sum, last))
     }
+}
+
+/// The tool's translation along the axes of the last frame.
+pub fn tool_offsets(chain: &mut Chain) -> [(Expr, Vec3); 3] {
+    let axes = chain.axes(chain.steps().len());
+    let lengths = chain.tool_lengths();
+    core::array::from_fn(|k| (lengths[k], axes[k]))
 }
 
 fn accumulate(g: &mut Graph, sum: Vec3, (length, axis): (Expr, Vec3)) -> Vec3 {

@@ -16,8 +16,6 @@ pub struct Mass {
     pub com: Vec3,
     /// For the distributed weight of a beam: the two translations along whose half its centre lies.
     pub half: Option<(usize, usize)>,
-    /// Translations by whose half its centre lies before the frame that carries it.
-    pub back_by_half: Option<[usize; 2]>,
 }
 
 impl Mass {
@@ -43,8 +41,7 @@ pub fn masses(chain: &mut Chain) -> Vec<Mass> {
         if let Some(mass) = &joint.mass {
             let mass = chain.value(mass);
             let com = joint.com.each_ref().map(|c| chain.value(c));
-            let boundary = ROW * (row + 1);
-            masses.push(Mass { mass, boundary, com, half: None, back_by_half: None });
+            masses.push(Mass { mass, boundary: ROW * (row + 1), com, half: None });
         }
         let of_beam = beam_mass(chain, row);
         if !of_beam.is_zero() {
@@ -55,16 +52,8 @@ pub fn masses(chain: &mut Chain) -> Vec<Mass> {
                 Convention::Modified => ROW * row,
             };
             let half = Some(chain.row_translations(row));
-            let com = [Expr::ZERO; 3];
-            masses.push(Mass { mass: of_beam, boundary, com, half, back_by_half: None });
+            masses.push(Mass { mass: of_beam, boundary, com: [Expr::ZERO; 3], half });
         }
-    }
-    // In the middle of the chord, and carried by its end.
-    for (row, mass) in chain.robot.beyond.masses.clone() {
-        let (z, x) = chain.row_translations(row);
-        let (mass, com) = (chain.g.number(mass), [Expr::ZERO; 3]);
-        let (boundary, back_by_half) = (ROW * (row + 1), Some([z, x]));
-        masses.push(Mass { mass, boundary, com, half: None, back_by_half });
     }
     masses
 }

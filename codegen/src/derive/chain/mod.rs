@@ -12,11 +12,11 @@ mod twist;
 
 pub use chord::{Chord, beam_mass, chord};
 pub use layout::Chain;
-pub use lever::{Levers, Point};
+pub use lever::{Levers, Point, tool_offsets};
 pub use mass::{gravity, mass_beyond};
-pub use place::{Place, ROW, Step, entries, expression, row_steps};
+pub use place::{Place, ROW, Step, entries, expression, length, row_steps};
 pub use tool::{frame_rotation, left_jacobian};
-pub use twist::{base_twists, flatten, load, power, twists, wrench};
+pub use twist::{base_twists, flatten, load, power, seen_from, twists, wrench};
 
 use super::passes::Passes;
 use crate::robot::Robot;

@@ -2,7 +2,8 @@
 
 use super::layout::Chain;
 use super::lever::{Levers, Point};
-use crate::expr::{Expr, Symbol, Twist, Vec3};
+use super::place::ROW;
+use crate::expr::{Expr, Symbol, Twist, Vec3, negate3};
 use crate::number::Number;
 
 /// The joints' twists in the working frame: `(z × (p − p_j), z)` of a revolute joint, `(z, 0)`
@@ -36,6 +37,24 @@ pub fn twists(chain: &mut Chain) -> Vec<Twist> {
         .collect();
     chain.twists = Some(twists.clone());
     twists
+}
+
+/// The joints' twists in the working frame, told at the origin of frame `row` as if the tool reached there.
+pub fn seen_from(chain: &mut Chain, row: usize) -> Vec<Twist> {
+    let seen = ROW * row;
+    let twist = |chain: &mut Chain, joint: usize| {
+        let (step, z) = (chain.joint_step(joint), chain.joint_axis(joint));
+        if !chain.revolute(joint) {
+            return (z, [Expr::ZERO; 3]);
+        }
+        let (inner, outer) = (step.min(seen), step.max(seen));
+        let from = if inner == step { Point::Step(step) } else { Point::Boundary(seen) };
+        let levers = Levers::inside(chain, outer, [Expr::ZERO; 3]);
+        let lever = levers.lever(&mut chain.g, from, Some(z));
+        let v = chain.g.cross3(z, lever);
+        (if inner == step { v } else { negate3(v) }, z)
+    };
+    (0..chain.dof()).map(|joint| twist(chain, joint)).collect()
 }
 
 /// The joints' twists in base axes.

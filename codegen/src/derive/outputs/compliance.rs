@@ -34,7 +34,7 @@ pub(super) fn joint_compliances(chain: &mut Chain) -> Vec<Option<Expr>> {
 ///
 /// Twists with one rotation w in common are taken together: their part is `[Σ c v vᵀ, (Σ c v) wᵀ;
 /// w (Σ c v)ᵀ, (Σ c) w wᵀ]`, so only the translations cost something by twist.
-fn compliance(chain: &mut Chain) -> Derived {
+pub(super) fn compliance(chain: &mut Chain) -> Derived {
     let elements = elements(chain);
     let mut lower = [Expr::ZERO; 36];
     for group in groups(elements, chain.passes.parallel) {

@@ -37,7 +37,7 @@ fn first_order(chain: &mut Chain) -> Derived {
 
 /// J (Kθ − K_C)⁻¹ Jᵀ w over the joints that are not rigid, and the links; where the weights enter
 /// `output`, K_C and the torque include them.
-fn deflection(chain: &mut Chain, output: Output) -> Derived {
+pub(super) fn deflection(chain: &mut Chain, output: Output) -> Derived {
     let weights = output.depends_on(Part::Weights);
     let w = wrench(chain);
     let twists = twists(chain);

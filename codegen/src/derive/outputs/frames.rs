@@ -70,15 +70,9 @@ fn columns(
         .into_iter()
         .flat_map(|(v, name)| {
             let v = chain.in_base(v);
-            let v = if name == p { in_world(chain, v) } else { v };
+            let v = if name == p { chain.in_world(v) } else { v };
             chain.g.name3(v, name);
             v
         })
         .collect()
-}
-
-/// A place told from the base, told from the world in which the base stands.
-fn in_world(chain: &mut Chain, place: Vec3) -> Vec3 {
-    let base = chain.robot.base.translation.each_ref().map(|length| chain.value(length));
-    chain.g.add3(base, place)
 }

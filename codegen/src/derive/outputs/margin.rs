@@ -19,7 +19,6 @@ pub(super) fn margin(robot: &Robot, weights: bool) -> Option<[Number; 2]> {
     let beyond = &robot.beyond;
     // Neither lengths nor loads are the table's then.
     let told = !beyond.grows()
-        && beyond.masses.is_empty()
         && beyond.wrench_scale.is_zero()
         && beyond.load_point.iter().all(|x| x.is_zero());
     let arm = Levers::of(robot).filter(|_| told)?;

@@ -1,10 +1,13 @@
 //! The outputs' derivations: one file for each family, with a row for each of its outputs.
 
 mod beam;
+mod by_joints;
 mod compliance;
 mod deflection;
+mod dynamics;
 mod frames;
 mod jacobian;
+mod manipulability;
 mod margin;
 mod parameters;
 mod springs;
@@ -37,10 +40,13 @@ pub type Derivation = fn(&mut Chain) -> Derived;
 
 /// By output, from the tables of this folder's files; an output without a derivation does not compile.
 const DERIVATIONS: [Derivation; Output::EACH.len()] = Output::one_each(&[
+    by_joints::DERIVED,
     compliance::DERIVED,
     deflection::DERIVED,
+    dynamics::DERIVED,
     frames::DERIVED,
     jacobian::DERIVED,
+    manipulability::DERIVED,
     parameters::DERIVED,
     stiffness::DERIVED,
     torque::DERIVED,

@@ -74,11 +74,12 @@ pub(super) fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derive::Held;
 
     #[test]
     fn formulas_of_all_outputs_are_plain() {
         for output in stiffarm_kernels::Output::EACH {
-            for text in crate::emit::docs::docs(output, 6, "") {
+            for text in crate::emit::docs::docs(&Held::Output(output), 6, "") {
                 assert!(plain(&text).is_ascii(), "{}", plain(&text));
             }
         }

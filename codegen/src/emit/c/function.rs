@@ -1,36 +1,54 @@
 //! One function in C: from the joint values, and from the posture.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::{Output, Side};
 
 use super::super::expression::{Printer, Style as _};
-use super::super::plan::{Plan, Target, WRENCH};
+use super::super::plan::{Argument, Given, Plan, Target};
 use super::super::posture::Needs;
 use super::posture::Entrance;
 use super::solve::solve_name;
 use super::style::C;
+use crate::derive::{Block, Own};
 use crate::emit::lines::Lines;
 use crate::expr::Binding;
 
-/// A function to be printed: of one output, or of all of `Output::ALL`.
+/// A function to be printed: of one output, of those of `all`, or of one's own.
 pub(super) struct Function<'a> {
     pub plan: &'a Plan<'a>,
-    pub outputs: &'a [Output],
+    /// The frame or marker that it is of; `None` is the tool.
+    pub place: Option<&'a str>,
     pub needs: &'a Needs,
     pub language: &'a C,
     pub entrance: &'a Entrance<'a>,
 }
 
-impl Function<'_> {
-    /// The output's name, or `all`.
-    pub fn name(&self) -> &'static str {
-        match self.outputs {
-            [output] => output.name(),
-            _ => "all",
+impl<'a> Function<'a> {
+    /// The output's name, with the place that it is of: `at_elbow_jacobian`; or `all`, or its own.
+    pub fn name(&self) -> String {
+        match (self.own(), self.blocks(), self.place) {
+            (Some(own), ..) => own.name.clone(),
+            (None, [block], None) => block.held.name().to_owned(),
+            (None, [block], Some(place)) => format!("at_{place}_{}", block.held.name()),
+            _ => "all".to_owned(),
         }
     }
 
-    fn fallible(&self) -> bool {
-        self.outputs.iter().any(|o| o.is_fallible())
+    pub fn blocks(&self) -> &'a [Block] {
+        &self.plan.program.blocks
+    }
+
+    /// What it says of itself, where it is one's own.
+    pub fn own(&self) -> Option<&'a Own> {
+        self.plan.program.own.as_ref()
+    }
+
+    /// Whether a block can be left without a value.
+    fn may_fail(block: &Block) -> bool {
+        block.held.output().is_some_and(Output::is_fallible)
+    }
+
+    pub fn fallible(&self) -> bool {
+        self.blocks().iter().any(Self::may_fail)
     }
 
     /// Sizes of the linear systems, and of their leading blocks.
@@ -63,20 +81,26 @@ impl Function<'_> {
         let real = self.language.real();
         let returned =
             if self.fallible() { format!("{module}_status_t") } else { "void".to_string() };
-        let wrench =
-            if self.wrench() { format!(", const {real} wrench[6]") } else { String::new() };
-        let out = match self.outputs {
-            [output] => {
-                let size = format!("{module}_{}", output.name()).to_uppercase();
+        let size = |argument: &Argument| match argument.of {
+            Given::Arm(input) if input.side() == Side::Joints => {
+                format!("[{}_JOINTS]", module.to_uppercase())
+            }
+            _ => argument.size.map_or(String::new(), |size| format!("[{size}]")),
+        };
+        let beside: String = (self.plan.arguments().iter())
+            .map(|argument| {
+                let constant = if argument.size.is_some() { "const " } else { "" };
+                format!(", {constant}{real} {}{}", argument.name, size(argument))
+            })
+            .collect();
+        let out = match self.blocks() {
+            [_] => {
+                let size = format!("{module}_{}", self.name()).to_uppercase();
                 format!("{real} out[{size}_SIZE]")
             }
-            _ => format!("{module}_all_t *out"),
+            _ => format!("{module}_{}_t *out", self.name()),
         };
-        format!("{returned} {name}({first}{wrench}, {out})")
-    }
-
-    fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.takes(Input::Wrench))
+        format!("{returned} {name}({first}{beside}, {out})")
     }
 
     /// The function of the joint values.
@@ -91,8 +115,13 @@ impl Function<'_> {
             out.blank();
             self.entrance.statements(out, &self.needs.posture);
             let returned = if self.fallible() { "return " } else { "" };
-            let wrench = if self.wrench() { ", wrench" } else { "" };
-            out.code(&format!("{returned}{module}_given_{}(&own{wrench}, out);", self.name()));
+            let beside: String = self
+                .plan
+                .arguments()
+                .iter()
+                .map(|argument| format!(", {}", argument.name))
+                .collect();
+            out.code(&format!("{returned}{module}_given_{}(&own{beside}, out);", self.name()));
         });
     }
 
@@ -107,7 +136,7 @@ impl Function<'_> {
                 out.code(&format!("{module}_status_t status = {upper}_OK;"));
             }
             out.blank();
-            self.zeros(out, |output| !output.is_fallible());
+            self.zeros(out, |block| !Self::may_fail(block));
             let mut depth = 0;
             for step in &self.plan.schedule.steps {
                 match step {
@@ -118,10 +147,11 @@ impl Function<'_> {
                             self.solve(out, k, module);
                             depth += 1;
                         }
+                        Target::Angles(k) => self.angles(out, k),
                     },
                 }
             }
-            self.zeros(out, Output::is_fallible);
+            self.zeros(out, Self::may_fail);
             for _ in 0..depth {
                 out.dedent();
                 out.code("}");
@@ -132,21 +162,24 @@ impl Function<'_> {
         });
     }
 
-    /// Whatever is read of the posture and the wrench, as locals.
+    /// Whatever is read of the posture and the other inputs, as locals.
     fn inputs(&self, out: &mut Lines) {
         let real = self.language.real();
         for (name, field) in &self.needs.reads {
             out.code(&format!("const {real} {name} = posture->{field};"));
         }
-        let components = self.plan.wrench();
-        for (k, name) in WRENCH.iter().enumerate().filter(|(k, _)| components[*k]) {
-            out.code(&format!("const {real} {name} = wrench[{k}];"));
+        for argument in &self.plan.arguments() {
+            let read = self.plan.read(argument, self.plan.named());
+            if !read.contains(&true) {
+                out.code(&format!("(void){};", argument.name));
+            }
+            for k in (0..read.len()).filter(|k| read[*k] && argument.size.is_some()) {
+                let name = self.plan.entry(argument, k);
+                out.code(&format!("const {real} {name} = {}[{k}];", argument.name));
+            }
         }
         if self.needs.reads.is_empty() {
             out.code("(void)posture;");
-        }
-        if self.wrench() && !components.contains(&true) {
-            out.code("(void)wrench;");
         }
     }
 
@@ -157,9 +190,9 @@ impl Function<'_> {
     }
 
     fn place(&self, block: usize, entry: usize) -> String {
-        match self.outputs {
+        match self.blocks() {
             [_] => format!("out[{entry}]"),
-            _ => format!("out->{}[{entry}]", self.plan.program.blocks[block].output.name()),
+            blocks => format!("out->{}[{entry}]", blocks[block].held.name()),
         }
     }
 
@@ -169,12 +202,21 @@ impl Function<'_> {
     }
 
     /// Entries that are structurally zero.
-    fn zeros(&self, out: &mut Lines, of: impl Fn(Output) -> bool) {
-        let blocks = self.plan.program.blocks.iter().enumerate();
-        for (at, block) in blocks.filter(|(_, b)| of(b.output)) {
+    fn zeros(&self, out: &mut Lines, of: impl Fn(&Block) -> bool) {
+        for (at, block) in self.blocks().iter().enumerate().filter(|(_, block)| of(block)) {
             for (entry, _) in block.entries.iter().enumerate().filter(|(_, e)| e.is_zero()) {
                 out.code(&format!("{} = {};", self.place(at, entry), self.language.zero()));
             }
+        }
+    }
+
+    /// Sines and cosines of angles that are not the posture's.
+    fn angles(&self, out: &mut Lines, k: usize) {
+        let real = self.language.real();
+        for angle in &self.plan.own_angles[k] {
+            let (suffix, sum) = (&angle.suffix, self.printer().print(angle.sum));
+            out.code(&format!("{real} s{suffix}, c{suffix};"));
+            out.code(&format!("sin_cos({sum}, &s{suffix}, &c{suffix});"));
         }
     }
 

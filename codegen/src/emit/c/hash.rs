@@ -16,10 +16,12 @@ pub(super) struct Table {
     pub hash: u64,
 }
 
-/// The table as a robot file, without what no kernel depends on: sources, limits, markers.
+/// The table as a robot file, without what no kernel depends on: sources, limits, frames and markers at which nothing is asked for.
 pub(super) fn table(robot: &Robot) -> Table {
     let mut robot = robot.clone();
-    robot.markers.clear();
+    let asked: Vec<String> = robot.places().iter().map(|(name, _)| (*name).to_owned()).collect();
+    robot.markers.retain(|marker| asked.contains(&marker.name));
+    robot.frames.retain(|frame| asked.contains(&frame.name));
     for joint in &mut robot.joints {
         joint.source = None;
         joint.limits = None;

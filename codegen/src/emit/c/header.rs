@@ -7,7 +7,8 @@ use super::hash::{Table, fnv1a};
 use super::posture::declaration;
 use super::source::posture_head;
 use super::{Module, Precision, Sines};
-use crate::emit::docs::docs;
+use crate::derive::Block;
+use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
 
 /// The header that belongs to `source`.
@@ -126,11 +127,18 @@ fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
             "{}: shape, and operations beyond sines and cosines (and beyond the solve).",
             function.name()
         )]);
-        if let [output] = function.outputs {
-            let (rows, columns) = output.shape(n);
+        if let [block] = function.blocks() {
+            let (rows, columns) = block.held.shape(n);
             define(out, &format!("{name}_ROWS"), format!("{rows}U"));
             define(out, &format!("{name}_COLUMNS"), format!("{columns}U"));
             define(out, &format!("{name}_SIZE"), format!("{}U", rows * columns));
+        }
+        if function.own().is_some() && function.blocks().len() > 1 {
+            for block in function.blocks() {
+                let (rows, columns) = block.held.shape(n);
+                let field = block.held.name().to_uppercase();
+                define(out, &format!("{name}_{field}_SIZE"), format!("{}U", rows * columns));
+            }
         }
         define(out, &format!("{name}_ADDITIONS"), format!("{}U", ops.add));
         define(out, &format!("{name}_MULTIPLICATIONS"), format!("{}U", ops.mul));
@@ -150,19 +158,20 @@ fn types(module: &Module, out: &mut Lines) {
     out.code(&format!("    {} = 1", module.constant("UNSTABLE")));
     out.code(&format!("}} {name}_status_t;"));
     out.blank();
-    declaration(&module.posture, out, name, real);
-    for function in module.functions.iter().filter(|f| f.outputs.len() > 1) {
+    declaration(&module.posture, out, module.robot, (name, real));
+    for function in module.functions.iter().filter(|f| f.blocks().len() > 1) {
         out.blank();
-        out.comment(&[format!("Everything that {name}_all computes.")]);
+        out.comment(&[format!("Everything that {name}_{} computes.", function.name())]);
         out.code("typedef struct");
         out.code("{");
         out.indent();
-        for output in function.outputs {
-            let size = module.constant(&format!("{}_SIZE", output.name().to_uppercase()));
-            out.code(&format!("{real} {}[{size}];", output.name()));
+        for block in function.blocks() {
+            let of = function.own().map_or(String::new(), |own| format!("{}_", own.name));
+            let size = module.constant(&format!("{of}{}_SIZE", block.held.name()).to_uppercase());
+            out.code(&format!("{real} {}[{size}];", block.held.name()));
         }
         out.dedent();
-        out.code(&format!("}} {name}_all_t;"));
+        out.code(&format!("}} {name}_{}_t;", function.name()));
     }
     if module.options.sines != Sines::Given {
         out.blank();
@@ -181,20 +190,33 @@ fn types(module: &Module, out: &mut Lines) {
 fn declarations(module: &Module, function: &Function, out: &mut Lines) {
     let name = module.name();
     out.blank();
-    let mut text: Vec<String> = match function.outputs {
-        [output] => docs(*output, module.robot.dof(), "").map(|text| plain(&text)).to_vec(),
-        outputs => {
-            let names: Vec<&str> = outputs.iter().map(|o| o.name()).collect();
-            vec![format!("Worked out together: {}.", names.join(", "))]
+    let described = |block: &Block| docs(&block.held, module.robot.dof(), "").into_iter();
+    let own = function.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
+    let mut text: Vec<String> = own.into_iter().collect();
+    match (function.blocks(), function.own()) {
+        ([block], _) => text.extend(described(block)),
+        (blocks, Some(_)) => text.extend(blocks.iter().map(|block| {
+            format!("{}: {}", block.held.name(), described(block).collect::<Vec<_>>().join(" "))
+        })),
+        (blocks, None) => {
+            let names: Vec<&str> = blocks.iter().map(|block| block.held.name()).collect();
+            text.push(format!("Worked out together: {}.", names.join(", ")));
         }
-    };
+    }
+    if let Some(place) = function.place {
+        text.push(format!("What is said of the tool here is of {place}: the tool is there."));
+    }
+    if function.own().is_some() {
+        text.push(inputs(function.plan.program.inputs(), false, function.own()));
+    }
+    let mut text: Vec<String> = text.iter().map(|text| plain(text)).collect();
     text.push(format!("Worked out in {}.", function.plan.program.frame()));
-    match function.outputs {
-        [output] if output.is_fallible() => text.push(format!(
+    match function.blocks() {
+        _ if !function.fallible() => {}
+        [_] => text.push(format!(
             "{} where there is no stable equilibrium: out is then as it was.",
             module.constant("UNSTABLE")
         )),
-        [_] => {}
         _ => text.push(format!(
             "{} where there is no stable equilibrium: the deflection is then as it was.",
             module.constant("UNSTABLE")
@@ -205,9 +227,10 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
         out.code(&format!("{};", function.by_joints(name)));
     }
     out.code(&format!("{};", function.by_posture(name)));
-    if let [output] = function.outputs {
-        let size = module.constant(&format!("{}_SIZE", output.name().to_uppercase()));
+    if let [_] = function.blocks() {
+        let of = function.name();
+        let size = module.constant(&format!("{}_SIZE", of.to_uppercase()));
         out.comment(&["1 where an entry is not structurally zero.".to_string()]);
-        out.code(&format!("extern const uint8_t {name}_{}_sparsity[{size}];", output.name()));
+        out.code(&format!("extern const uint8_t {name}_{of}_sparsity[{size}];"));
     }
 }

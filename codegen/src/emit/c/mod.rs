@@ -22,11 +22,11 @@ use core::fmt;
 use self::function::Function;
 use self::posture::Entrance;
 use super::constants::Constants;
+use super::functions;
 use super::plan::Plan;
 use super::posture::{Needs, Posture};
 use super::readings::Stage;
-use super::sets;
-use crate::derive::derive_each;
+use crate::derive::Program;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -92,26 +92,39 @@ impl core::error::Error for SymbolicTable {}
 /// # Errors
 /// [`SymbolicTable`] where a cell of the table is no number.
 pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
+    c_with(robot, &[], options)
+}
+
+/// The same with functions of one's own.
+pub(crate) fn c_with(
+    robot: &Robot,
+    own: &[&Program],
+    options: &COptions,
+) -> Result<CFiles, SymbolicTable> {
     let symbols = robot.symbols();
     if !symbols.is_empty() {
         return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
     }
-    let sets = sets(&robot.generated());
-    let programs = derive_each(robot, &sets);
-    let plans = programs.iter().map(|program| Plan::new(program, &mut Constants::default()));
-    let plans: Vec<Plan> = plans.collect();
+    let all = functions(robot);
+    let (tool, places) = all.split_at(1);
+    let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
+    let of_tool = of_tool.map(|program| (None, program));
+    let of_places = places
+        .iter()
+        .flat_map(|of| of.programs.iter().map(|program| (of.place.as_deref(), program)));
+    let (each, programs): (Vec<_>, Vec<_>) = of_tool.chain(of_places).unzip();
+    let plan = |program| Plan::new(program, &mut Constants::default());
+    let plans: Vec<Plan> = programs.into_iter().map(plan).collect();
     let language = style::C { precision: options.precision };
     let mut posture = Posture::default();
     let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
     let stage = Stage::of(robot);
     let entrance = Entrance { stage: &stage, language: &language, name: &options.name };
-    let functions: Vec<Function> = plans
-        .iter()
-        .zip(&sets)
-        .zip(&needs)
-        .map(|((plan, outputs), needs)| {
+    let functions = plans.iter().zip(each).zip(&needs);
+    let functions: Vec<Function> = functions
+        .map(|((plan, place), needs)| {
             let (language, entrance) = (&language, &entrance);
-            Function { plan, outputs, needs, language, entrance }
+            Function { plan, place, needs, language, entrance }
         })
         .collect();
     let (language, entrance) = (&language, &entrance);

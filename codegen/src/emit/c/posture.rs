@@ -4,9 +4,15 @@ use super::super::posture::{Plain, Posture};
 use super::super::readings::{Extra, Stage};
 use super::style::C;
 use crate::emit::lines::Lines;
+use crate::robot::Robot;
 
 /// The struct.
-pub(super) fn declaration(posture: &Posture, out: &mut Lines, name: &str, real: &str) {
+pub(super) fn declaration(
+    posture: &Posture,
+    out: &mut Lines,
+    robot: &Robot,
+    (name, real): (&str, &str),
+) {
     out.comment(&[
         "The joint values as the kernels need them: sines, cosines, displacements.".to_string()
     ]);
@@ -18,7 +24,7 @@ pub(super) fn declaration(posture: &Posture, out: &mut Lines, name: &str, real: 
         out.code(&format!("{real} c{}; /* cosine of {} */", pair.suffix, pair.sum));
     }
     for plain in &posture.plain {
-        let (field, source, meaning) = (plain.field(), plain.source(), plain.meaning());
+        let (field, source, meaning) = (plain.field(), plain.source(), plain.meaning(robot));
         out.code(&format!("{real} {field}; /* {source}, {meaning} */"));
     }
     out.dedent();

@@ -85,17 +85,14 @@ pub(super) fn posture_head(module: &Module) -> String {
 
 fn sparsity(module: &Module, out: &mut Lines) {
     for function in &module.functions {
-        let [output] = function.outputs else { continue };
-        let size = module.constant(&format!("{}_SIZE", output.name().to_uppercase()));
+        let [block] = function.blocks() else { continue };
+        let size = module.constant(&format!("{}_SIZE", function.name().to_uppercase()));
         out.blank();
-        out.code(&format!(
-            "const uint8_t {}_{}_sparsity[{size}] = {{",
-            module.name(),
-            output.name()
-        ));
+        let (robot, name) = (module.name(), function.name());
+        out.code(&format!("const uint8_t {robot}_{name}_sparsity[{size}] = {{"));
         out.indent();
-        let rows = output.shape(module.robot.dof()).0;
-        for column in function.plan.program.blocks[0].entries.chunks(rows) {
+        let rows = block.held.shape(module.robot.dof()).0;
+        for column in block.entries.chunks(rows) {
             let flags = column.iter().map(|e| if e.is_zero() { "0U" } else { "1U" });
             out.code(&format!("{},", flags.collect::<Vec<_>>().join(", ")));
         }

@@ -63,6 +63,10 @@ impl Style for C {
     fn sqrt(&self, a: &str) -> String {
         format!("sqrt{}({a})", self.suffix())
     }
+    fn sign(&self, a: &str) -> String {
+        let (real, zero) = (self.real(), self.zero());
+        format!("((({real})({a} > {zero})) - (({real})({a} < {zero})))")
+    }
 }
 
 #[cfg(test)]

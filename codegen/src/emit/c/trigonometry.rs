@@ -6,11 +6,11 @@ use super::{Precision, Sines};
 /// The static function `sin_cos`.
 pub(super) fn sin_cos(sines: Sines, precision: Precision) -> &'static str {
     match (sines, precision) {
-        (Sines::Given, _) => "",
         (Sines::Math, Precision::F64) => MATH_DOUBLE,
         (Sines::Math, Precision::F32) => MATH_SINGLE,
-        (Sines::Polynomial, Precision::F64) => DOUBLE,
-        (Sines::Polynomial, Precision::F32) => SINGLE,
+        // Where the caller gives the posture, functions of one's own still take sines of their inputs.
+        (Sines::Polynomial | Sines::Given, Precision::F64) => DOUBLE,
+        (Sines::Polynomial | Sines::Given, Precision::F32) => SINGLE,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The kernel itself, cut into scopes and functions that the compiler can digest.
 
+use super::super::angles::Angle;
 use super::super::expression::Printer;
 use super::super::plan::{Plan, Target};
 use super::function::Function;
@@ -114,6 +115,7 @@ impl<'a> Body<'a> {
                 }
                 Binding::Item(item) => match self.plan.targets[*item] {
                     Target::Solve(k) => self.solve(out, k),
+                    Target::Angles(k) => self.angles(out, k),
                     Target::Entry { block, entry } => {
                         let e = self.plan.program.blocks[block].entries[entry];
                         let place = self.function.place(block, entry);
@@ -148,6 +150,22 @@ impl<'a> Body<'a> {
         let (names, solve) = (self.names(&unknowns), self.function.solve());
         let call = format!("{solve}::<S, {n}, {leading}>(stiffness, load, {margin})?");
         out.code(&format!("let [{names}] = {call};"));
+    }
+
+    /// Sines and cosines of angles that are not the posture's.
+    fn angles(&self, out: &mut Lines, k: usize) {
+        let angles = &self.plan.own_angles[k];
+        let all = |text: &dyn Fn(&Angle) -> String| {
+            angles.iter().map(text).collect::<Vec<_>>().join(", ")
+        };
+        let name = |letter: &str, used: bool, angle: &Angle| match used {
+            true => format!("{letter}{}", angle.suffix),
+            false => "_".to_string(),
+        };
+        let sines = all(&|angle| name("s", angle.sine, angle));
+        let cosines = all(&|angle| name("c", angle.cosine, angle));
+        let sums = all(&|angle| self.printer.print(angle.sum));
+        out.code(&format!("let ([{sines}], [{cosines}]) = S::sin_cos_all([{sums}]);"));
     }
 
     fn names(&self, nodes: &[usize]) -> String {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::super::angles::angle_terms;
 use super::super::constants::Constants;
 use super::super::expression::Printer;
 use super::super::literal::constant;
@@ -140,10 +139,7 @@ impl Writer<'_> {
         }
         inputs.iter().for_each(|line| out.code(line));
         out.code("let zero = S::lit(0.0);");
-        out.code(&format!(
-            "let mut out = {};",
-            shapes::zero(self.plan.program.blocks[0].output, n)
-        ));
+        out.code(&format!("let mut out = {};", shapes::zero(&self.plan.program.blocks[0].held, n)));
         let schedule = &self.plan.schedule;
         let all = 0..schedule.steps.len();
         match schedule.blocks(all.clone(), BLOCK, |_| false).as_slice() {
@@ -170,7 +166,7 @@ impl Writer<'_> {
     fn angle(&self, sum: Expr) -> String {
         let g = &self.plan.program.graph;
         let mut text = String::new();
-        for e in angle_terms(g, sum) {
+        for e in g.terms(sum) {
             text.push_str(match (text.is_empty(), e.is_negative()) {
                 (true, false) => "",
                 (true, true) => "-",
@@ -196,7 +192,7 @@ impl Writer<'_> {
                 Binding::Item(item) => {
                     let Target::Entry { block, entry } = self.plan.targets[*item] else { continue };
                     let program = self.plan.program;
-                    let place = shapes::place(program.blocks[block].output, program.dof, entry);
+                    let place = shapes::place(&program.blocks[block].held, program.dof, entry);
                     let e = program.blocks[block].entries[entry];
                     out.code(&format!("out{place} = {};", self.printer.print(e)));
                 }
@@ -226,7 +222,6 @@ fn symbol(symbol: &Symbol) -> Option<String> {
         Symbol::Joint(joint) => Some(format!("q[{joint}]")),
         Symbol::Parameter(name) => Some(format!("parameters.{name}")),
         Symbol::Displacement { place, component } => Some(format!("e[{place}][{component}]")),
-        Symbol::Wrench(_) | Symbol::Deflection { .. } => None,
-        Symbol::Side(_) | Symbol::Warming | Symbol::Growth => None,
+        _ => None,
     }
 }

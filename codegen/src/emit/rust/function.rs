@@ -1,18 +1,17 @@
 //! One function of a generated module: what it returns and where its entries go.
 
-use stiffarm_kernels::{Input, Output};
+use stiffarm_kernels::Output;
 
-use super::super::plan::Plan;
+use super::super::plan::{Argument, Plan};
 use super::super::posture::{Needs, Posture};
 use super::super::readings::Stage;
 use super::shapes;
 use super::style::Rust;
-use crate::derive::Program;
+use crate::derive::{Block, Held, Own, Program};
 
-/// A function to be printed: of one output, or of those of `all`.
+/// A function to be printed: of one output, of those of `all`, or of one's own.
 pub(super) struct Function<'p> {
     pub plan: &'p Plan<'p>,
-    pub outputs: &'p [Output],
     pub needs: &'p Needs,
     /// The posture of the whole module.
     pub posture: &'p Posture,
@@ -22,13 +21,24 @@ pub(super) struct Function<'p> {
     pub stage: &'p Stage,
     /// How its text is spelt.
     pub style: &'p Rust,
+    /// How many modules the text stands in, below the arm's.
+    pub depth: usize,
+}
+
+/// An input beside the posture as a parameter: so many numbers, or one by itself.
+pub(super) fn parameter(name: &str, size: Option<usize>) -> String {
+    match size {
+        Some(size) => format!("{name}: &[S; {size}]"),
+        None => format!("{name}: S"),
+    }
 }
 
 impl<'p> Function<'p> {
-    /// The output's name, or `all`.
-    pub fn name(&self) -> &'static str {
-        match self.outputs {
-            [output] => output.name(),
+    /// The output's name, or `all`, or its own.
+    pub fn name(&self) -> &'p str {
+        match (self.own(), self.blocks()) {
+            (Some(own), _) => &own.name,
+            (None, [block]) => block.held.name(),
             _ => "all",
         }
     }
@@ -37,34 +47,49 @@ impl<'p> Function<'p> {
         self.plan.program
     }
 
+    pub fn blocks(&self) -> &'p [Block] {
+        &self.program().blocks
+    }
+
+    /// What it says of itself, where it is one's own.
+    pub fn own(&self) -> Option<&'p Own> {
+        self.program().own.as_ref()
+    }
+
+    /// The arm's outputs that it computes.
+    pub fn outputs(&self) -> impl Iterator<Item = Output> {
+        self.blocks().iter().filter_map(|block| block.held.output())
+    }
+
     /// The kernel's parameters; those that it does not read begin with `_`.
     pub fn parameters(&self) -> Vec<String> {
         let unread = |read: bool| if read { "" } else { "_" };
         let constants = unread(!self.plan.constants.is_empty());
         let constants = format!("{constants}constants: &super::Constants<S>");
         let posture = format!("{}posture: &Posture<S>", unread(!self.needs.reads.is_empty()));
-        let wrench = format!("{}wrench: &[S; 6]", unread(self.plan.wrench().contains(&true)));
+        let beside = self.plan.arguments();
+        let beside = beside.iter().map(|argument| {
+            let Argument { name, size, .. } = argument;
+            format!("{}{}", unread(self.plan.reads(argument)), parameter(name, *size))
+        });
         let first = self.symbolic.then_some(constants).into_iter().chain([posture]);
-        first.chain(self.wrench().then_some(wrench)).collect()
+        first.chain(beside).collect()
     }
 
     /// What the kernel is called with, where the inputs are called so.
     pub fn arguments(&self, posture: &str) -> String {
         let first = self.symbolic.then_some("constants").into_iter().chain([posture]);
-        first.chain(self.wrench().then_some("wrench")).collect::<Vec<_>>().join(", ")
+        let beside = self.plan.arguments().into_iter().map(|argument| argument.name);
+        first.map(str::to_string).chain(beside).collect::<Vec<String>>().join(", ")
     }
 
-    /// Whether it is `all`.
+    /// Whether it computes several things.
     pub fn fused(&self) -> bool {
-        self.outputs.len() > 1
-    }
-
-    pub fn wrench(&self) -> bool {
-        self.outputs.iter().any(|o| o.takes(Input::Wrench))
+        self.blocks().len() > 1
     }
 
     pub fn fallible(&self) -> bool {
-        self.outputs.iter().any(|o| o.is_fallible())
+        self.outputs().any(|o| o.is_fallible())
     }
 
     /// The function of the runtime that solves a system.
@@ -72,30 +97,44 @@ impl<'p> Function<'p> {
         if self.style.fused { "solve_fused" } else { "solve" }
     }
 
+    /// The struct of several things: `All`, or called like the function.
+    pub fn structure(&self) -> String {
+        let word = |word: &str| {
+            let mut letters = word.chars();
+            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
+        };
+        self.name().split('_').filter_map(word).collect()
+    }
+
     pub fn ty(&self) -> String {
-        match self.fused() {
-            true => "All<S>".to_string(),
-            false => shapes::ty(self.outputs[0], self.program().dof),
+        match self.blocks() {
+            [block] => shapes::ty(&block.held, self.program().dof),
+            _ => format!("{}<S>", self.structure()),
         }
     }
 
     pub fn returned(&self, inside: bool) -> String {
-        let ty = if self.fused() && !inside { "all::All<S>".to_string() } else { self.ty() };
+        let ty = match self.fused() && !inside {
+            true => format!("{}::{}", self.name(), self.ty()),
+            false => self.ty(),
+        };
         if self.fallible() { format!("Result<{ty}, Unstable>") } else { ty }
     }
 
     pub fn zero(&self) -> String {
         let n = self.program().dof;
-        if !self.fused() {
-            return shapes::zero(self.outputs[0], n);
+        if let [block] = self.blocks() {
+            return shapes::zero(&block.held, n);
         }
-        let field = |o: &Output| format!("{}: {}", o.name(), shapes::zero(*o, n));
-        format!("All {{ {} }}", self.outputs.iter().map(field).collect::<Vec<_>>().join(", "))
+        let field =
+            |Block { held, .. }: &Block| format!("{}: {}", held.name(), shapes::zero(held, n));
+        let fields: Vec<String> = self.blocks().iter().map(field).collect();
+        format!("{} {{ {} }}", self.structure(), fields.join(", "))
     }
 
     pub fn place(&self, block: usize, entry: usize) -> String {
-        let output = self.program().blocks[block].output;
-        let place = shapes::place(output, self.program().dof, entry);
-        if self.fused() { format!("out.{}{place}", output.name()) } else { format!("out{place}") }
+        let held: &Held = &self.blocks()[block].held;
+        let place = shapes::place(held, self.program().dof, entry);
+        if self.fused() { format!("out.{}{place}", held.name()) } else { format!("out{place}") }
     }
 }

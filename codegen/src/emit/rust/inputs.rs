@@ -3,10 +3,10 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::super::plan::{Plan, Target, WRENCH};
+use super::super::plan::{Plan, Target};
 use super::function::Function;
 use crate::emit::lines::Lines;
-use crate::expr::{Binding, Expr, Node, Symbol};
+use crate::expr::{Binding, Expr};
 
 /// Everything that a range of steps reads.
 pub(super) fn open_inputs(out: &mut Lines, function: &Function, steps: Range<usize>) {
@@ -34,30 +34,20 @@ pub(super) fn open_solve_inputs(out: &mut Lines, function: &Function) {
 
 fn item_inputs(plan: &Plan, item: usize) -> Vec<usize> {
     match plan.targets[item] {
-        Target::Solve(k) => {
-            let solve = &plan.program.solves[k];
-            solve.matrix.iter().chain(&solve.right).map(|e| e.node()).collect()
-        }
+        Target::Solve(k) => plan.program.solves[k].inputs().map(|e| e.node()).collect(),
+        Target::Angles(k) => plan.own_angles[k].iter().map(|angle| angle.sum.node()).collect(),
         Target::Entry { block, entry } => {
             vec![plan.program.blocks[block].entries[entry].node()]
         }
     }
 }
 
-/// `let Posture { s1, c1, .. } = *posture;` and the wrench, whatever of them is read.
+/// `let Posture { s1, c1, .. } = *posture;` and the other inputs, whatever of them is read.
 fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
     let plan = function.plan;
     nodes.retain(|node| !plan.schedule.bound[*node]);
     let inputs: HashSet<usize> = plan.inputs_of(nodes);
-    let g = &plan.program.graph;
-    let mut names = HashSet::new();
-    let mut wrench = [false; 6];
-    for node in &inputs {
-        match g.nodes()[*node] {
-            Node::Symbol(s) if let Symbol::Wrench(k) = g.symbol_of(s) => wrench[*k] = true,
-            _ => names.extend(plan.name(*node)),
-        }
-    }
+    let names: HashSet<&str> = inputs.iter().filter_map(|node| plan.name(*node)).collect();
     let read = function.needs.reads.iter().filter(|(name, _)| names.contains(name.as_str()));
     let fields: Vec<String> = read
         .map(|(name, field)| if name == field { name.clone() } else { format!("{field}: {name}") })
@@ -66,9 +56,12 @@ fn open(out: &mut Lines, function: &Function, mut nodes: Vec<usize>) {
         let rest = if fields.len() < function.posture.fields().len() { ", .." } else { "" };
         out.code(&format!("let Posture {{ {}{rest} }} = *posture;", fields.join(", ")));
     }
-    if wrench.contains(&true) {
-        let names: Vec<&str> =
-            WRENCH.iter().zip(wrench).map(|(n, used)| if used { *n } else { "_" }).collect();
-        out.code(&format!("let [{}] = *wrench;", names.join(", ")));
+    for argument in plan.arguments().iter().filter(|argument| argument.size.is_some()) {
+        let read = plan.read(argument, &inputs);
+        if read.contains(&true) {
+            let name = |(k, read)| if read { plan.entry(argument, k) } else { "_".to_string() };
+            let names: Vec<String> = read.into_iter().enumerate().map(name).collect();
+            out.code(&format!("let [{}] = *{};", names.join(", "), argument.name));
+        }
     }
 }

@@ -2,9 +2,12 @@
 
 use stiffarm_kernels::{Input, Output, Side};
 
+use super::super::Functions;
+use super::function::parameter;
 use super::posture::{INLINE, needs_constants};
 use super::shapes::{flat, ty};
 use super::table::numeric;
+use crate::derive::Held;
 use crate::emit::lines::Lines;
 use crate::emit::posture::Posture;
 use crate::emit::readings::{Extra, Stage};
@@ -15,16 +18,17 @@ pub(super) fn interface(
     robot: &Robot,
     posture: &Posture,
     stage: &Stage,
-    outputs: &[Output],
+    Functions { place, outputs, .. }: &Functions,
+    depth: usize,
 ) -> String {
-    let mut out = Lines::at(0);
+    let mut out = Lines::at(depth);
     let symbolic = !robot.symbols().is_empty();
     let extras = stage.extras();
     definition(&mut out, symbolic, &extras);
     let target = if symbolic || !extras.is_empty() { "Robot<S>" } else { "Robot" };
     kernels(&mut out, target, (symbolic, &extras), outputs);
     arm(&mut out, target, robot, (posture, &extras));
-    if !symbolic {
+    if !symbolic && place.is_none() {
         let generic = if extras.is_empty() { "" } else { "<S: Scalar>" };
         numeric(&mut out, robot, (generic, target));
     }
@@ -113,30 +117,38 @@ fn kernels(
     out.indent();
     method(out, "fn name(&self) -> &'static str {", "NAME");
     method(out, "fn dof(&self) -> usize {", "N");
+    method(out, "fn outputs(&self) -> &'static [Output] {", "&OUTPUTS");
     out.code("fn evaluate(");
     out.code("    &self,");
     out.code("    output: Output,");
-    out.code("    q: &[S],");
+    out.code("    state: &[S],");
     let wrench = outputs.iter().any(|output| output.takes(Input::Wrench));
     out.code(if wrench { "    wrench: &[S; 6]," } else { "    _wrench: &[S; 6]," });
     out.code("    out: &mut [S],");
     out.code(") -> Result<(), Error> {");
     out.indent();
-    out.code("let q: &[S; N] = q.try_into().map_err(|_| Error::Length)?;");
     if symbolic {
         out.code("let constants = &self.constants;");
     }
-    out.code("match output {");
+    out.code("let (joints, []) = state.as_chunks::<N>() else { return Err(Error::Length) };");
+    out.code("match (output, joints) {");
     out.indent();
     for output in outputs {
-        let first = if symbolic { "constants, q" } else { "q" };
-        let own = own(extras);
-        let last = if output.takes(Input::Wrench) { ", wrench" } else { "" };
+        let readings = format!("q{}", own(extras));
+        let inputs = output.inputs().iter().map(|input| match input {
+            Input::Joints => readings.as_str(),
+            beside => beside.name(),
+        });
+        let inputs = inputs.collect::<Vec<_>>();
+        let of_joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
+        let of_joints = of_joints.map(|input| input.name()).collect::<Vec<_>>().join(", ");
+        let first = if symbolic { "constants, " } else { "" };
         let question = if output.is_fallible() { "?" } else { "" };
-        let call = format!("{}({first}{own}{last}){question}", output.name());
+        let call = format!("{}({first}{}){question}", output.name(), inputs.join(", "));
         let flat = flat(*output, &call);
-        out.code(&format!("Output::{output:?} => fill(out, {flat}),"));
+        out.code(&format!("(Output::{output:?}, [{of_joints}]) => fill(out, {flat}),"));
     }
+    out.code("_ if OUTPUTS.contains(&output) => Err(Error::Length),");
     out.code("_ => Err(Error::Absent),");
     for _ in 0..3 {
         out.dedent();
@@ -169,7 +181,7 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.blank();
     out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
     out.indent();
-    let (name, mut ty) = (output.name(), ty(output, n));
+    let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
     if output.columns() == Side::Entries {
         out.code(&format!("type Columns = {ty};"));
         ty = "Self::Columns".to_string();
@@ -178,13 +190,14 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
         ty = format!("Result<{ty}, Unstable>");
     }
     let constants = if symbolic { "&self.constants, " } else { "" };
-    let (parameter, argument) = match output.takes(Input::Wrench) {
-        true => (", wrench: &[S; 6]", ", wrench"),
-        false => ("", ""),
-    };
+    let parameters: String = output
+        .beside()
+        .map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n)))))
+        .collect();
+    let arguments: String = output.beside().map(|input| format!(", {}", input.name())).collect();
     out.code(INLINE);
-    let head = format!("fn {name}(&self, posture: &Posture<S>{parameter}) -> {ty} {{");
-    method(out, &head, &format!("{name}::given({constants}posture{argument})"));
+    let head = format!("fn {name}(&self, posture: &Posture<S>{parameters}) -> {ty} {{");
+    method(out, &head, &format!("{name}::given({constants}posture{arguments})"));
     out.dedent();
     out.code("}");
 }

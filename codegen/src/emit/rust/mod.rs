@@ -10,6 +10,7 @@ mod function;
 mod inputs;
 mod interface;
 mod module;
+mod place;
 mod posture;
 mod shapes;
 mod style;
@@ -23,8 +24,8 @@ use super::constants::Constants;
 use super::plan::Plan;
 use super::posture::{Needs, Plain, Posture};
 use super::readings::Stage;
-use super::sets;
-use crate::derive::derive_each;
+use super::{Functions, functions};
+use crate::derive::Program;
 use crate::robot::Robot;
 
 /// What is a matter of the text and not of the robot.
@@ -56,12 +57,18 @@ pub const FILE_HEAD: &str = "\
 /// The items of a robot's module, ready to stand between the braces of a `mod`, to be included there, or,
 /// after [`FILE_HEAD`], to stand in a file of its own. The same table always gives the same bytes.
 pub fn rust(robot: &Robot, options: &RustOptions) -> String {
+    rust_with(robot, &[], options)
+}
+
+/// The same with functions of one's own.
+pub(crate) fn rust_with(robot: &Robot, own: &[&Program], options: &RustOptions) -> String {
     let mut constants = Constants::default();
     let symbolic = !robot.symbols().is_empty();
-    let outputs = robot.generated();
-    let sets = sets(&outputs);
-    let programs = derive_each(robot, &sets);
-    let plans: Vec<Plan> = programs.iter().map(|p| Plan::new(p, &mut constants)).collect();
+    let all = functions(robot);
+    let (tool, places) = all.split_at(1);
+    let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
+    let programs = of_tool.chain(places.iter().flat_map(|of| &of.programs));
+    let plans: Vec<Plan> = programs.map(|p| Plan::new(p, &mut constants)).collect();
     let stage = Stage::of(robot);
     let style = Rust { fused: options.fused, constants: "constants" };
     let mut posture = Posture::default();
@@ -71,23 +78,26 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
         posture.admit_plain(Plain::Joint(0));
     }
 
-    let mut text = table::header(robot, options);
+    let mut text = table::header(robot, own.is_empty(), options);
     if symbolic {
         text.push_str(&table::parameters(robot, &constants));
     }
-    text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot.dof()));
-    for ((outputs, plan), needs) in sets.iter().zip(&plans).zip(&needs) {
-        let function = Function {
-            plan,
-            outputs,
-            needs,
-            posture: &posture,
-            symbolic,
-            stage: &stage,
-            style: &style,
-        };
-        text.push_str(&function.text(robot, options));
+    text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot));
+    let mut each = plans.iter().zip(&needs);
+    let mut printed = |of: &Functions, own: usize, depth: usize| {
+        let mut text = String::new();
+        for (plan, needs) in each.by_ref().take(of.programs.len() + own) {
+            let (posture, stage, style) = (&posture, &stage, &style);
+            let function = Function { plan, needs, posture, symbolic, stage, style, depth };
+            text.push_str(&function.text(robot, options));
+        }
+        text + &interface::interface(robot, &posture, &stage, of, depth)
+    };
+    tool.iter().for_each(|of| text.push_str(&printed(of, own.len(), 0)));
+    if !places.is_empty() {
+        text.push_str(&place::module(robot, options, (places, &stage), |of, depth| {
+            printed(of, 0, depth)
+        }));
     }
-    text.push_str(&interface::interface(robot, &posture, &stage, &outputs));
     text
 }

@@ -1,12 +1,14 @@
 //! The text of one function, and of the module of the same name that holds its parts.
 
-use stiffarm_kernels::{Form, Input, Output};
+use stiffarm_kernels::{Form, Input};
 
+use super::super::plan::Given;
 use super::RustOptions;
 use super::body::Body;
-use super::function::Function;
+use super::function::{Function, parameter};
 use super::posture::{self, INLINE, needs_constants, readings, values};
 use super::shapes;
+use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
@@ -15,7 +17,7 @@ impl Function<'_> {
     /// The function and its module.
     pub fn text(&self, robot: &Robot, options: &RustOptions) -> String {
         let body = Body::new(self);
-        let mut out = Lines::at(0);
+        let mut out = Lines::at(self.depth);
         out.blank();
         self.entry(&mut out, robot);
         out.blank();
@@ -36,9 +38,8 @@ impl Function<'_> {
         let n = self.program().dof;
         let extras = posture::parameters(self.stage, n).concat();
         parameters.push(format!("q: &[S; {n}]{extras}"));
-        if self.wrench() {
-            parameters.push("wrench: &[S; 6]".to_string());
-        }
+        let arguments = self.plan.arguments();
+        parameters.extend(arguments.iter().map(|a| parameter(&a.name, a.size)));
         let (name, returned) = (self.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
@@ -69,40 +70,43 @@ impl Function<'_> {
         out.code("}");
     }
 
-    /// What the function returns: of an output its sentence, its shape with units, its formula.
+    /// What the function returns: of one's own its sentence; of an output or a result its sentence, its shape with
+    /// units, its formula.
     fn output(&self, out: &mut Lines) {
-        let [sentence, rest @ ..] = docs(self.outputs[0], self.program().dof, shapes::ORDER);
-        out.doc(&sentence);
-        for paragraph in rest {
-            out.doc("");
+        let own = self.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
+        let returned = match self.blocks() {
+            [block] => docs(&block.held, self.program().dof, shapes::ORDER),
+            _ => Vec::new(),
+        };
+        for (k, paragraph) in own.into_iter().chain(returned).enumerate() {
+            if k > 0 {
+                out.doc("");
+            }
             out.doc(&paragraph);
         }
-    }
-
-    /// What goes into the function.
-    fn inputs(&self) -> Vec<Input> {
-        let taken = |input: &Input| self.outputs.iter().any(|output| output.takes(*input));
-        Input::EACH.into_iter().filter(taken).collect()
     }
 
     /// The documentation of the kernel itself.
     pub fn kernel_docs(&self, out: &mut Lines) {
         if self.fused() {
-            out.doc("The kernel: everything that [`All`] holds.");
+            out.doc(&format!("The kernel: everything that [`{}`] holds.", self.structure()));
         } else {
             self.output(out);
         }
-        let mut read = self.inputs();
+        let mut read: Vec<Input> = self.program().inputs().collect();
+        let arguments = self.plan.arguments();
         read.retain(|input| match input {
             Input::Joints => !self.needs.reads.is_empty(),
-            _ => self.plan.wrench().contains(&true),
+            beside => arguments.iter().any(|a| a.of == Given::Arm(*beside) && self.plan.reads(a)),
         });
-        if !read.is_empty() {
+        if !read.is_empty() || self.own().is_some_and(|own| !own.inputs.is_empty()) {
             out.doc("");
-            out.doc(&inputs(&read, true));
+            out.doc(&inputs(read, true, self.own()));
         }
-        out.doc("");
-        out.doc("Additions and multiplications only, where no load is to be solved for.");
+        if self.own().is_none() {
+            out.doc("");
+            out.doc("Additions and multiplications only, where no load is to be solved for.");
+        }
         self.errors(out);
     }
 
@@ -116,30 +120,38 @@ impl Function<'_> {
 
     fn docs(&self, out: &mut Lines, robot: &Robot) {
         let ops = self.program().ops();
-        if self.fused() {
-            let names: Vec<&str> = self.outputs.iter().map(|o| o.name()).collect();
+        if self.fused() && self.own().is_none() {
+            let names: Vec<&str> = self.blocks().iter().map(|block| block.held.name()).collect();
             out.doc(&format!("{} of {}, worked out together.", names.join(", "), robot.name));
         } else {
             self.output(out);
         }
         out.doc("");
-        let given = inputs(&self.inputs(), false);
+        let given = inputs(self.program().inputs(), false, self.own());
         let joints = format!("`{}`: {}", Input::Joints.name(), Input::Joints.sentence());
         out.doc(&given.replacen(&joints, &readings(self.stage), 1));
         out.doc("");
         let angles: Vec<String> =
             self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
         let division = if ops.div > 0 { format!(", {} divisions", ops.div) } else { String::new() };
-        let trigonometry = match angles.is_empty() {
+        let mut trigonometry = match angles.is_empty() {
             true => "no sines or cosines".to_string(),
             false => format!("sines and cosines of {}", angles.join(", ")),
         };
+        match self.plan.own_angles.iter().map(Vec::len).sum() {
+            0 => {}
+            more => trigonometry.push_str(&format!(" and of {more} more")),
+        }
         out.doc(&format!(
             "{} additions, {} multiplications{division}, {trigonometry}; worked out in {}.",
             ops.add,
             ops.mul,
             self.program().frame()
         ));
+        if self.own().is_some() && ops.div > 0 {
+            out.doc("");
+            out.doc("Where a divisor, or what a root is taken of, is zero, what depends on it is not finite.");
+        }
         self.errors(out);
     }
 
@@ -148,8 +160,7 @@ impl Function<'_> {
         out.code(&format!("pub mod {} {{", self.name()));
         out.indent();
         let mut imports = vec!["Ops"];
-        let pose = |o: &Output| matches!(o.form(), Form::Pose | Form::Poses);
-        if self.outputs.iter().any(pose) {
+        if self.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
             imports.push("Pose");
         }
         imports.push("Scalar");
@@ -167,7 +178,7 @@ impl Function<'_> {
         out.code("use super::Posture;");
         self.figures(out, body);
         if self.fused() {
-            self.all_struct(out);
+            self.results(out);
         }
         out.blank();
         body.text(out);
@@ -183,15 +194,13 @@ impl Function<'_> {
             "pub const OPS: Ops = Ops {{ add: {}, mul: {}, neg: {}, div: {}, sin_cos: {} }};",
             ops.add, ops.mul, body.negations, ops.div, ops.sin_cos
         ));
-        if self.fused() {
-            return;
-        }
-        let (rows, columns) = self.outputs[0].shape(self.program().dof);
+        let [block] = self.blocks() else { return };
+        let (rows, columns) = block.held.shape(self.program().dof);
         out.blank();
         out.doc("Entries that are not structurally zero; `[column][row]`.");
         out.code(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["));
         out.indent();
-        for column in self.program().blocks[0].entries.chunks(rows) {
+        for column in block.entries.chunks(rows) {
             let flags: Vec<String> = column.iter().map(|e| (!e.is_zero()).to_string()).collect();
             out.code(&format!("[{}],", flags.join(", ")));
         }
@@ -199,22 +208,20 @@ impl Function<'_> {
         out.code("];");
     }
 
-    fn all_struct(&self, out: &mut Lines) {
+    /// The struct of everything that the function computes.
+    fn results(&self, out: &mut Lines) {
+        let n = self.program().dof;
         out.blank();
-        out.doc("Everything that [`all`](fn@super::all) computes.");
+        out.doc(&format!("Everything that [`{0}`](fn@super::{0}) computes.", self.name()));
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.code("pub struct All<S> {");
+        out.code(&format!("pub struct {}<S> {{", self.structure()));
         out.indent();
-        for output in self.outputs {
-            let [sentence, shape, _] = docs(*output, self.program().dof, shapes::ORDER);
-            out.doc(&sentence);
+        for Block { held, .. } in self.blocks() {
+            let sentences = docs(held, n, shapes::ORDER);
+            out.doc(&sentences[0]);
             out.doc("");
-            out.doc(&shape);
-            out.code(&format!(
-                "pub {}: {},",
-                output.name(),
-                shapes::ty(*output, self.program().dof)
-            ));
+            out.doc(&sentences[1]);
+            out.code(&format!("pub {}: {},", held.name(), shapes::ty(held, n)));
         }
         out.dedent();
         out.code("}");

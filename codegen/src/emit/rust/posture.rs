@@ -6,6 +6,7 @@ use super::super::posture::{Needs, Pair, Plain, Posture};
 use super::super::readings::{Extra, Stage};
 use super::style::Rust;
 use crate::emit::lines::Lines;
+use crate::robot::Robot;
 
 /// What a function is made of is joined to it, so that sines and cosines and all entries stay in
 /// registers; the way through memory costs a quarter more.
@@ -21,8 +22,9 @@ pub(super) fn module(
     posture: &Posture,
     needs: &[Needs],
     (stage, style): (&Stage, &Rust),
-    n: usize,
+    robot: &Robot,
 ) -> String {
+    let n = robot.dof();
     let mut out = Lines::at(0);
     joints(&mut out, stage, style, n);
     out.blank();
@@ -38,7 +40,7 @@ pub(super) fn module(
         }
     }
     for plain in &posture.plain {
-        out.doc(&format!("`{}`, {}", plain.source(), plain.meaning()));
+        out.doc(&format!("`{}`, {}", plain.source(), plain.meaning(robot)));
         out.code(&format!("pub {}: S,", plain.field()));
     }
     out.dedent();

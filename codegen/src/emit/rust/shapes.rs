@@ -2,45 +2,81 @@
 
 use stiffarm_kernels::{Form, Output};
 
+use crate::derive::{Held, Size};
+
 /// How Rust indexes a matrix.
 pub(super) const ORDER: &str = ", `[column][row]`";
 
+/// The arrangement of what a function returns.
+#[derive(Clone, Copy)]
+enum Shape {
+    Pose,
+    Poses(usize),
+    Scalar,
+    Vector(usize),
+    Matrix(usize, usize),
+    /// Rows, columns of each, how many.
+    Stack(usize, usize, usize),
+}
+
+fn shape(held: &Held, n: usize) -> Shape {
+    let (rows, columns) = held.shape(n);
+    match held {
+        Held::Output(output) => match output.form() {
+            Form::Pose => Shape::Pose,
+            Form::Poses => Shape::Poses(n),
+            Form::Vector => Shape::Vector(rows),
+            Form::Matrix => Shape::Matrix(rows, columns),
+            Form::Stack => Shape::Stack(rows, output.columns().each().count(n), n),
+        },
+        Held::Own(quantity) => match quantity.size {
+            Size::Scalar => Shape::Scalar,
+            Size::Vector(rows) => Shape::Vector(rows),
+            Size::Matrix { .. } => Shape::Matrix(rows, columns),
+        },
+    }
+}
+
 /// The type that a function returns, without `Result`.
-pub(super) fn ty(output: Output, n: usize) -> String {
-    let (rows, columns) = output.shape(n);
-    match output.form() {
-        Form::Pose => "Pose<S>".to_string(),
-        Form::Poses => format!("[Pose<S>; {n}]"),
-        Form::Vector => format!("[S; {rows}]"),
-        Form::Matrix => format!("[[S; {rows}]; {columns}]"),
+pub(super) fn ty(held: &Held, n: usize) -> String {
+    match shape(held, n) {
+        Shape::Pose => "Pose<S>".to_string(),
+        Shape::Poses(n) => format!("[Pose<S>; {n}]"),
+        Shape::Scalar => "S".to_string(),
+        Shape::Vector(rows) => format!("[S; {rows}]"),
+        Shape::Matrix(rows, columns) => format!("[[S; {rows}]; {columns}]"),
+        Shape::Stack(rows, columns, n) => format!("[[[S; {rows}]; {columns}]; {n}]"),
     }
 }
 
 /// A value of the type with every entry `zero`.
-pub(super) fn zero(output: Output, n: usize) -> String {
-    let (rows, columns) = output.shape(n);
+pub(super) fn zero(held: &Held, n: usize) -> String {
     let pose = "Pose { rotation: [[zero; 3]; 3], position: [zero; 3] }";
-    match output.form() {
-        Form::Pose => pose.to_string(),
-        Form::Poses => format!("[{pose}; {n}]"),
-        Form::Vector => format!("[zero; {rows}]"),
-        Form::Matrix => format!("[[zero; {rows}]; {columns}]"),
+    match shape(held, n) {
+        Shape::Pose => pose.to_string(),
+        Shape::Poses(n) => format!("[{pose}; {n}]"),
+        Shape::Scalar => "zero".to_string(),
+        Shape::Vector(rows) => format!("[zero; {rows}]"),
+        Shape::Matrix(rows, columns) => format!("[[zero; {rows}]; {columns}]"),
+        Shape::Stack(rows, columns, n) => format!("[[[zero; {rows}]; {columns}]; {n}]"),
     }
 }
 
 /// The place of column-major entry `entry`.
-pub(super) fn place(output: Output, n: usize, entry: usize) -> String {
-    let rows = output.shape(n).0;
+pub(super) fn place(held: &Held, n: usize, entry: usize) -> String {
+    let rows = held.shape(n).0;
     let (column, row) = (entry / rows, entry % rows);
     let pose = |column: usize| match column {
         3 => format!(".position[{row}]"),
         _ => format!(".rotation[{column}][{row}]"),
     };
-    match output.form() {
-        Form::Pose => pose(column),
-        Form::Poses => format!("[{}]{}", column / 4, pose(column % 4)),
-        Form::Vector => format!("[{row}]"),
-        Form::Matrix => format!("[{column}][{row}]"),
+    match shape(held, n) {
+        Shape::Pose => pose(column),
+        Shape::Poses(_) => format!("[{}]{}", column / 4, pose(column % 4)),
+        Shape::Scalar => String::new(),
+        Shape::Vector(_) => format!("[{row}]"),
+        Shape::Matrix(..) => format!("[{column}][{row}]"),
+        Shape::Stack(_, each, _) => format!("[{}][{}][{row}]", column / each, column % each),
     }
 }
 
@@ -51,5 +87,6 @@ pub(super) fn flat(output: Output, value: &str) -> String {
         Form::Poses => format!("{value}.map(Pose::columns).as_flattened().as_flattened()"),
         Form::Vector => format!("&{value}"),
         Form::Matrix => format!("{value}.as_flattened()"),
+        Form::Stack => format!("{value}.as_flattened().as_flattened()"),
     }
 }

@@ -34,6 +34,9 @@ impl Style for Rust {
     fn sqrt(&self, a: &str) -> String {
         format!("({a}).sqrt()")
     }
+    fn sign(&self, a: &str) -> String {
+        format!("({a}).sign()")
+    }
     fn fused(&self, a: &str, b: &str, c: &str) -> Option<String> {
         self.fused.then(|| format!("S::mul_add({a}, {b}, {c})"))
     }

@@ -1,6 +1,6 @@
 //! The head of a generated module: the table as constants, and its symbolic parameters.
 
-use stiffarm_kernels::Form;
+use stiffarm_kernels::{Form, Output};
 
 use super::super::asked;
 use super::super::constants::Constants;
@@ -10,7 +10,7 @@ use crate::number::Number;
 use crate::robot::{Angle, Convention, Entry, Frame, Joint, Motion, Quantity, Robot, Value};
 
 /// Imports, name, number of joints, table.
-pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
+pub(super) fn header(robot: &Robot, alone: bool, options: &RustOptions) -> String {
     let mut out = Lines::at(0);
     let n = robot.dof();
     out.code(&format!(
@@ -19,9 +19,12 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     ));
     let fused = if options.fused { " --fused" } else { "" };
     let asked = asked(robot);
-    out.code(&format!(
-        "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
-    ));
+    out.code(&match alone {
+        true => format!(
+            "// Not to be edited: `stiffarm generate ROBOT{asked}{fused} --check FILE` compares it with the table."
+        ),
+        false => "// Not to be edited: a build script writes it, with functions of its own.".to_owned(),
+    });
     let outputs = robot.generated();
     let used = |name: &'static str, used: bool| used.then_some(name);
     let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
@@ -50,6 +53,8 @@ pub(super) fn header(robot: &Robot, options: &RustOptions) -> String {
     out.blank();
     out.doc("Number of joints.");
     out.code(&format!("pub const N: usize = {n};"));
+    out.blank();
+    listed(&mut out, &outputs);
     out.blank();
     out.doc("The Denavit-Hartenberg table that every function of this module was derived from:");
     out.doc(match robot.convention {
@@ -244,4 +249,14 @@ pub(super) fn angle(angle: &Angle) -> String {
             if d == 1 { multiple } else { format!("{multiple}/{d}") }
         }
     }
+}
+
+/// The outputs of a module.
+pub(super) fn listed(out: &mut Lines, outputs: &[Output]) {
+    out.doc("What the module computes.");
+    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
+    out.indent();
+    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
+    out.dedent();
+    out.code("];");
 }

@@ -43,36 +43,40 @@ impl Robot {
             "link_com" => {
                 self.joints[row].com.iter_mut().zip(v).for_each(|(entry, by)| add(entry, *by));
             }
-            "link_weight" => return self.weigh(row, v[0]),
+            "link_weight" => self.weigh(row, v[0]),
             "link_compliance" => return bend(&mut self.joints[row], v),
             _ => return false,
         }
         true
     }
 
-    /// Adds mass at the link's centre; of a link without any that is the middle of its chord, which only some
-    /// rows can say.
-    fn weigh(&mut self, row: usize, mass: f64) -> bool {
+    /// Adds mass at the link's centre; of a link without any that is the middle of its chord.
+    fn weigh(&mut self, row: usize, mass: f64) {
         let standard = self.convention == Convention::Standard;
         let joint = &mut self.joints[row];
         if joint.mass.is_none() {
             let (a, d) = (double(&joint.a), double(&joint.d));
             let [alpha, beta] =
                 [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
-            let chord = match (standard, joint.motion) {
-                (true, Motion::Revolute) => {
-                    let row = turn([alpha, 0.0, 0.0]).then(&turn([0.0, beta, 0.0]));
-                    row.inverse().direction([a, 0.0, d])
-                }
-                (false, Motion::Revolute) if a == 0.0 => [0.0, 0.0, d],
-                _ => return false,
+            let chord = if standard {
+                let row = turn([alpha, 0.0, 0.0]).then(&turn([0.0, beta, 0.0]));
+                row.inverse().direction([a, 0.0, d])
+            } else {
+                [0.0, 0.0, d]
             };
             joint.com = times(chord, -0.5).map(value);
         }
         let whole = joint.mass.as_ref().map_or(0.0, double) + mass;
         joint.mass = Some(value(whole.max(0.0)));
-        true
     }
+}
+
+/// Whether a row can say where its link is weighed: it has a centre of mass, or the middle of its chord
+/// stays where it is in its frame.
+pub(super) fn has_centre(robot: &Robot, row: usize) -> bool {
+    let joint = &robot.joints[row];
+    let stays = robot.convention == Convention::Standard || joint.a.is_zero();
+    joint.mass.is_some() || (joint.motion == Motion::Revolute && stays)
 }
 
 impl Beyond {
@@ -93,7 +97,6 @@ impl Beyond {
             "bearing_compliance" => self.springs.push(Spring::Bearing(joint, [v[0], v[1]])),
             "base_compliance" => self.springs.push(Spring::Base([v[0], v[1], v[2]])),
             "link_compliance" => self.springs.push(Spring::Link(joint, [v[0], v[1]])),
-            "link_weight" => self.masses.push((joint, v[0])),
             "wrench_scale" => {
                 let scale = 1.0 + self.wrench_scale.to_f64();
                 self.wrench_scale = number(scale * (1.0 + found.values[0]) - 1.0);

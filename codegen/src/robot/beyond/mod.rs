@@ -32,8 +32,6 @@ pub struct Beyond {
     pub wrench_scale: Number,
     /// Where the wrench's force acts, tool frame, m.
     pub load_point: [Number; 3],
-    /// A row whose table has no mass, and the mass in the middle of its chord, kg.
-    pub masses: Vec<(usize, Number)>,
 }
 
 /// Something that makes joint values others than the readings.
@@ -75,6 +73,22 @@ impl Beyond {
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
         *self == Beyond::default()
+    }
+
+    /// Leaves out what is of joints and rows from `row` on. What moves the others stays: readings are those of
+    /// the whole arm.
+    pub(crate) fn truncate(&mut self, row: usize) {
+        self.moves.retain(|each| match each {
+            Move::Joint(joint, Law::Coupling(other, _)) => joint.max(other) < &row,
+            Move::Joint(joint, _) => *joint < row,
+            Move::Growth(_) => true,
+        });
+        self.springs.retain(|spring| match spring {
+            Spring::Bearing(at, _) | Spring::Link(at, _) => *at < row,
+            Spring::Base(_) => true,
+        });
+        self.hardening.retain(|(joint, _)| *joint < row);
+        self.windup.retain(|(joint, _)| *joint < row);
     }
 
     /// Whether it matters from which side a joint came.

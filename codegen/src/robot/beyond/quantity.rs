@@ -64,6 +64,7 @@ macro_rules! quantities {
 quantities! {
     Length: "m"; LENGTHS / NONE^0; 3e-4, 0.05
     Angle: "rad"; ANGLES / NONE^0; 3e-4, 0.05
+    Moment: "N·m"; MOMENTS / NONE^0; 100.0, ANY
     AnglePerMoment: "rad/(N·m)"; ANGLES / MOMENTS^1; 1e-6, ANY
     LengthPerForce: "m/N"; LENGTHS / FORCES^1; 1e-7, ANY
     AnglePerMomentCubed: "rad/(N·m)³"; ANGLES / MOMENTS^3; 1e-10, ANY

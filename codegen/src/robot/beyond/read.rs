@@ -2,6 +2,7 @@
 
 use super::super::model::{Effect, Entry, Joint, Motion, Quantity as Given, Robot, Value};
 use super::super::suggest::closest;
+use super::fold::has_centre;
 use super::{EffectError, Place, Quantity};
 use crate::number::Number;
 
@@ -154,6 +155,15 @@ impl Found {
             ));
         };
         let place = at.place(id, table, robot)?;
+        if *id == "link_weight" && !has_centre(robot, place.row()) {
+            let message = format!(
+                "no kernel is made of the link weight at {place}: the middle of a link without `mass` moves in \
+                 this row's frame"
+            );
+            let help =
+                Some("give the row `mass` and `com`, and the effect is put into them".to_owned());
+            return Err(wrong(&table.at, message, help));
+        }
         let form = match form {
             Some("order") => order(table)?,
             Some(_) => other(table, place, robot)?,

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, TokenTree};
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, Vector, broken};
+use super::super::draft::{Cell, INERTIA, Vector, broken};
 use super::super::lexeme::{Lexeme, extent, show};
 use super::super::model::{Angle, Motion, Value};
 use super::super::problem::{Place, Problem, Report};
@@ -152,6 +152,14 @@ pub(super) fn values(
 ) -> Vector<Value, Spot> {
     match list::<3>(cell, "[x, y, z]", report) {
         Some(entries) => entries.each_ref().map(|entry| value(entry, dimension, report)),
+        None => broken(&cell.at),
+    }
+}
+
+/// The six entries of a tensor of inertia.
+pub(super) fn inertia(cell: &Raw, report: &mut Report<Spot>) -> [Cell<Value, Spot>; 6] {
+    match list::<6>(cell, INERTIA, report) {
+        Some(entries) => entries.each_ref().map(|entry| value(entry, Dimension::Inertia, report)),
         None => broken(&cell.at),
     }
 }

@@ -6,15 +6,28 @@ use syn::parse::Parser;
 use syn::{Ident, LitStr, Path};
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, Draft, DraftFrame, DraftJoint, DraftMarker, Vector};
+use super::super::draft::{
+    Cell, Draft, DraftFrame, DraftJoint, DraftMarker, DraftNamedFrame, JointName, Vector,
+};
+use super::super::frames::Asked;
 use super::super::model::{Convention, Output, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::{advice, closest};
 use super::cells::{Raw, known_lengths, rotation, split, values};
 use super::spot::{Spot, is_sign, is_word};
 
-const KEYS: [&str; 9] =
-    ["name", "convention", "gravity", "base", "tool", "marker", "outputs", "products", "crate"];
+const KEYS: [&str; 10] = [
+    "name",
+    "convention",
+    "gravity",
+    "base",
+    "tool",
+    "frame",
+    "marker",
+    "outputs",
+    "products",
+    "crate",
+];
 
 const CONVENTIONS: [(&str, Convention); 4] = [
     ("standard_dh", Convention::Standard),
@@ -32,9 +45,10 @@ pub(super) struct Settings {
     gravity: Option<Vector<Value, Spot>>,
     base: DraftFrame<Spot>,
     tool: DraftFrame<Spot>,
+    frames: Vec<DraftNamedFrame<Spot>>,
     markers: Vec<DraftMarker<Spot>>,
-    /// What is to be generated; every output if there are none.
-    pub outputs: Vec<Output>,
+    /// What is to be generated; every output of the tool if there are none of it.
+    pub outputs: Vec<Cell<Asked, Spot>>,
     /// Whether products are fused into sums.
     pub fused: bool,
     /// Where the generated code finds the kernels.
@@ -105,7 +119,8 @@ impl Settings {
             report.error(problem.help(advice(&word, &KEYS)));
             return;
         };
-        if known != "marker" && self.seen.iter().any(|(seen, _)| *seen == known) {
+        if !["frame", "marker"].contains(&known) && self.seen.iter().any(|(seen, _)| *seen == known)
+        {
             report.error(Problem::new(at, format!("`{known}` stands here for the second time")));
             return;
         }
@@ -125,6 +140,7 @@ impl Settings {
                 self.tool =
                     frame(&cell, report, |cell, report| values(cell, Dimension::Length, report))
             }
+            "frame" => self.frames.extend(named_frame(&cell, report)),
             "marker" => self.markers.extend(marker(&cell, report)),
             "outputs" => self.outputs = outputs(&cell, report),
             "products" => self.fused = fused(&cell, report),
@@ -162,6 +178,7 @@ impl Settings {
             joints,
             base: self.base,
             tool: self.tool,
+            frames: self.frames,
             markers: self.markers,
             effects: Vec::new(),
             payloads: Vec::new(),
@@ -240,6 +257,34 @@ fn convention(cell: &Raw, report: &mut Report<Spot>) -> Cell<Convention, Spot> {
     Cell { value: choice, at: cell.at }
 }
 
+/// `name on 3 translation [x, y, z] rotation [rx, ry, rz]`, either part of the frame or neither.
+fn named_frame(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftNamedFrame<Spot>> {
+    let (name, joint, rest) = match cell.tokens.as_slice() {
+        [TokenTree::Ident(name), word, joint, rest @ ..] if is_word(word, "on") => {
+            (name, joint, rest)
+        }
+        _ => {
+            let message =
+                "`name on 3 translation [x, y, z] rotation [rx, ry, rz]` is expected here";
+            report.error(Problem::new(cell.at, message));
+            return None;
+        }
+    };
+    let text = joint.to_string();
+    let told = text.parse().map_or(JointName::Label(text), JointName::Number);
+    let frame = match rest {
+        [] => DraftFrame::default(),
+        _ => frame(&Raw::new(rest.to_vec(), cell.at), report, |cell, report| {
+            known_lengths(cell, "a frame's place cannot stay symbolic", report)
+        }),
+    };
+    Some(DraftNamedFrame {
+        name: Cell::new(name.to_string(), Spot::new(name.span())),
+        joint: Cell::new(told, Spot::new(joint.span())),
+        frame,
+    })
+}
+
 /// `name`, or `name [x, y, z]`.
 fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
     let expected = || Problem::new(cell.at, "`name` or `name [x, y, z]` is expected here");
@@ -265,29 +310,26 @@ fn marker(cell: &Raw, report: &mut Report<Spot>) -> Option<DraftMarker<Spot>> {
     Some(DraftMarker { name, translation })
 }
 
-/// `pose, jacobian`: one or more.
-fn outputs(cell: &Raw, report: &mut Report<Spot>) -> Vec<Output> {
-    let names = Output::EACH.map(Output::name);
-    let mut outputs = Vec::new();
+/// `pose, jacobian at elbow`: one or more.
+fn outputs(cell: &Raw, report: &mut Report<Spot>) -> Vec<Cell<Asked, Spot>> {
     let mut found = split(&cell.tokens, ',', cell.at);
     if found.is_empty() {
         found.push(cell.clone());
     }
-    for name in found {
-        let word: String = name.tokens.iter().map(ToString::to_string).collect();
-        match Output::EACH.into_iter().find(|output| output.name() == word) {
-            Some(output) => outputs.push(output),
-            None if word.is_empty() => {
-                let problem = Problem::new(name.at, "the name of an output is expected here");
-                report.error(problem.help(format!("known here: {}", names.join(", "))));
+    let asked = |Raw { tokens, at }: Raw| {
+        let words: Vec<String> = tokens.iter().map(ToString::to_string).collect();
+        let read = match words.is_empty() {
+            true => {
+                let known = Output::EACH.map(Output::name).join(", ");
+                let problem = Problem::new(at, "the name of an output is expected here");
+                Err(problem.help(format!("known here: {known}")))
             }
-            None => {
-                let problem = Problem::new(name.at, format!("`{word}` is no output"));
-                report.error(problem.help(advice(&word, &names)));
-            }
-        }
-    }
-    outputs
+            false => Asked::read(&words.join(" "))
+                .map_err(|no| Problem::new(at, no.message).help(no.help)),
+        };
+        Cell { value: report.keep(read), at }
+    };
+    found.into_iter().map(asked).collect()
 }
 
 /// `fused`, or `separate`, which is what they are otherwise.

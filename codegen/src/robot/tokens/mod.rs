@@ -9,8 +9,9 @@
 //! gravity: [0, 0, -9.80665];            // optional
 //! base: translation [1, 0, 0] rotation [0, 0, pi/2];           // optional, either part
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
+//! frame: elbow on 3 translation [0, 0, 100 mm];   // optional, any number: on the link of a joint, as tool
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
-//! outputs: pose, jacobian;              // optional: what is generated, every output if absent
+//! outputs: pose, jacobian at elbow;     // optional: what is generated, every output of the tool if absent
 //! products: fused;                      // optional: into sums, or separate
 //! crate: ::stiffarm_kernels;            // optional: where the generated code finds the kernels
 //! joint | theta  | d      | a      | alpha  | stiffness     | mass | com            | limits
@@ -43,7 +44,9 @@ use proc_macro2::TokenStream;
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Ident, LitStr, Path, Token, Visibility};
 
-use super::model::{Output, Robot};
+use super::draft::Cell;
+use super::frames::{Asked, ask};
+use super::model::Robot;
 use super::problem::{Problem, Report};
 use super::validate::validate;
 pub use outline::Outline;
@@ -60,8 +63,6 @@ pub struct Invocation {
     pub module: Ident,
     /// Where the generated code finds the kernels; `None` leaves it to the macro.
     pub kernels: Option<Path>,
-    /// What is to be generated of a robot file, instead of what it says itself; that if there are none.
-    pub outputs: Vec<Output>,
     /// Whether products are fused into sums.
     pub fused: bool,
     /// The robot itself, or where to read it.
@@ -84,12 +85,28 @@ pub struct File {
     pub base: Option<LitStr>,
     /// The link of a URDF at which it ends.
     pub tip: Option<LitStr>,
+    /// What is to be generated, instead of what the file says itself; that if there are none.
+    outputs: Vec<Cell<Asked, Spot>>,
 }
 
 impl File {
     /// Whether it is a URDF.
     pub fn is_urdf(&self) -> bool {
         self.name.value().ends_with(".urdf")
+    }
+
+    /// Has generated of its robot what the invocation asks for, where it asks.
+    ///
+    /// # Errors
+    /// What the robot does not have.
+    pub fn ask(&self, robot: &mut Robot) -> Result<(), Vec<SpannedError>> {
+        let mut report = Report::new();
+        if !self.outputs.is_empty() {
+            (robot.outputs, robot.at) = (Vec::new(), Vec::new());
+            ask(robot, &self.outputs, &mut report);
+        }
+        let errors: Vec<_> = report.errors.into_iter().map(SpannedError::from).collect();
+        if errors.is_empty() { Ok(()) } else { Err(errors) }
     }
 }
 
@@ -143,8 +160,8 @@ pub fn parse_tokens(input: TokenStream) -> Result<Invocation, Box<Rejected>> {
         (Some(source), Head { attrs, vis: Some(vis), module: Some(module), said, .. })
             if report.errors.is_empty() =>
         {
-            let Said { kernels, outputs, fused } = said;
-            Ok(Invocation { attrs, vis, module, kernels, outputs, fused, source })
+            let Said { kernels, fused } = said;
+            Ok(Invocation { attrs, vis, module, kernels, fused, source })
         }
         (source, Head { attrs, vis, module, said: Said { kernels, .. }, .. }) => {
             let file = match source {
@@ -172,7 +189,6 @@ struct Head {
 #[derive(Default)]
 struct Said {
     kernels: Option<Path>,
-    outputs: Vec<Output>,
     fused: bool,
 }
 
@@ -194,7 +210,7 @@ impl Head {
             }
             let message = "expected the name of a robot file in quotes";
             let name = input.parse().map_err(|e| here(e, message))?;
-            self.file = Some(File { name, base: None, tip: None });
+            self.file = Some(File { name, base: None, tip: None, outputs: Vec::new() });
         }
         while let Some(file) = self.file.as_mut().filter(|_| input.peek(Token![,])) {
             input.parse::<Token![,]>()?;
@@ -225,9 +241,9 @@ fn body(
     let tokens = flatten(rest);
     let at = Spot::new(module.span());
     let (mut settings, table) = header::read(&tokens, report);
-    let outputs = settings.outputs.clone();
-    *said = Said { kernels: settings.kernels.take(), outputs, fused: settings.fused };
+    *said = Said { kernels: settings.kernels.take(), fused: settings.fused };
     if let Some(file) = file {
+        let file = File { outputs: core::mem::take(&mut settings.outputs), ..file };
         settings.refuse_for_a_file(report);
         if !table.is_empty() {
             let message = "a table and a robot file: one of them is enough";

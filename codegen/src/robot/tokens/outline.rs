@@ -27,17 +27,25 @@ pub struct Outline {
     pub joints: Option<usize>,
     /// What seems to be a parameter, each once, in order of appearance.
     pub symbols: Vec<String>,
+    /// What seem to be frames and markers.
+    pub places: Vec<String>,
 }
 
 impl Outline {
     /// The outline of an inline table and of the settings before it.
     pub(super) fn of_table(settings: &[TokenTree], table: &[TokenTree]) -> Self {
         let mut outline = Outline::default();
+        // Where a frame is on its link is told in numbers.
+        let mut numbers = false;
         for (i, token) in settings.iter().enumerate() {
             let behind = |word: &str, back: usize| i >= back && is_word(&settings[i - back], word);
-            if behind("translation", 1) || (behind("gravity", 2) && is_sign(&settings[i - 1], ':'))
-            {
+            let set = |word: &str| behind(word, 2) && is_sign(&settings[i - 1], ':');
+            numbers = (numbers || set("frame")) && !is_sign(token, ';');
+            if !numbers && (behind("translation", 1) || set("gravity")) {
                 outline.cell(std::slice::from_ref(token));
+            }
+            if set("frame") || set("marker") {
+                outline.place(&token.to_string());
             }
         }
         let rows = rows::split(table);
@@ -69,7 +77,17 @@ impl Outline {
         for key in ["gravity", "joint", "tool"] {
             table.get(key).into_iter().for_each(|value| outline.value(value));
         }
+        let places = ["frame", "marker"].into_iter().filter_map(|key| table.get(key)?.as_array());
+        let names = places.flatten().filter_map(|place| place.get("name")?.as_str());
+        names.for_each(|name| outline.place(name));
         outline
+    }
+
+    /// A frame or marker, where its name can be a module's.
+    fn place(&mut self, name: &str) {
+        if syn::parse_str::<syn::Ident>(name).is_ok() && self.places.iter().all(|p| p != name) {
+            self.places.push(name.to_owned());
+        }
     }
 
     /// A cell of the inline table: words, a list, or a beam in braces.
@@ -148,7 +166,7 @@ mod tests {
     #[test]
     fn rows_and_names_show_through_mistakes() {
         let outline = table(
-            "gravity: [0, g_y, 0]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
+            "gravity: [0, g_y, 0]; frame: elbow no 3; marker: smr1 [0, 1]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
              joint | theta  | d      | alhpa | kind | stiffness | com | beam\n\
              a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, colour: red, section: tube }\n\
              a2 | q      | d2/2 | 0 | - | type | - | -\n\
@@ -156,14 +174,17 @@ mod tests {
         );
         assert_eq!(outline.joints, Some(3));
         assert_eq!(outline.symbols, ["g_y", "t", "t1", "al", "k1", "c", "E", "d2", "e"]);
+        assert_eq!(outline.places, ["elbow", "smr1"]);
     }
 
     #[test]
     fn a_file_shows_the_same() {
         let text = "name = \"arm\"\n[[joint]]\ntype = \"revolut\"\na = \"2*a1\"\nd = \"3 furlong\"\n\
-                    [joint.beam]\nsection = { area = \"A\" }\n[[joint]]\nsource = \"x\"";
+                    [joint.beam]\nsection = { area = \"A\" }\n[[joint]]\nsource = \"x\"\n\
+                    [[frame]]\nname = \"elbow\"\n[[marker]]\nname = \"a b\"";
         let outline = Outline::of_file(text);
         assert_eq!((outline.joints, outline.symbols.join(" ")), (Some(2), "a1 A".to_owned()));
+        assert_eq!(outline.places, ["elbow"]);
         assert_eq!(Outline::of_file("not toml"), Outline::default());
     }
 }

@@ -3,19 +3,19 @@
 use proc_macro2::TokenTree;
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, DraftJoint};
+use super::super::draft::{Cell, DraftDrive, DraftJoint};
 use super::super::lexeme::Lexeme;
 use super::super::model::{Angle, Motion, Value};
 use super::super::problem::{Place, Problem, Report};
 use super::super::suggest::advice;
 use super::cells::{
-    self, Raw, Variable, angle, angle_of, limits, value, value_of, values, variable,
+    self, Raw, Variable, angle, angle_of, inertia, limits, value, value_of, values, variable,
 };
 use super::spot::{Spot, is_sign, is_word, words};
 use super::{beam, header, rows};
 
 /// The columns that a table may have.
-pub(super) const COLUMNS: [&str; 12] = [
+pub(super) const COLUMNS: [&str; 17] = [
     "joint",
     "theta",
     "d",
@@ -25,6 +25,11 @@ pub(super) const COLUMNS: [&str; 12] = [
     "stiffness",
     "mass",
     "com",
+    "inertia",
+    "gear",
+    "rotor_inertia",
+    "coulomb",
+    "viscous",
     "limits",
     "beam",
     "source",
@@ -174,10 +179,13 @@ impl Row<'_> {
             false => Cell::broken(self.at),
         };
         // What these measure depends on a motion that may not be known: they are then left unread.
-        let stiffness = self.get("stiffness").map(|cell| match motion.value {
-            Some(motion) => value(cell, Dimension::stiffness(motion), report),
-            None => Cell::broken(cell.at),
-        });
+        let by_motion = |column, dimension: fn(Motion) -> Dimension, report: &mut Report<Spot>| {
+            self.get(column).map(|cell| match motion.value {
+                Some(motion) => value(cell, dimension(motion), report),
+                None => Cell::broken(cell.at),
+            })
+        };
+        let stiffness = by_motion("stiffness", Dimension::stiffness, report);
         let limits = self.get("limits").map(|cell| match motion.value {
             Some(motion) => limits(cell, motion, report),
             None => Cell::broken(cell.at),
@@ -197,6 +205,15 @@ impl Row<'_> {
             stiffness,
             mass: self.get("mass").map(|cell| value(cell, Dimension::Mass, report)),
             com: self.get("com").map(|c| (c.at, values(c, Dimension::Length, report))),
+            inertia: self.get("inertia").map(|c| (c.at, inertia(c, report))),
+            drive: DraftDrive {
+                gear: by_motion("gear", Dimension::gear, report),
+                rotor_inertia: self
+                    .get("rotor_inertia")
+                    .map(|cell| value(cell, Dimension::Inertia, report)),
+                coulomb: by_motion("coulomb", Dimension::load, report),
+                viscous: by_motion("viscous", Dimension::damping, report),
+            },
             limits,
             source: self.get("source").map(|cell| header::string(cell, report)),
             beam: self.get("beam").and_then(|cell| beam::read(cell, report)),

@@ -6,7 +6,7 @@ use ::toml::Spanned;
 use ::toml::de::DeValue;
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, DraftJoint};
+use super::super::draft::{Cell, DraftDrive, DraftJoint};
 use super::super::model::Motion;
 use super::beam;
 use super::fields::Fields;
@@ -23,6 +23,11 @@ const KEYS: &[&str] = &[
     "stiffness",
     "mass",
     "com",
+    "inertia",
+    "gear",
+    "rotor_inertia",
+    "coulomb",
+    "viscous",
     "limits",
     "source",
     "beam",
@@ -52,6 +57,16 @@ fn read(reader: &mut Reader<'_>, fields: &Fields<'_, '_>) -> DraftJoint<Range<us
         None => Cell::broken(fields.at()),
     };
     let length = Dimension::Length;
+    // What these measure depends on a type that may not be known: they are then left unread. A rigid joint
+    // may say so instead of leaving its stiffness out.
+    let by_motion = |key: &str, dimension: fn(Motion) -> Dimension, reader: &mut Reader<'_>| {
+        let rigid =
+            |v: &&Spanned<DeValue<'_>>| key == "stiffness" && v.as_ref().as_str() == Some("rigid");
+        fields.get(key).filter(|v| !rigid(v)).map(|v| match motion.value {
+            Some(motion) => reader.value(v, dimension(motion)),
+            None => Cell::broken(v.span()),
+        })
+    };
     DraftJoint {
         at: fields.at(),
         name: fields.get("name").map(|v| reader.string(v)),
@@ -60,16 +75,16 @@ fn read(reader: &mut Reader<'_>, fields: &Fields<'_, '_>) -> DraftJoint<Range<us
         a: fields.get("a").map(|v| reader.value(v, length)),
         alpha: fields.get("alpha").map(|v| reader.angle(v)),
         beta: fields.get("beta").map(|v| reader.angle(v)),
-        // What these measure depends on a type that is not known: they are left unread. A rigid joint
-        // may say so instead of leaving its stiffness out.
-        stiffness: fields.get("stiffness").filter(|v| v.as_ref().as_str() != Some("rigid")).map(
-            |v| match motion.value {
-                Some(motion) => reader.value(v, Dimension::stiffness(motion)),
-                None => Cell::broken(v.span()),
-            },
-        ),
+        stiffness: by_motion("stiffness", Dimension::stiffness, reader),
         mass: fields.get("mass").map(|v| reader.value(v, Dimension::Mass)),
         com: fields.get("com").map(|v| (v.span(), reader.values(v, length))),
+        inertia: fields.get("inertia").map(|v| (v.span(), reader.inertia(v))),
+        drive: DraftDrive {
+            gear: by_motion("gear", Dimension::gear, reader),
+            rotor_inertia: fields.get("rotor_inertia").map(|v| reader.value(v, Dimension::Inertia)),
+            coulomb: by_motion("coulomb", Dimension::load, reader),
+            viscous: by_motion("viscous", Dimension::damping, reader),
+        },
         limits: fields.get("limits").map(|v| match motion.value {
             Some(motion) => reader.limits(v, motion),
             None => Cell::broken(v.span()),

@@ -16,7 +16,7 @@ use ::toml::de::{DeTable, DeValue, Error};
 
 use super::beyond::EffectError;
 use super::diagnostic::{FileError, Located, Warning};
-use super::draft::{Cell, Draft, DraftFrame, DraftMarker, DraftPayload};
+use super::draft::{Cell, Draft, DraftFrame, DraftMarker, DraftNamedFrame, DraftPayload};
 use super::model::{Convention, Robot};
 use super::problem::{Problem, Report};
 use super::validate::validate;
@@ -30,6 +30,7 @@ const KEYS: &[&str] = &[
     "joint",
     "base",
     "tool",
+    "frame",
     "marker",
     "effect",
     "payload",
@@ -116,6 +117,7 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
         joints: joints.unwrap_or_default(),
         base: frame(reader, &fields, "base", "[base]"),
         tool: frame(reader, &fields, "tool", "[tool]"),
+        frames: fields.get("frame").map(|v| named_frames(reader, v)).unwrap_or_default(),
         markers: fields.get("marker").map(|v| markers(reader, v)).unwrap_or_default(),
         effects: fields.get("effect").map(|v| effect::read_all(reader, v)).unwrap_or_default(),
         payloads: fields.get("payload").map(|v| payloads(reader, v)).unwrap_or_default(),
@@ -144,6 +146,29 @@ fn frame(
         _ => reader.values(v, super::Dimension::Length),
     });
     DraftFrame { translation, rotation: fields.get("rotation").map(|v| reader.rotation(v)) }
+}
+
+fn named_frames(
+    reader: &mut Reader<'_>,
+    value: &Spanned<DeValue<'_>>,
+) -> Vec<DraftNamedFrame<Range<usize>>> {
+    let mut found = Vec::new();
+    for value in reader.tables(value, "frame") {
+        let keys = &["name", "joint", "translation", "rotation"];
+        let Some(fields) = Fields::of(reader, value, "[[frame]]", keys) else { continue };
+        let name = fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v));
+        let help = "write joint = 3, or the name of the joint on whose link the frame is";
+        let joint = fields.required(reader, "joint", help).map(|v| reader.joint(v));
+        let lengths = fields.get("translation");
+        let translation = lengths.map(|v| reader.known_lengths(v, "write its place"));
+        let rotation = fields.get("rotation").map(|v| reader.rotation(v));
+        found.push(DraftNamedFrame {
+            name: name.unwrap_or_else(|| Cell::broken(fields.at())),
+            joint: joint.unwrap_or_else(|| Cell::broken(fields.at())),
+            frame: DraftFrame { translation, rotation },
+        });
+    }
+    found
 }
 
 fn markers(

@@ -6,9 +6,11 @@ use ::toml::Spanned;
 use ::toml::de::{DeArray, DeValue};
 
 use super::super::dimension::Dimension;
-use super::super::draft::{Cell, Vector, broken};
+use super::super::draft::JointName;
+use super::super::draft::{Cell, INERTIA, Vector, broken};
+use super::super::frames::Asked;
 use super::super::lexeme::{Lexeme, lex};
-use super::super::model::{Angle, Motion, Output, Spot, Value};
+use super::super::model::{Angle, Motion, Spot, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::advice;
 use super::super::symbols::Symbolic;
@@ -185,6 +187,14 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The six entries of a tensor of inertia.
+    pub fn inertia(&mut self, value: &Node<'_>) -> [Cell<Value, At>; 6] {
+        match self.array::<6>(value, INERTIA) {
+            Some(entries) => entries.map(|entry| self.value(entry, Dimension::Inertia)),
+            None => broken(&value.span()),
+        }
+    }
+
     /// Three lengths that must be numbers, and why.
     pub fn known_lengths(&mut self, value: &Node<'_>, reason: &str) -> Vector<Value, At> {
         let cells = self.values(value, Dimension::Length);
@@ -225,8 +235,21 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Names of outputs, one or more.
-    pub fn outputs(&mut self, value: &Node<'_>) -> Vec<Output> {
+    /// A joint by its number from 1 or by its name.
+    pub fn joint(&mut self, value: &Node<'_>) -> Cell<JointName, At> {
+        let at = value.span();
+        if let DeValue::Integer(number) = value.get_ref() {
+            let text = number.as_str();
+            let told = usize::from_str_radix(text, number.radix());
+            let told = told.map_or_else(|_| JointName::Label(text.to_owned()), JointName::Number);
+            return Cell::new(told, at);
+        }
+        let Cell { value, at } = self.string(value);
+        Cell { value: value.map(JointName::Label), at }
+    }
+
+    /// Names of outputs, one or more, each with the frame at which it is asked for.
+    pub fn outputs(&mut self, value: &Node<'_>) -> Vec<Cell<Asked, At>> {
         let DeValue::Array(names) = value.get_ref() else {
             self.expected(value, "an array of outputs");
             return Vec::new();
@@ -235,8 +258,14 @@ impl<'a> Reader<'a> {
             let problem = Problem::new(value.span(), "an array of no outputs");
             self.report.error(problem.help("leave `outputs` out for all of them"));
         }
-        let known = Output::EACH.map(|output| (output.name(), output));
-        names.iter().filter_map(|name| self.choice(name, &known).value).collect()
+        names.iter().map(|name| self.asked(name)).collect()
+    }
+
+    fn asked(&mut self, name: &Node<'_>) -> Cell<Asked, At> {
+        let Cell { value, at } = self.string(name);
+        let read = value.map(|text| Asked::read(&text)).transpose();
+        let read = read.map_err(|no| Problem::new(at.clone(), no.message).help(no.help));
+        Cell { value: self.report.keep(read).flatten(), at }
     }
 
     /// The tables of an array of tables; an error if it is something else.

@@ -4,7 +4,8 @@ use core::fmt::Write as _;
 
 use super::super::decimal;
 use super::super::model::{
-    Angle, Beam, Convention, Effect, Frame, Joint, Motion, Quantity, Robot, Value,
+    Angle, Beam, Convention, Drive, Effect, Frame, Joint, Motion, NamedFrame, Quantity, Robot,
+    Value,
 };
 use super::super::pi::spell;
 
@@ -27,9 +28,9 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
     writeln!(text, "name = {}", quoted(&robot.name))?;
     writeln!(text, "convention = \"{convention}\"")?;
     writeln!(text, "gravity = {}", list(robot.gravity.iter().map(value)))?;
-    if !robot.outputs.is_empty() {
-        let names = robot.generated().into_iter().map(|output| quoted(output.name()));
-        writeln!(text, "outputs = {}", list(names))?;
+    let asked = robot.asked();
+    if !asked.is_empty() {
+        writeln!(text, "outputs = {}", list(asked.iter().map(|name| quoted(name))))?;
     }
     for (i, joint) in robot.joints.iter().enumerate() {
         write_joint(text, i, joint)?;
@@ -37,9 +38,12 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
     for (name, frame) in [("base", &robot.base), ("tool", &robot.tool)] {
         if *frame != Frame::default() {
             writeln!(text, "\n[{name}]")?;
-            writeln!(text, "translation = {}", list(frame.translation.iter().map(value)))?;
-            writeln!(text, "rotation = {}", list(frame.rotation.iter().map(angle)))?;
+            write_frame(text, frame)?;
         }
+    }
+    for NamedFrame { name, row, frame } in &robot.frames {
+        writeln!(text, "\n[[frame]]\nname = {}\njoint = {}", quoted(name), row + 1)?;
+        write_frame(text, frame)?;
     }
     for marker in &robot.markers {
         writeln!(text, "\n[[marker]]\nname = {}", quoted(&marker.name))?;
@@ -54,6 +58,11 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
         writeln!(text, "com = {}", list(payload.com.iter().map(value)))?;
     }
     Ok(())
+}
+
+fn write_frame(text: &mut String, frame: &Frame) -> core::fmt::Result {
+    writeln!(text, "translation = {}", list(frame.translation.iter().map(value)))?;
+    writeln!(text, "rotation = {}", list(frame.rotation.iter().map(angle)))
 }
 
 fn write_effect(text: &mut String, effect: &Effect) -> core::fmt::Result {
@@ -99,6 +108,21 @@ fn write_joint(text: &mut String, index: usize, joint: &Joint) -> core::fmt::Res
     if let Some(mass) = &joint.mass {
         writeln!(text, "mass = {}", value(mass))?;
         writeln!(text, "com = {}", list(joint.com.iter().map(value)))?;
+    }
+    if let Some(inertia) = &joint.inertia {
+        writeln!(text, "inertia = {}", list(inertia.iter().map(value)))?;
+    }
+    let Drive { gear, rotor_inertia, coulomb, viscous } = &joint.drive;
+    let drive = [
+        ("gear", gear),
+        ("rotor_inertia", rotor_inertia),
+        ("coulomb", coulomb),
+        ("viscous", viscous),
+    ];
+    for (key, number) in drive {
+        if let Some(number) = number {
+            writeln!(text, "{key} = {}", value(number))?;
+        }
     }
     if let Some(limits) = &joint.limits {
         writeln!(text, "limits = {}", list(limits.iter().map(|x| limit(joint.motion, *x))))?;

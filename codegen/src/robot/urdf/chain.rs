@@ -6,7 +6,7 @@ use super::document::{Elements, Joint, Kind, Origin};
 use super::masses::{self, Lump};
 use super::refusal::{Place, Refusal};
 use super::tree::{Tree, moves};
-use crate::robot::Motion;
+use crate::robot::{Motion, inertia};
 
 /// Gravity along −z of the root, m/s².
 const GRAVITY: f64 = 9.80665;
@@ -45,6 +45,8 @@ pub struct Step {
     pub limits: Option<[f64; 2]>,
     /// What moves with this joint and not with the next, in the joint's frame.
     pub lump: Lump,
+    /// Viscous friction, N·m·s/rad or N·s/m, and dry friction, N·m or N.
+    pub friction: [f64; 2],
 }
 
 impl Chain {
@@ -77,10 +79,26 @@ impl Chain {
             chain.end = chain.end.then(&frame(&joint.origin));
             if let Some(motion) = motion(joint)? {
                 let before = core::mem::replace(&mut chain.end, Frame::IDENTITY);
-                let lump = masses::lump(&tree, &joint.child, tip, &mut chain.remarks);
+                let mut lump = masses::lump(&tree, &joint.child, tip, &mut chain.remarks);
+                let tensor = lump.tensor(&Frame::IDENTITY.axes);
+                if let Some(why) = tensor.and_then(inertia::unphysical) {
+                    chain.remarks.push(format!(
+                        "link `{}` and what is fixed to it: {why}: taken as a mass at its centre",
+                        joint.child
+                    ));
+                    lump = lump.at_a_point();
+                }
                 let (axis, limits) = (axis(joint)?, limits(joint, &mut chain.remarks));
                 let name = joint.name.clone();
-                chain.steps.push(Step { name, motion, before, axis, limits, lump });
+                chain.steps.push(Step {
+                    name,
+                    motion,
+                    before,
+                    axis,
+                    limits,
+                    lump,
+                    friction: joint.friction,
+                });
             }
         }
         if chain.steps.is_empty() {

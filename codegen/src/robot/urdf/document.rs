@@ -26,6 +26,8 @@ pub struct Link {
     pub mass: f64,
     /// Of its mass.
     pub centre: Origin,
+    /// xx, xy, xz, yy, yz, zz about that centre in the axes of its origin, kg·m².
+    pub inertia: [f64; 6],
 }
 
 /// A `<joint>`.
@@ -40,6 +42,8 @@ pub struct Joint {
     pub axis: Vector,
     /// Lower and upper, rad or m.
     pub limits: [f64; 2],
+    /// Viscous and dry friction.
+    pub friction: [f64; 2],
     /// The joint that it follows.
     pub mimic: Option<String>,
 }
@@ -177,14 +181,15 @@ impl<'a> Element<'a> {
     fn link(self) -> Result<Link, Refusal> {
         let name = self.attribute("name")?.to_owned();
         let Some(inertial) = self.child("inertial")? else {
-            return Ok(Link { name, mass: 0.0, centre: Origin::default() });
+            return Ok(Link { name, mass: 0.0, centre: Origin::default(), inertia: [0.0; 6] });
         };
-        let inertia = inertial.needed("inertia")?;
-        for moment in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"] {
-            inertia.number(moment)?;
+        let tensor = inertial.needed("inertia")?;
+        let mut inertia = [0.0; 6];
+        for (entry, name) in inertia.iter_mut().zip(["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]) {
+            *entry = tensor.number(name)?;
         }
         let mass = inertial.needed("mass")?.number("value")?;
-        Ok(Link { name, mass, centre: inertial.origin()? })
+        Ok(Link { name, mass, centre: inertial.origin()?, inertia })
     }
 
     fn joint(self, unlimited: bool) -> Result<Joint, Refusal> {
@@ -203,8 +208,22 @@ impl<'a> Element<'a> {
             child: link("child")?,
             axis: self.child("axis")?.map_or([1.0, 0.0, 0.0], |a| a.vector("xyz", [1.0, 0.0, 0.0])),
             limits: self.child("limit")?.map_or(Ok([0.0; 2]), |l| l.limits(unlimited))?,
+            friction: self.child("dynamics")?.map_or(Ok([0.0; 2]), Element::friction)?,
             mimic: mimic.map(str::to_owned),
         })
+    }
+
+    fn friction(self) -> Result<[f64; 2], Refusal> {
+        let mut found = [0.0; 2];
+        for (entry, name) in found.iter_mut().zip(["damping", "friction"]) {
+            if self.node.attribute(name).is_some() {
+                *entry = self.number(name)?;
+            }
+            if *entry < 0.0 {
+                return Err(self.refused(&format!("has its {name} below zero")));
+            }
+        }
+        Ok(found)
     }
 
     fn limits(self, unlimited: bool) -> Result<[f64; 2], Refusal> {

@@ -27,8 +27,12 @@ impl Chain {
                 Convention::Standard => (along_z, length.then(&tilt)),
             };
             let mass = joint.mass.as_ref().map_or(Some(0.0), number)?;
-            let lump = Lump::new(mass, behind.point(com));
-            steps.push(step(joint, end.then(&before), lump));
+            let tensor = match &joint.inertia {
+                Some(entries) => numbers(entries)?,
+                None => [0.0; 6],
+            };
+            let lump = Lump::spread(mass, &behind.then(&Frame::moved(com)), tensor);
+            steps.push(step(joint, end.then(&before), lump)?);
             end = behind;
         }
         let tool = fixed(&robot.tool)?;
@@ -50,15 +54,17 @@ fn fixed(frame: &robot::Frame) -> Option<Frame> {
     Some(Frame { origin: vector(&frame.translation)?, ..turned(angles(&frame.rotation)?) })
 }
 
-fn step(joint: &Joint, before: Frame, lump: Lump) -> Step {
-    Step {
+fn step(joint: &Joint, before: Frame, lump: Lump) -> Option<Step> {
+    let friction = |value: &Option<Value>| value.as_ref().map_or(Some(0.0), number);
+    Some(Step {
         name: joint.name.clone(),
         motion: joint.motion,
         before,
         axis: [0.0, 0.0, 1.0],
         limits: joint.limits,
         lump,
-    }
+        friction: [friction(&joint.drive.viscous)?, friction(&joint.drive.coulomb)?],
+    })
 }
 
 fn number(value: &Value) -> Option<f64> {
@@ -66,8 +72,15 @@ fn number(value: &Value) -> Option<f64> {
 }
 
 fn vector(values: &[Value; 3]) -> Option<[f64; 3]> {
-    let [x, y, z] = values;
-    Some([number(x)?, number(y)?, number(z)?])
+    numbers(values)
+}
+
+fn numbers<const N: usize>(values: &[Value; N]) -> Option<[f64; N]> {
+    let mut found = [0.0; N];
+    for (found, value) in found.iter_mut().zip(values) {
+        *found = number(value)?;
+    }
+    Some(found)
 }
 
 fn angles([x, y, z]: &[Angle; 3]) -> Option<[f64; 3]> {

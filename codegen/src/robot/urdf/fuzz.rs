@@ -4,8 +4,7 @@
 //! `cargo test --release -p stiffarm-codegen --features urdf -- --ignored a_million`
 
 use proptest::prelude::*;
-use proptest::sample::{Index, select};
-use proptest::test_runner::{Config, TestRunner};
+use stiffarm_draws::texts::{answered, mutated};
 
 use super::{Chain, Table, read, robot_file};
 use crate::robot::Robot;
@@ -57,24 +56,6 @@ const PIECES: [&str; 36] = [
     "link_1",
 ];
 
-/// A file with stretches replaced by pieces, or by stretches of itself.
-fn mutated() -> impl Strategy<Value = String> {
-    let edit = (any::<Index>(), 0..9_usize, select(&PIECES[..]), any::<Option<(Index, u8)>>());
-    (select(&CORPUS[..]), prop::collection::vec(edit, 0..6)).prop_map(|(file, edits)| {
-        let mut text: Vec<char> = file.chars().collect();
-        for (at, length, piece, copied) in edits {
-            let at = at.index(text.len() + 1);
-            let end = (at + length).min(text.len());
-            let copied = copied.map(|(from, length)| {
-                let from = from.index(text.len() + 1);
-                text[from..(from + usize::from(length)).min(text.len())].to_vec()
-            });
-            text.splice(at..end, copied.unwrap_or_else(|| piece.chars().collect()));
-        }
-        text.into_iter().collect()
-    })
-}
-
 fn reads(text: &str) -> Result<(), TestCaseError> {
     for as_written in [false, true] {
         let chain = read(text, as_written).and_then(|urdf| Chain::new(&urdf.robot, None, None));
@@ -91,9 +72,7 @@ fn reads(text: &str) -> Result<(), TestCaseError> {
 }
 
 fn fuzz(cases: u32) {
-    let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let answered = TestRunner::new(config).run(&mutated(), |text| reads(&text));
-    answered.unwrap_or_else(|e| panic!("{e}"));
+    answered(cases, &mutated(&CORPUS, usize::MAX, &PIECES), |text| reads(&text));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::angle::{angle, value};
 use super::chain::{Chain, Step};
 use super::table::Table;
 use crate::robot::beyond::Beyond;
-use crate::robot::{Angle, Convention, Frame as Fixed, Joint, Robot, Value};
+use crate::robot::{Angle, Convention, Drive, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
 pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
@@ -21,11 +21,13 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         joints,
         base: Fixed::default(),
         tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
         beyond: Beyond::default(),
         payloads: Vec::new(),
         outputs: Vec::new(),
+        at: Vec::new(),
     }
 }
 
@@ -36,6 +38,10 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         table.frames[k].inverse().point(rest)
     });
     let com = centre.unwrap_or([0.0; 3]);
+    // The row's axes in the joint's, at rest.
+    let axes = rest(chain, k).inverse().then(&table.frames[k]).axes;
+    let tensor = step.lump.tensor(&axes).map(settled);
+    let friction = |x: f64| (x != 0.0).then(|| value(x));
     Joint {
         name: step.name.clone(),
         motion: step.motion,
@@ -47,10 +53,22 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
         com: com.map(length),
+        inertia: tensor.map(|entries| entries.map(value)),
+        drive: Drive {
+            viscous: friction(step.friction[0]),
+            coulomb: friction(step.friction[1]),
+            ..Drive::default()
+        },
         limits: step.limits,
         source: None,
         beam: None,
     }
+}
+
+/// A tensor without what rounding has left of its zeros.
+fn settled(tensor: [f64; 6]) -> [f64; 6] {
+    let largest = tensor.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    tensor.map(|x| if x.abs() < 1e-12 * largest { 0.0 } else { x })
 }
 
 /// A length, none below a picometre.

@@ -37,13 +37,13 @@ impl Folds {
             let file = data.file.clone();
             return Err(DiagnoseError::Folds { file, found: count, poses });
         }
-        let blocks = poses.min(MOST_BLOCKS.max(count));
+        let block_of_pose = blocks_of(data, MOST_BLOCKS.max(count));
+        let blocks = block_of_pose.last().map_or(0, |last| last + 1);
         let mut of_block = vec![0; blocks];
         let order = shuffled(&mut generator(options.seed, Stream::Folds), blocks);
         for (place, block) in order.into_iter().enumerate() {
             of_block[block] = place % count;
         }
-        let block_of_pose = (0..poses).map(|pose| pose * blocks / poses).collect();
         Ok(Folds { count, block_of_pose, of_block })
     }
 
@@ -73,6 +73,25 @@ impl Folds {
         }
         sums
     }
+}
+
+/// The block of each pose, of as many blocks as are asked for, or a few more: none is of two sessions.
+fn blocks_of(data: &Measurements, blocks: usize) -> Vec<usize> {
+    let poses = data.poses;
+    let blocks = poses.min(blocks);
+    let mut starts = vec![false; poses];
+    for session in data.sessions() {
+        starts[session[0].group] = true;
+    }
+    let mut block = 0;
+    let mut block_of_pose = Vec::with_capacity(poses);
+    for pose in 0..poses {
+        let even = |pose: usize| pose * blocks / poses;
+        let is_new = pose > 0 && (starts[pose] || even(pose) != even(pose - 1));
+        block += usize::from(is_new);
+        block_of_pose.push(block);
+    }
+    block_of_pose
 }
 
 #[cfg(test)]
@@ -106,6 +125,17 @@ mod tests {
         assert_eq!(folds.blocks(), MOST_BLOCKS);
         assert_eq!((folds.block_of_pose[0], folds.block_of_pose[999]), (0, MOST_BLOCKS - 1));
         assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
+    }
+
+    #[test]
+    fn no_block_is_of_two_sessions() {
+        let mut data = data(1000);
+        for row in &mut data.rows[..333] {
+            row.session = Some("a".to_owned());
+        }
+        let folds = Folds::deal(&data, &Options::default()).unwrap();
+        assert_eq!(folds.blocks(), MOST_BLOCKS + 1);
+        assert_eq!(folds.block_of_pose[333], folds.block_of_pose[332] + 1);
     }
 
     #[test]

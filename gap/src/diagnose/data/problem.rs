@@ -1,5 +1,7 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
@@ -7,8 +9,8 @@ use stiffarm_kernels::generic::Arm;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
-use crate::measurement::{Measurements, Row};
-use crate::simulate::{Actual, Moment, Reading, Sim, moments};
+use crate::measurement::{Kind, Measurements, Row};
+use crate::simulate::{Actual, Moment, Reading, Sim, moments, origin};
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
@@ -19,7 +21,7 @@ pub(crate) const LARGEST: f64 = 1e50;
 pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
-    pub(crate) moments: Vec<Moment>,
+    pub(crate) moments: Arc<Vec<Moment>>,
     /// 1 where a component is measured, else 0.
     pub(crate) mask: Vector6<f64>,
     /// The components that are measured.
@@ -36,6 +38,14 @@ pub(crate) struct Problem<'a> {
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
     pub(crate) marker_of: Vec<Option<usize>>,
+    /// Names of the sessions, at least one; empty where the file has no column.
+    pub(crate) sessions: Vec<String>,
+    /// Which of them a row is of.
+    pub(crate) session_of: Vec<usize>,
+    /// The unknown points from which distances are measured: what they are called, and the session.
+    pub(crate) centres: Vec<(String, usize)>,
+    /// Which of them a row has.
+    pub(crate) centre_of: Vec<Option<usize>>,
     /// Rows that have an unknown constant of their own, so that only what sets them apart counts;
     /// all rows stand in one of these sets, or there are none.
     pub(crate) constants: Vec<Vec<usize>>,
@@ -68,17 +78,23 @@ impl<'a> Problem<'a> {
         let marker_of = (data.rows.iter())
             .map(|row| {
                 let unknown = row.marker.as_ref().filter(|_| row.offset.is_none());
-                unknown.map(|name| {
-                    markers.iter().position(|known| known == name).unwrap_or_else(|| {
-                        markers.push(name.clone());
-                        markers.len() - 1
-                    })
-                })
+                unknown.map(|name| number_of(&mut markers, name.clone()))
             })
             .collect();
+        let (mut sessions, mut session_of) = (Vec::new(), Vec::with_capacity(data.rows.len()));
+        for rows in data.sessions() {
+            session_of.extend(rows.iter().map(|_| sessions.len()));
+            sessions.push(rows[0].session.clone().unwrap_or_default());
+        }
+        let (mut centres, mut centre_of) = (Vec::new(), Vec::with_capacity(data.rows.len()));
+        for (row, session) in data.rows.iter().zip(&session_of) {
+            let is_unknown = data.kind == Kind::Distance && row.from.is_none();
+            let centre = (row.from_point.clone().unwrap_or_default(), *session);
+            centre_of.push(is_unknown.then(|| number_of(&mut centres, centre)));
+        }
         let known: Vec<Known> =
             options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
-        let moments = moments(data);
+        let moments = Arc::new(moments(data));
         let seen = |(row, when): (&Row, &Moment)| -> Result<(Reading, f64), DiagnoseError> {
             let line = row.line;
             let [x, y, z] = row.offset.unwrap_or_default();
@@ -90,6 +106,7 @@ impl<'a> Problem<'a> {
                 actual
             });
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
+            let sim = sim.seen_from(origin(data.kind, row));
             let tool = sim.loaded.tool.translation.vector;
             let numbers = row.q.iter().chain(sim.loaded.torque.iter()).chain(tool.iter());
             if !numbers.chain(row.measured.iter()).all(|x| x.abs() < LARGEST) {
@@ -99,7 +116,7 @@ impl<'a> Problem<'a> {
         };
         // The first row's error is told, however many rows are worked on at once.
         let all: Vec<Result<(Reading, f64), DiagnoseError>> =
-            data.rows.par_iter().zip(&moments).map(seen).collect();
+            data.rows.par_iter().zip(&*moments).map(seen).collect();
         let (readings, reaches): (Vec<Reading>, Vec<f64>) =
             all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let reach = reaches.into_iter().fold(0.0, f64::max);
@@ -116,12 +133,21 @@ impl<'a> Problem<'a> {
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
+            sessions,
+            session_of,
+            centres,
+            centre_of,
             constants: Vec::new(),
             fits: vec![true; data.rows.len()],
             nominal: own.then_some(readings),
             reach,
             stop: options.stop.clone(),
         })
+    }
+
+    /// A row in which the arm comes to no rest.
+    pub(crate) fn unstable(&self, row: usize) -> DiagnoseError {
+        DiagnoseError::Unstable { file: self.data.file.clone(), line: self.data.rows[row].line }
     }
 
     /// What there is one of for each row, of the rows that are counted.
@@ -154,6 +180,16 @@ impl<'a> Problem<'a> {
         self.nuisances.contains(&frame)
     }
 
+    /// The unknown frames, and the session that each is of: every session has a base of its own, and
+    /// all have one tool.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = (Nuisance, usize)> + '_ {
+        let sessions = |frame: Nuisance| match frame {
+            Nuisance::BaseFrame => self.sessions.len(),
+            Nuisance::ToolFrame => 1,
+        };
+        self.nuisances.iter().flat_map(move |&frame| (0..sessions(frame)).map(move |s| (frame, s)))
+    }
+
     /// The reading of a row with the user's own simulator in place of the arm's: what the arm's
     /// changes by, the user's is taken to change by. `instrument` is where the base stands.
     pub(crate) fn with_own_sim(
@@ -166,8 +202,8 @@ impl<'a> Problem<'a> {
             return *model;
         };
         let nominal = &nominal[row];
-        let is_pose = matches!(self.data.kind, crate::measurement::Kind::Pose { .. });
-        let told = |reading: &Reading, frame: &Isometry3<f64>| placed(reading, frame, is_pose);
+        let told =
+            |reading: &Reading, frame: &Isometry3<f64>| placed(reading, frame, self.data.kind);
         let mut merged = told(nominal, &self.arm.base).vector();
         for k in (0..6).filter(|&k| self.data.sim_given[k]) {
             merged[k] = own[k];
@@ -183,17 +219,27 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// What a frame at `frame` reads, told from where that stands; of a displacement only the axes change.
-fn placed(reading: &Reading, frame: &Isometry3<f64>, is_pose: bool) -> Reading {
+/// What a frame at `frame` reads, told from where that stands; of a displacement only the axes change,
+/// of a distance nothing.
+fn placed(reading: &Reading, frame: &Isometry3<f64>, kind: Kind) -> Reading {
     let turn = frame.rotation;
-    match is_pose {
-        true => Reading {
+    match kind {
+        Kind::Pose { .. } | Kind::Coordinates { .. } => Reading {
             position: (frame * Point3::from(reading.position)).coords,
             rotation: turn * reading.rotation,
         },
-        false => Reading {
+        Kind::Displacement { .. } => Reading {
             position: turn * reading.position,
             rotation: turn * reading.rotation * turn.inverse(),
         },
+        Kind::Distance => *reading,
     }
+}
+
+/// The number of an entry, which is put in if it is new.
+fn number_of<T: PartialEq>(all: &mut Vec<T>, one: T) -> usize {
+    all.iter().position(|known| *known == one).unwrap_or_else(|| {
+        all.push(one);
+        all.len() - 1
+    })
 }

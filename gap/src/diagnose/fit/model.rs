@@ -1,6 +1,8 @@
 //! The explanation so far: the frames as they were fitted and the effects that have been found, as
 //! an exact model of every row.
 
+use std::borrow::Cow;
+
 use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
@@ -11,7 +13,7 @@ use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
 use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
-use crate::simulate::{Actual, Sim, Site, State};
+use crate::simulate::{Actual, Sim, Site, State, origin};
 
 /// An effect with its values.
 #[derive(Clone)]
@@ -37,16 +39,23 @@ pub(crate) struct Model {
     /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
     /// loads act.
     pub(crate) arm: Arm,
-    /// Where the base stands in the measuring frame.
-    pub(crate) instrument: Isometry3<f64>,
+    /// Where the base stands in the measuring frame of each session.
+    pub(crate) bases: Vec<Isometry3<f64>>,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
+    /// Where the unknown points are from which distances are measured, measuring frame, m.
+    pub(crate) centres: Vec<Vector3<f64>>,
     pub(crate) found: Vec<Fitted>,
 }
+
+/// Of more rows the states are worked out again wherever they are asked for: they would be most of the
+/// memory, and to find one again is less than what is done with it.
+const MOST_KEPT: usize = 10_000;
 
 /// What a model makes of the data.
 #[derive(Clone)]
 pub(crate) struct Predicted {
+    /// The states of each row; of very many rows, none.
     pub(crate) sims: Vec<Sim>,
     /// Measured minus predicted, one per row, less the mean of the rows that share a constant; 0 of
     /// rows that are left out.
@@ -63,8 +72,9 @@ impl Model {
         });
         Self {
             arm: problem.arm.clone(),
-            instrument: problem.arm.base,
+            bases: vec![problem.arm.base; problem.sessions.len()],
             markers: vec![Vector3::zeros(); problem.markers.len()],
+            centres: vec![Vector3::zeros(); problem.centres.len()],
             found: along.into_iter().collect(),
         }
     }
@@ -79,7 +89,7 @@ impl Model {
         let (data, when) = (&problem.data.rows[row], &problem.moments[row]);
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
-        actual.base = self.instrument;
+        actual.base = self.bases[problem.session_of[row]];
         problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
             found.effect.alter(&mut actual, data, when, found.spot, &found.values);
@@ -96,31 +106,41 @@ impl Model {
         Isometry3::translation(offset.x, offset.y, offset.z)
     }
 
+    /// Brings one row to rest; `near` is where to begin.
+    fn sim(
+        &self,
+        problem: &Problem<'_>,
+        row: usize,
+        near: Option<&Sim>,
+    ) -> Result<Sim, DiagnoseError> {
+        let measured = self.measured(problem, row);
+        let at_rest =
+            Sim::of(problem.data.kind, measured, near, |loaded| self.actual(problem, row, loaded));
+        let from = origin(problem.data.kind, &problem.data.rows[row]);
+        let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
+        Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_from(from))
+    }
+
     /// Brings every row to rest; `near` is where to begin.
     pub(crate) fn predict(
         &self,
         problem: &Problem<'_>,
         near: Option<&[Sim]>,
     ) -> Result<Predicted, DiagnoseError> {
-        let rows = 0..problem.data.rows.len();
-        let each = rows.into_par_iter().map(|row| {
-            let near = near.map(|n| &n[row]);
-            let measured = self.measured(problem, row);
-            let sim = Sim::of(problem.data.kind, measured, near, |loaded| {
-                self.actual(problem, row, loaded)
-            });
-            let unstable = || DiagnoseError::Unstable {
-                file: problem.data.file.clone(),
-                line: problem.data.rows[row].line,
-            };
-            let sim = sim.map_err(|_| unstable())?;
+        let rows = problem.data.rows.len();
+        let each = (0..rows).into_par_iter().map(|row| {
+            let sim = self.sim(problem, row, near.and_then(|near| near.get(row)))?;
             let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
             let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
             let gap = if problem.fits[row] { gap } else { Vector6::zeros() };
-            if gap.iter().all(|g| g.abs() < LARGEST) { Ok((sim, gap)) } else { Err(unstable()) }
+            let is_small = gap.iter().all(|g| g.abs() < LARGEST);
+            if is_small { Ok((sim, gap)) } else { Err(problem.unstable(row)) }
         });
-        let both: Vec<(Sim, Vector6<f64>)> = each.collect::<Result<_, _>>()?;
-        let (sims, mut gaps): (_, Vec<Vector6<f64>>) = both.into_iter().unzip();
+        let (sims, mut gaps): (Vec<Sim>, Vec<Vector6<f64>>) = if rows <= MOST_KEPT {
+            each.collect::<Result<Vec<_>, _>>()?.into_iter().unzip()
+        } else {
+            (Vec::new(), each.map(|both| both.map(|(_, gap)| gap)).collect::<Result<_, _>>()?)
+        };
         for rows in &problem.constants {
             let mean = rows.iter().map(|&row| gaps[row]).sum::<Vector6<f64>>() / rows.len() as f64;
             rows.iter().for_each(|&row| gaps[row] -= mean);
@@ -128,15 +148,27 @@ impl Model {
         Ok(Predicted { sims, gaps })
     }
 
+    /// The states of a row that was predicted. There is an error only where there was one then.
+    pub(crate) fn state<'s>(
+        &self,
+        problem: &Problem<'_>,
+        predicted: &'s Predicted,
+        row: usize,
+    ) -> Result<Cow<'s, Sim>, DiagnoseError> {
+        match predicted.sims.get(row) {
+            Some(sim) => Ok(Cow::Borrowed(sim)),
+            None => self.sim(problem, row, None).map(Cow::Owned),
+        }
+    }
+
     /// Change of one row's reading, 6×p, by what `twists` gives for a scene.
     pub(crate) fn change(
         &self,
         problem: &Problem<'_>,
-        sims: &[Sim],
+        sim: &Sim,
         row: usize,
         twists: impl Fn(&Scene<'_>) -> Matrix6xX<f64>,
     ) -> Matrix6xX<f64> {
-        let sim = &sims[row];
         sim.change(|state, loaded| {
             let actual = self.actual(problem, row, loaded);
             twists(&self.scene(problem, row, sim, state, &actual))
@@ -164,7 +196,7 @@ impl Model {
 
     /// Number of nuisance parameters.
     pub(crate) fn nuisances(problem: &Problem<'_>) -> usize {
-        6 * problem.nuisances.len() + 3 * problem.markers.len()
+        6 * problem.frames().count() + 3 * (problem.markers.len() + problem.centres.len())
     }
 
     /// Number of parameters: of the nuisances first, then of each effect found.
@@ -181,8 +213,9 @@ impl Model {
             column += part.ncols();
         };
         let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
-        for frame in &problem.nuisances {
+        for (frame, session) in problem.frames() {
             put(&match frame {
+                Nuisance::BaseFrame if problem.session_of[row] != session => Matrix6xX::zeros(6),
                 Nuisance::BaseFrame => s.state.base_moved(),
                 Nuisance::ToolFrame => s.carried(Site::Tool, &units),
             });
@@ -192,6 +225,16 @@ impl Model {
             if problem.marker_of[row] == Some(marker) {
                 let turn = s.state.tool.rotation.to_rotation_matrix();
                 shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(turn.matrix());
+            }
+            put(&shifts);
+        }
+        for centre in 0..problem.centres.len() {
+            let mut shifts = Matrix6xX::zeros(3);
+            if problem.centre_of[row] == Some(centre) {
+                // The tool's way in base axes that reads as much as the point's way back.
+                let back = s.base.rotation.inverse().to_rotation_matrix();
+                let shift = back.matrix() * (-1.0 / s.actual.metre);
+                shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(&shift);
             }
             put(&shifts);
         }
@@ -221,16 +264,17 @@ impl Model {
     pub(crate) fn moved(&self, problem: &Problem<'_>, step: &[f64]) -> Self {
         let mut model = self.clone();
         let (nuisances, effects) = step.split_at(Self::nuisances(problem));
-        let (frames, markers) = nuisances.split_at(6 * problem.nuisances.len());
-        for (frame, step) in problem.nuisances.iter().zip(frames.chunks_exact(6)) {
+        let (frames, points) = nuisances.split_at(6 * problem.frames().count());
+        for ((frame, session), step) in problem.frames().zip(frames.chunks_exact(6)) {
             let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
             match frame {
-                Nuisance::BaseFrame => model.instrument *= by,
+                Nuisance::BaseFrame => model.bases[session] *= by,
                 Nuisance::ToolFrame => model.arm.tool *= by,
             }
         }
-        for (marker, step) in model.markers.iter_mut().zip(markers.chunks_exact(3)) {
-            *marker += Vector3::from_column_slice(step);
+        let all = model.markers.iter_mut().chain(&mut model.centres);
+        for (point, step) in all.zip(points.chunks_exact(3)) {
+            *point += Vector3::from_column_slice(step);
         }
         let mut steps = effects.iter();
         for found in &mut model.found {

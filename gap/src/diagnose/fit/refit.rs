@@ -154,11 +154,10 @@ pub(crate) fn block(
     row: usize,
     weights: &Vector6<f64>,
 ) -> Matrix6xX<f64> {
-    let (model, sims) = (&fit.model, &fit.predicted.sims);
-    if !problem.fits[row] {
-        return Matrix6xX::zeros(model.parameters(problem));
-    }
-    let mut block = model.change(problem, sims, row, |s| model.block(problem, row, s));
+    let model = &fit.model;
+    let state = model.state(problem, &fit.predicted, row).ok().filter(|_| problem.fits[row]);
+    let Some(sim) = state else { return Matrix6xX::zeros(model.parameters(problem)) };
+    let mut block = model.change(problem, &sim, row, |s| model.block(problem, row, s));
     for mut column in block.column_iter_mut() {
         column.component_mul_assign(weights);
     }

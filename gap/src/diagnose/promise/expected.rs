@@ -7,10 +7,10 @@ use super::explanation::Explanation;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
-use crate::measurement::{Measurements, Row};
+use crate::measurement::{Kind, Measurements, Row};
 
 /// The gap to be expected at a posture, measured as the diagnosed data was: root mean squares, m;
-/// of the rotation, rad, where no position is measured.
+/// of the rotation, rad, where no position is measured; of the whole position where distances are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
     /// How far the findings move the reading.
@@ -48,18 +48,24 @@ impl Explanation {
     /// [`DiagnoseError::Unstable`] and others of the posture.
     pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
         let row = Row { wrench: *wrench, ..Row::new(0, q.to_vec()) };
-        let data = Measurements::new("the posture", self.kind, vec![row]);
+        let kind = match self.kind {
+            Kind::Distance => Kind::Pose { orientation: false },
+            kind => kind,
+        };
+        let data = Measurements::new("the posture", kind, vec![row]);
         let problem = Problem::new(&self.nominal, &data, &self.options())?;
         let placed = |model: &Model| {
             let mut model = model.clone();
             model.markers.clear();
+            model.centres.clear();
             model
         };
         let (before, after) = (placed(&self.before), placed(&self.after));
         let (without, with) = (before.predict(&problem, None)?, after.predict(&problem, None)?);
         let first = if problem.measures_position() { 0 } else { 3 };
         let shift = (without.gaps[0] - with.gaps[0]).component_mul(&problem.mask);
-        let block = after.change(&problem, &with.sims, 0, |s| after.block(&problem, 0, s));
+        let sim = after.state(&problem, &with, 0)?;
+        let block = after.change(&problem, &sim, 0, |s| after.block(&problem, 0, s));
         let mut left = block * &self.spread.root;
         for mut column in left.column_iter_mut() {
             column.component_mul_assign(&problem.mask);

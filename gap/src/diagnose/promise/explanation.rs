@@ -25,6 +25,8 @@ pub struct Explanation {
     pub(super) after: Model,
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
+    sessions: Vec<String>,
+    centres: Vec<(String, usize)>,
     catalogue: Catalogue,
     pub(super) known: Vec<Known>,
     covers: Cover,
@@ -53,7 +55,10 @@ impl Explanation {
     ) -> Self {
         let mut arm = after.arm.clone();
         arm.tool_rotation_vector = arm.tool.rotation.scaled_axis();
-        arm.base = after.instrument;
+        // Of several bases none is the arm's.
+        if let [base] = after.bases[..] {
+            arm.base = base;
+        }
         Self {
             nominal: problem.arm.clone(),
             arm,
@@ -62,6 +67,8 @@ impl Explanation {
             after,
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
+            sessions: problem.sessions.clone(),
+            centres: problem.centres.clone(),
             covers: covers.clone(),
             catalogue: options.catalogue.clone(),
             known: options.known.clone(),
@@ -99,7 +106,8 @@ impl Explanation {
         &self.catalogue
     }
 
-    /// The arm with base and tool where they were fitted, or as the robot file has them.
+    /// The arm with base and tool where they were fitted, or as the robot file has them; of several
+    /// sessions, each with a base of its own, the base is the robot file's.
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
@@ -110,12 +118,12 @@ impl Explanation {
         Options { nuisances, known, ..Options::default() }
     }
 
-    /// What the models make of measurements of the arm. Frames and markers stay where they were
+    /// What the models make of measurements of the arm. Frames, markers and points stay where they were
     /// fitted. What happened at a time is carried to no other file.
     ///
     /// # Errors
-    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] for a marker whose place was
-    /// never fitted.
+    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`], [`DiagnoseError::NewSession`] or
+    /// [`DiagnoseError::NewPoint`] for a marker, base or point whose place was never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
         let problem = Problem::new(&self.nominal, data, &self.options())?;
         let mut places = Vec::with_capacity(problem.markers.len());
@@ -126,9 +134,23 @@ impl Explanation {
                 marker: name.clone(),
             })?);
         }
+        let sessions: Vec<usize> = problem
+            .sessions
+            .iter()
+            .map(|name| self.session(&problem, name))
+            .collect::<Result<_, _>>()?;
+        let mut centres = Vec::with_capacity(problem.centres.len());
+        for (name, session) in &problem.centres {
+            let same = |(known, of): &(String, usize)| known == name && *of == sessions[*session];
+            centres.push(self.centres.iter().position(same).ok_or_else(|| {
+                DiagnoseError::NewPoint { file: data.file.clone(), point: name.clone() }
+            })?);
+        }
         let gaps = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
+            model.bases = sessions.iter().map(|k| model.bases[*k]).collect();
+            model.centres = centres.iter().map(|k| model.centres[*k]).collect();
             if data.file != self.file {
                 model.found.retain(|f| f.effect.depends() != Depends::Session);
             }
@@ -147,5 +169,20 @@ impl Explanation {
                 && moment <= self.covers.moment * (1.0 + EDGE)
         });
         Ok(Prediction { before, after, inside: inside.collect() })
+    }
+
+    /// Which of the diagnosed sessions a session of other data is measured in.
+    fn session(&self, other: &Problem<'_>, name: &str) -> Result<usize, DiagnoseError> {
+        let known = self.sessions.iter().position(|known| known == name);
+        let is_one = |names: &[String]| matches!(names, [one] if one.is_empty());
+        // A file without the column is of the one session that there is.
+        let only = self.sessions.len() == 1 && other.sessions.len() == 1;
+        let only = only && (is_one(&self.sessions) || is_one(&other.sessions));
+        let any = only || self.centres.is_empty() && !other.is_unknown(Nuisance::BaseFrame);
+        known.or(any.then_some(0)).ok_or_else(|| DiagnoseError::NewSession {
+            file: other.data.file.clone(),
+            session: name.to_owned(),
+            known: self.sessions.join(", "),
+        })
     }
 }

@@ -22,13 +22,14 @@ impl Search<'_, '_> {
         let fitted = |spot: Spot, score: &Score| {
             candidate.fitted(spot, score.values.iter().copied().collect())
         };
-        if effect.forms_are() != Forms::Rows {
+        if !matches!(effect.forms_are(), Forms::Searched { .. }) {
             return fitted(spot, &one.score);
         }
         let forms = effect.forms(self.problem.arm, spot.place, self.problem.data);
         let at = forms.iter().position(|f| *f == spot.form).unwrap_or(0);
         let from = at.checked_sub(1).map_or(1, |k| forms[k] + 1);
-        let to = forms.get(at + 1).copied().unwrap_or(self.problem.data.rows.len());
+        // Beyond the last as far as to the one before it.
+        let to = forms.get(at + 1).copied().unwrap_or(2 * spot.form + 1 - from);
         let (mut from, mut to) = (from, to);
         loop {
             let every = (to - from).div_ceil(MOST_NEAR).max(1);

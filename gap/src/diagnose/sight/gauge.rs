@@ -8,7 +8,6 @@ use crate::diagnose::report::Gauge;
 use crate::diagnose::search::{First, Search};
 use crate::diagnose::sums::Candidate;
 use crate::effects::{Place, Spot};
-use crate::measurement::Kind;
 
 /// A number whose column has less than this part left beside those before it is one with them: the
 /// square of a ratio of sizes of 3e-3. What is left is how the loads follow the arm.
@@ -21,7 +20,7 @@ impl Search<'_, '_> {
     /// The geometry's numbers that are one with others before them, each with those. Between two
     /// readings of one pose all of them cancel, and none is told.
     pub(crate) fn gauges(&self, first: &First) -> Vec<Gauge> {
-        if matches!(self.problem.data.kind, Kind::Displacement { .. }) {
+        if self.problem.data.kind.is_difference() {
             return Vec::new();
         }
         let names = self.names(&first.geometry);
@@ -36,10 +35,22 @@ impl Search<'_, '_> {
 
     fn names(&self, geometry: &[Candidate]) -> Vec<String> {
         let six = ["x", "y", "z", "rx", "ry", "rz"];
-        let frame = |n: &Nuisance| six.map(|k| format!("{k} of {}", n.identifier()));
-        let frames = self.problem.nuisances.iter().flat_map(frame);
-        let marker = |m: &String| ["x", "y", "z"].map(|k| format!("{k} of marker {m}"));
-        let markers = self.problem.markers.iter().flat_map(marker);
+        let sessions = &self.problem.sessions;
+        let of = |session: usize| match sessions.len() {
+            1 => String::new(),
+            _ => format!(" in session {}", sessions[session]),
+        };
+        let frame = |(n, session): (Nuisance, usize)| {
+            let of = if n == Nuisance::BaseFrame { of(session) } else { String::new() };
+            six.map(|k| format!("{k} of {}{of}", n.identifier()))
+        };
+        let frames = self.problem.frames().flat_map(frame);
+        let three = |of: String| ["x", "y", "z"].map(|k| format!("{k} of {of}"));
+        let markers = self.problem.markers.iter().flat_map(|m| three(format!("marker {m}")));
+        let centre = |(name, session): &(String, usize)| {
+            three(format!("point {name}").trim_end().to_owned() + &of(*session))
+        };
+        let centres = self.problem.centres.iter().flat_map(centre);
         let each = geometry.iter().filter_map(Candidate::effect).flat_map(|(effect, spot)| {
             let all = effect.parameters(self.problem.arm, spot);
             let named = move |name: &str| format!("{name} of {}", spot.place);
@@ -49,7 +60,7 @@ impl Search<'_, '_> {
             let all = effect.parameters(self.problem.arm, Spot { place: Place::Arm, form: 0 });
             all.into_iter().map(|p| p.name.into_owned()).collect::<Vec<_>>()
         });
-        frames.chain(markers).chain(along).chain(each).collect()
+        frames.chain(markers).chain(centres).chain(along).chain(each).collect()
     }
 }
 

@@ -5,7 +5,6 @@ use crate::diagnose::report::CannotSee;
 use crate::diagnose::search::{Explained, First, OWN, Search};
 use crate::diagnose::sums::{Kept, Screen};
 use crate::effects::{Effect, Place};
-use crate::measurement::Kind;
 
 /// An effect that moves what is measured by less than this part of what it does at its strongest
 /// place is idle there.
@@ -31,7 +30,7 @@ impl Search<'_, '_> {
         let beside = screen(first.geometry.iter().map(|c| c.size).sum());
         // Between two readings of one pose lengths and angles cancel, but for what a mistake of
         // many times the usual size would do.
-        let geometry_shows = matches!(self.problem.data.kind, Kind::Pose { .. });
+        let geometry_shows = !self.problem.data.kind.is_difference();
         let mut unseen = Vec::new();
         // Of the table as a whole its rows and zeros tell.
         for &effect in effects.iter().filter(|e| !e.is_tolerated()) {

@@ -15,7 +15,6 @@ use super::products::{Choice, Products};
 use super::stack::{Seen, Stack, Sum};
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Fit;
-use crate::measurement::Kind;
 
 /// Rows whose columns stand beside each other before their products are taken: few enough for a
 /// cache.
@@ -46,7 +45,7 @@ pub(crate) struct Wanted<'w> {
 impl Gathered {
     pub(crate) fn new(wanted: &Wanted<'_>, folds: &Folds, weights: &Vector6<f64>) -> Self {
         let problem = wanted.problem;
-        let shared = matches!(problem.data.kind, Kind::Pose { .. });
+        let shared = !problem.data.kind.is_difference();
         let layout = Layout::of(wanted.candidates, shared);
         let first = if problem.measures_position() { 0 } else { 3 };
         let (main, other): (Vec<usize>, Vec<usize>) =
@@ -119,13 +118,19 @@ impl Wanted<'_> {
     /// Everything of one row.
     fn row(&self, layout: &Layout, k: usize, row: usize) -> Seen {
         let (problem, model) = (self.problem, &self.fit.model);
-        let sim = &self.fit.predicted.sims[row];
+        let gap = self.fit.predicted.gaps[row];
+        let columns = layout.carriers + k + layout.owned;
+        let state = model.state(problem, &self.fit.predicted, row);
+        let Some(sim) = state.ok().filter(|_| problem.fits[row]) else {
+            let twists = Matrix6xX::zeros(columns);
+            return Seen { twists, motions: vec![0.0; layout.motions], gap };
+        };
         let fitted = model.parameters(problem);
         let mut motions = Vec::with_capacity(layout.motions);
-        let mut twists = sim.change(|state, loaded| {
+        let twists = sim.change(|state, loaded| {
             let actual = model.actual(problem, row, loaded);
-            let scene = model.scene(problem, row, sim, state, &actual);
-            let mut twists = Matrix6xX::zeros(layout.carriers + k + layout.owned);
+            let scene = model.scene(problem, row, &sim, state, &actual);
+            let mut twists = Matrix6xX::zeros(columns);
             let mut column = layout.carriers;
             let mut put = |block: &Matrix6xX<f64>| {
                 twists.columns_mut(column, block.ncols()).copy_from(block);
@@ -138,10 +143,7 @@ impl Wanted<'_> {
             layout.fill(self.candidates, &scene, &mut twists, &mut motions);
             twists
         });
-        if !problem.fits[row] {
-            twists.fill(0.0);
-        }
-        Seen { twists, motions, gap: self.fit.predicted.gaps[row] }
+        Seen { twists, motions, gap }
     }
 }
 
@@ -152,7 +154,7 @@ mod tests {
     use crate::diagnose::options::Options;
     use crate::effects::CATALOGUE;
     use crate::fixture::{bent, row, table};
-    use crate::measurement::{Measurements, Row};
+    use crate::measurement::{Kind, Measurements, Row};
     use nalgebra::DVector;
     use std::sync::Arc;
 

@@ -86,7 +86,7 @@ impl Search<'_, '_> {
         moved.wrench = *wrench;
         let actual = |with: bool| {
             let mut actual = crate::simulate::Actual::new(&model.arm, &moved.q, &moved.wrench);
-            actual.base = model.instrument;
+            actual.base = model.bases[self.problem.session_of[row]];
             let when = &self.problem.moments[row];
             let known = self.problem.known.iter();
             known.for_each(|known| known.alter(&mut actual, &moved, when));

@@ -1,6 +1,6 @@
 //! The findings and frames as they are reported.
 
-use nalgebra::{Isometry3, Vector6};
+use nalgebra::{Isometry3, Vector3, Vector6};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::bootstrap::{shrink, shrink_interval};
@@ -91,7 +91,7 @@ impl Search<'_, '_> {
             let mut reports = Vec::new();
             if let Some(form) = found.effect.form_number() {
                 let (name, unit) = (form.name.into_owned(), form.quantity.unit());
-                let value = found.spot.form as f64;
+                let value = found.effect.forms_are().number(found.spot.form);
                 reports.push(ParameterReport { name, value, unit, ci95: [value, value] });
             }
             let parameters = found.effect.parameters(self.problem.arm, found.spot);
@@ -113,21 +113,27 @@ impl Search<'_, '_> {
 
 /// The frames that were fitted along.
 pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceReport> {
-    let frame = |name: &str, at: &Isometry3<f64>| NuisanceReport {
+    let of =
+        |session: usize| (problem.sessions.len() > 1).then(|| problem.sessions[session].clone());
+    let frame = |name: &str, at: &Isometry3<f64>, session| NuisanceReport {
         name: name.to_owned(),
+        session,
         translation: at.translation.vector.into(),
         rotation: at.rotation.scaled_axis().into(),
     };
-    let frames = problem.nuisances.iter().map(|nuisance| match nuisance {
-        Nuisance::BaseFrame => frame(nuisance.identifier(), &model.instrument),
-        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.arm.tool),
+    let frames = problem.frames().map(|(nuisance, session)| match nuisance {
+        Nuisance::BaseFrame => frame(nuisance.identifier(), &model.bases[session], of(session)),
+        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.arm.tool, None),
     });
-    let markers = problem.markers.iter().zip(&model.markers).map(|(name, at)| NuisanceReport {
-        name: name.clone(),
-        translation: (*at).into(),
-        rotation: [0.0; 3],
+    let point =
+        |name: &str, at: &Vector3<f64>, session| frame(name, &Isometry3::from(*at), session);
+    let markers = problem.markers.iter().zip(&model.markers);
+    let markers = markers.map(|(name, at)| point(name, at, None));
+    let centres = problem.centres.iter().zip(&model.centres).map(|((name, session), at)| {
+        let name = if name.is_empty() { "centre" } else { name };
+        point(name, at, of(*session))
     });
-    frames.chain(markers).collect()
+    frames.chain(markers).chain(centres).collect()
 }
 
 /// Where the data has been.

@@ -25,7 +25,7 @@ impl Effect for Drift {
             reality: "The measuring frame creeps with time: a tripod that settles, a floor that \
                       warms.",
             signature: "A rigid motion of all poses in proportion to `time`, or to the number of \
-                        the row where there is no time.",
+                        the row where there is no time; it begins anew with each `session`.",
             confused_with: "`thermal_growth` where temperature rises evenly; whatever else the \
                             order of the poses follows.",
             separated_by: "The first poses once more at the end.",

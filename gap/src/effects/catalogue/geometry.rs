@@ -7,7 +7,7 @@ use super::{JointOffset, LinkGeometry};
 use crate::effects::{
     About, Effect, Parameter, Place, RobotFile, Scene, Spot, Told, joints, links,
 };
-use crate::measurement::{Kind, Measurements, Row};
+use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
 /// All offsets and rows of the table at once.
@@ -86,7 +86,7 @@ impl Effect for Geometry {
     }
 
     fn excluded(&self, data: &Measurements) -> Option<&'static str> {
-        let is_difference = matches!(data.kind, Kind::Displacement { .. });
+        let is_difference = data.kind.is_difference();
         is_difference.then_some("between two readings of one pose lengths and angles cancel")
     }
 

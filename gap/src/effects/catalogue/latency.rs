@@ -6,7 +6,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::effects::{
     About, Depends, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told,
 };
-use crate::measurement::{Kind, Measurements, Row};
+use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, is_stream};
 
 /// How much older than the readings beside it a measured position is: it shows the arm at
@@ -53,10 +53,10 @@ impl Effect for Latency {
     }
 
     fn excluded(&self, data: &Measurements) -> Option<&'static str> {
-        if matches!(data.kind, Kind::Displacement { .. }) {
+        if data.kind.is_difference() {
             return Some("a displacement is measured at rest: nothing moves between two clocks");
         }
-        (!is_stream(&data.rows)).then_some(
+        (!data.sessions().all(is_stream)).then_some(
             "the rows are no stream: it takes rows in the order of their `time`, most of them \
              within a second of the one before",
         )

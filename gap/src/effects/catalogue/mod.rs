@@ -5,6 +5,7 @@ mod base_compliance;
 mod base_frame;
 mod bearing_compliance;
 mod bearing_wobble;
+mod counterbalance;
 mod drift;
 mod friction_hysteresis;
 mod geometric_stiffness;
@@ -22,9 +23,11 @@ mod link_com;
 mod link_compliance;
 mod link_geometry;
 mod link_weight;
+mod loaded_backlash;
 mod payload_com;
 mod settling_lag;
 mod slip;
+mod soft_zone;
 mod thermal_growth;
 mod tool_frame;
 mod transmission_error;
@@ -37,6 +40,7 @@ pub use base_compliance::BaseCompliance;
 pub use base_frame::BaseFrame;
 pub use bearing_compliance::BearingCompliance;
 pub use bearing_wobble::BearingWobble;
+pub use counterbalance::Counterbalance;
 pub use drift::Drift;
 pub use friction_hysteresis::FrictionHysteresis;
 pub use geometric_stiffness::GeometricStiffness;
@@ -54,16 +58,18 @@ pub use link_com::LinkCom;
 pub use link_compliance::LinkCompliance;
 pub use link_geometry::LinkGeometry;
 pub use link_weight::LinkWeight;
+pub use loaded_backlash::LoadedBacklash;
 pub use payload_com::PayloadCom;
 pub use settling_lag::SettlingLag;
 pub use slip::Slip;
+pub use soft_zone::SoftZone;
 pub use thermal_growth::ThermalGrowth;
 pub use tool_frame::ToolFrame;
 pub use transmission_error::TransmissionError;
 pub use wrench_scale::WrenchScale;
 
 /// Every effect, in the order in which equally good explanations are preferred.
-pub const CATALOGUE: [&dyn Effect; 29] = [
+pub const CATALOGUE: [&dyn Effect; 32] = [
     &JointOffset,
     &JointCompliance,
     &Backlash,
@@ -72,7 +78,10 @@ pub const CATALOGUE: [&dyn Effect; 29] = [
     &Latency,
     &FrictionHysteresis,
     &JointHardening,
+    &LoadedBacklash,
+    &SoftZone,
     &TransmissionError,
+    &Counterbalance,
     &JointCoupling,
     &LinkCompliance,
     &BearingCompliance,

@@ -20,8 +20,13 @@ pub struct Slip;
 /// Moments that are tried at first.
 const MOST: usize = 24;
 
-/// Rows on each side of a jump, at least.
+/// Rows of the session on each side of a jump, at least.
 const LEAST: usize = 3;
+
+/// Whether a row is measured after the jump, in its session.
+fn is_after(when: &Moment, spot: Spot) -> bool {
+    (when.first..=when.index).contains(&spot.form)
+}
 
 impl Effect for Slip {
     fn identifier(&self) -> &'static str {
@@ -45,17 +50,20 @@ impl Effect for Slip {
 
     /// Where rows of another pose begin; of many, an even choice that a search then refines.
     fn forms(&self, _: &Arm, _: Place, data: &Measurements) -> Vec<usize> {
-        let rows = &data.rows;
-        let begins = |k: &usize| rows[*k].group != rows[k - 1].group;
-        let all: Vec<usize> = (1..rows.len()).filter(begins).collect();
-        let last = rows.len().saturating_sub(LEAST);
-        let inner: Vec<usize> = all.into_iter().filter(|k| (LEAST..=last).contains(k)).collect();
+        let mut inner: Vec<usize> = Vec::new();
+        let mut first = 0;
+        for rows in data.sessions() {
+            let within = LEAST.max(1)..(rows.len() + 1).saturating_sub(LEAST);
+            let begins = within.filter(|k| rows[*k].group != rows[k - 1].group);
+            inner.extend(begins.map(|k| first + k));
+            first += rows.len();
+        }
         let every = inner.len().div_ceil(MOST).max(1);
         inner.into_iter().skip(every / 2).step_by(every).collect()
     }
 
     fn forms_are(&self) -> Forms {
-        Forms::Rows
+        Forms::Searched { key: "after", quantity: Quantity::Row, steps: 1 }
     }
 
     fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
@@ -63,7 +71,7 @@ impl Effect for Slip {
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, when: &Moment, spot: Spot, v: &[f64]) {
-        if when.index < spot.form {
+        if !is_after(when, spot) {
             return;
         }
         let jump = Vector6::from_column_slice(v);
@@ -79,7 +87,7 @@ impl Effect for Slip {
     }
 
     fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
-        motions.push(if scene.when.index < spot.form { 0.0 } else { 1.0 });
+        motions.push(f64::from(is_after(scene.when, spot)));
     }
 
     fn idle(&self) -> &'static str {

@@ -15,7 +15,7 @@ use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
-use crate::measurement::{Kind, Measurements, Row};
+use crate::measurement::{Measurements, Row};
 
 /// The fit has not come to its end if another step promises more than this part of what there was.
 const SETTLED: f64 = 1e-6;
@@ -81,7 +81,10 @@ fn problem<'a>(
     options: &Options,
 ) -> Result<Problem<'a>, DiagnoseError> {
     let mut problem = Problem::new(arm, data, options)?;
-    if let Kind::Pose { .. } = data.kind {
+    if let Some((point, _)) = problem.centres.first() {
+        return Err(DiagnoseError::NewPoint { file: data.file.clone(), point: point.clone() });
+    }
+    if !data.kind.is_difference() {
         let mut place = HashMap::new();
         for (index, row) in data.rows.iter().enumerate() {
             let constants = &mut problem.constants;

@@ -7,7 +7,6 @@ use super::super::reality::Reality;
 use super::super::transform::{rotation, slide};
 use super::{Design, Shape, rounded};
 use crate::dice::{Dice, Stream};
-use crate::measurement::Kind;
 
 /// Gravity where the robot file has none, m/s².
 const STANDARD: f64 = 9.80665;
@@ -23,7 +22,7 @@ pub(super) fn draw(arm: &Arm, design: &Design, poses: &[Vec<f64>]) -> Vec<Vec<Ve
             _ => payloads(arm, design, q, &centre),
         };
         // Without a load there is nothing to see of a displacement.
-        if matches!(design.kind, Kind::Displacement { .. }) {
+        if design.kind.is_difference() {
             loads.retain(|load| *load != Vector6::zeros());
         }
         dice.shuffle(&mut loads);
@@ -66,7 +65,7 @@ fn whole(force: &Vector3<f64>, moment: &Vector3<f64>) -> Vector6<f64> {
 
 impl Reality {
     /// The tool frame of the rigid arm.
-    fn tool_at(&self, q: &[f64]) -> nalgebra::Matrix4<f64> {
+    pub(super) fn tool_at(&self, q: &[f64]) -> nalgebra::Matrix4<f64> {
         let situation = super::super::assemble::Situation {
             values: q.to_vec(),
             directions: vec![0.0; q.len()],

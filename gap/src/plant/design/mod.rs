@@ -77,6 +77,10 @@ impl Design {
         }
         approach::fill(self, &mut rows);
         climate::fill(self.seed, &mut rows);
+        if self.kind == Kind::Distance {
+            let middle = poses::middle(arm, &poses);
+            rows.iter_mut().for_each(|row| row.from = Some(middle));
+        }
         Measurements::new(&format!("the {} design", self.shape.name()), self.kind, rows)
     }
 }

@@ -1,8 +1,11 @@
 //! Postures.
 
+use nalgebra::Vector3;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
+use super::super::reality::Reality;
+use super::super::transform::origin;
 use super::{Design, Shape, rounded};
 use crate::dice::{Dice, Stream};
 
@@ -41,4 +44,12 @@ pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
     let mut posture =
         || ranges.iter().map(|[low, high]| rounded(dice.between(*low, *high), 1e6)).collect();
     (0..design.poses).map(|_| posture()).collect()
+}
+
+/// The middle of where the rigid arm's tool is at these postures, base frame, m.
+pub(super) fn middle(arm: &Arm, poses: &[Vec<f64>]) -> [f64; 3] {
+    let nominal = Reality::nominal(arm);
+    let places = poses.iter().map(|q| origin(&nominal.tool_at(q)));
+    let mean = places.sum::<Vector3<f64>>() / poses.len() as f64;
+    [mean.x, mean.y, mean.z].map(|x| rounded(x, 1e6))
 }

@@ -75,6 +75,7 @@ fn the_file_reads_back() {
         motions: arm.joints.iter().map(|j| j.motion).collect(),
         readings: true,
         markers: Vec::new(),
+        payloads: None,
     };
     let only_dz = [false, false, true, false, true, false];
     let kinds =

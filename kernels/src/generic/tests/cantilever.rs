@@ -41,6 +41,8 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: Some(beam),
     };

@@ -32,6 +32,8 @@ fn kr240() -> Arm {
         compliance: 1.0 / stiffness,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     };

@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::support::cases;
+use super::support::{cases, state};
 use crate::generic::Arm;
 use crate::{Input, Output, Part};
 
@@ -11,7 +11,7 @@ fn every_output_has_its_shape() {
     for (arm, q, w) in cases() {
         for output in Output::EACH {
             let (rows, columns) = output.shape(arm.dof());
-            let block = arm.evaluate(output, &q, &w.into()).unwrap();
+            let block = arm.evaluate(output, &state(output, &q), &w.into()).unwrap();
             assert_eq!(block.len(), rows * columns, "{output:?}");
         }
     }
@@ -55,6 +55,7 @@ fn changed(arm: &Arm, part: Part) -> Arm {
             beam.shear_modulus *= 2.0;
         }),
         Part::Weights => arm.gravity *= 2.0,
+        Part::Inertias => arm.joints.iter_mut().for_each(|joint| joint.inertia *= 2.0),
     }
     arm
 }
@@ -62,10 +63,11 @@ fn changed(arm: &Arm, part: Part) -> Arm {
 /// What the table says of inputs and parts is what the definitions read.
 #[test]
 fn an_output_depends_on_what_its_description_says() {
-    let parts = [Part::Tool, Part::Stiffness, Part::Beams, Part::Weights];
+    let parts = [Part::Tool, Part::Stiffness, Part::Beams, Part::Weights, Part::Inertias];
     for output in Output::EACH {
-        let (mut by_part, mut by_wrench) = ([false; 4], false);
+        let (mut by_part, mut by_wrench) = ([false; 5], false);
         for (arm, q, w) in cases() {
+            let q = state(output, &q);
             let found = arm.evaluate(output, &q, &w.into());
             for (part, moved) in parts.into_iter().zip(&mut by_part) {
                 *moved |= changed(&arm, part).evaluate(output, &q, &w.into()) != found;

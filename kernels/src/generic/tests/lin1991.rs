@@ -34,6 +34,8 @@ fn robot(links: &[(f64, f64)]) -> Arm {
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: Some(Beam {
             youngs_modulus: YOUNG,

@@ -3,11 +3,11 @@
 use std::string::ToString;
 use std::vec::Vec;
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix3, Vector3, Vector6};
 use stiffarm_draws::Draws;
 
-use crate::Motion;
-use crate::generic::{Arm, Beam, Convention, Joint};
+use crate::generic::{Arm, Beam, Convention, Drive, Joint};
+use crate::{Motion, Output};
 
 /// Random arms, and what they are asked.
 pub struct Random(Draws);
@@ -53,6 +53,22 @@ impl Random {
         }
     }
 
+    /// Of a body: second moments of its mass along three axes, turned.
+    fn inertia(&mut self) -> Matrix3<f64> {
+        let spread = Matrix3::from_fn(|_, _| self.between(-0.3, 0.3));
+        let moments = spread * spread.transpose();
+        Matrix3::from_diagonal_element(moments.trace()) - moments
+    }
+
+    fn drive(&mut self) -> Drive {
+        Drive {
+            gear: self.between(1.0, 100.0),
+            rotor_inertia: self.between(0.0, 1e-3),
+            coulomb: self.between(0.0, 5.0),
+            viscous: self.between(0.0, 5.0),
+        }
+    }
+
     fn joint(&mut self) -> Joint {
         let motion = if self.chance(0.3) { Motion::Prismatic } else { Motion::Revolute };
         let right_angles = self.between(-2.0, 2.0).round();
@@ -70,6 +86,8 @@ impl Random {
             compliance: if self.chance(0.2) { 0.0 } else { self.between(1e-7, 1e-6) },
             mass: if self.chance(0.3) { 0.0 } else { self.between(1.0, 50.0) },
             com: self.vector(0.3),
+            inertia: self.inertia(),
+            drive: self.drive(),
             limits: None,
             beam: self.chance(0.7).then(|| self.beam(motion == Motion::Prismatic)),
         }
@@ -89,6 +107,12 @@ impl Random {
             gravity: self.vector(9.0),
         }
     }
+}
+
+/// A state for `output` at joint values `q`: what stands behind them is as good as random.
+pub fn state(output: Output, q: &[f64]) -> Vec<f64> {
+    let behind = |k: usize| [1.0, -0.6, 1.7][k / q.len()] * q[k % q.len()];
+    (0..output.state(q.len())).map(behind).collect()
 }
 
 /// A random arm, posture and wrench for each of many seeds.

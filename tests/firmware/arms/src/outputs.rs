@@ -15,15 +15,18 @@ pub const OF_ALL: [&str; 6] = [
     "all.deflection",
 ];
 
+/// How many outputs every arm has: those of dynamics stand at the end.
+pub const EACH: usize = Output::InverseDynamics as usize;
+
 /// Outputs of one draw of one arm, those of `all` counted singly.
-pub const OUTPUTS: usize = Output::EACH.len() + OF_ALL.len();
+pub const OUTPUTS: usize = EACH + OF_ALL.len();
 
 /// The arms, in the order in which [`visit`] calls them.
 pub const ARMS: [&str; 5] = ["ur10", "kuka_kr240", "iiwa14", "ur5_springs", "various"];
 
 /// The name of output number `index`.
 pub fn name(index: usize) -> &'static str {
-    match index.checked_sub(Output::EACH.len()) {
+    match index.checked_sub(EACH) {
         None => Output::EACH[index].name(),
         Some(of_all) => OF_ALL[of_all],
     }
@@ -39,6 +42,7 @@ macro_rules! arm {
             see(Ok($arm::frames(&q).map(|f| f.columns()).as_flattened().as_flattened()));
             see(Ok($arm::jacobian(&q).as_flattened()));
             see(Ok($arm::jacobian_tool(&q).as_flattened()));
+            see(Ok($arm::jacobian_spatial(&q).as_flattened()));
             see(Ok($arm::complementary_stiffness(&q, &w).as_flattened()));
             see(Ok(&$arm::joint_torque(&q, &w)));
             see(Ok(&$arm::weight_torque(&q)));

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use stiffarm::kernels::{Input, Output};
+use stiffarm::kernels::Output;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_firmware_arms::outputs::ARMS;
+use stiffarm_firmware_arms::outputs::{ARMS, EACH};
 
 use crate::Failure;
 use crate::tools::{Tools, succeed};
@@ -96,10 +96,10 @@ fn calls(arms: &[(&str, usize)]) -> String {
     let (mut includes, mut cases) = (String::new(), String::new());
     for (index, (arm, n)) in arms.iter().enumerate() {
         includes.push_str(&format!("#include \"{arm}.h\"\n"));
-        for (k, output) in Output::EACH.into_iter().enumerate() {
+        for (k, output) in Output::EACH.into_iter().enumerate().take(EACH) {
             let (rows, columns) = output.shape(*n);
-            let wrench = if output.takes(Input::Wrench) { "wrench, " } else { "" };
-            let call = format!("{arm}_{}(q, {wrench}out)", output.name());
+            let beside: String = output.beside().map(|i| format!("{}, ", i.name())).collect();
+            let call = format!("{arm}_{}(q, {beside}out)", output.name());
             let call = match output.is_fallible() {
                 true => format!("count = ((int){call} == 0) ? {} : -1;", rows * columns),
                 false => format!("{call};\n        count = {};", rows * columns),
@@ -119,7 +119,7 @@ fn calls(arms: &[(&str, usize)]) -> String {
         }}
         break;
 ",
-                32 * index + Output::EACH.len() + k,
+                32 * index + EACH + k,
                 output.name(),
                 rows * columns
             ));

@@ -27,6 +27,8 @@ fn arm() -> Arm {
         compliance: 1.0 / number(row.stiffness),
         mass: 0.0,
         com: Vector3::zeros(),
+        inertia: Default::default(),
+        drive: Default::default(),
         limits: None,
         beam: None,
     };

@@ -125,8 +125,40 @@ fn outputs_are_named_once_each() {
         assert_eq!(errors(&file(list)), [told]);
     }
     let misspelt = errors(&file("[\"pose\", \"jacobain\"]"));
-    assert!(misspelt[0].starts_with("1:20 `jacobain` stands where one of pose, "), "{misspelt:?}");
-    assert!(misspelt[0].ends_with(" | did you mean `jacobian`?"), "{misspelt:?}");
+    assert_eq!(misspelt, ["1:20 `jacobain` is no output | did you mean `jacobian`?"]);
+}
+
+#[test]
+fn frames_are_on_joints_and_outputs_are_asked_for_at_them() {
+    let frame = |joint: &str| {
+        format!("[[frame]]\nname = \"elbow\"\njoint = {joint}\ntranslation = [\"50 mm\", 0, 0]\n")
+    };
+    let file =
+        |list: &str| format!("outputs = {list}\n{HEAD}{JOINT}name = \"pan\"\n{}", frame("1"));
+    let robot = read(&file("[\"jacobian at elbow\", \"pose at elbow\", \"pose at elbow\"]"));
+    assert_eq!((robot.frames[0].row, robot.frames[0].name.as_str()), (0, "elbow"));
+    assert_eq!(robot.frames[0].frame.translation[0], number("0.05"));
+    assert_eq!(robot.places(), [("elbow", vec![Output::Pose, Output::Jacobian])]);
+    assert_eq!(robot.generated(), Output::EACH);
+    assert_eq!(robot.asked(), ["pose at elbow", "jacobian at elbow"]);
+    let again = read(&robot.to_toml());
+    assert_eq!((&again.frames, again.places()), (&robot.frames, robot.places()));
+    assert_eq!(
+        read(&file("[\"pose\"]").replace("joint = 1", "joint = \"pan\"")).frames,
+        robot.frames
+    );
+    let refused = |joint: &str| errors(&format!("{HEAD}{JOINT}name = \"pan\"\n{}", frame(joint)));
+    let known = "is no joint of this arm";
+    assert_eq!(
+        refused("2"),
+        [format!("8:9 joint 2 {known} | its joints are 1 to 1, or their names")]
+    );
+    assert_eq!(refused("-1"), [format!("8:9 `-1` {known} | known here: pan")]);
+    assert_eq!(refused("\"pam\""), [format!("8:9 `pam` {known} | did you mean `pan`?")]);
+    assert_eq!(
+        errors(&file("[\"pose at elbwo\"]")),
+        ["1:12 `elbwo` is no frame of this robot | did you mean `elbow`?"]
+    );
 }
 
 #[test]

@@ -1,0 +1,118 @@
+//! Of what and how a report was made: the command, the files' hashes, a date.
+//!
+//! The same command on the same files gives the same bytes, so that no clock is asked: the date is that
+//! of `SOURCE_DATE_EPOCH` where that is set, else the day on which the measurement file was last written.
+
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::terminal::failure::Failure;
+
+/// Of what and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// As it was given, words with spaces in quotation marks.
+    pub command: String,
+    /// What the date is of, and the day.
+    pub date: Option<(&'static str, String)>,
+    pub hashes: Hashes,
+}
+
+/// SHA-256 of the bytes, in hexadecimal digits, as `sha256sum` prints them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Hashes {
+    /// Of the measurement file.
+    pub data_sha256: String,
+    /// Of the robot file, as it was read.
+    pub robot_sha256: String,
+}
+
+impl Provenance {
+    /// Of the measurement file at `data` and the text of a robot file.
+    ///
+    /// # Errors
+    /// [`Failure`]: the file cannot be read, or `SOURCE_DATE_EPOCH` is no number of seconds.
+    pub fn of(data: &Path, robot: &str) -> Result<Provenance, Failure> {
+        let read = |error| Failure::io("read", data, &error);
+        let mut file = std::fs::File::open(data).map_err(read)?;
+        let mut hash = Writer(Sha256::new());
+        std::io::copy(&mut file, &mut hash).map_err(read)?;
+        let hashes = Hashes {
+            data_sha256: hexadecimal(&hash.0.finalize()),
+            robot_sha256: hexadecimal(&Sha256::digest(robot)),
+        };
+        let written = file.metadata().and_then(|about| about.modified()).ok();
+        let words = std::env::args().skip(1).map(|word| quoted(&word));
+        let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
+        Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
+    }
+}
+
+/// Takes bytes in.
+struct Writer(Sha256);
+
+impl std::io::Write for Writer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+fn date(written: Option<SystemTime>) -> Result<Option<(&'static str, String)>, Failure> {
+    const EPOCH: &str = "SOURCE_DATE_EPOCH";
+    // The last second of the year 9999.
+    const LAST: u64 = 253_402_300_799;
+    let (what, time) = match std::env::var(EPOCH) {
+        Ok(seconds) => {
+            let read = seconds.trim().parse::<u64>().ok().filter(|seconds| *seconds <= LAST);
+            let seconds = read.ok_or_else(|| {
+                Failure::new(format!("{EPOCH}: found `{seconds}`, expected seconds since 1970"))
+            })?;
+            ("made", Some(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)))
+        }
+        Err(_) => ("measurements written", written),
+    };
+    let day = |time| humantime::format_rfc3339_seconds(time).to_string();
+    let is_told = |time: &SystemTime| time.duration_since(SystemTime::UNIX_EPOCH).is_ok();
+    Ok(time.filter(is_told).map(|time| (what, day(time)[..10].to_owned())))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A word as a shell reads it back.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./,:=@%+".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_reads_back() {
+        assert_eq!(quoted("run1.csv"), "run1.csv");
+        assert_eq!(quoted("joint 2=5 µm"), "'joint 2=5 µm'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+
+    /// The published vector of FIPS 180-2, B.1.
+    #[test]
+    fn hashes_are_those_of_sha256sum() {
+        let hash = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(hexadecimal(&Sha256::digest("abc")), hash);
+    }
+}

@@ -1,0 +1,84 @@
+//! The mass matrix from composite bodies: all beyond a joint as one (Walker & Orin 1982, method 3).
+
+use super::line::Link;
+use super::moments::Moments;
+use crate::expr::{Expr, Graph, Vec3};
+
+/// `M`, n×n column-major, rotors apart. Where joint j alone accelerates, by one unit, all beyond it moves as
+/// one body, and every joint before it bears what that takes.
+pub(super) fn mass_matrix(g: &mut Graph, links: &[Link]) -> Vec<Expr> {
+    let n = links.len();
+    let mut mass = vec![Expr::ZERO; n * n];
+    let levers = levers(g, links);
+    // Of the run beyond in the axes of the link that carries it; of the run's links beyond, in its axes.
+    let (mut beyond, mut run) = (Moments::default(), Moments::default());
+    for (k, link) in links.iter().enumerate().rev() {
+        let own = link.moments.with(g, &beyond);
+        beyond = Moments::default();
+        let own = link.moments_in_run(g, &own);
+        run = run.with(g, &own);
+        let mut load = unit_load(g, link, &run);
+        for (i, inner) in links.iter().enumerate().take(k + 1).rev() {
+            let along = if inner.slide.is_some() { load.0[2] } else { load.1[2] };
+            mass[k * n + i] = inner.signed(along);
+            mass[i * n + k] = mass[k * n + i];
+            if i > 0 {
+                load = carried(g, links, &levers, i, load);
+            }
+        }
+        run = run.moved(g, levers[k]);
+        if link.begins {
+            let leaning = link.moments_lean_out(g, &run);
+            beyond = leaning.moved(g, link.offset);
+            run = Moments::default();
+        }
+    }
+    mass
+}
+
+/// Where each link's origin is from the one before, in the axes of the run; of the first of a run, from where
+/// the run begins.
+fn levers(g: &mut Graph, links: &[Link]) -> Vec<Vec3> {
+    let lever = |(k, link): (usize, &Link)| {
+        let mut lever = match link.begins {
+            true => [Expr::ZERO; 3],
+            false => links[k - 1].outwards_to_run(g, link.offset),
+        };
+        let slid = link.slide.map_or(Expr::ZERO, |slide| link.signed(slide));
+        lever[2] = g.add(lever[2], slid);
+        lever
+    };
+    links.iter().enumerate().map(lever).collect()
+}
+
+/// Force on, and moment about the origin of, a body that a joint accelerates by one unit; the run's axes.
+fn unit_load(g: &mut Graph, link: &Link, body: &Moments) -> (Vec3, Vec3) {
+    let [x, y, _] = body.first;
+    let s = body.second;
+    let (force, moment) = match link.slide {
+        Some(_) => ([Expr::ZERO, Expr::ZERO, body.mass], [y, -x, Expr::ZERO]),
+        None => ([-y, x, Expr::ZERO], [-s[0][2], -s[1][2], g.add(s[0][0], s[1][1])]),
+    };
+    (force.map(|c| link.signed(c)), moment.map(|c| link.signed(c)))
+}
+
+/// A load about the origin of link `k`, in its run's axes, as the link before bears it in its run's.
+fn carried(
+    g: &mut Graph,
+    links: &[Link],
+    levers: &[Vec3],
+    k: usize,
+    (force, moment): (Vec3, Vec3),
+) -> (Vec3, Vec3) {
+    let link = &links[k];
+    let lever = g.cross3(levers[k], force);
+    let moment = g.add3(moment, lever);
+    if !link.begins {
+        return (force, moment);
+    }
+    let (force, moment) = (link.lean_out(g, force), link.lean_out(g, moment));
+    let lever = g.cross3(link.offset, force);
+    let moment = g.add3(moment, lever);
+    let before = &links[k - 1];
+    (before.outwards_to_run(g, force), before.outwards_to_run(g, moment))
+}

@@ -1,0 +1,104 @@
+//! The equations of motion, each link in its own axes: what a motion costs, joint by joint.
+
+mod composite;
+mod line;
+mod moments;
+mod newton_euler;
+
+use stiffarm_kernels::Output;
+
+use super::{Derivation, Derived};
+use crate::derive::chain::{Chain, expression};
+use crate::expr::{Expr, Symbol, Vec3};
+use line::{Link, line};
+use newton_euler::{Motion, newton_euler};
+
+/// The outputs of this folder.
+pub(super) const DERIVED: &[(Output, Derivation)] = &[
+    (Output::InverseDynamics, inverse_dynamics),
+    (Output::Bias, bias),
+    (Output::MassMatrix, mass_matrix),
+];
+
+/// τ(q, q̇, q̈).
+fn inverse_dynamics(chain: &mut Chain) -> Derived {
+    let accelerations = symbols(chain, Symbol::Acceleration);
+    torques(chain, accelerations).into()
+}
+
+/// τ(q, q̇, 0).
+fn bias(chain: &mut Chain) -> Derived {
+    let none = vec![Expr::ZERO; chain.dof()];
+    torques(chain, none).into()
+}
+
+/// ∂τ/∂q̈, n×n.
+fn mass_matrix(chain: &mut Chain) -> Derived {
+    let links = line(chain);
+    let mut mass = composite::mass_matrix(&mut chain.g, &links);
+    let n = chain.dof();
+    for k in 0..n {
+        let rotor = rotor(chain, k);
+        mass[k * n + k] = chain.g.add(mass[k * n + k], rotor);
+        for row in k..n {
+            chain.g.name(mass[k * n + row], || format!("m_{}{}", row + 1, k + 1));
+        }
+    }
+    mass.into()
+}
+
+fn torques(chain: &mut Chain, accelerations: Vec<Expr>) -> Vec<Expr> {
+    let rates = symbols(chain, Symbol::Rate);
+    let gravity: Vec3 = chain.robot.gravity.each_ref().map(|c| expression(&mut chain.g, c));
+    let mut links = line(chain);
+    let rotors: Vec<Expr> = (0..chain.dof()).map(|k| rotor(chain, k)).collect();
+    // The first joint turns its rotor as it turns its link: one moment of inertia for both.
+    let first = take_rotor(chain, &mut links[0], rotors[0]);
+    let motion = Motion { rates: &rates, accelerations: &accelerations, gravity };
+    let loads = newton_euler(&mut chain.g, &links, &motion);
+    let each = loads.into_iter().enumerate().map(|(k, load)| {
+        let rotor = if k == 0 { first } else { rotors[k] };
+        let rotor = chain.g.mul(rotor, accelerations[k]);
+        let moved = chain.g.add(load, rotor);
+        let friction = friction(chain, k, rates[k]);
+        let torque = chain.g.add(moved, friction);
+        chain.g.name(torque, || format!("tau_{}", k + 1));
+        torque
+    });
+    each.collect()
+}
+
+/// Adds a rotor's inertia to the link's about its own axis, where it is that of a turning joint; what is
+/// left of it.
+fn take_rotor(chain: &mut Chain, link: &mut Link, rotor: Expr) -> Expr {
+    if link.slide.is_some() {
+        return rotor;
+    }
+    let xx = &mut link.moments.second[0][0];
+    *xx = chain.g.add(*xx, rotor);
+    Expr::ZERO
+}
+
+/// `coulomb · sign(q̇) + viscous · q̇`.
+fn friction(chain: &mut Chain, joint: usize, rate: Expr) -> Expr {
+    let drive = chain.robot.joints[joint].drive.clone();
+    let [dry, viscous] = [drive.coulomb, drive.viscous]
+        .map(|c| c.map_or(Expr::ZERO, |c| expression(&mut chain.g, &c)));
+    let sign = if dry.is_zero() { Expr::ZERO } else { chain.g.sign(rate) };
+    let (dry, viscous) = (chain.g.mul(dry, sign), chain.g.mul(viscous, rate));
+    chain.g.add(dry, viscous)
+}
+
+/// The rotor's inertia as the joint feels it, `gear² J`.
+fn rotor(chain: &mut Chain, joint: usize) -> Expr {
+    let drive = chain.robot.joints[joint].drive.clone();
+    let Some(inertia) = drive.rotor_inertia else { return Expr::ZERO };
+    let gear = drive.gear.map_or(Expr::ONE, |gear| expression(&mut chain.g, &gear));
+    let inertia = expression(&mut chain.g, &inertia);
+    let square = chain.g.mul(gear, gear);
+    chain.g.mul(square, inertia)
+}
+
+fn symbols(chain: &mut Chain, symbol: fn(usize) -> Symbol) -> Vec<Expr> {
+    (0..chain.dof()).map(|k| chain.g.symbol(symbol(k))).collect()
+}

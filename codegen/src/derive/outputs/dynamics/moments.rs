@@ -1,0 +1,134 @@
+//! Moments of mass: all that the equations of motion know of a rigid body.
+
+use crate::expr::{Expr, Graph, Turn, Vec3};
+use crate::number::Number;
+
+/// `∫ dm`, `∫ r dm` and `∫ r rᵀ dm` of a body, `r` from the origin of its link in that link's axes.
+///
+/// Of the second moments `S` the tensor of inertia is `tr(S) − S`. They are carried from one origin to another
+/// more simply than it is, and a line of mass along an axis has one of them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Moments {
+    pub mass: Expr,
+    pub first: Vec3,
+    /// Symmetric.
+    pub second: [Vec3; 3],
+}
+
+impl Moments {
+    /// A body's, by its centre and its second moments about it.
+    pub fn body(g: &mut Graph, mass: Expr, centre: Vec3, own: [Vec3; 3]) -> Moments {
+        let point = Moments { mass, first: [Expr::ZERO; 3], second: own };
+        point.moved(g, centre)
+    }
+
+    /// The same body seen from an origin from which the old one is at `by`.
+    pub fn moved(&self, g: &mut Graph, by: Vec3) -> Moments {
+        let first = core::array::from_fn(|k| {
+            let carried = g.mul(self.mass, by[k]);
+            g.add(self.first[k], carried)
+        });
+        // (s + m p) pᵀ + p sᵀ
+        let second = symmetric(|i, j| {
+            let (far, near) = (g.mul(first[i], by[j]), g.mul(by[i], self.first[j]));
+            let both = g.add(far, near);
+            g.add(self.second[i][j], both)
+        });
+        Moments { mass: self.mass, first, second }
+    }
+
+    /// Both bodies as one.
+    pub fn with(&self, g: &mut Graph, other: &Moments) -> Moments {
+        Moments {
+            mass: g.add(self.mass, other.mass),
+            first: g.add3(self.first, other.first),
+            second: symmetric(|i, j| g.add(self.second[i][j], other.second[i][j])),
+        }
+    }
+
+    /// In the axes in which the body's own are turned about axis `k`.
+    pub fn turned(&self, g: &mut Graph, turn: &Turn, k: usize) -> Moments {
+        Moments {
+            mass: self.mass,
+            first: turned(g, turn, k, self.first),
+            second: turned_second(g, turn, k, self.second),
+        }
+    }
+
+    /// In axes that are turned by half a turn about x.
+    pub fn over(&self) -> Moments {
+        let sign = |i: usize, x: Expr| x.signed(i > 0);
+        Moments {
+            mass: self.mass,
+            first: core::array::from_fn(|i| sign(i, self.first[i])),
+            second: symmetric(|i, j| sign(i, sign(j, self.second[i][j]))),
+        }
+    }
+
+    /// Takes the part that lies on the link's z axis: it does not feel a turn about that axis, and belongs
+    /// to the link before as much as to this one. What is left has no mass, its centre on the axis at the
+    /// origin, and no second moment along the axis.
+    pub fn take_axis(&mut self) -> Moments {
+        let none = Expr::ZERO;
+        let mut on_axis = Moments { mass: self.mass, ..Moments::default() };
+        on_axis.first[2] = self.first[2];
+        on_axis.second[2][2] = self.second[2][2];
+        (self.mass, self.first[2], self.second[2][2]) = (none, none, none);
+        on_axis
+    }
+
+    /// Takes the second moments: where a joint slides, the link before feels them as its own.
+    pub fn take_second(&mut self) -> Moments {
+        let second = core::mem::take(&mut self.second);
+        Moments { second, ..Moments::default() }
+    }
+}
+
+/// A symmetric matrix by the entries on and below its diagonal.
+fn symmetric(mut entry: impl FnMut(usize, usize) -> Expr) -> [Vec3; 3] {
+    let mut all = [[Expr::ZERO; 3]; 3];
+    for i in 0..3 {
+        for j in 0..=i {
+            all[i][j] = entry(i, j);
+            all[j][i] = all[i][j];
+        }
+    }
+    all
+}
+
+/// A vector of axes that are turned about axis `k`, in the axes before.
+pub(super) fn turned(g: &mut Graph, turn: &Turn, k: usize, v: Vec3) -> Vec3 {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let (s, c) = turn.sin_cos(g);
+    let mut out = v;
+    let products = [(c, v[i]), (s, v[j]), (s, v[i]), (c, v[j])].map(|(a, b)| g.mul(a, b));
+    out[i] = g.sub(products[0], products[1]);
+    out[j] = g.add(products[2], products[3]);
+    out
+}
+
+/// `R S Rᵀ` of a turn about axis `k`. In the plane of the turn, with `h = s (S_ii − S_jj) + 2 c S_ij`:
+/// `S_ii − s h`, `S_jj + s h` and `c h − S_ij`.
+fn turned_second(g: &mut Graph, turn: &Turn, k: usize, m: [Vec3; 3]) -> [Vec3; 3] {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let (s, c) = turn.sin_cos(g);
+    let two = g.number(Number::integer(2));
+    let difference = g.sub(m[i][i], m[j][j]);
+    let twice = g.mul(two, m[i][j]);
+    let (across, along) = (g.mul(s, difference), g.mul(c, twice));
+    let h = g.add(across, along);
+    let (sh, ch) = (g.mul(s, h), g.mul(c, h));
+    // By quarters of a turn the sums are single entries.
+    let (ii, jj, ij) = match (s.is_zero(), c.is_zero()) {
+        (true, _) => (m[i][i], m[j][j], m[i][j]),
+        (_, true) => (m[j][j], m[i][i], -m[i][j]),
+        _ => (g.sub(m[i][i], sh), g.add(m[j][j], sh), g.sub(ch, m[i][j])),
+    };
+    let out = turned(g, turn, k, m[k]);
+    let mut all = [[Expr::ZERO; 3]; 3];
+    all[k] = out;
+    (all[i][k], all[j][k]) = (out[i], out[j]);
+    (all[i][i], all[j][j]) = (ii, jj);
+    (all[i][j], all[j][i]) = (ij, ij);
+    all
+}

@@ -1,0 +1,90 @@
+//! The functions of named frames and markers: modules of their own, which share the posture.
+
+use stiffarm_kernels::Form;
+
+use super::super::Functions;
+use super::super::readings::Stage;
+use super::RustOptions;
+use super::table::{angle, listed, value};
+use crate::emit::lines::Lines;
+use crate::robot::Robot;
+
+/// The module `at`, with a module for each of `places`, whose items `printed` writes.
+pub(super) fn module(
+    robot: &Robot,
+    options: &RustOptions,
+    (places, stage): (&[Functions], &Stage),
+    mut printed: impl FnMut(&Functions, usize) -> String,
+) -> String {
+    let mut out = Lines::at(0);
+    out.blank();
+    out.doc("The arm at its named frames and markers; the posture is the arm's.");
+    out.code("pub mod at {");
+    out.indent();
+    for (k, of) in places.iter().enumerate() {
+        if k > 0 {
+            out.blank();
+        }
+        let place = of.place.as_deref().unwrap_or_default();
+        docs(&mut out, robot, place);
+        out.code(&format!("pub mod {place} {{"));
+        out.indent();
+        imports(&mut out, robot, (options, stage), of);
+        out.text.push_str(&printed(of, out.depth));
+        out.dedent();
+        out.code("}");
+    }
+    out.dedent();
+    out.code("}");
+    out.finish()
+}
+
+/// Where the place is.
+fn docs(out: &mut Lines, robot: &Robot, place: &str) {
+    let place_is = match robot.frames.iter().find(|named| named.name == place) {
+        Some(named) => {
+            let joint = &robot.joints[named.row].name;
+            let list = |cells: [String; 3]| cells.join(", ");
+            let at = list(named.frame.translation.each_ref().map(value));
+            let turned = list(named.frame.rotation.each_ref().map(angle));
+            format!(
+                "the frame at [{at}] m, turned by the rotation vector [{turned}], in frame {}, that of {joint}. \
+                 Joints beyond it do not enter.",
+                named.row + 1
+            )
+        }
+        None => "the marker on the tool, in the tool's axes.".to_owned(),
+    };
+    out.doc(&format!(
+        "The arm whose tool is `{place}`: what is said of the tool here is of {place_is}"
+    ));
+}
+
+/// What the items of the module need.
+fn imports(
+    out: &mut Lines,
+    robot: &Robot,
+    (options, stage): (&RustOptions, &Stage),
+    of: &Functions,
+) {
+    let used = |name: &'static str, used: bool| used.then_some(name);
+    let imports = [
+        Some("Arm"),
+        Some("DhRow"),
+        Some("Error"),
+        Some("Kernels"),
+        Some("Output"),
+        used("Pose", of.outputs.iter().any(|o| o.form() == Form::Pose)),
+        Some("Scalar"),
+        used("Unstable", of.outputs.iter().any(|o| o.is_fallible())),
+        Some("fill"),
+        Some("has"),
+    ];
+    let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    out.code(&format!("use {}::{{{imports}}};", options.kernels));
+    let symbolic = if robot.symbols().is_empty() { "" } else { "Constants, Parameters, " };
+    let joints = if stage.moves { ", joints" } else { "" };
+    out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture{joints}}};"));
+    out.blank();
+    listed(out, &of.outputs);
+}

@@ -1,0 +1,73 @@
+//! A module: the arm's outputs, and functions of one's own beside them, with one posture for all.
+
+use std::path::PathBuf;
+
+use super::formulas::Formulas;
+use super::function::Function;
+use super::mistake::{Mistake, Refused};
+use crate::emit::{CFiles, COptions, RustOptions, SymbolicTable, c_with, rust_with};
+use crate::out_dir::{BuildError, write_to_out_dir};
+use crate::robot::{Output, Robot};
+
+/// An arm's module with functions of one's own.
+pub struct Module<'r> {
+    robot: &'r Robot,
+    functions: Vec<Function>,
+}
+
+impl<'r> Module<'r> {
+    /// The module of an arm: so far its outputs, as its robot file asks for them.
+    pub fn new(robot: &'r Robot) -> Self {
+        Module { robot, functions: Vec::new() }
+    }
+
+    /// Adds a function: see [`Function::new`].
+    ///
+    /// # Errors
+    /// [`Refused`], also where the module has an item of this name.
+    pub fn function(
+        mut self,
+        name: &str,
+        sentence: &str,
+        formulas: impl Fn(&Formulas<'_>),
+    ) -> Result<Self, Refused> {
+        let known = Output::EACH.iter().any(|output| output.name() == name)
+            || self.functions.iter().any(|function| function.name() == name);
+        if known {
+            let text = "found the name of another function of the module, expected a new one";
+            let mistakes = vec![Mistake { at: None, text: text.to_owned() }];
+            return Err(Refused { function: name.to_owned(), mistakes });
+        }
+        self.functions.push(Function::new(self.robot, name, sentence, formulas)?);
+        Ok(self)
+    }
+
+    /// The functions that were added.
+    pub fn functions(&self) -> &[Function] {
+        &self.functions
+    }
+
+    /// The items of the module, like [`rust`](crate::emit::rust).
+    pub fn rust(&self, options: &RustOptions) -> String {
+        let programs: Vec<_> = self.functions.iter().map(|function| &function.program).collect();
+        rust_with(self.robot, &programs, options)
+    }
+
+    /// Both files in C, like [`c`](crate::emit::c).
+    ///
+    /// # Errors
+    /// [`SymbolicTable`] where a cell of the table is no number.
+    pub fn c(&self, options: &COptions) -> Result<CFiles, SymbolicTable> {
+        let programs: Vec<_> = self.functions.iter().map(|function| &function.program).collect();
+        c_with(self.robot, &programs, options)
+    }
+
+    /// Writes the Rust text to `OUT_DIR` as `<name>.rs`; in the crate
+    /// `pub mod arm { include!(concat!(env!("OUT_DIR"), "/<name>.rs")); }`.
+    ///
+    /// # Errors
+    /// [`BuildError`] where the file cannot be written, or `OUT_DIR` is not set.
+    pub fn to_out_dir(&self, name: &str, options: &RustOptions) -> Result<PathBuf, BuildError> {
+        write_to_out_dir(name, &self.rust(options))
+    }
+}

@@ -1,0 +1,172 @@
+//! Named frames, and which outputs are asked for at them, at markers and at the tool.
+
+use stiffarm_kernels::{Part, Side};
+
+use super::draft::{Cell, DraftNamedFrame, JointName};
+use super::model::{At, Joint, NamedFrame, Output, Robot};
+use super::names::no_module;
+use super::problem::{Place, Problem, Report};
+use super::suggest::advice;
+use super::validate::frame;
+
+/// An output that is asked for: `jacobian`, or `jacobian at elbow`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The output.
+    pub output: Output,
+    /// The frame or marker at which it is asked for; `None` is the tool.
+    pub at: Option<String>,
+}
+
+/// Why something that is asked for cannot be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// What was found and what was expected.
+    pub message: String,
+    /// How to mend it.
+    pub help: String,
+}
+
+fn refused(message: String, help: impl Into<String>) -> Refused {
+    Refused { message, help: help.into() }
+}
+
+impl Asked {
+    /// Reads `jacobian` or `jacobian at elbow`. Whether the arm has such a frame is for [`Robot::ask`] to say.
+    ///
+    /// # Errors
+    /// [`Refused`]: another word than an output's name, `at`, or one name behind it.
+    pub fn read(text: &str) -> Result<Asked, Refused> {
+        let names = Output::EACH.map(Output::name);
+        let (word, at) = match text.split_whitespace().collect::<Vec<_>>()[..] {
+            [word] => (word, None),
+            [word, "at", place] => (word, Some(place.to_owned())),
+            _ => (text, None),
+        };
+        match Output::EACH.into_iter().find(|output| output.name() == word) {
+            Some(output) => Ok(Asked { output, at }),
+            None => Err(refused(format!("`{word}` is no output"), advice(word, &names))),
+        }
+    }
+}
+
+impl Robot {
+    /// Adds an output to those that are generated. Where none is asked for at the tool, the tool has every one.
+    ///
+    /// # Errors
+    /// [`Refused`]: a frame or marker that there is not, or an output that cannot be told there.
+    pub fn ask(&mut self, asked: &Asked) -> Result<(), Refused> {
+        let output = asked.output;
+        let Some(place) = &asked.at else {
+            self.outputs.push(output);
+            return Ok(());
+        };
+        let row = self.row_of(place)?;
+        let size = |side: Side| side == Side::Joints || side.count(0) == side.count(1);
+        // What is told of the tool's frame, whichever that is: it, its twist, what it gives or bears.
+        let of_a_frame = output.depends_on(Part::Tool) || output.rows() == Side::Twist;
+        if !of_a_frame || !size(output.rows()) || !size(output.columns()) {
+            let message = format!("`{}` is not told of a frame", output.name());
+            return Err(refused(message, "ask for it without `at`"));
+        }
+        if output.depends_on(Part::Weights) && row + 1 < self.dof() {
+            let message =
+                format!("`{}` at `{place}`: links beyond it weigh on the arm too", output.name());
+            return Err(refused(message, "ask for it at the tool, or at a frame on the last link"));
+        }
+        if self.at.iter().all(|at| at.place != *place || at.output != output) {
+            self.at.push(At { place: place.clone(), output });
+        }
+        Ok(())
+    }
+
+    /// The row in whose link a frame or a marker is fixed, from 0.
+    fn row_of(&self, place: &str) -> Result<usize, Refused> {
+        if let Some(named) = self.frames.iter().find(|named| named.name == place) {
+            return Ok(named.row);
+        }
+        let names = self.frames.iter().map(|named| named.name.as_str());
+        let names: Vec<&str> = names.chain(self.markers.iter().map(|m| m.name.as_str())).collect();
+        let Some(marker) = self.markers.iter().find(|marker| marker.name == place) else {
+            let help = match names.is_empty() {
+                true => "the robot has no [[frame]] and no [[marker]]".to_owned(),
+                false => advice(place, &names),
+            };
+            return Err(refused(format!("`{place}` is no frame of this robot"), help));
+        };
+        if let Some((message, help)) = no_module(place) {
+            return Err(refused(message, help));
+        }
+        let symbolic = self.tool.translation.iter().any(|length| length.number().is_none());
+        if marker.translation.is_none() || symbolic {
+            let what = if symbolic { "the tool that it stands on" } else { "its place" };
+            let message =
+                format!("nothing can be told of the marker `{place}`: {what} is no number");
+            return Err(refused(message, "give it numbers, or leave the marker out of `outputs`"));
+        }
+        Ok(self.dof() - 1)
+    }
+
+    /// What is asked for, in the words of [`Asked::read`]; nothing where that is every output of the tool.
+    pub fn asked(&self) -> Vec<String> {
+        let tool = if self.outputs.is_empty() { Vec::new() } else { self.generated() };
+        let tool = tool.into_iter().map(|output| output.name().to_owned());
+        let places = self.places().into_iter();
+        let at = places.flat_map(|(place, outputs)| {
+            outputs.into_iter().map(move |output| format!("{} at {place}", output.name()))
+        });
+        tool.chain(at).collect()
+    }
+
+    /// The places at which outputs are generated, each with its outputs, in the order of frames and markers.
+    pub fn places(&self) -> Vec<(&str, Vec<Output>)> {
+        let names = self.frames.iter().map(|named| named.name.as_str());
+        let names = names.chain(self.markers.iter().map(|marker| marker.name.as_str()));
+        let asked = |name: &str, output: &Output| {
+            self.at.iter().any(|at| at.place == name && at.output == *output)
+        };
+        let outputs = |name| Output::EACH.into_iter().filter(|o| asked(name, o)).collect();
+        let all = names.map(|name| (name, outputs(name)));
+        all.filter(|(_, outputs): &(_, Vec<Output>)| !outputs.is_empty()).collect()
+    }
+}
+
+/// Has generated of a robot what is asked for.
+pub(crate) fn ask<L: Place>(robot: &mut Robot, asked: &[Cell<Asked, L>], report: &mut Report<L>) {
+    for Cell { value, at } in asked {
+        if let Some(Err(no)) = value.as_ref().map(|asked| robot.ask(asked)) {
+            report.error(Problem::new(at.clone(), no.message).help(no.help));
+        }
+    }
+}
+
+/// A named frame on one of the joints' links; `None` where that cannot be told, which is reported.
+pub(crate) fn named<L: Place>(
+    draft: &DraftNamedFrame<L>,
+    joints: &[Joint],
+    report: &mut Report<L>,
+) -> Option<NamedFrame> {
+    if let Some((message, help)) = draft.name.value.as_deref().and_then(no_module) {
+        report.error(Problem::new(draft.name.at.clone(), message).help(help));
+    }
+    let found = match draft.joint.value.as_ref()? {
+        JointName::Number(k) => k.checked_sub(1).filter(|row| *row < joints.len()),
+        JointName::Label(label) => joints.iter().position(|joint| joint.name == *label),
+    };
+    let Some(row) = found else {
+        let (told, labels) = match draft.joint.value.as_ref()? {
+            JointName::Number(k) => (format!("joint {k}"), Vec::new()),
+            JointName::Label(label) => {
+                (format!("`{label}`"), joints.iter().map(|joint| joint.name.as_str()).collect())
+            }
+        };
+        let message = format!("{told} is no joint of this arm");
+        let help = match (&draft.joint.value, joints.len()) {
+            (Some(JointName::Label(label)), _) => advice(label, &labels),
+            (_, n) => format!("its joints are 1 to {n}, or their names"),
+        };
+        report.error(Problem::new(draft.joint.at.clone(), message).help(help));
+        return None;
+    };
+    Some(NamedFrame { name: draft.name.value.clone()?, row, frame: frame(&draft.frame) })
+}

@@ -1,0 +1,104 @@
+//! One number a row: a ball bar's distance, a touch probe's coordinate.
+
+use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_gap::diagnose::Diagnosed;
+use stiffarm_gap::measurement::{Kind, Row};
+use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::{Noise, csv};
+use stiffarm_gap::simulate::simulate;
+use stiffarm_gap::{Measurements, Options, diagnose_with};
+use stiffarm_kernels::generic::{Arm, Convention};
+
+use crate::arms::{EXACT, loaded, plant, reading, rows, sprung};
+
+const NOISE: Noise = Noise { position: 2e-5, rotation: 0.0 };
+const TRUTH: &str = "joint_compliance@joint 2=4e-6";
+
+fn design(arm: &Arm, kind: Kind) -> Measurements {
+    let (shape, seed) = (Shape::Payload, 5);
+    Design { shape, poses: 40, repeats: 1, payload: 20.0, kind, seed }.rows(arm)
+}
+
+fn found(arm: &Arm, data: &Measurements) -> Diagnosed {
+    diagnose_with(arm, data, &Options::default(), &|_| {}).expect("a diagnosis")
+}
+
+#[track_caller]
+fn is_found(found: &Diagnosed) {
+    let d = &found.diagnosis;
+    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
+    assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    let [low, high] = finding.parameters[0].ci95;
+    assert!((low..=high).contains(&4e-6), "{low:e} {high:e}");
+    let left = d.gap.after.position_rms / NOISE.position;
+    assert!((0.7..1.3).contains(&left), "{left}");
+}
+
+#[test]
+fn a_distance_is_that_of_the_measured_point() {
+    let arm = sprung(Convention::Modified);
+    let mut row = reading(&[0.4, -0.7, 0.2, 0.9, -0.3], [30.0, -20.0, -90.0, 1.0, 2.0, 3.0]);
+    row.from = Some([0.3, -0.2, 0.5]);
+    row.offset = Some([0.0, 0.1, 0.02]);
+    let at = simulate(&arm, &row, Kind::Pose { orientation: true }).expect("at rest").reading();
+    // In space the marker is where the instrument of poses sees it.
+    let far = (at.position - Vector3::new(0.3, -0.2, 0.5)).norm();
+    let seen = simulate(&arm, &row, Kind::Distance).expect("at rest");
+    assert!((seen.reading().vector() - Vector6::ith(0, far)).amax() < 1e-15);
+    let told = plant(&arm, &[]).measure(&rows(Kind::Distance, vec![row]), EXACT, 0).expect("rows");
+    let apart = told.rows[0].measured[0] - far;
+    assert!(apart.abs() < 1e-11, "{apart:e}");
+}
+
+#[test]
+fn a_ball_bar_shows_a_soft_joint() {
+    let arm = loaded(Convention::Standard);
+    let data =
+        plant(&arm, &[TRUTH]).measure(&design(&arm, Kind::Distance), NOISE, 1).expect("rows");
+    is_found(&found(&arm, &data));
+    // As a file it is the same campaign.
+    let layout = stiffarm_gap::measurement::Layout {
+        motions: arm.joints.iter().map(|j| j.motion).collect(),
+        readings: true,
+        markers: Vec::new(),
+        payloads: None,
+    };
+    let text = csv(&arm, &data, &[]);
+    let read = Measurements::from_bytes("bar.csv", text.as_bytes(), &layout).expect("a file");
+    assert_eq!((read.kind, read.poses), (Kind::Distance, data.poses));
+    let same = |(a, b): (&Row, &Row)| a.measured == b.measured && a.from == b.from;
+    assert!(read.rows.iter().zip(&data.rows).all(same));
+}
+
+#[test]
+fn a_point_that_nobody_knows_is_fitted_along() {
+    let arm = loaded(Convention::Standard);
+    let mut data =
+        plant(&arm, &[TRUTH]).measure(&design(&arm, Kind::Distance), NOISE, 1).expect("rows");
+    let was = Vector3::from(data.rows[0].from.expect("a point"));
+    for row in &mut data.rows {
+        (row.from, row.from_point) = (None, Some("socket".to_owned()));
+    }
+    let found = found(&arm, &data);
+    is_found(&found);
+    let [point] = &found.diagnosis.nuisances[..] else { panic!("{:?}", found.diagnosis.nuisances) };
+    // 120 distances to 20 µm, all around the point.
+    let off = (Vector3::from(point.translation) - was).norm();
+    assert!(point.name == "socket" && off < 5e-5, "{off:e}");
+    let same = found.explanation.predict(&data).expect("predicted");
+    let [before, after] = [&same.before, &same.after].map(|gaps| gaps[7][0].abs());
+    assert!(before.is_finite() && after < 1e-4, "{before:e} {after:e}");
+    data.rows.iter_mut().for_each(|row| row.from_point = Some("another".to_owned()));
+    let refused = found.explanation.predict(&data).unwrap_err().to_string();
+    assert!(refused.contains("found distances from the point `another`"), "{refused}");
+}
+
+#[test]
+fn a_touch_probe_shows_a_soft_joint_by_one_coordinate() {
+    let mut arm = loaded(Convention::Standard);
+    arm.base = Isometry3::translation(0.2, 0.0, 0.1);
+    let kind = Kind::Coordinates { components: [false, false, true] };
+    let data = plant(&arm, &[TRUTH]).measure(&design(&arm, kind), NOISE, 1).expect("rows");
+    assert!(data.rows.iter().all(|row| row.measured[0] == 0.0 && row.measured[2] != 0.0));
+    is_found(&found(&arm, &data));
+}

@@ -1,0 +1,73 @@
+//! The numbers of simba, and with them nalgebra's: whatever is a `RealField`, or lanes of one.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+use ::simba::simd::{SimdBool as _, SimdRealField};
+
+use crate::Scalar;
+
+/// A number of simba's as a scalar of kernels. It wraps, for `f64` is such a number and a scalar already.
+///
+/// Of lanes each is a pose; where a kernel can refuse a load, one lane's refusal is that of all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field<T>(pub T);
+
+impl<T: SimdRealField + Copy> Add for Field<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Field(self.0 + other.0)
+    }
+}
+
+impl<T: SimdRealField + Copy> Sub for Field<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Field(self.0 - other.0)
+    }
+}
+
+impl<T: SimdRealField + Copy> Mul for Field<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Field(self.0 * other.0)
+    }
+}
+
+impl<T: SimdRealField + Copy> Neg for Field<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Field(-self.0)
+    }
+}
+
+/// Sines and cosines are the number's own.
+impl<T: SimdRealField + Copy> Scalar for Field<T> {
+    fn lit(x: f64) -> Self {
+        Field(T::from_subset(&x))
+    }
+    fn recip(self) -> Self {
+        Field(self.0.simd_recip())
+    }
+    fn sqrt(self) -> Self {
+        Field(self.0.simd_sqrt())
+    }
+    fn sign(self) -> Self {
+        let (zero, one) = (T::zero(), T::one());
+        let above = one.select(self.0.simd_gt(zero), zero);
+        let below = one.select(self.0.simd_lt(zero), zero);
+        Field(above - below)
+    }
+    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
+        crate::scalar::each(angles, |Field(angle)| {
+            let (sine, cosine) = angle.simd_sin_cos();
+            (Field(sine), Field(cosine))
+        })
+    }
+    fn is_positive(self) -> bool {
+        self.0.simd_gt(T::zero()).all()
+    }
+}
