@@ -6,7 +6,7 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
 use crate::compiler::{Folder, compile};
-use crate::program::program;
+use crate::program::{SIDES, WARMING, program};
 
 stiffarm::robot! {
     /// Something of everything.
@@ -38,10 +38,6 @@ stiffarm::robot! {
     /// Readings that are not the joint values, sides, warming, and what gives beyond the table.
     pub mod corrected from "tests/data/corrected_modified.toml";
 }
-
-/// From which sides the joints of the corrected arm come, and how warm it is, K.
-pub const SIDES: [f64; 5] = [1.0, -1.0, 1.0, 0.0, -1.0];
-pub const WARMING: f64 = 8.5;
 
 /// What a fused function computes, output by output in its order, or that there is no equilibrium.
 pub type All<S> = Result<Vec<Vec<S>>, Error>;

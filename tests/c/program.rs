@@ -1,11 +1,13 @@
-//! A C program around generated kernels: a state of three numbers for each joint and a wrench as the bits of numbers from standard
-//! input, every output as bits to standard output.
+//! A C program around generated kernels: a state of three numbers for each joint and a wrench as the bits of
+//! numbers from standard input, every output as bits to standard output.
 
 use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::Precision;
 use stiffarm_codegen::robot::Robot;
 
-use crate::arms::{SIDES, WARMING};
+/// From which sides the joints of a corrected arm come, and how warm it is, K.
+pub const SIDES: [f64; 5] = [1.0, -1.0, 1.0, 0.0, -1.0];
+pub const WARMING: f64 = 8.5;
 
 /// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
 /// order, then those of the fused function.
