@@ -135,7 +135,11 @@ fn arguments_that_do_not_fit() {
     refused(&["check", "ur5", "--count", "0"], &["--count"]);
     refused(&["check", "jweeg_two_link"], &["found no number for a1, a2"]);
     refused(&["generate", "ur5", "--emit", "fortran"], &["rust, c, latex, dot"]);
-    refused(&["generate", "ur5", "--emit", "latex", "--outputs", "poses"], &["'pose'"]);
+    let outputs = |list: &str, told: &[&str]| {
+        refused(&["generate", "ur5", "--emit", "latex", "--outputs", list], told);
+    };
+    outputs("poses", &["did you mean `pose`?"]);
+    outputs("pose at elbow", &["`elbow` is no frame of this robot", "no [[frame]]"]);
     refused(&["generate", "ur5", "--emit", "dot", "--kernels", "k"], &["--kernels is for rust"]);
     refused(
         &["generate", "ur5", "--emit", "rust", "--out", "a", "--check", "b"],
