@@ -37,6 +37,10 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
     let lever = reach.max(1.0);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let wrench = norm(&w[..3]) * reach + norm(&w[3..]);
+    // Minors of a Jacobian: products of three lengths.
+    if matches!(output, Output::Manipulability | Output::ManipulabilityByJoints) {
+        return lever.powi(3);
+    }
     // The moment on a joint, where a load enters; else a unit of whatever loads it.
     let moment = |joint: usize| {
         let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
