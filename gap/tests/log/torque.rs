@@ -17,14 +17,15 @@ fn recorded(seed: u64, friction: [[f64; 2]; 2], scale: f64) -> Log {
     let mut dice = Dice::new(seed, Stream::Noise);
     let mut q = vec![Vec::new(); 2];
     let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.3));
+    let noises = noises[0].iter().zip(&noises[1]).map(|(first, second)| [*first, *second]);
     let mut torque = vec![Vec::new(); 2];
-    for k in 0..COUNT {
+    for (k, noises) in noises.enumerate() {
         let [at, v, a] = path.at(STEP * k as f64);
         let drives = rigid(at, v, a);
         for (j, [coulomb, viscous]) in friction.into_iter().enumerate() {
             q[j].push(at[j] + 1e-6 * dice.normal());
             let friction = coulomb * v[j].signum() + viscous * v[j];
-            torque[j].push(scale * (drives[j] + friction + noises[j][k]));
+            torque[j].push(scale * (drives[j] + friction + noises[j]));
         }
     }
     log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
