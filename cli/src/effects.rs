@@ -102,7 +102,8 @@ fn entry(effect: &'static dyn Effect, arm: &Arm) -> Entry {
             }
         }
     }
-    let form = effect.forms_are().key().map(|key| Number { key, units: vec!["1"] });
+    let unit = effect.form_number().map_or("1", |number| number.quantity.unit());
+    let form = effect.forms_are().key().map(|key| Number { key, units: vec![unit] });
     let numbers = form.into_iter().chain(numbers).collect();
     let effect = effect.identifier();
     Entry { effect, places, numbers, reality, signature, confused_with, separated_by }
