@@ -37,7 +37,7 @@ impl Link {
     }
 
     /// A vector of the run's axes in the link's.
-    pub fn from_run(&self, g: &mut Graph, v: Vec3) -> Vec3 {
+    pub fn run_to_link(&self, g: &mut Graph, v: Vec3) -> Vec3 {
         turned(g, &self.turn.negated(), 2, self.over(v))
     }
 

@@ -86,14 +86,9 @@ impl Moments {
 
 /// A symmetric matrix by the entries on and below its diagonal.
 fn symmetric(mut entry: impl FnMut(usize, usize) -> Expr) -> [Vec3; 3] {
-    let mut all = [[Expr::ZERO; 3]; 3];
-    for i in 0..3 {
-        for j in 0..=i {
-            all[i][j] = entry(i, j);
-            all[j][i] = all[i][j];
-        }
-    }
-    all
+    let (xx, yx, yy) = (entry(0, 0), entry(1, 0), entry(1, 1));
+    let (zx, zy, zz) = (entry(2, 0), entry(2, 1), entry(2, 2));
+    [[xx, yx, zx], [yx, yy, zy], [zx, zy, zz]]
 }
 
 /// A vector of axes that are turned about axis `k`, in the axes before.

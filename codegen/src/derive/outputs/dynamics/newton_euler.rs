@@ -131,14 +131,14 @@ fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> (Vec<Load>, V
             ];
         }
         let [w, wd] = turning.map(|x| link.signed(x));
-        let spin = link.from_run(g, run.spin);
-        let spin_rate = link.from_run(g, run.spin_rate);
+        let spin = link.run_to_link(g, run.spin);
+        let spin_rate = link.run_to_link(g, run.spin_rate);
         // ω̇ + ω × z w + z ẇ
         let (x, y) = (g.mul(spin[1], w), g.mul(spin[0], w));
         let spin_rate = [g.add(spin_rate[0], x), g.sub(spin_rate[1], y), g.add(spin_rate[2], wd)];
         let spin = [spin[0], spin[1], g.add(spin[2], w)];
         field = Field::new(g, spin, spin_rate);
-        let mut at = link.from_run(g, run.acceleration);
+        let mut at = link.run_to_link(g, run.acceleration);
         if let Some(slide) = link.slide {
             // U z s + 2 ω × z ṡ + z s̈
             let out = field.times(g, [Expr::ZERO, Expr::ZERO, slide]);
