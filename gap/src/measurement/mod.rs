@@ -344,7 +344,7 @@ fn read_into(
     let mut records = match table::text(bytes) {
         Ok(text) => table::records(text, b','),
         Err(not) => {
-            mistakes.extend([not]);
+            mistakes.extend([*not]);
             return None;
         }
     };

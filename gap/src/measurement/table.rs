@@ -53,9 +53,9 @@ impl Iterator for Records<'_> {
 }
 
 /// The text of a file, without a byte order mark, or the first place at which it is none.
-pub(crate) fn text(bytes: &[u8]) -> Result<&str, Mistake> {
+pub(crate) fn text(bytes: &[u8]) -> Result<&str, Box<Mistake>> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(Mistake { line: 1, column: None, fault: Fault::Utf16 });
+        return Err(Box::new(Mistake { line: 1, column: None, fault: Fault::Utf16 }));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     core::str::from_utf8(bytes).map_err(|e| {
@@ -64,11 +64,11 @@ pub(crate) fn text(bytes: &[u8]) -> Result<&str, Mistake> {
         lines.advance(at);
         let start = bytes[..at].iter().rposition(|b| *b == b'\n').map_or(0, |p| p + 1);
         let number = 1 + bytes[start..at].iter().filter(|b| **b == b',').count();
-        Mistake {
+        Box::new(Mistake {
             line: lines.line,
             column: Some(Column { number, header: String::new() }),
             fault: Fault::NotUtf8 { byte: bytes[at] },
-        }
+        })
     })
 }
 

@@ -97,9 +97,9 @@ fn blocks_of(data: &Measurements, blocks: usize) -> Vec<usize> {
     }
     let mut block = 0;
     let mut block_of_pose = Vec::with_capacity(poses);
-    for pose in 0..poses {
+    for (pose, starts) in starts.into_iter().enumerate() {
         let even = |pose: usize| pose * blocks / poses;
-        let is_new = pose > 0 && (starts[pose] || even(pose) != even(pose - 1));
+        let is_new = pose > 0 && (starts || even(pose) != even(pose - 1));
         block += usize::from(is_new);
         block_of_pose.push(block);
     }
