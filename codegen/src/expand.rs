@@ -45,9 +45,10 @@ pub fn expand(input: TokenStream, root: &Path) -> TokenStream {
     let options = RustOptions { kernels: path_text(&kernels), fused: invocation.fused };
     let text = rust(&robot, &options);
     match text.parse::<TokenStream>() {
-        // A length or a cosine may happen to be near a well-known constant.
+        // A length or a cosine may happen to be near a well-known constant; a list of expressions has the
+        // place of the table, and no lines.
         Ok(items) => quote! {
-            #[allow(clippy::approx_constant)]
+            #[allow(clippy::approx_constant, clippy::possible_missing_comma)]
             #(#attrs)*
             #(#[doc = ""] #[doc = #remarks])*
             #vis mod #module { #watched #items }

@@ -33,7 +33,8 @@ fn check<R: Kernels<f64> + Kernels<f32> + Sync>(robot: &R, file: &str) {
     let single = parity::compiled(robot, |x: f32| f64::from(x));
     let outputs = Kernels::<f64>::outputs(robot);
     assert!(outputs.len() == 6 && outputs.iter().all(|output| output.is_on_request()));
-    let subject = Subject { outputs, arm: &arm, generated: &double, single: Some(&single) };
+    let (generated, single) = (&double, Some(&single as _));
+    let subject = Subject { outputs, arm: &arm, beyond: None, generated, single };
     for line in parity::agreement(&subject, 1000, 3, &|_| {}).lines {
         assert_eq!(line.exceeded().next(), None, "{file} {line:?}");
         let by_differences = line.output != Output::Manipulability;

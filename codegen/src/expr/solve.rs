@@ -132,9 +132,8 @@ mod tests {
             product *= a[k][k];
             for row in k + 1..a.len() {
                 let factor = a[row][k] / a[k][k];
-                for column in k..a.len() {
-                    a[row][column] -= factor * a[k][column];
-                }
+                let pivot = a[k].clone();
+                a[row].iter_mut().zip(&pivot).for_each(|(x, p)| *x -= factor * p);
             }
         }
         product

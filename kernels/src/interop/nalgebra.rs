@@ -30,12 +30,14 @@ impl<S: nalgebra::Scalar + Copy> From<Pose<S>> for Matrix3x4<S> {
 
 #[cfg(test)]
 mod tests {
+    use core::f64::consts::PI;
+
     use super::*;
 
     /// Any rotation, also one by nearly half a turn, comes back as it was to a few roundings; a matrix to the bit.
     #[test]
     fn a_pose_is_an_isometry_and_back() {
-        for angle in [0.0, 1e-9, 0.3, 1.7, 3.1, core::f64::consts::PI - 1e-9] {
+        for angle in [0.0, 1e-9, 0.3, 1.7, 3.1, PI - 1e-9] {
             let axis = nalgebra::Unit::new_normalize(nalgebra::Vector3::new(0.3, -0.5, 0.8));
             let turn = Rotation3::from_axis_angle(&axis, angle);
             let pose = Pose { rotation: turn.into_inner().into(), position: [0.1, -2.0, 3.5] };

@@ -13,7 +13,7 @@ use crate::robot::beyond::Spring as Beyond;
 #[derive(Clone)]
 pub(super) enum Elastic {
     /// The beam of a row.
-    Beam(usize, Beam),
+    Beam(usize, Box<Beam>),
     /// What the table does not have.
     Beyond(Beyond),
 }
@@ -43,7 +43,8 @@ pub(super) struct Place {
 /// All of them, base to tip.
 pub(super) fn elastics(chain: &Chain) -> Vec<Elastic> {
     let joints = chain.robot.joints.iter().enumerate();
-    let beams = joints.filter_map(|(row, joint)| Some(Elastic::Beam(row, joint.beam.clone()?)));
+    let beams =
+        joints.filter_map(|(row, joint)| Some(Elastic::Beam(row, Box::new(joint.beam.clone()?))));
     beams.chain(chain.robot.beyond.springs.iter().cloned().map(Elastic::Beyond)).collect()
 }
 

@@ -58,7 +58,7 @@ impl Folds {
     /// Stretches of time instead of poses, each a fold of its own: visits that follow each other.
     pub(crate) fn in_time(visits: &Visits) -> Folds {
         let all = visits.count();
-        let count = (all / LEAST_VISITS).min(MOST_STRETCHES).max(1);
+        let count = (all / LEAST_VISITS).clamp(1, MOST_STRETCHES);
         let block_of_row = visits.of_row.iter().map(|visit| visit * count / all).collect();
         Folds { count, block_of_row, of_block: (0..count).collect() }
     }
