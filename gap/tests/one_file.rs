@@ -48,6 +48,8 @@ fn an_identifier_stands_in_its_own_file_alone() {
             sources(&root.join(package), &mut all);
         }
     }
+    // Kernels have their own reading of those that they are made of.
+    all.retain(|(path, _)| !path.starts_with(root.join("codegen/src/robot/beyond")));
     let room = root.join("gap/src/effects/catalogue");
     for identifier in Catalogue::default().identifiers() {
         let own = room.join(format!("{identifier}.rs"));

@@ -53,10 +53,12 @@ impl Goals {
         self.missed_by(|rate, [from, to]| rate.rate.is_some_and(|r| (from..=to).contains(&r)))
     }
 
-    /// Goals that the 95 % interval of the rate misses.
+    /// Goals that a rate misses by more than chance does in one of forty runs.
     pub fn missed_beyond_chance(&self) -> Vec<String> {
         self.missed_by(|rate, [from, to]| {
-            rate.ci95.is_none_or(|[low, high]| low <= to && from <= high)
+            let misses = rate.of - rate.hits;
+            at_most(rate.hits, rate.of, from) >= CHANCE
+                && at_most(misses, rate.of, 1.0 - to) >= CHANCE
         })
     }
 
@@ -65,6 +67,18 @@ impl Goals {
         let sets = self.mean_set_size.filter(|size| *size > 2.0).map(|_| "mean set size");
         rates.chain(sets).map(str::to_owned).collect()
     }
+}
+
+/// One of forty runs.
+const CHANCE: f64 = 1.0 / 40.0;
+
+/// The chance of no more than so many hits of `of`, each with chance `rate`: the binomial distribution.
+fn at_most(hits: usize, of: usize, rate: f64) -> f64 {
+    let one = |k: usize| {
+        let ways = (0..k).fold(1.0, |ways, i| ways * (of - i) as f64 / (i + 1) as f64);
+        ways * rate.powi(k as i32) * (1.0 - rate).powi((of - k) as i32)
+    };
+    (0..=hits).map(one).sum()
 }
 
 impl fmt::Display for Goals {

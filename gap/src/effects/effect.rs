@@ -92,6 +92,11 @@ pub trait Effect: Sync {
         false
     }
 
+    /// How many times less likely than others it is beforehand, where nothing is known of the arm.
+    fn odds(&self) -> usize {
+        1
+    }
+
     /// Why it cannot be there at all with this data; `None` if it can.
     fn excluded(&self, _: &Measurements) -> Option<&'static str> {
         None

@@ -487,8 +487,11 @@ fn standard_deviations_are_of_all_positions_or_of_each_component() {
     let sigma = data.rows[0].sigma.unwrap();
     assert_eq!((sigma[1], sigma[2], sigma[3]), (5.0 * 1e-6, 2.0 * 1e-3, 0.0));
     assert!(data.unused.is_empty() && data.extra.is_empty());
-    let turned = read("q1,q2,q3,drx,sigma,sigma_dry\n0,0,0,1,1,1\n");
-    assert!(turned.is_err(), "drx has none");
+    let turned = read("q1,q2,q3,drx,sigma,sigma_dry\n0,0,0,1,1,1\n").unwrap();
+    assert_eq!(
+        turned.unused.iter().map(|c| &c.header[..]).collect::<Vec<_>>(),
+        ["sigma", "sigma_dry"]
+    );
     let turned = read("q1,q2,q3,drx,sigma,sigma_drx[mrad]\n0,0,0,1,1,2\n").unwrap();
     assert_eq!(turned.rows[0].sigma.unwrap()[3], 2.0 * 1e-3);
     assert_eq!(turned.unused[0].header, "sigma");

@@ -55,6 +55,9 @@ pub(super) fn harmless(text: &str) -> String {
 pub(super) fn plain(text: &str) -> String {
     let spelled = [
         ("⁻¹", "^-1"),
+        ("q̈", "qdd"),
+        ("q̇", "qd"),
+        ("J̇", "Jd"),
         ("²", "^2"),
         ("ᵀ", "'"),
         ("×", "x"),

@@ -131,6 +131,10 @@ const REFUSED: &[(&str, &str)] = &[
     ("slip", "it belongs to the session of its measurements"),
     ("instrument_scale", "it is the instrument's, not the arm's"),
     ("geometric_stiffness", "it is what another simulator leaves out, not what the arm does"),
+    ("loaded_backlash", "the flank on which a joint rests turns over with its torque"),
+    ("soft_zone", "a stiffness of two pieces is no formula"),
+    ("counterbalance", "its torque turns with the angle at which the joint comes to rest"),
+    ("motor_error", "its order is no whole number"),
     ("bearing_wobble", "an axis that tilts as it turns is no row of a table"),
     ("geometry", "it is the table itself"),
 ];

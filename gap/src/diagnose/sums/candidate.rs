@@ -118,7 +118,7 @@ impl Candidate {
             least: parameters.iter().map(|p| p.least).collect(),
             usual: parameters.iter().map(|p| p.usual).collect(),
             source: Source::Effect { effect, spot },
-            chances: forms * effect.places(problem.arm).len(),
+            chances: forms * effect.places(problem.arm).len() * effect.odds(),
         }
     }
 

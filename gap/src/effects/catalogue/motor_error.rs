@@ -46,7 +46,7 @@ impl Effect for MotorError {
         About {
             reality: "An error periodic in the motor's angle: eccentric parts of the fast side of \
                       a gear, the wave generator of a strain-wave gear. It is looked for at joints \
-                      of which the robot file gives the `gear`, near once and twice that ratio.",
+                      of which the robot file gives the gear, near once and twice that ratio.",
             signature: "A fine sine of the joint's reading, of any number of periods per turn, the \
                         same at every load.",
             confused_with: "Noise where poses are few, and orders of its own that the poses do not \

@@ -45,7 +45,7 @@ fn unknown_keys_are_one_mistake_each() {
         [
             "5:1 unknown key `Alpha` in [[joint]] | did you mean `alpha`?",
             "6:1 unknown key `colour` in [[joint]] | known here: type, name, theta, d, a, alpha, beta, \
-             stiffness, mass, com, limits, source, beam"
+             stiffness, mass, com, inertia, gear, rotor_inertia, coulomb, viscous, limits, source, beam"
         ]
     );
     assert_eq!(
