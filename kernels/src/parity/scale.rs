@@ -37,11 +37,14 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
     let lever = reach.max(1.0);
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let wrench = norm(&w[..3]) * reach + norm(&w[3..]);
-    // Minors of a Jacobian: products of three lengths. The textbook's gradient takes its pseudoinverse, whose
-    // rounding the condition magnifies.
+    // Minors of a Jacobian: products of three lengths. The gradient of the root of the sum of their squares is
+    // that of the sum over twice the root.
     match output {
         Output::Manipulability => return lever.powi(3),
-        Output::ManipulabilityByJoints => return lever.powi(3) * condition(arm, q),
+        Output::ManipulabilityByJoints => {
+            let least = f64::EPSILON * lever.powi(3);
+            return lever.powi(6) / arm.manipulability(q).max(least);
+        }
         _ => {}
     }
     // The moment on a joint, where a load enters; else a unit of whatever loads it.
@@ -67,12 +70,6 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
         _ => 1.0,
     };
     at_tool(output.rows()) * at_tool(output.columns()) * loaded
-}
-
-/// The largest singular value of the Jacobian over the smallest.
-fn condition(arm: &Arm, q: &[f64]) -> f64 {
-    let values = arm.jacobian(q).singular_values();
-    (values.max() / values.min()).min(1.0 / f64::EPSILON)
 }
 
 /// The moment that the weights of links `from` to the last may have, N·m.

@@ -55,6 +55,7 @@ pub(super) fn harmless(text: &str) -> String {
 pub(super) fn plain(text: &str) -> String {
     let spelled = [
         ("⁻¹", "^-1"),
+        ("⁺", "^+"),
         ("q̈", "qdd"),
         ("q̇", "qd"),
         ("J̇", "Jd"),
@@ -65,6 +66,7 @@ pub(super) fn plain(text: &str) -> String {
         ("−", "-"),
         ("…", "..."),
         ("∂", "d"),
+        ("√", "sqrt "),
         ("Σ", "sum"),
         ("τ", "tau"),
         ("θ", "theta"),
