@@ -71,6 +71,7 @@ pub(super) fn plain(text: &str) -> String {
         ("τ", "tau"),
         ("θ", "theta"),
         ("δ", "delta "),
+        ("π", "pi"),
     ];
     let all = spelled.into_iter();
     all.fold(text.to_string(), |text, (sign, letters)| text.replace(sign, letters))
