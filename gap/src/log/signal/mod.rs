@@ -1,9 +1,9 @@
 //! From samples to even, band-limited signals and their rates: one documented step.
 //!
 //! 1. Samples are brought to even steps, by straight lines between neighbours. Nothing is carried
-//!    across a gap of more than [`GAP`] steps: what lies before and behind it are two spans.
+//!    across a gap of more than `GAP` steps: what lies before and behind it are two spans.
 //! 2. Where the rate is far above the band, everything goes through one low-pass, and every so-manyth
-//!    sample is kept: at least [`FINE`] per period of the band's edge.
+//!    sample is kept: at least `FINE` per period of the band's edge.
 //! 3. Joint values are low-passed at twice the band and differentiated; a logged velocity stands in place
 //!    of the first derivative.
 //! 4. Torques, and whatever is computed of the motion, signs too, go through the *same* low-pass at the

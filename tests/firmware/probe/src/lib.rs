@@ -66,7 +66,9 @@ fn through_a_pointer<S: Real>(robot: &dyn Kernels<S>, length: usize) {
     let mut block = [S::of(0); 180];
     let (q, wrench) = draw::<S, 7>(length as u32);
     for output in Output::EACH {
-        let (Some(q), Some(out)) = (q.get(..output.state(length)), block.get_mut(..length)) else { return };
+        let (Some(q), Some(out)) = (q.get(..output.state(length)), block.get_mut(..length)) else {
+            return;
+        };
         match robot.evaluate(output, q, &wrench, out) {
             Ok(()) => out.iter().for_each(|x| Out.number(*x)),
             Err(_) => Out.word(0),
