@@ -8,6 +8,8 @@
 
 #[cfg(feature = "kernels")]
 use stiffarm_kernels::Kernels;
+#[cfg(feature = "batch")]
+use stiffarm_kernels::batch::Batched;
 #[cfg(feature = "kernels")]
 use stiffarm_macros::robot;
 
@@ -24,6 +26,9 @@ pub struct Arm {
     /// The same in single precision.
     #[cfg(feature = "kernels")]
     pub kernels_f32: &'static (dyn Kernels<f32> + Sync),
+    /// Batches of poses.
+    #[cfg(feature = "batch")]
+    pub batched: &'static dyn Batched<f64>,
 }
 
 /// A robot of this crate whose table has symbolic parameters.
@@ -62,6 +67,8 @@ macro_rules! arms {
             kernels: &$id::Robot,
             #[cfg(feature = "kernels")]
             kernels_f32: &$id::Robot,
+            #[cfg(feature = "batch")]
+            batched: &$id::Robot,
         }),*];
 
         /// Every arm with symbolic parameters.

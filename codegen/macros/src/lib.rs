@@ -33,17 +33,20 @@ use proc_macro::TokenStream;
 ///
 /// # Settings
 ///
-/// Each ends with `;` and stands once, `frame` and `marker` as often as there are some. Beside a file only
-/// `outputs`, `products` and `crate` can be set.
+/// Each ends with `;` and stands once, `frame`, `marker` and `payload` as often as there are some. Beside a file only
+/// `carries`, `outputs`, `products` and `crate` can be set.
 ///
 /// | setting | values | without it |
 /// |---|---|---|
 /// | `name` | `"text"` | the module's name |
 /// | `convention` | `standard_dh`: a row is Rz(theta) Tz(d) Tx(a) Rx(alpha); `modified_dh`: Rx(alpha) Tx(a) Rz(theta) Tz(d) | an error |
 /// | `gravity` | `[x, y, z]`, an acceleration in base axes | `[0, 0, -9.80665 m/s^2]` |
+/// | `base` | `translation [x, y, z] rotation [rx, ry, rz]`, either or both, in numbers: frame 0 in the world in which poses are told | frame 0 is the world |
 /// | `tool` | `translation [x, y, z] rotation [rx, ry, rz]`, either or both: the tool in the last frame, rotation as a rotation vector (axis × angle) | the last frame |
 /// | `marker` | `name` or `name [x, y, z]`: a measured point in the tool frame | none |
 /// | `frame` | `name on a3 translation [x, y, z] rotation [rx, ry, rz]`, either part or neither, in numbers: a frame in that of the row `a3` (or `3`), named like a module | none |
+/// | `payload` | `gripper mass 1.2 kg, com [x, y, z], inertia [xx, xy, xz, yy, yz, zz]`, in numbers, the last two if wanted: a load, its centre in the tool frame and its moments of inertia about that in the tool's axes | none |
+/// | `carries` | `gripper`: the payload that hangs on the tool for good, a part of the last link | none, or what the robot file says |
 /// | `outputs` | `pose, jacobian, pose at elbow, …`: what is generated, of the tool and at frames and markers, and `all` of what of the tool's can be had together | every output of the tool, or what the robot file says |
 /// | `products` | `separate`, or `fused`: products fused into sums, faster where the target has the instruction and the kernels' feature `fma` asks for it, and not the same bits everywhere | `separate` |
 /// | `crate` | the path of the kernels' crate | `::stiffarm::kernels` |
@@ -60,9 +63,13 @@ use proc_macro::TokenStream;
 /// | `d` | a length; with `q` the joint is prismatic | 0 |
 /// | `a` | a length | 0 |
 /// | `alpha` | an angle | 0 |
+/// | `beta` | an angle about y behind alpha (Hayati), for axes that are nearly parallel | 0 |
 /// | `stiffness` | N·m/rad, N/m of a prismatic joint; or `rigid` | rigid |
 /// | `mass` | of the link that the joint moves | weightless |
 /// | `com` | `[x, y, z]`, its centre of mass in the row's own frame | the frame's origin |
+/// | `inertia` | `[xx, xy, xz, yy, yz, zz]`, its moments of inertia about that centre in the row's axes | a point mass |
+/// | `gear`, `rotor_inertia` | turns of the motor per turn of the joint (rad/m of a prismatic joint), and the moment of inertia of what turns with it | 1, none |
+/// | `coulomb`, `viscous` | friction at the joint: N·m, and N·m·s/rad (N, N·s/m of a prismatic joint) | none |
 /// | `limits` | `[low, high]` of the joint | none |
 /// | `beam` | `{ youngs_modulus: …, shear_modulus: …, section: …, density: …, shear_coefficient: … }`: the link as a beam between the origins of the previous frame and this one's; `section` is `tube(outer, inner)`, `box([y, z], [y, z])` (outer, inner) or `{ area: …, iy: …, iz: …, j: … }`; without `density` weightless, without `shear_coefficient` an Euler-Bernoulli beam | a rigid link |
 /// | `source` | `"text"` | none |
@@ -93,6 +100,10 @@ use proc_macro::TokenStream;
 /// | `Parameters` | a field for each symbolic parameter; only where the table has some |
 /// | `Constants`, `Constants::new(&parameters)` | what is worked out of the parameters once; every function takes them first |
 /// | `Robot` | the arm as a value: `Arm<N>` and `has::Pose<N>`, … for what is written against any arm, `Numeric<N>` where the table has numbers only, `Kernels`, every output by its name from slices; with symbolic parameters it holds `Constants` |
+///
+/// Of a file whose effects depend on them, functions take behind `q` the `sides` from which the joints came (`&[S; N]`, −1,
+/// 0 where it is not known, 1) and the `warming` (`S`, K), each if some effect needs it; `Robot` has them as fields,
+/// `Robot::default()` knows neither, and `joints` tells the joint values that readings mean.
 ///
 /// A function that solves for a loaded equilibrium returns `Result<_, Unstable>`. Everything is `no_std`
 /// and allocates nothing.

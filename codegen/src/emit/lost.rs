@@ -5,7 +5,8 @@ use crate::robot::{Joint, Robot};
 /// What a URDF cannot hold of a robot, a phrase each; nothing where it holds all.
 pub fn lost_in_urdf(robot: &Robot) -> Vec<String> {
     let springs = joints(robot, "the springs", |joint| joint.stiffness.is_some());
-    springs.into_iter().chain(lost_in_mjcf(robot)).collect()
+    let rotors = joints(robot, "the rotors", |joint| joint.drive.rotor_inertia.is_some());
+    springs.into_iter().chain(rotors).chain(lost_in_mjcf(robot)).collect()
 }
 
 /// The same of an MJCF, which has the joints' springs.

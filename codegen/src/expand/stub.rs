@@ -22,10 +22,13 @@ pub(super) fn stub(
         outline.symbols.iter().filter_map(|name| syn::parse_str(name).ok()).collect();
     let symbolic = !symbols.is_empty();
     let constants = symbolic.then(|| quote!(_: &Constants<S>,));
-    let functions = Output::EACH.map(|output| function(output, constants.as_ref()));
+    let sides = outline.sides.then(|| quote!(, _: &[S; M]));
+    let warming = outline.warming.then(|| quote!(, _: S));
+    let posture = quote!(#constants _: &[S; M] #sides #warming);
+    let functions = Output::EACH.map(|output| function(output, &posture));
     let parameters = symbolic.then(|| parameters(&symbols));
-    let all = all(constants.as_ref());
-    let robot = robot(symbolic);
+    let all = all(&posture);
+    let robot = robot(symbolic, outline);
     let places = outline.places.iter().filter_map(|name| syn::parse_str::<Ident>(name).ok());
     let places = places.map(|name| quote!(pub mod #name { pub use super::super::*; }));
     quote! {
@@ -48,6 +51,7 @@ pub(super) fn stub(
             pub const OUTPUTS: [Output; Output::EACH.len()] = Output::EACH;
             pub const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
             #parameters
+            pub fn joints<S: Scalar, const M: usize>(#posture) -> [S; M] { ::core::unreachable!() }
             #(#functions)*
             #all
             #robot
@@ -87,8 +91,8 @@ fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
     }
 }
 
-/// The function of an output, and the figures in its module.
-fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
+/// The function of an output, given what makes a posture and what it takes beside, and the figures in its module.
+fn function(output: Output, posture: &TokenStream) -> TokenStream {
     let name = format_ident!("{}", output.name());
     let beside = output.beside().map(|input| match input.side() {
         Side::Joints => quote!(, _: &[S; M]),
@@ -104,7 +108,7 @@ fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
     let n = quote!(super::N);
     let (rows, columns) = (size(output.rows(), &n, &n), size(output.columns(), &n, &n));
     quote! {
-        pub fn #name<S: Scalar, const M: usize>(#constants _: &[S; M] #(#beside)*) -> #ty {
+        pub fn #name<S: Scalar, const M: usize>(#posture #(#beside)*) -> #ty {
             ::core::unreachable!()
         }
         pub mod #name {
@@ -115,14 +119,14 @@ fn function(output: Output, constants: Option<&TokenStream>) -> TokenStream {
 }
 
 /// The fused function.
-fn all(constants: Option<&TokenStream>) -> TokenStream {
+fn all(posture: &TokenStream) -> TokenStream {
     let fields = Output::ALL.map(|output| {
         let (name, ty) = (format_ident!("{}", output.name()), ty(output));
         quote!(pub #name: #ty,)
     });
     quote! {
         pub fn all<S: Scalar, const M: usize>(
-            #constants _: &[S; M], _: &[S; 6]
+            #posture, _: &[S; 6]
         ) -> Result<all::All<S, M>, Unstable> {
             ::core::unreachable!()
         }
@@ -151,8 +155,21 @@ fn parameters(symbols: &[Ident]) -> TokenStream {
 }
 
 /// The robot behind a pointer.
-fn robot(symbolic: bool) -> TokenStream {
+fn robot(symbolic: bool, outline: &Outline) -> TokenStream {
+    let sides = outline.sides.then(|| quote!(pub sides: [S; N],));
+    let warming = outline.warming.then(|| quote!(pub warming: S,));
     let (definition, ty) = match symbolic {
+        // No effect is understood of a table with parameters.
+        false if outline.sides || outline.warming => (
+            quote! {
+                #[derive(Clone, Copy, Debug, PartialEq)]
+                pub struct Robot<S> { #sides #warming }
+                impl<S: Scalar> Default for Robot<S> {
+                    fn default() -> Self { ::core::unreachable!() }
+                }
+            },
+            quote!(Robot<S>),
+        ),
         true => (
             quote! {
                 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,6 +27,7 @@ pub(crate) struct Draft<L> {
     pub name: Option<Cell<String, L>>,
     pub convention: Option<Cell<Convention, L>>,
     pub gravity: Option<Vector<Value, L>>,
+    pub torque_side: Option<Cell<&'static str, L>>,
     pub joints: Vec<DraftJoint<L>>,
     pub base: DraftFrame<L>,
     pub tool: DraftFrame<L>,
@@ -34,6 +35,7 @@ pub(crate) struct Draft<L> {
     pub markers: Vec<DraftMarker<L>>,
     pub effects: Vec<Effect>,
     pub payloads: Vec<DraftPayload<L>>,
+    pub carries: Option<Cell<String, L>>,
     pub outputs: Vec<Cell<Asked, L>>,
 }
 
@@ -73,6 +75,8 @@ pub(crate) struct DraftPayload<L> {
     pub name: Cell<String, L>,
     pub mass: Cell<Value, L>,
     pub com: Option<Vector<Value, L>>,
+    /// The place of the whole tensor, and its entries.
+    pub inertia: Option<(L, [Cell<Value, L>; 6])>,
 }
 
 /// One row.

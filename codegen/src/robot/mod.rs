@@ -18,6 +18,7 @@ mod inertia;
 mod lexeme;
 mod model;
 mod names;
+mod payload;
 mod pi;
 mod problem;
 mod quantity;

@@ -17,6 +17,9 @@ pub struct Robot {
     pub convention: Convention,
     /// Gravity in base axes, m/s².
     pub gravity: [Value; 3],
+    /// Where the torques of a log of it are measured: `motor`, `link`, `current`, `commanded` or `external`;
+    /// `None` where the file does not say.
+    pub torque_side: Option<&'static str>,
     /// The rows of the table, base to tip.
     pub joints: Vec<Joint>,
     /// The fixed transform from the world, in which poses are told, to frame 0; the identity if the
@@ -215,6 +218,8 @@ pub struct Payload {
     pub mass: Value,
     /// Its centre of mass in the tool frame, m.
     pub com: [Value; 3],
+    /// Its moments of inertia about that centre in the tool's axes, as a link's; `None` is a point mass.
+    pub inertia: Option<[Value; 6]>,
 }
 
 /// A number in SI units, or a parameter that stays symbolic.

@@ -33,6 +33,7 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         name: content(&draft.name).unwrap_or_default(),
         convention: content(&draft.convention).unwrap_or(Convention::Standard),
         gravity: draft.gravity.as_ref().map_or_else(standard_gravity, vector),
+        torque_side: content(&draft.torque_side),
         frames: draft.frames.iter().filter_map(|f| frames::named(f, &joints, report)).collect(),
         joints,
         base: frame(&draft.base),
@@ -52,7 +53,22 @@ pub(crate) fn validate<L: Place>(draft: &Draft<L>, report: &mut Report<L>) -> Ro
         at: Vec::new(),
     };
     frames::ask(&mut robot, &draft.outputs, report);
+    carry(&mut robot, draft.carries.as_ref(), report);
     robot
+}
+
+/// Hangs a payload on the tool; what is wrong with the payload itself has been reported.
+pub(crate) fn carry<L: Place>(
+    robot: &mut Robot,
+    name: Option<&Cell<String, L>>,
+    report: &mut Report<L>,
+) {
+    let Some(Cell { value: Some(name), at }) = name.filter(|_| report.errors.is_empty()) else {
+        return;
+    };
+    if let Err(no) = robot.carry(name) {
+        report.error(Problem::new(at.clone(), no.message).help(no.help));
+    }
 }
 
 pub(crate) fn frame<L>(frame: &DraftFrame<L>) -> Frame {
@@ -67,10 +83,31 @@ pub(crate) fn frame<L>(frame: &DraftFrame<L>) -> Frame {
 
 fn payload<L: Place>(payload: &DraftPayload<L>, report: &mut Report<L>) -> Payload {
     not_below_zero("the mass", &payload.mass, report);
+    possible(payload.inertia.as_ref(), "the tool's", report);
     Payload {
         name: payload.name.value.clone().unwrap_or_default(),
         mass: payload.mass.value.clone().unwrap_or(Value::ZERO),
         com: payload.com.as_ref().map_or([Value::ZERO; 3], vector),
+        inertia: payload.inertia.as_ref().map(|(_, entries)| tensor(entries)),
+    }
+}
+
+fn tensor<L>(entries: &[Cell<Value, L>; 6]) -> [Value; 6] {
+    entries.each_ref().map(|c| c.value.clone().unwrap_or(Value::ZERO))
+}
+
+/// Refuses moments of inertia that no body has, where all are numbers.
+fn possible<L: Place>(
+    inertia: Option<&(L, [Cell<Value, L>; 6])>,
+    axes: &str,
+    report: &mut Report<L>,
+) {
+    let Some((at, entries)) = inertia else { return };
+    let entries = entries.each_ref().map(|entry| entry.value.as_ref()?.number());
+    if let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = entries {
+        let message = inertia::unphysical([a, b, c, d, e, f].map(Number::to_f64));
+        let help = format!("`inertia` is {INERTIA} about the centre of mass, in {axes} axes");
+        report.errors.extend(message.map(|m| Problem::new(at.clone(), m).help(help)));
     }
 }
 
@@ -105,14 +142,8 @@ fn joint<L: Place>(index: usize, row: &DraftJoint<L>, report: &mut Report<L>) ->
             let problem = Problem::new(at.clone(), "moments of inertia without a mass");
             report.error(problem.help("give the link's `mass` too, or leave `inertia` out"));
         }
-        if let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = entries.map(|e| e?.number())
-        {
-            let message = inertia::unphysical([a, b, c, d, e, f].map(Number::to_f64));
-            let help =
-                format!("`inertia` is {INERTIA} about the centre of mass, in the row's axes");
-            report.errors.extend(message.map(|m| Problem::new(at.clone(), m).help(help)));
-        }
     }
+    possible(row.inertia.as_ref(), "the row's", report);
     let drive = &row.drive;
     if let Some(cell) = &drive.gear {
         above_zero("the gear", cell, "leave it out for a motor at the joint", report);
@@ -142,10 +173,7 @@ fn joint<L: Place>(index: usize, row: &DraftJoint<L>, report: &mut Report<L>) ->
         stiffness: content(&row.stiffness),
         mass: content(&row.mass),
         com: row.com.as_ref().map_or([Value::ZERO; 3], |(_, com)| vector(com)),
-        inertia: row
-            .inertia
-            .as_ref()
-            .map(|(_, entries)| entries.each_ref().map(|c| c.value.clone().unwrap_or(Value::ZERO))),
+        inertia: row.inertia.as_ref().map(|(_, entries)| tensor(entries)),
         drive: Drive {
             gear: content(&drive.gear),
             rotor_inertia: content(&drive.rotor_inertia),

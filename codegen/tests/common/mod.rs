@@ -31,6 +31,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         name: name.into(),
         convention,
         gravity: [Value::ZERO, Value::ZERO, Value::Number(Number::ratio(-980_665, 100_000))],
+        torque_side: None,
         joints: joints.collect(),
         base: Default::default(),
         tool: Default::default(),

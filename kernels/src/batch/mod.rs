@@ -10,6 +10,7 @@
 //! batch::evaluate(&ur10::Robot, Output::Jacobian, Layout::Poses, &q, Wrenches::One(&w), &mut out)?;
 //! ```
 
+mod batched;
 mod group;
 mod number;
 #[cfg(feature = "rayon")]
@@ -18,6 +19,7 @@ mod parallel;
 use alloc::vec::Vec;
 use core::fmt;
 
+pub use batched::Batched;
 pub use number::Number;
 #[cfg(feature = "rayon")]
 pub use parallel::evaluate_parallel;

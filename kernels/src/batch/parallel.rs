@@ -11,7 +11,8 @@ use crate::{Kernels, Output};
 /// Poses that one task works through: some tens of microseconds.
 const RUN: usize = 1024;
 
-/// [`evaluate`](super::evaluate) on all cores, in rayon's current pool; the same results.
+/// [`evaluate`](super::evaluate) on all cores, in rayon's current pool; the same results. What one core works through
+/// in one task stays on the caller's.
 ///
 /// # Errors
 /// As [`evaluate`](super::evaluate).
@@ -28,6 +29,9 @@ where
     R: Kernels<T> + Kernels<T::Lanes> + Sync + ?Sized,
 {
     let size = Size::of::<T, R>(robot, output, q, wrenches, out)?;
+    if size.poses <= RUN {
+        return super::evaluate(robot, output, layout, q, wrenches, out);
+    }
     let runs = match layout {
         Layout::Poses => by_pose(robot, output, size, q, wrenches, out),
         Layout::Quantities => by_quantity(robot, output, size, q, wrenches, out),

@@ -43,7 +43,7 @@ pub(super) const TEXTBOOK: &[(Output, Textbook)] = &[
 ];
 
 /// A state as the joint values and what stands behind them.
-fn parts<'s, const K: usize>(arm: &Arm, state: &'s [f64]) -> [&'s [f64]; K] {
+pub(super) fn parts<'s, const K: usize>(arm: &Arm, state: &'s [f64]) -> [&'s [f64]; K] {
     assert_eq!(state.len(), K * arm.dof(), "{K} numbers for each of the arm's joints");
     core::array::from_fn(|k| &state[k * arm.dof()..(k + 1) * arm.dof()])
 }

@@ -6,7 +6,10 @@ use nalgebra::Vector6;
 
 use super::arm::Arm;
 use super::textbook::Textbook;
-use super::{by_joints, deflection, dynamics, jacobian, kinematics, parameters, stiffness, weight};
+use super::{
+    by_joints, deflection, dynamics, dynamics_by, jacobian, kinematics, parameters, stiffness,
+    weight,
+};
 use crate::{Output, Unstable};
 
 /// By output, from the tables beside the definitions; an output without one does not compile.
@@ -14,6 +17,7 @@ const TEXTBOOK: [Textbook; Output::EACH.len()] = Output::one_each(&[
     by_joints::TEXTBOOK,
     deflection::TEXTBOOK,
     dynamics::TEXTBOOK,
+    dynamics_by::TEXTBOOK,
     jacobian::TEXTBOOK,
     kinematics::TEXTBOOK,
     parameters::TEXTBOOK,

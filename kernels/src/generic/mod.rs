@@ -40,10 +40,12 @@
 //! Every method that takes joint values panics if their number is not [`Arm::dof`].
 
 mod arm;
+mod base;
 mod beam;
 mod by_joints;
 mod deflection;
 mod dynamics;
+mod dynamics_by;
 mod evaluate;
 mod jacobian;
 mod kinematics;
@@ -57,3 +59,4 @@ mod textbook;
 mod weight;
 
 pub use arm::{Arm, Beam, Convention, Drive, Joint};
+pub use base::BaseParameter;

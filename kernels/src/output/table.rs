@@ -456,6 +456,35 @@ outputs! {
         fused: false,
         on_request: Manipulability,
     }
+    InverseDynamicsByJoints {
+        name: inverse_dynamics_by_joints,
+        sentence: "How the torques of the joints' motors for a motion change by each joint value.",
+        formula: "∂τ_j/∂q_i of τ(q, q̇, q̈)",
+        source: "Singh, Russell & Wensing 2022",
+        symbol: "\\partial \\tau",
+        rows: Joints ["N·m/rad (prismatic joint: N, two of them: N/m)"],
+        columns: Joints,
+        inputs: [Joints, Rates, Accelerations],
+        parts: [Weights, Inertias],
+        fallible: false,
+        fused: false,
+        on_request: InverseDynamics,
+    }
+    InverseDynamicsByRates {
+        name: inverse_dynamics_by_rates,
+        sentence: "How the torques of the joints' motors for a motion change by each joint's rate, whatever the \
+                   accelerations; dry friction's step at rest apart.",
+        formula: "∂τ_j/∂q̇_i of τ(q, q̇, q̈); that by q̈_i is the mass matrix",
+        source: "Singh, Russell & Wensing 2022",
+        symbol: "\\partial \\tau",
+        rows: Joints ["N·m·s/rad (prismatic joint: N·s, two of them: N·s/m)"],
+        columns: Joints,
+        inputs: [Joints, Rates],
+        parts: [Inertias],
+        fallible: false,
+        fused: false,
+        on_request: Bias,
+    }
     ForwardDynamics {
         name: forward_dynamics,
         sentence: "Accelerations of the joints under their motors' torques.",

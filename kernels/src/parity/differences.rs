@@ -61,6 +61,17 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
             let all = slopes(q, |q| borne(q).unwrap_or_else(|_| vec![f64::NAN; 6]));
             return all.iter().all(|x| x.is_finite()).then_some(all);
         }
+        Output::InverseDynamicsByJoints => {
+            let (q, motion) = q.split_at(arm.dof());
+            let (rates, accelerations) = motion.split_at(arm.dof());
+            slopes(q, |q| arm.inverse_dynamics(q, rates, accelerations).as_slice().to_vec())
+        }
+        Output::InverseDynamicsByRates => {
+            let (q, rates) = q.split_at(arm.dof());
+            let mut smooth = arm.clone();
+            smooth.joints.iter_mut().for_each(|joint| joint.drive.coulomb = 0.0);
+            slopes(rates, |rates| smooth.bias(q, rates).as_slice().to_vec())
+        }
         Output::ManipulabilityByJoints => slopes(q, |q| Vec::from([arm.manipulability(q)])),
         _ => return None,
     })

@@ -6,7 +6,7 @@
 
 use std::vec::Vec;
 
-use crate::generic::{Arm, Convention};
+use crate::generic::{Arm, Convention, Joint};
 use crate::{Motion, Output};
 use num_dual::{Dual64, DualNum, HyperDual64};
 
@@ -102,11 +102,7 @@ impl Derivatives {
         let n = q.len();
         let mut table = table(arm, q, HyperDual64::from);
         for (joint, first) in [(j, true), (i, false)] {
-            let moving = match arm.joints[joint].motion {
-                Motion::Revolute => 0,
-                Motion::Prismatic => 1,
-            };
-            let cell = &mut table.rows[joint][moving];
+            let cell = &mut table.rows[joint][moving(&arm.joints[joint])];
             *(if first { &mut cell.eps1 } else { &mut cell.eps2 }) = 1.0;
         }
         let frames = frames(arm.convention, &table);
@@ -157,20 +153,27 @@ fn parameter_jacobian(arm: &Arm, q: &[f64]) -> Vec<f64> {
     columns
 }
 
-pub(super) fn table<T: Number>(arm: &Arm, q: &[f64], number: impl Fn(f64) -> T) -> Table<T> {
+/// The table at joint values that `number` makes numbers of.
+pub(super) fn table<Q: Copy, T: Number>(arm: &Arm, q: &[Q], number: impl Fn(Q) -> T) -> Table<T> {
     let rows = arm.joints.iter().zip(q).map(|(joint, q)| {
-        let (theta, d) = match joint.motion {
-            Motion::Revolute => (joint.theta + q, joint.d),
-            Motion::Prismatic => (joint.theta, joint.d + q),
-        };
-        [theta, d, joint.a, joint.alpha].map(&number)
+        let mut row = [joint.theta, joint.d, joint.a, joint.alpha].map(T::from);
+        row[moving(joint)] += number(*q);
+        row
     });
     let (shift, turn) = (arm.tool.translation.vector, arm.tool_rotation_vector);
-    let tool = [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z].map(&number);
-    let tilts = arm.joints.iter().map(|joint| number(joint.beta));
+    let tool = [shift.x, shift.y, shift.z, turn.x, turn.y, turn.z].map(T::from);
+    let tilts = arm.joints.iter().map(|joint| T::from(joint.beta));
     let stands = arm.base.to_homogeneous();
-    let base = std::array::from_fn(|r| std::array::from_fn(|c| number(stands[(r, c)])));
+    let base = std::array::from_fn(|r| std::array::from_fn(|c| T::from(stands[(r, c)])));
     Table { rows: rows.collect(), tilts: tilts.collect(), base, tool }
+}
+
+/// The cell of a row that its joint moves.
+pub(super) fn moving(joint: &Joint) -> usize {
+    match joint.motion {
+        Motion::Revolute => 0,
+        Motion::Prismatic => 1,
+    }
 }
 
 /// Frames 1 to n, and the tool's frame after them.

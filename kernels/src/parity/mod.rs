@@ -127,6 +127,8 @@ pub struct Agreement {
     pub lines: Vec<Line>,
     /// Evaluations left out since the textbook finds the arm unstable there.
     pub unstable: usize,
+    /// Evaluations in which the textbook's numbers are too large for a double.
+    pub too_large: usize,
 }
 
 /// Compares everything at `count` random postures and wrenches; `done` is told as they are done.
@@ -154,11 +156,12 @@ pub fn agreement(
 impl Agreement {
     fn none(subject: &Subject<'_>) -> Agreement {
         let line = |output: &Output| Line { output: *output, worst: [None; 4] };
-        Agreement { lines: subject.outputs.iter().map(line).collect(), unstable: 0 }
+        Agreement { lines: subject.outputs.iter().map(line).collect(), unstable: 0, too_large: 0 }
     }
 
     fn and(mut self, other: Agreement) -> Agreement {
         self.unstable += other.unstable;
+        self.too_large += other.too_large;
         for (line, more) in self.lines.iter_mut().zip(other.lines) {
             for (k, worst) in more.worst.into_iter().enumerate() {
                 worst.into_iter().for_each(|w| line.note(k, w));
@@ -198,6 +201,8 @@ fn at(subject: &Subject<'_>, arm: &mut Arm, Sample { state, w }: &Sample, result
             result.unstable += 1;
             continue;
         };
+        let is_too_large = |numbers: &Vec<f64>| !numbers.iter().all(|x| x.is_finite());
+        result.too_large += usize::from(textbook.as_ref().is_some_and(is_too_large));
         let terms = scale::terms(arm, output, q, w);
         let fine = |a: &[f64], b: &[f64]| scale::deviation(a, b, scale::CANCELLED * terms);
         let generated = (subject.generated)(output, q, w).unwrap_or_default();

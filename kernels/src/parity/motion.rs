@@ -7,9 +7,9 @@
 use std::vec::Vec;
 
 use nalgebra::{Matrix3, Vector3};
-use num_dual::{Dual2_64, Dual64};
+use num_dual::{Dual, Dual2, Dual64};
 
-use super::dual::{Frame, Number, frames, origin, table};
+use super::dual::{Frame, Number, frames, moving, origin, table};
 use crate::generic::{Arm, Joint};
 use crate::{Motion, Output};
 
@@ -17,34 +17,62 @@ use crate::{Motion, Output};
 /// mass of some link is that of no body.
 pub fn of(arm: &Arm, output: Output, state: &[f64]) -> Option<Vec<f64>> {
     let n = arm.dof();
-    let (q, behind) = state.split_at(n);
-    let rotor = |k: usize| arm.joints[k].drive.gear.powi(2) * arm.joints[k].drive.rotor_inertia;
-    let (rates, accelerations) = behind.split_at(behind.len().min(n));
+    let points = points(arm)?;
+    let torques = |state: &[Dual64]| torques(arm, &points, state);
+    let still: Vec<Dual64> = state.iter().map(|x| Dual64::from(*x)).collect();
+    // The slope of the torques by one number of the state.
+    let slope = |at: usize| {
+        let mut moved = still.clone();
+        moved[at].eps = 1.0;
+        torques(&moved).into_iter().map(|torque| torque.eps)
+    };
     match output {
         Output::InverseDynamics | Output::Bias => {
-            let none = vec![0.0; n];
-            let accelerations = if accelerations.is_empty() { &none } else { accelerations };
-            let forces = inertial(arm, q, rates, accelerations)?;
-            let torque = |(j, moved): (usize, Vec<Vector3<f64>>)| {
-                let drive = &arm.joints[j].drive;
-                let dry = if rates[j] == 0.0 { 0.0 } else { drive.coulomb * rates[j].signum() };
-                let work: f64 = forces.iter().zip(&moved).map(|(f, p)| f.dot(p)).sum();
-                work + rotor(j) * accelerations[j] + dry + drive.viscous * rates[j]
-            };
-            Some((0..n).map(|j| (j, slopes(arm, q, j))).map(torque).collect())
+            Some(torques(&still).into_iter().map(|torque| torque.re).collect())
         }
+        Output::InverseDynamicsByJoints => Some((0..n).flat_map(slope).collect()),
+        Output::InverseDynamicsByRates => Some((n..2 * n).flat_map(slope).collect()),
         Output::MassMatrix => {
-            let masses: Vec<f64> = points(arm)?.into_iter().flatten().map(|p| p.mass).collect();
-            let moved: Vec<Vec<Vector3<f64>>> = (0..n).map(|j| slopes(arm, q, j)).collect();
+            let masses: Vec<f64> = points.iter().flatten().map(|p| p.mass).collect();
+            let moved: Vec<Vec<[f64; 3]>> =
+                (0..n).map(|j| slopes(arm, &points, state, j)).collect();
             let entry = |i: usize, j: usize| {
                 let pairs = masses.iter().zip(moved[i].iter().zip(&moved[j]));
-                let own = if i == j { rotor(i) } else { 0.0 };
-                pairs.map(|(m, (a, b))| m * a.dot(b)).sum::<f64>() + own
+                let own = if i == j { rotor(&arm.joints[i]) } else { 0.0 };
+                pairs.map(|(m, (a, b))| *m * dot(a, b)).sum::<f64>() + own
             };
             Some((0..n * n).map(|at| entry(at / n, at % n)).collect())
         }
         _ => None,
     }
+}
+
+/// The rotor's inertia as its joint feels it.
+fn rotor(joint: &Joint) -> f64 {
+    joint.drive.gear.powi(2) * joint.drive.rotor_inertia
+}
+
+/// τ at a state of joint values, rates and, where there are any, accelerations.
+fn torques<T: Number>(arm: &Arm, points: &[Vec<Point>], state: &[T]) -> Vec<T> {
+    let n = arm.dof();
+    let (q, motion) = state.split_at(n);
+    let (rates, given) = motion.split_at(n);
+    let none = vec![T::from(0.0); n];
+    let accelerations = if given.is_empty() { &none } else { given };
+    let forces = inertial(arm, points, q, rates, accelerations);
+    let torque = |j: usize| {
+        let drive = &arm.joints[j].drive;
+        let forwards = f64::from(u8::from(rates[j] > 0.0)) - f64::from(u8::from(rates[j] < 0.0));
+        let dry = T::from(drive.coulomb * forwards);
+        let moved = slopes(arm, points, q, j);
+        let work = forces.iter().zip(&moved).fold(dry, |sum, (f, p)| sum + dot(f, p));
+        work + accelerations[j] * rotor(&arm.joints[j]) + rates[j] * drive.viscous
+    };
+    (0..n).map(torque).collect()
+}
+
+fn dot<T: Number>(a: &[T; 3], b: &[T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// A point of a row: in its frame, or along the straight line from the frame before.
@@ -108,39 +136,30 @@ fn places<T: Number>(arm: &Arm, points: &[Vec<Point>], frames: &[Frame<T>]) -> V
 }
 
 /// `m (p̈ − g)` of every point along `q + q̇ t + q̈ t²/2`.
-fn inertial(
+fn inertial<T: Number>(
     arm: &Arm,
-    q: &[f64],
-    rates: &[f64],
-    accelerations: &[f64],
-) -> Option<Vec<Vector3<f64>>> {
-    let points = points(arm)?;
-    let mut table = table(arm, q, Dual2_64::from);
+    points: &[Vec<Point>],
+    q: &[T],
+    rates: &[T],
+    accelerations: &[T],
+) -> Vec<[T; 3]> {
+    let mut table = table(arm, q, Dual2::from_re);
     for (k, joint) in arm.joints.iter().enumerate() {
         let cell = &mut table.rows[k][moving(joint)];
         (cell.v1, cell.v2) = (rates[k], accelerations[k]);
     }
-    let places = places(arm, &points, &frames(arm.convention, &table));
-    let gravity = arm.base.rotation * arm.gravity;
-    let force = |(p, point): ([Dual2_64; 3], &Point)| {
-        (Vector3::from(p.map(|x| x.v2)) - gravity) * point.mass
+    let places = places(arm, points, &frames(arm.convention, &table));
+    let gravity: [f64; 3] = (arm.base.rotation * arm.gravity).into();
+    let force = |(p, point): ([Dual2<T>; 3], &Point)| {
+        core::array::from_fn(|k| (p[k].v2 - gravity[k]) * point.mass)
     };
-    Some(places.into_iter().zip(points.iter().flatten()).map(force).collect())
+    places.into_iter().zip(points.iter().flatten()).map(force).collect()
 }
 
 /// `∂p/∂q_j` of every point.
-fn slopes(arm: &Arm, q: &[f64], j: usize) -> Vec<Vector3<f64>> {
-    let mut table = table(arm, q, Dual64::from);
-    table.rows[j][moving(&arm.joints[j])].eps = 1.0;
-    let points = points(arm).unwrap_or_default();
-    let places = places(arm, &points, &frames(arm.convention, &table));
-    places.into_iter().map(|p| Vector3::from(p.map(|x| x.eps))).collect()
-}
-
-/// The cell of a row that its joint moves.
-fn moving(joint: &Joint) -> usize {
-    match joint.motion {
-        Motion::Revolute => 0,
-        Motion::Prismatic => 1,
-    }
+fn slopes<T: Number>(arm: &Arm, points: &[Vec<Point>], q: &[T], j: usize) -> Vec<[T; 3]> {
+    let mut table = table(arm, q, Dual::from_re);
+    table.rows[j][moving(&arm.joints[j])].eps = T::from(1.0);
+    let places = places(arm, points, &frames(arm.convention, &table));
+    places.into_iter().map(|p| p.map(|x| x.eps)).collect()
 }

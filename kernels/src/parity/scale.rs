@@ -38,12 +38,13 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
     let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let wrench = norm(&w[..3]) * reach + norm(&w[3..]);
     // Minors of a Jacobian: products of three lengths. The gradient of the root of the sum of their squares is
-    // that of the sum over twice the root.
+    // that of the sum over twice the root; and so is the root's own rounding where the sum is a determinant
+    // of J Jᵀ, as it is of more than eight joints.
+    let minors = lever.powi(3);
     match output {
-        Output::Manipulability => return lever.powi(3),
-        Output::ManipulabilityByJoints => {
-            let least = f64::EPSILON * lever.powi(3);
-            return lever.powi(6) / arm.manipulability(q).max(least);
+        Output::Manipulability if arm.dof() <= 8 => return minors,
+        Output::Manipulability | Output::ManipulabilityByJoints => {
+            return minors * minors / arm.manipulability(q).max(f64::EPSILON * minors);
         }
         _ => {}
     }
@@ -51,7 +52,7 @@ pub fn terms(arm: &Arm, output: Output, state: &[f64], w: &[f64; 6]) -> f64 {
     let moment = |joint: usize| {
         let (loaded, heavy) = (output.takes(Input::Wrench), output.depends_on(Part::Weights));
         if output.is_of_motion() {
-            return inertial(arm, reach, moving, output.columns() == Side::Moments)
+            return inertial(arm, reach, moving, output)
                 + if heavy { weight(arm, 0, reach) } else { 0.0 };
         }
         let load = if loaded { wrench } else { 0.0 };
@@ -83,13 +84,17 @@ fn weight(arm: &Arm, from: usize, reach: f64) -> f64 {
 
 /// The moment that moves the arm, and what holds it back; of the mass matrix, which no motion enters, the
 /// moment per unit of acceleration.
-fn inertial(arm: &Arm, reach: f64, moving: &[f64], unit: bool) -> f64 {
+fn inertial(arm: &Arm, reach: f64, moving: &[f64], output: Output) -> f64 {
     let (rates, accelerations) = moving.split_at(moving.len().min(arm.dof()));
     let sum = |of: &[f64]| of.iter().map(|x| x.abs()).sum::<f64>();
     let (spin, spin_rate) = (sum(rates), sum(accelerations));
-    let level = if moving.is_empty() { 1.0 } else { spin_rate + spin * spin };
+    let level = match output {
+        Output::MassMatrix => 1.0,
+        Output::InverseDynamicsByRates => 2.0 * spin,
+        _ => spin_rate + spin * spin,
+    };
     // A unit of each moment, whatever the arm's are.
-    if unit {
+    if output.columns() == Side::Moments {
         let lever = reach.max(1.0);
         return (level * lever + arm.gravity.norm()) * lever;
     }
@@ -98,7 +103,11 @@ fn inertial(arm: &Arm, reach: f64, moving: &[f64], unit: bool) -> f64 {
         let beam = j.beam.as_ref().map_or(0.0, |b| b.density * b.area * reach);
         let rotor = j.drive.gear * j.drive.gear * j.drive.rotor_inertia;
         let moved = (j.mass + beam) * lever * lever + j.inertia.norm() + rotor;
-        let held = if rates.is_empty() { 0.0 } else { j.drive.coulomb + j.drive.viscous * spin };
+        let held = match output {
+            Output::MassMatrix | Output::InverseDynamicsByJoints => 0.0,
+            Output::InverseDynamicsByRates => j.drive.viscous,
+            _ => j.drive.coulomb + j.drive.viscous * spin,
+        };
         moved * level + held
     };
     arm.joints.iter().map(of_joint).sum()

@@ -109,6 +109,14 @@ impl Beyond {
     }
 }
 
+/// Effects that depend on the side from which a joint came.
+#[cfg(feature = "macro")]
+pub(crate) const SIDED: [&str; 2] = ["backlash", "friction_hysteresis"];
+
+/// Effects that depend on how warm the arm is.
+#[cfg(feature = "macro")]
+pub(crate) const WARMED: [&str; 2] = ["joint_warming", "thermal_growth"];
+
 /// An `[[effect]]` that says nothing, or that kernels cannot be made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectError {

@@ -128,7 +128,7 @@ fn limit(cell: &Raw, report: &mut Report<Spot>) -> Cell<Angle, Spot> {
 }
 
 /// The cell, unless it is a parameter where only a number will do.
-fn known<T: Symbolic>(
+pub(super) fn known<T: Symbolic>(
     cell: Cell<T, Spot>,
     reason: &str,
     report: &mut Report<Spot>,

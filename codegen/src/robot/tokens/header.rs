@@ -7,16 +7,18 @@ use syn::{Ident, LitStr, Path};
 
 use super::super::dimension::Dimension;
 use super::super::draft::{
-    Cell, Draft, DraftFrame, DraftJoint, DraftMarker, DraftNamedFrame, JointName, Vector,
+    Cell, Draft, DraftFrame, DraftJoint, DraftMarker, DraftNamedFrame, DraftPayload, JointName,
+    Vector,
 };
 use super::super::frames::Asked;
 use super::super::model::{Convention, Output, Value};
 use super::super::problem::{Problem, Report};
 use super::super::suggest::{advice, closest};
 use super::cells::{Raw, known_lengths, rotation, split, values};
+use super::payload;
 use super::spot::{Spot, is_sign, is_word};
 
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 12] = [
     "name",
     "convention",
     "gravity",
@@ -24,6 +26,8 @@ const KEYS: [&str; 10] = [
     "tool",
     "frame",
     "marker",
+    "payload",
+    "carries",
     "outputs",
     "products",
     "crate",
@@ -47,6 +51,9 @@ pub(super) struct Settings {
     tool: DraftFrame<Spot>,
     frames: Vec<DraftNamedFrame<Spot>>,
     markers: Vec<DraftMarker<Spot>>,
+    payloads: Vec<DraftPayload<Spot>>,
+    /// The payload that hangs on the tool.
+    pub carries: Option<Cell<String, Spot>>,
     /// What is to be generated; every output of the tool if there are none of it.
     pub outputs: Vec<Cell<Asked, Spot>>,
     /// Whether products are fused into sums.
@@ -119,7 +126,8 @@ impl Settings {
             report.error(problem.help(advice(&word, &KEYS)));
             return;
         };
-        if !["frame", "marker"].contains(&known) && self.seen.iter().any(|(seen, _)| *seen == known)
+        if !["frame", "marker", "payload"].contains(&known)
+            && self.seen.iter().any(|(seen, _)| *seen == known)
         {
             report.error(Problem::new(at, format!("`{known}` stands here for the second time")));
             return;
@@ -142,6 +150,8 @@ impl Settings {
             }
             "frame" => self.frames.extend(named_frame(&cell, report)),
             "marker" => self.markers.extend(marker(&cell, report)),
+            "payload" => self.payloads.extend(payload::read(&cell, report)),
+            "carries" => self.carries = Some(payload::name(&cell, report)),
             "outputs" => self.outputs = outputs(&cell, report),
             "products" => self.fused = fused(&cell, report),
             _ => self.kernels = path(&cell, report),
@@ -150,10 +160,10 @@ impl Settings {
 
     /// A file says everything about its robot itself.
     pub fn refuse_for_a_file(&self, report: &mut Report<Spot>) {
-        let of_the_text = |key: &str| matches!(key, "crate" | "outputs" | "products");
+        let of_the_text = |key: &str| matches!(key, "carries" | "crate" | "outputs" | "products");
         for (key, at) in self.seen.iter().filter(|(key, _)| !of_the_text(key)) {
             let message = format!("`{key}` belongs into the robot file");
-            let help = "beside a file only `crate`, `outputs` and `products` can be set";
+            let help = "beside a file only `carries`, `crate`, `outputs` and `products` can be set";
             report.error(Problem::new(*at, message).help(help));
         }
     }
@@ -175,13 +185,15 @@ impl Settings {
             name: Some(self.name.unwrap_or_else(|| Cell::new(module.unraw().to_string(), at))),
             convention: self.convention,
             gravity: self.gravity,
+            torque_side: None,
             joints,
             base: self.base,
             tool: self.tool,
             frames: self.frames,
             markers: self.markers,
             effects: Vec::new(),
-            payloads: Vec::new(),
+            payloads: self.payloads,
+            carries: self.carries,
             outputs: self.outputs,
         }
     }

@@ -11,6 +11,8 @@
 //! tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2];      // optional, either part
 //! frame: elbow on 3 translation [0, 0, 100 mm];   // optional, any number: on the link of a joint, as tool
 //! marker: smr1 [0, 100 mm, 20 mm];      // optional, any number; the place may be left out
+//! payload: gripper mass 1.2 kg, com [0, 0, 60 mm];   // optional, any number: a load, with `inertia` if wanted
+//! carries: gripper;                     // optional: the load that hangs on the tool
 //! outputs: pose, jacobian at elbow;     // optional: what is generated, every output of the tool if absent
 //! products: fused;                      // optional: into sums, or separate
 //! crate: ::stiffarm_kernels;            // optional: where the generated code finds the kernels
@@ -34,6 +36,7 @@ mod beam;
 mod cells;
 mod header;
 mod outline;
+mod payload;
 mod rows;
 mod spot;
 mod table;
@@ -48,7 +51,7 @@ use super::draft::Cell;
 use super::frames::{Asked, ask};
 use super::model::Robot;
 use super::problem::{Problem, Report};
-use super::validate::validate;
+use super::validate::{carry, validate};
 pub use outline::Outline;
 pub use spot::SpannedError;
 use spot::{Spot, flatten};
@@ -87,6 +90,8 @@ pub struct File {
     pub tip: Option<LitStr>,
     /// What is to be generated, instead of what the file says itself; that if there are none.
     outputs: Vec<Cell<Asked, Spot>>,
+    /// The payload that hangs on the tool, beside what the file says itself.
+    carries: Option<Cell<String, Spot>>,
 }
 
 impl File {
@@ -95,7 +100,7 @@ impl File {
         self.name.value().ends_with(".urdf")
     }
 
-    /// Has generated of its robot what the invocation asks for, where it asks.
+    /// Hangs on its robot what the invocation says, and has generated what it asks for, where it does.
     ///
     /// # Errors
     /// What the robot does not have.
@@ -105,6 +110,7 @@ impl File {
             (robot.outputs, robot.at) = (Vec::new(), Vec::new());
             ask(robot, &self.outputs, &mut report);
         }
+        carry(robot, self.carries.as_ref(), &mut report);
         let errors: Vec<_> = report.errors.into_iter().map(SpannedError::from).collect();
         if errors.is_empty() { Ok(()) } else { Err(errors) }
     }
@@ -210,7 +216,8 @@ impl Head {
             }
             let message = "expected the name of a robot file in quotes";
             let name = input.parse().map_err(|e| here(e, message))?;
-            self.file = Some(File { name, base: None, tip: None, outputs: Vec::new() });
+            self.file =
+                Some(File { name, base: None, tip: None, outputs: Vec::new(), carries: None });
         }
         while let Some(file) = self.file.as_mut().filter(|_| input.peek(Token![,])) {
             input.parse::<Token![,]>()?;
@@ -243,7 +250,8 @@ fn body(
     let (mut settings, table) = header::read(&tokens, report);
     *said = Said { kernels: settings.kernels.take(), fused: settings.fused };
     if let Some(file) = file {
-        let file = File { outputs: core::mem::take(&mut settings.outputs), ..file };
+        let (outputs, carries) = (core::mem::take(&mut settings.outputs), settings.carries.take());
+        let file = File { outputs, carries, ..file };
         settings.refuse_for_a_file(report);
         if !table.is_empty() {
             let message = "a table and a robot file: one of them is enough";

@@ -3,6 +3,7 @@
 use proc_macro2::{Delimiter, TokenTree};
 use toml::Value;
 
+use super::super::beyond::{SIDED, WARMED};
 use super::super::lexeme::{Kind, Lexeme, lex};
 use super::super::problem::Place;
 use super::super::quantity::symbol;
@@ -29,6 +30,10 @@ pub struct Outline {
     pub symbols: Vec<String>,
     /// What seem to be frames and markers.
     pub places: Vec<String>,
+    /// Whether some effect depends on the side from which a joint came.
+    pub sides: bool,
+    /// Whether some effect depends on how warm the arm is.
+    pub warming: bool,
 }
 
 impl Outline {
@@ -80,6 +85,10 @@ impl Outline {
         let places = ["frame", "marker"].into_iter().filter_map(|key| table.get(key)?.as_array());
         let names = places.flatten().filter_map(|place| place.get("name")?.as_str());
         names.for_each(|name| outline.place(name));
+        let effects = table.get("effect").and_then(Value::as_array).into_iter().flatten();
+        let ids: Vec<&str> = effects.filter_map(|effect| effect.get("id")?.as_str()).collect();
+        outline.sides = ids.iter().any(|id| SIDED.contains(id));
+        outline.warming = ids.iter().any(|id| WARMED.contains(id));
         outline
     }
 

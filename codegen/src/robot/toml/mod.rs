@@ -27,6 +27,7 @@ const KEYS: &[&str] = &[
     "name",
     "convention",
     "gravity",
+    "torque_side",
     "joint",
     "base",
     "tool",
@@ -34,6 +35,7 @@ const KEYS: &[&str] = &[
     "marker",
     "effect",
     "payload",
+    "carries",
     "outputs",
 ];
 
@@ -114,6 +116,7 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
             .required(reader, "convention", "write convention = \"standard\" or \"modified\"")
             .map(|v| reader.choice(v, &CONVENTIONS)),
         gravity: fields.get("gravity").map(|v| reader.values(v, super::Dimension::Acceleration)),
+        torque_side: fields.get("torque_side").map(|v| reader.choice(v, &TORQUE_SIDES)),
         joints: joints.unwrap_or_default(),
         base: frame(reader, &fields, "base", "[base]"),
         tool: frame(reader, &fields, "tool", "[tool]"),
@@ -121,12 +124,22 @@ fn draft(reader: &mut Reader<'_>, root: &Spanned<DeTable<'_>>) -> Draft<Range<us
         markers: fields.get("marker").map(|v| markers(reader, v)).unwrap_or_default(),
         effects: fields.get("effect").map(|v| effect::read_all(reader, v)).unwrap_or_default(),
         payloads: fields.get("payload").map(|v| payloads(reader, v)).unwrap_or_default(),
+        carries: fields.get("carries").map(|v| reader.string(v)),
         outputs: fields.get("outputs").map(|v| reader.outputs(v)).unwrap_or_default(),
     }
 }
 
 const CONVENTIONS: [(&str, Convention); 2] =
     [("standard", Convention::Standard), ("modified", Convention::Modified)];
+
+/// Where the torques of a log are measured.
+const TORQUE_SIDES: [(&str, &str); 5] = [
+    ("motor", "motor"),
+    ("link", "link"),
+    ("current", "current"),
+    ("commanded", "commanded"),
+    ("external", "external"),
+];
 
 fn frame(
     reader: &mut Reader<'_>,
@@ -196,10 +209,10 @@ fn payloads(
 ) -> Vec<DraftPayload<Range<usize>>> {
     let mut found = Vec::new();
     for value in reader.tables(value, "payload") {
-        let keys = &["name", "mass", "com"];
+        let keys = &["name", "mass", "com", "inertia"];
         let Some(fields) = Fields::of(reader, value, "[[payload]]", keys) else { continue };
         let name = fields.required(reader, "name", "write name = \"…\"").map(|v| reader.string(v));
-        let reason = "a payload is weighed, not chosen: write its mass";
+        let reason = "a payload is weighed, not chosen: write numbers";
         let mass = fields.required(reader, "mass", "write mass = 5.0");
         let mass = mass.map(|v| reader.number(v, super::Dimension::Mass, reason));
         let com = fields.get("com").map(|v| reader.known_lengths(v, "write its place"));
@@ -207,6 +220,7 @@ fn payloads(
             name: name.unwrap_or_else(|| Cell::broken(fields.at())),
             mass: mass.unwrap_or_else(|| Cell::broken(fields.at())),
             com,
+            inertia: fields.get("inertia").map(|v| (v.span(), reader.known_inertia(v, reason))),
         });
     }
     found

@@ -195,6 +195,11 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The same, which must be numbers, and why.
+    pub fn known_inertia(&mut self, value: &Node<'_>, reason: &str) -> [Cell<Value, At>; 6] {
+        self.inertia(value).map(|cell| self.known(cell, reason))
+    }
+
     /// Three lengths that must be numbers, and why.
     pub fn known_lengths(&mut self, value: &Node<'_>, reason: &str) -> Vector<Value, At> {
         let cells = self.values(value, Dimension::Length);

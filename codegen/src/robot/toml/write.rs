@@ -28,6 +28,9 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
     writeln!(text, "name = {}", quoted(&robot.name))?;
     writeln!(text, "convention = \"{convention}\"")?;
     writeln!(text, "gravity = {}", list(robot.gravity.iter().map(value)))?;
+    if let Some(side) = robot.torque_side {
+        writeln!(text, "torque_side = \"{side}\"")?;
+    }
     let asked = robot.asked();
     if !asked.is_empty() {
         writeln!(text, "outputs = {}", list(asked.iter().map(|name| quoted(name))))?;
@@ -56,6 +59,9 @@ fn write_robot(text: &mut String, robot: &Robot) -> core::fmt::Result {
         writeln!(text, "\n[[payload]]\nname = {}", quoted(&payload.name))?;
         writeln!(text, "mass = {}", value(&payload.mass))?;
         writeln!(text, "com = {}", list(payload.com.iter().map(value)))?;
+        if let Some(inertia) = &payload.inertia {
+            writeln!(text, "inertia = {}", list(inertia.iter().map(value)))?;
+        }
     }
     Ok(())
 }

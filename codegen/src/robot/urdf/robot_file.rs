@@ -18,6 +18,7 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         name: chain.name.clone(),
         convention: Convention::Modified,
         gravity: gravity.map(value),
+        torque_side: None,
         joints,
         base: Fixed::default(),
         tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },

@@ -54,16 +54,7 @@ fn the_regressor_times_the_moments_is_the_torque() {
         for joint in &mut arm.joints {
             (joint.drive, joint.beam) = (Drive::default(), None);
         }
-        let moments = arm.joints.iter().flat_map(|joint| {
-            let (m, c) = (joint.mass, joint.com);
-            let tensor = joint.inertia
-                + m * (nalgebra::Matrix3::from_diagonal_element(c.norm_squared())
-                    - c * c.transpose());
-            let of = |i, j| tensor[(i, j)];
-            let [x, y, z] = [c.x, c.y, c.z].map(|c| m * c);
-            [m, x, y, z, of(0, 0), of(0, 1), of(1, 1), of(0, 2), of(1, 2), of(2, 2)]
-        });
-        let moments = DVector::from_iterator(10 * arm.dof(), moments);
+        let moments = DVector::from_vec(arm.moments());
         let regressor = arm.torque_regressor(&q, &rates, &accelerations);
         let torque = arm.inverse_dynamics(&q, &rates, &accelerations);
         near(&(&regressor * &moments), &torque, regressor.amax() * moments.amax());

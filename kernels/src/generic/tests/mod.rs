@@ -1,5 +1,6 @@
 //! The definitions against differences, closed forms, printed tables and independent methods.
 
+mod base;
 mod cantilever;
 mod differences;
 mod dumas2011;

@@ -20,6 +20,8 @@ pub(super) const DERIVED: &[(Output, Derivation)] = &[
     (Output::InverseDynamics, inverse_dynamics),
     (Output::Bias, bias),
     (Output::MassMatrix, |chain| mass_matrix(chain).into()),
+    (Output::InverseDynamicsByJoints, by_joints),
+    (Output::InverseDynamicsByRates, by_rates),
     (Output::ForwardDynamics, forward_dynamics),
     (Output::TorqueRegressor, regressor),
 ];
@@ -34,6 +36,25 @@ fn inverse_dynamics(chain: &mut Chain) -> Derived {
 fn bias(chain: &mut Chain) -> Derived {
     let none = vec![Expr::ZERO; chain.dof()];
     torques(chain, none).into()
+}
+
+/// ∂τ/∂q_i, n×n.
+fn by_joints(chain: &mut Chain) -> Derived {
+    let accelerations = symbols(chain, Symbol::Acceleration);
+    let torques = torques(chain, accelerations);
+    by(chain, &torques, Symbol::Joint)
+}
+
+/// ∂τ/∂q̇_i, n×n: that of the bias, for M q̈ has no rate in it.
+fn by_rates(chain: &mut Chain) -> Derived {
+    let none = vec![Expr::ZERO; chain.dof()];
+    let torques = torques(chain, none);
+    by(chain, &torques, Symbol::Rate)
+}
+
+fn by(chain: &mut Chain, torques: &[Expr], symbol: fn(usize) -> Symbol) -> Derived {
+    let symbols: Vec<Symbol> = (0..chain.dof()).map(symbol).collect();
+    chain.g.derivatives(torques, &symbols).concat().into()
 }
 
 /// M⁻¹ (τ − b).

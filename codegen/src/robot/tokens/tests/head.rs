@@ -91,6 +91,34 @@ fn every_setting_and_column_is_read() {
 }
 
 #[test]
+fn a_load_is_read() {
+    let arm = "mod arm; convention: modified_dh; joint | theta\na1 | q";
+    let with = |settings: &str| arm.replacen(';', &format!("; {settings}"), 1);
+    let robot = read(&with(
+        "payload: \"5 kg\" com [0, 0, 60 mm], mass 5 kg; payload: part mass 2; carries: part;",
+    ));
+    let loads: Vec<_> =
+        robot.payloads.iter().map(|load| (load.name.as_str(), &load.mass)).collect();
+    assert_eq!(loads, [("5 kg", &number("5")), ("part", &number("2"))]);
+    assert_eq!(robot.payloads[0].com[2], number("0.06"));
+    assert_eq!(robot.joints[0].mass, Some(number("2")));
+    let expected = "`name mass 1.2 kg, com [x, y, z], inertia [xx, xy, xz, yy, yz, zz]` is expected here, \
+                    the last two if wanted";
+    assert_eq!(errors(&with("payload: part;")), [format!("1:19 {expected}")]);
+    assert_eq!(errors(&with("payload: part mas 2;")), [format!("1:24 {expected}")]);
+    assert_eq!(
+        errors(&with("payload: part mass m;")),
+        [
+            "1:29 `m` stands where a number is expected | a payload is weighed, not chosen: write numbers"
+        ]
+    );
+    assert_eq!(
+        errors(&with("payload: part mass 2; carries: parts;")),
+        ["1:41 `parts` is no payload of this robot | did you mean `part`?"]
+    );
+}
+
+#[test]
 fn a_file_is_named() {
     let text = "#[allow(x)] mod elbow from \"elbow.toml\"; crate: crate::kernels; products: fused;";
     let Ok(invocation) = parse(text) else { panic!() };
@@ -100,7 +128,7 @@ fn a_file_is_named() {
         errors("mod elbow from \"elbow.toml\"; name: \"x\"; joint | theta"),
         [
             "1:30 `name` belongs into the robot file | \
-             beside a file only `crate`, `outputs` and `products` can be set",
+             beside a file only `carries`, `crate`, `outputs` and `products` can be set",
             "1:41 a table and a robot file: one of them is enough"
         ]
     );

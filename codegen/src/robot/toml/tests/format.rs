@@ -255,7 +255,8 @@ fn numbers_survive_writing() {
 
 const BEYOND: &str = "[base]\ntranslation = [\"1 m\", -0.5, 0]\nrotation = [0, 0, \"pi/2\"]\n\
     [[effect]]\nid = \"transmission_error\"\nplace = \"joint 1\"\norder = 2\n\
-    cos = \"0.10 mrad\"\nsin = -5e-5\n[[payload]]\nname = \"5kg\"\nmass = 5\ncom = [0, 0, \"60 mm\"]\n";
+    cos = \"0.10 mrad\"\nsin = -5e-5\n[[payload]]\nname = \"5kg\"\nmass = 5\ncom = [0, 0, \"60 mm\"]\n\
+    inertia = [0.02, 0, 0, 0.02, 0, 0.01]\n";
 
 #[test]
 fn what_lies_beyond_the_table_is_read_and_written() {

@@ -186,6 +186,39 @@ fn what_lies_beyond_the_table_is_pointed_at() {
 }
 
 #[test]
+fn what_is_carried_is_there_and_told_in_numbers() {
+    let load = "[[payload]]\nname = \"gripper\"\nmass = 1\n";
+    let with =
+        |joint: &str, load: &str| errors(&format!("carries = \"gripper\"\n{HEAD}{joint}{load}"));
+    assert_eq!(
+        with(JOINT, ""),
+        ["1:11 `gripper` is no payload of this robot | the robot has no [[payload]]"]
+    );
+    assert_eq!(
+        with(JOINT, &load.replace("gripper", "griper")),
+        ["1:11 `gripper` is no payload of this robot | did you mean `griper`?"]
+    );
+    assert_eq!(
+        with(&format!("{JOINT}mass = \"m\"\n"), load),
+        ["1:11 `gripper` cannot be carried: a parameter stands in the tool or the last link | \
+          write numbers there: what is carried is added to the last link"]
+    );
+    assert_eq!(
+        with(JOINT, &format!("{load}inertia = [3, 0, 0, 1, 0, \"x\"]\n")),
+        [
+            "9:27 `x` stands where a number is expected | a payload is weighed, not chosen: write numbers"
+        ]
+    );
+    assert_eq!(
+        with(JOINT, &format!("{load}inertia = [3, 0, 0, 1, 0, 1]\n")),
+        [
+            "9:11 the principal moments of inertia are 1, 1 and 3: no body has one that is larger than the sum of the \
+          others | `inertia` is [xx, xy, xz, yy, yz, zz] about the centre of mass, in the tool's axes"
+        ]
+    );
+}
+
+#[test]
 fn a_text_is_one_line() {
     let help = "write the text on one line, without it";
     for (text, line, column) in [
