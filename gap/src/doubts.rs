@@ -6,7 +6,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
@@ -122,7 +122,7 @@ fn lengths(data: &Measurements, reach: f64) -> Option<String> {
         }
         Kind::Displacement { .. } => (MOST_GIVEN * reach, "displaced"),
     };
-    let size = |row: &Row| row.measured.fixed_rows::<3>(0).norm();
+    let size = |row: &Row| length(&row.measured, 0);
     let mut sizes: Vec<f64> = data.rows.iter().map(size).collect();
     sizes.sort_by(f64::total_cmp);
     let middle = *sizes.get(sizes.len() / 2).filter(|m| **m > most_metres)?;
@@ -134,6 +134,13 @@ fn lengths(data: &Measurements, reach: f64) -> Option<String> {
         shown(middle),
         shown(reach)
     ))
+}
+
+/// Of three components from `first` on: what is doubted may be so large that its square is infinite.
+fn length(six: &Vector6<f64>, first: usize) -> f64 {
+    let three: Vector3<f64> = six.fixed_rows::<3>(first).into_owned();
+    let largest = three.amax();
+    if largest > 0.0 { largest * (three / largest).norm() } else { 0.0 }
 }
 
 /// Rotations that are too large for radians.
@@ -187,8 +194,8 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
          {unit}{}: no arm bears it; is the unit of the load right?",
         data.file,
         row.line,
-        shown(row.wrench.fixed_rows::<3>(0).norm()),
-        shown(row.wrench.fixed_rows::<3>(3).norm()),
+        shown(length(&row.wrench, 0)),
+        shown(length(&row.wrench, 3)),
         j + 1,
         shown(over * most_given(joint)),
         match unbearable.len() {
@@ -206,8 +213,8 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
         return None;
     }
     let every = data.rows.len().div_ceil(ENOUGH_ROWS);
-    let simulated = |row: &Row| match (row.sim, data.sim_given[..3] == [true; 3]) {
-        (Some(sim), true) => Some(Reading::from_vector(&sim)),
+    let simulated = |row: &Row| match (&row.sim, data.sim_given[..3] == [true; 3]) {
+        (Some(sim), true) => Some(Reading::from_vector(sim)),
         _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
     };
     let rows = data.rows.iter().step_by(every);

@@ -5,6 +5,7 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
+use crate::effects::{Catalogue, Known, Spot};
 use crate::measurement::{Kind, Layout, Measurements, Row};
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
@@ -95,4 +96,11 @@ pub(crate) fn layout(joints: usize) -> Layout {
         markers: Vec::new(),
         payloads: None,
     }
+}
+
+/// An effect of a robot file.
+pub(crate) fn known(id: &str, place: &str, form: usize, values: &[f64]) -> Known {
+    let effect = Catalogue::default().named(id).unwrap();
+    let spot = Spot { place: place.parse().unwrap(), form };
+    Known { effect, spot, values: values.to_vec(), session: None, at: Default::default() }
 }

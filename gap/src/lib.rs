@@ -19,14 +19,17 @@ pub mod dice;
 pub mod displacement;
 pub mod doubts;
 pub mod effects;
+pub mod excite;
 #[cfg(test)]
 mod fixture;
 pub mod gap;
 pub mod identify;
 pub mod log;
 pub mod measurement;
+pub mod motion;
 pub mod performance;
 pub mod plant;
+pub mod predicted;
 pub mod random;
 pub mod readings;
 pub mod robot;

@@ -267,6 +267,7 @@ mod tests {
             name: "one link".to_owned(),
             convention: robot::Convention::Standard,
             gravity: [Value::ZERO, Value::ZERO, number("-9.80665")],
+            torque_side: None,
             joints: vec![joint],
             base: Frame::default(),
             tool: Frame::default(),

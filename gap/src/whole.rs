@@ -60,32 +60,6 @@ impl<'a> Whole<'a> {
         self.known.iter().find_map(|known| Some((known, open(known)?)))
     }
 
-    /// The joint values that the readings `q` mean, n, rad (m if prismatic): for what is worked out
-    /// from the table alone, at the joint values that are real.
-    ///
-    /// # Errors
-    /// An effect that does more than move joints, or depends on more than the posture.
-    pub fn joints(&self, q: &[f64]) -> Result<Vec<f64>, &'a Known> {
-        // A load shows what scales it.
-        let at = Situation::under(Vector6::repeat(1.0));
-        if let Some((known, _)) = self.undecided(&at) {
-            return Err(known);
-        }
-        let (row, now) = at.row(q);
-        let plain = Actual::new(self.arm, q, &at.load);
-        let mut joints = q.to_vec();
-        for known in self.known {
-            let mut actual = Actual::new(self.arm, q, &at.load);
-            known.alter(&mut actual, &row, &now);
-            if !actual.is_but_for_joints(&plain) {
-                return Err(known);
-            }
-            let moved = actual.joints.iter().zip(q).map(|(is, reads)| is - reads);
-            joints.iter_mut().zip(moved).for_each(|(sum, by)| *sum += by);
-        }
-        Ok(joints)
-    }
-
     /// The arm at rest at the readings `q` (n, rad; m if prismatic) under the load and its weights,
     /// and where its base stands in the world.
     ///
@@ -118,15 +92,10 @@ impl Situation {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::effects::{Catalogue, Spot};
-    use crate::fixture::springy;
+    use stiffarm_kernels::Output;
 
-    fn known(id: &str, place: &str, form: usize, values: &[f64]) -> Known {
-        let effect = Catalogue::default().named(id).unwrap();
-        let spot = Spot { place: place.parse().unwrap(), form };
-        Known { effect, spot, values: values.to_vec(), session: None, at: Default::default() }
-    }
+    use super::*;
+    use crate::fixture::{known, springy};
 
     #[test]
     fn what_moves_joints_alone_is_other_joint_values() {
@@ -138,35 +107,45 @@ mod tests {
         ];
         let whole = Whole { known: &laws, ..Whole::from(&arm) };
         let q: [f64; 3] = [0.5, -0.7, 0.2];
-        let joints = whole.joints(&q).unwrap();
         let wave = 2e-4 * (2.0 * q[1]).cos() - 1e-4 * (2.0 * q[1]).sin();
-        let expected = [q[0] * 1.01, q[1] + 1e-3 * q[0] + wave, q[2]];
-        for (is, expected) in joints.iter().zip(expected) {
-            assert!((is - expected).abs() < 1e-15, "{is} {expected}");
-        }
-        // The arm at rest agrees: the table there, and the effects here.
-        let w = Vector6::new(30.0, -20.0, -100.0, 1.0, 2.0, 3.0);
-        let under = Situation::under(w);
+        let joints = [q[0] * 1.01, q[1] + 1e-3 * q[0] + wave, q[2]];
+        let under = Situation::under(Vector6::new(30.0, -20.0, -100.0, 1.0, 2.0, 3.0));
         let (is, _) = whole.at(&q, &under).unwrap();
         let (moved, _) = Whole::from(&arm).at(&joints, &under).unwrap();
         assert!((is.tool.to_homogeneous() - moved.tool.to_homogeneous()).amax() < 1e-14);
+        for output in [Output::Jacobian, Output::Deflection, Output::ComplianceRegressor] {
+            let is = whole.evaluate(output, &q, &under).unwrap().unwrap();
+            let moved = Whole::from(&arm).evaluate(output, &joints, &under).unwrap().unwrap();
+            let off = is.iter().zip(&moved).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-14, "{output:?} {off:e}");
+        }
     }
 
     #[test]
-    fn what_does_more_or_is_undecided_is_named() {
+    fn what_is_not_told_or_undecided_is_named() {
         let arm = springy();
+        let under = Situation::under(Vector6::repeat(1.0));
         for (id, place, values) in [
             ("joint_hardening", "joint 1", &[1e-12][..]),
             ("base_compliance", "base", &[1e-6, 1e-6, 1e-7]),
-            ("instrument_scale", "instrument", &[1e-4]),
             ("wrench_scale", "tool", &[0.1]),
+        ] {
+            let one = [known(id, place, 0, values)];
+            let whole = Whole { known: &one, ..Whole::from(&arm) };
+            assert!(whole.untold(&[0.1, 0.2, 0.3], &under).is_none(), "{id}");
+            assert!(whole.undecided(&under).is_none(), "{id}");
+        }
+        for (id, place, values) in [
+            ("instrument_scale", "instrument", &[1e-4][..]),
+            ("bearing_wobble", "joint 2", &[1e-4; 2]),
             ("backlash", "joint 2", &[1e-3]),
             ("settling_lag", "joint 2", &[1e-3]),
         ] {
-            let ratio = known("joint_ratio", "joint 1", 0, &[1e-2]);
-            let both = [ratio, known(id, place, 0, values)];
+            let both = [known("joint_ratio", "joint 1", 0, &[1e-2]), known(id, place, 0, values)];
             let whole = Whole { known: &both, ..Whole::from(&arm) };
-            assert_eq!(whole.joints(&[0.1, 0.2, 0.3]).unwrap_err().effect.identifier(), id);
+            let undecided = whole.undecided(&under).map(|(known, _)| known);
+            let named = undecided.or_else(|| whole.untold(&[0.1, 0.2, 0.3], &under)).unwrap();
+            assert_eq!(named.effect.identifier(), id);
         }
     }
 }

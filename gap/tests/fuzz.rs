@@ -119,7 +119,9 @@ fn reads(bytes: &[u8]) -> Result<(), TestCaseError> {
                     for row in &data.rows {
                         prop_assert!(row.q.iter().all(|q| q.is_finite()));
                         prop_assert!(row.wrench.iter().chain(&row.measured).all(|x| x.is_finite()));
-                        prop_assert!(row.sim.iter().flatten().all(|x| x.is_finite()));
+                        prop_assert!(
+                            row.sim.iter().flat_map(|sim| sim.iter()).all(|x| x.is_finite())
+                        );
                         let both = row.time.into_iter().chain(row.temperature);
                         prop_assert!(both.into_iter().all(f64::is_finite));
                         prop_assert!(row.group < data.poses);

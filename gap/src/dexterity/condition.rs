@@ -1,26 +1,29 @@
 //! The condition number of the Jacobian by the Frobenius norm, with a length that makes its rows
 //! comparable (Dumas et al., eqs. 11-12).
 
-use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector6};
+use stiffarm_kernels::Output;
 use stiffarm_kernels::generic::Arm;
 
-use super::{DexterityError, check_posture};
+use super::{DexterityError, block, check_posture};
+use crate::whole::Whole;
 
 /// `J_N = diag(I/L, I) J`, 6×n, without units: translations in units of `length`, m (Dumas et al.,
 /// eq. 12).
 ///
 /// # Errors
 /// [`DexterityError::Posture`], [`DexterityError::Length`].
-pub fn normalised_jacobian(
-    arm: &Arm,
+pub fn normalised_jacobian<'a>(
+    whole: impl Into<Whole<'a>>,
     q: &[f64],
     length: f64,
 ) -> Result<Matrix6xX<f64>, DexterityError> {
-    check_posture(arm, q)?;
+    let whole = whole.into();
+    check_posture(whole.arm, q)?;
     if !(length.is_finite() && length > 0.0) {
         return Err(DexterityError::Length { found: length });
     }
-    let mut jacobian = arm.jacobian(q);
+    let mut jacobian = block(whole, Output::Jacobian, q, &Vector6::zeros())?;
     let mut translations = jacobian.fixed_rows_mut::<3>(0);
     translations /= length;
     Ok(jacobian)
@@ -45,9 +48,13 @@ pub fn condition_number(m: &DMatrix<f64>) -> f64 {
 ///
 /// # Errors
 /// As [`normalised_jacobian`].
-pub fn inverse_condition(arm: &Arm, q: &[f64], length: f64) -> Result<f64, DexterityError> {
-    let normalised = normalised_jacobian(arm, q, length)?;
-    let normalised = DMatrix::from_fn(6, arm.dof(), |r, c| normalised[(r, c)]);
+pub fn inverse_condition<'a>(
+    whole: impl Into<Whole<'a>>,
+    q: &[f64],
+    length: f64,
+) -> Result<f64, DexterityError> {
+    let normalised = normalised_jacobian(whole, q, length)?;
+    let normalised = DMatrix::from_fn(6, q.len(), |r, c| normalised[(r, c)]);
     Ok(1.0 / condition_number(&normalised))
 }
 

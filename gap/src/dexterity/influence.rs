@@ -1,10 +1,11 @@
 //! What leaving the complementary stiffness K_C out costs (Dumas et al., eqs. 14-15).
 
 use nalgebra::Vector6;
-use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Output, Unstable};
 
-use super::{DexterityError, check_posture};
+use super::{DexterityError, block, check_posture};
 use crate::simulate::{rotation, translation};
+use crate::whole::Whole;
 
 /// The two indices of one posture under one wrench.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,10 +26,18 @@ pub struct Influence {
 ///
 /// # Errors
 /// [`DexterityError::Posture`]; [`DexterityError::Unstable`] under a load that buckles the arm.
-pub fn influence(arm: &Arm, q: &[f64], w: &Vector6<f64>) -> Result<Influence, DexterityError> {
-    check_posture(arm, q)?;
-    let with = arm.deflection(q, w)?;
-    let without = arm.deflection_first_order(q, w);
+pub fn influence<'a>(
+    whole: impl Into<Whole<'a>>,
+    q: &[f64],
+    w: &Vector6<f64>,
+) -> Result<Influence, DexterityError> {
+    let whole = whole.into();
+    check_posture(whole.arm, q)?;
+    let deflection = |output| -> Result<Vector6<f64>, Unstable> {
+        Ok(block(whole, output, q, w)?.column(0).into_owned())
+    };
+    let with = deflection(Output::Deflection)?;
+    let without = deflection(Output::DeflectionFirstOrder)?;
     let (p, p0) = (translation(&with), translation(&without));
     let larger = p.norm().max(p0.norm());
     let part = |difference: f64| if larger > 0.0 { difference / larger } else { 0.0 };

@@ -10,7 +10,9 @@
 //! * [`mod@design`]: postures and loads for tests by D-optimality.
 //!
 //! Joint values are in rad (m of prismatic joints), J in m and rad, base axes at the tool origin.
-//! Nothing here reads a robot's weight: the displacements are those of an added load.
+//! Nothing here reads a robot's weight: the displacements are those of an added load. Of an arm whose
+//! file says more than its table ([`Whole`]) they are readings, and all is told of the joint values that
+//! these mean: each joint in the middle of its play, at the temperature of the table, at the beginning.
 
 mod condition;
 pub mod design;
@@ -24,8 +26,11 @@ pub use influence::{Influence, influence};
 pub use length::{Characteristic, Search, characteristic_length};
 pub use map::{Map, Peak, Plane};
 
-use stiffarm_kernels::Unstable;
+use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Output, Unstable};
+
+use crate::whole::{Situation, Whole};
 
 /// Why a property of a posture could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -112,6 +117,17 @@ pub enum DexterityError {
     /// The load is too large for the springs.
     #[error(transparent)]
     Unstable(#[from] Unstable),
+}
+
+/// An output of six rows at a posture under a load.
+fn block(
+    whole: Whole<'_>,
+    output: Output,
+    q: &[f64],
+    load: &Vector6<f64>,
+) -> Result<Matrix6xX<f64>, Unstable> {
+    let block = whole.evaluate(output, q, &Situation::under(*load))?;
+    Ok(Matrix6xX::from_vec(block.unwrap_or_default()))
 }
 
 /// One finite joint value for each joint.

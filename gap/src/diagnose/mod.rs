@@ -43,9 +43,9 @@ pub use prior::Prior;
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction};
 pub use report::{
-    Alternative, Autocorrelation, CannotSee, Correlation, Cover, Diagnosis, Finding, GapReport,
-    Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport, Observability, Part, Residual,
-    Rival, Share, Shrink, Slice, Unexplained, Worst,
+    Alternative, Autocorrelation, CannotSee, Correlation, CorrelationMatrix, Cover, Diagnosis,
+    Finding, GapReport, Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport,
+    Observability, Part, Residual, Rival, Share, Shrink, Slice, Unexplained, Worst,
 };
 
 use crate::gap::Statistics;

@@ -115,7 +115,10 @@ pub enum DiagnoseError {
          held out): measure more"
     )]
     TooFewRows { file: String, rows: usize, parameters: usize },
-    #[error("found {found} folds, expected 2 to {poses}, the number of poses in {file}")]
+    #[error(
+        "found {found} fold{}, expected 2 to {poses}, the number of poses in {file}",
+        if *found == 1 { "" } else { "s" }
+    )]
     Folds { file: String, found: usize, poses: usize },
     #[error(
         "{file}: line {line}: the robot is not in stable equilibrium under this row's load and its \

@@ -1,9 +1,13 @@
 //! The diagnosis as it is written: field names and their order are the format's.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::effects::ParameterReport;
 use crate::gap::Statistics;
+use crate::measurement::Row;
+
+/// A part of a range within which a value beyond it still counts as inside.
+pub(super) const EDGE: f64 = 1e-6;
 
 /// The result of a diagnosis. Serialised, it is the format's JSON; every number is finite.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -121,7 +125,7 @@ pub struct NuisanceReport {
 }
 
 /// The range of the data.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cover {
     /// Least and largest reading of each joint, rad (m if prismatic).
     pub joints: Vec<[f64; 2]>,
@@ -129,6 +133,20 @@ pub struct Cover {
     pub force: f64,
     /// Largest moment on the tool, N·m.
     pub moment: f64,
+}
+
+impl Cover {
+    /// Whether a row lies within the joint ranges and loads.
+    pub fn holds(&self, row: &Row) -> bool {
+        let in_range = |(q, [low, high]): (&f64, &[f64; 2])| {
+            let edge = EDGE * (high - low) + f64::EPSILON;
+            (low - edge..=high + edge).contains(q)
+        };
+        let load = |from: usize| row.wrench.fixed_rows::<3>(from).norm();
+        row.q.iter().zip(&self.joints).all(in_range)
+            && load(0) <= self.force * (1.0 + EDGE)
+            && load(3) <= self.moment * (1.0 + EDGE)
+    }
 }
 
 /// How measurements were held out.
@@ -163,6 +181,9 @@ pub struct Normality {
     pub anderson_darling: f64,
     /// How often normal numbers have one as large.
     pub p_value: f64,
+    /// Where a number of its rank lies if they are normal, and where it does, both in standard
+    /// deviations, ascending from the least to the largest; of many, some.
+    pub quantiles: Vec<[f64; 2]>,
 }
 
 /// What is left at one visit beside what is left at the next.
@@ -202,6 +223,17 @@ pub struct Observability {
     /// The pairs of numbers that are hardest to tell from each other, one of them of an effect beyond
     /// ordinary calibration; none that are correlated by less than one half.
     pub correlations: Vec<Correlation>,
+    /// Correlations of the findings' numbers with each other, of the first of them.
+    pub matrix: CorrelationMatrix,
+}
+
+/// Correlations of numbers with each other.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CorrelationMatrix {
+    /// What the rows and columns are.
+    pub of: Vec<String>,
+    /// Row by row, −1 to 1.
+    pub rows: Vec<Vec<f64>>,
 }
 
 /// Two fitted numbers.

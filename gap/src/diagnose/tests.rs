@@ -275,7 +275,7 @@ fn the_users_own_simulator_is_corrected_like_the_arms() {
     let mut data = data(20, [0.0, 4e-6, 0.0], 2e-5, 11);
     data.sim_given = [true, true, true, false, false, false];
     for row in &mut data.rows {
-        row.sim = Some(simulate(&bent(), row, POSE).unwrap().reading().vector());
+        row.sim = Some(Box::new(simulate(&bent(), row, POSE).unwrap().reading().vector()));
     }
     let own = diagnose(&bent(), &data, &Options::default()).unwrap();
     let arms = found([0.0, 4e-6, 0.0], 2e-5, &Options::default());
@@ -295,7 +295,9 @@ fn rows_weigh_by_their_own_precision() {
         row.measured = row.measured.map(|x| x + sd * normal(&mut noise));
     }
     let mut told = mixed.clone();
-    told.rows.iter_mut().for_each(|row| row.sigma = Some(Vector6::repeat(sds(row.group))));
+    for row in &mut told.rows {
+        row.sigma = Some(Box::new(Vector6::repeat(sds(row.group))));
+    }
     let mut precise = mixed.clone();
     precise.rows.retain(|row| row.group.is_multiple_of(2));
     precise.rows.iter_mut().for_each(|row| row.group /= 2);

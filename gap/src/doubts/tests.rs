@@ -1,5 +1,3 @@
-use nalgebra::Vector6;
-
 use super::*;
 use crate::fixture::{arm, kr240};
 use crate::plant::design::{Design, Shape};
@@ -87,6 +85,18 @@ fn lengths_in_millimetres_are_noticed() {
         }
         only(&doubts(&arm, &data, &[]), &["is it millimetres?", name]);
     }
+}
+
+#[test]
+fn what_is_doubted_is_told_however_large() {
+    let arm = kuka();
+    let mut data = campaign(&arm, Shape::Payload, POSE, &[]);
+    for row in &mut data.rows {
+        (row.measured[0], row.wrench[1]) = (1e300, -1e300);
+    }
+    let doubts = doubts(&arm, &data, &[]);
+    assert!(doubts[0].contains("the tool is 1.00e300 m away"), "{doubts:#?}");
+    assert!(doubts[1].contains("a load of 1.00e300 N"), "{doubts:#?}");
 }
 
 fn translation(row: &Row) -> Vector3<f64> {

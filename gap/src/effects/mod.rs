@@ -38,6 +38,7 @@ pub(crate) use known::file_name;
 pub use known::{Known, KnownError};
 pub use parameter::Parameter;
 pub use place::{Place, Spot};
+pub(crate) use robot_file::significant;
 pub use robot_file::{RobotFile, Row as RobotRow};
 pub use scene::Scene;
 pub use told::{ParameterReport, Told};

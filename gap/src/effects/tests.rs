@@ -5,6 +5,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
 use super::*;
+use crate::displacement::Displacement;
 use crate::fixture::{bent, row, springy, table};
 use crate::measurement::{Kind, Measurements};
 use crate::simulate::{Actual, Reading, Sim, moments};
@@ -22,6 +23,18 @@ fn arms() -> Vec<Arm> {
     let mut plain_prismatic = prismatic.clone();
     plain_prismatic.joints.iter_mut().for_each(|j| j.beam = None);
     vec![bent(), modified, prismatic, springy(), plain, plain_prismatic]
+}
+
+#[test]
+fn places_are_the_same_wherever_an_arm_stands() {
+    for arm in arms() {
+        let turn = Vector6::new(2.0, -1.0, 0.5, 1.1, -0.6, 2.0);
+        let base = Displacement::new(&turn).transform() * arm.base;
+        let moved = Arm { base, ..arm.clone() };
+        for effect in CATALOGUE {
+            assert_eq!(effect.places(&moved), effect.places(&arm), "{}", effect.identifier());
+        }
+    }
 }
 
 fn data(kind: Kind) -> Measurements {

@@ -2,14 +2,18 @@
 //!
 //! 1. [`read`]: text into runs of samples, damaged rows left out and named.
 //! 2. [`signal`]: even samples, one filter, rates.
-//! 3. [`scene`]: rows, a joint at a time each; [`effects`]: what each effect does to them; [`rigid`]: what
-//!    rigid links ask of the drives, which is fitted along.
+//! 3. [`scene`]: rows, a joint at a time each; [`effects`]: what each effect does to them; what rigid links ask of
+//!    the drives, by their [base parameters](stiffarm_kernels::generic::BaseParameter), is fitted along.
 //! 4. [`search`]: which effects, by blocks of time that no fit has seen.
 //! 5. [`report`]: what is said.
 //!
 //! Torque rows (`tau`, `i`) and position rows (`q_cmd`) go the same way; only the catalogue differs.
 
+pub mod bodies;
+pub mod corrected;
 pub mod effects;
+pub mod known;
+pub mod model;
 pub mod options;
 pub mod read;
 pub mod report;
@@ -19,8 +23,9 @@ pub mod search;
 pub mod signal;
 mod verdict;
 
+pub use model::Model;
 pub use options::{LogOptions, Refused};
-pub use read::{Log, LogError, Names, Run, Signal, TorqueSide, is_log};
+pub use read::{Format, Log, LogError, Names, Opened, Run, Signal, TorqueSide, is_log};
 pub use report::LogDiagnosis;
 pub use scene::Domain;
-pub use verdict::diagnose;
+pub use verdict::{diagnose, diagnosed};

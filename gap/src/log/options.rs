@@ -1,9 +1,11 @@
 //! What may be said of a log's diagnosis, and what stands in its way.
 
+use stiffarm_codegen::robot::Effect;
+
 use super::effects::CATALOGUE;
 use super::read::{Log, Signal, TorqueSide};
 use super::scene::Domain;
-use crate::measurement::nearest;
+use crate::measurement::{Body, nearest};
 
 /// How a log is diagnosed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +22,12 @@ pub struct LogOptions {
     pub standstill: Option<f64>,
     /// Only these effects.
     pub effects: Option<Vec<String>>,
+    /// What the robot file knows of the arm in motion: its tables of that kind.
+    pub known: Vec<Effect>,
+    /// Loads that are known, by the names in the log's column `payload`.
+    pub payloads: Vec<Body>,
+    /// Whether masses and inertias of the robot file are the links'; else these are fitted along.
+    pub known_links: bool,
     /// Of random signs.
     pub seed: u64,
 }
@@ -31,7 +39,7 @@ pub enum Refused {
     #[error(
         "{file}: found torques without a side, expected where they are measured: motor (joint side \
          of the gear, friction in it), link (a sensor behind the gear), current, commanded or \
-         external; say it with --torque-side, or in a line `# torque_side = …` of the log"
+         external; say it with --torque-side, in a line `# torque_side = …` of the log, or as torque_side in the robot file"
     )]
     NoSide { file: String },
     #[error(
@@ -39,6 +47,8 @@ pub enum Refused {
          robot's own model is taken away already, and with it what could be told of the arm"
     )]
     External { file: String },
+    #[error("the robot file: {message}")]
+    Known { message: String },
     #[error("{file}: found no {missing}, expected it for {rows} rows")]
     NoRows { file: String, missing: &'static str, rows: &'static str },
     #[error("found the effect `{found}`, expected one of {}{}", known.join(", "), suggestion.as_ref().map_or_else(String::new, |s| format!("; did you mean `{s}`?")))]

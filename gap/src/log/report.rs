@@ -37,6 +37,8 @@ pub struct LogDiagnosis {
     pub findings: Vec<Finding>,
     /// What this log cannot show, and why.
     pub cannot_see: Vec<Hidden>,
+    /// What no effect that was tried explains.
+    pub unexplained: Unexplained,
     /// What was noticed of rows and clocks.
     pub remarks: Vec<String>,
 }
@@ -143,4 +145,26 @@ pub struct Hidden {
     pub place: String,
     /// Why.
     pub reason: String,
+}
+
+/// What is left beyond accident.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unexplained {
+    /// Whether there is any.
+    pub present: bool,
+    /// On what it depends; the largest share first.
+    pub depends_on: Vec<Dependence>,
+}
+
+/// What is left of a joint as far as it depends on something.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Dependence {
+    /// Where.
+    pub place: String,
+    /// On what: `angle`, `speed`, `acceleration`, `load`, `time`, or `speed of joint 2`.
+    pub of: String,
+    /// The part of the squares that are left which goes with it.
+    pub share: f64,
+    /// The chance that it is accident.
+    pub p_value: f64,
 }

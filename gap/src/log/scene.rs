@@ -3,9 +3,13 @@
 //! A row is a joint at a time. Of torque rows the gap is what drives the joint, less what the rigid
 //! links ask; of position rows it is where the joint is, less where it was to be.
 
+use std::cell::OnceCell;
+
+use nalgebra::Vector3;
 use stiffarm_kernels::generic::Arm;
 
 use super::read::TorqueSide;
+use super::rigid::diagonal;
 use super::signal::Signals;
 
 /// What the rows are.
@@ -32,18 +36,22 @@ impl Column {
     }
 }
 
-/// What a model asks of each joint's drive, N·m or N, at the rows. Not what was measured: a torque always
-/// explains itself.
-#[derive(Clone, Debug, PartialEq)]
+/// What a model asks of each joint's drive at every fine sample, in the unit of the rows. Not what was
+/// measured: a torque always explains itself.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loads {
     /// Its rigid links.
     pub rigid: Vec<Vec<f64>>,
-    /// The whole model.
-    pub whole: Vec<Vec<f64>>,
+    /// Its Coulomb and viscous friction.
+    pub friction: Vec<Vec<f64>>,
+    /// The load that is known to be on the last link, which is among them.
+    pub known: Vec<Vec<f64>>,
+    /// Numbers of the links, ten each, that ask the same as the rigid links.
+    pub numbers: Vec<f64>,
 }
 
 /// A log as the effects see it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Scene<'a> {
     /// The arm of the robot file.
     pub arm: &'a Arm,
@@ -53,27 +61,71 @@ pub struct Scene<'a> {
     pub domain: Domain,
     /// Where the torque is measured; `None` of position rows.
     pub side: Option<TorqueSide>,
-    /// What the weights of the robot file do to each joint, N·m or N, at the rows.
-    pub weights: &'a [Vec<f64>],
-    /// What the model so far asks of the drives.
+    /// What a simple model asks of the drives: rigid links, Coulomb and viscous friction.
     pub loads: &'a Loads,
     /// Speeds below which a joint counts as standing, one per joint, rad/s or m/s.
     pub still: &'a [f64],
+    /// Ripples of each joint that stand out, in periods per radian or metre.
+    pub ripples: &'a [Vec<f64>],
+    /// What each run carries, by its name; `None` is nothing.
+    pub payloads: &'a [Option<String>],
+    weights: OnceCell<[Vec<Vec<f64>>; 4]>,
+    inertias: OnceCell<Vec<Vec<f64>>>,
 }
 
-/// What an arm's weights do to each joint, N·m or N, at the rows.
-pub fn weights(arm: &Arm, signals: &Signals) -> Vec<Vec<f64>> {
-    let rows: Vec<Vec<f64>> = signals.q.iter().map(|q| signals.kept(q)).collect();
-    let mut weights = vec![Vec::with_capacity(signals.rows()); arm.dof()];
-    for k in 0..signals.rows() {
-        let q: Vec<f64> = rows.iter().map(|q| q[k]).collect();
-        let torques = arm.weight_torque(&q);
-        weights.iter_mut().zip(torques.iter()).for_each(|(of, torque)| of.push(*torque));
+impl<'a> Scene<'a> {
+    /// Of some signals.
+    pub fn new(
+        arm: &'a Arm,
+        signals: &'a Signals,
+        (domain, side): (Domain, Option<TorqueSide>),
+        loads: &'a Loads,
+        still: &'a [f64],
+        ripples: &'a [Vec<f64>],
+        payloads: &'a [Option<String>],
+    ) -> Self {
+        let (weights, inertias) = (OnceCell::new(), OnceCell::new());
+        Scene { arm, signals, domain, side, loads, still, ripples, payloads, weights, inertias }
     }
-    weights
-}
 
-impl Scene<'_> {
+    /// What the weights of the robot file do to each joint, N·m or N, at the rows; then what they do
+    /// per radian by which the base is turned about its own x, y and z.
+    pub fn weights(&self) -> &[Vec<Vec<f64>>; 4] {
+        self.weights.get_or_init(|| {
+            let gravity = self.arm.gravity;
+            // The base that turns is gravity that turns the other way.
+            let turned = |axis: Vector3<f64>| gravity.cross(&axis);
+            let rows: Vec<Vec<f64>> = self.signals.q.iter().map(|q| self.signals.kept(q)).collect();
+            let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(turned);
+            [gravity, axes[0], axes[1], axes[2]].map(|gravity| {
+                let arm = Arm { gravity, ..self.arm.clone() };
+                if gravity == Vector3::zeros() {
+                    return vec![vec![0.0; self.signals.rows()]; arm.dof()];
+                }
+                let mut weights = vec![Vec::with_capacity(self.signals.rows()); arm.dof()];
+                for k in 0..self.signals.rows() {
+                    let q: Vec<f64> = rows.iter().map(|q| q[k]).collect();
+                    let torques = arm.weight_torque(&q);
+                    weights.iter_mut().zip(torques.iter()).for_each(|(of, x)| of.push(*x));
+                }
+                weights
+            })
+        })
+    }
+
+    /// What a unit of acceleration of each joint alone asks of it at the fine samples.
+    pub fn inertias(&self) -> &[Vec<f64>] {
+        self.inertias.get_or_init(|| {
+            let mut inertias = vec![Vec::with_capacity(self.signals.t.len()); self.arm.dof()];
+            for k in 0..self.signals.t.len() {
+                let q: Vec<f64> = self.signals.q.iter().map(|q| q[k]).collect();
+                let diagonal = diagonal(self.arm, &q, &self.loads.numbers);
+                inertias.iter_mut().zip(diagonal).for_each(|(of, x)| of.push(x));
+            }
+            inertias
+        })
+    }
+
     /// The column of one joint, of what a fine sample is.
     pub fn column(&self, joint: usize, of: impl Fn(usize) -> f64) -> Column {
         let fine: Vec<f64> = (0..self.signals.t.len()).map(of).collect();
@@ -85,44 +137,10 @@ impl Scene<'_> {
         self.signals.qd[joint][k].signum()
     }
 
-    /// Which way each joint moved last, as soon as it moves; 0 before its first move. A joint that
-    /// stands keeps its direction.
-    pub fn last_way(&self, joint: usize) -> Vec<f64> {
-        let mut ways = Vec::with_capacity(self.signals.t.len());
-        for span in &self.signals.spans {
-            let mut way = 0.0;
-            for speed in &self.signals.qd[joint][span.fine.clone()] {
-                if speed.abs() > self.still[joint] {
-                    way = speed.signum();
-                }
-                ways.push(way);
-            }
-        }
-        ways
-    }
-
-    /// Rows that count, of each joint: away from the ends of the filters, no contact, and for torques no standstill, where friction takes any
-    /// value up to Coulomb's.
-    pub fn rows(&self) -> Vec<Vec<bool>> {
-        let touches = self.signals.kept(&self.signals.contact);
-        let free = self.signals.settled().into_iter().zip(touches).map(|(s, touch)| s && !touch);
-        let free: Vec<bool> = free.collect();
-        let counts = |joint: usize| {
-            let speeds = self.signals.kept(&self.signals.qd[joint]);
-            let moves = |speed: f64| speed.abs() > self.still[joint];
-            speeds
-                .into_iter()
-                .zip(&free)
-                .map(|(speed, free)| *free && (self.domain == Domain::Position || moves(speed)))
-                .collect()
-        };
-        (0..self.signals.joints()).map(counts).collect()
-    }
-
     /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is
     /// one that has them in it.
     fn modelled(&self, joint: usize, k: usize) -> f64 {
-        if !matches!(self.side, Some(TorqueSide::Motor | TorqueSide::Commanded)) {
+        if !self.side.is_some_and(TorqueSide::is_driven) {
             return 0.0;
         }
         let (drive, signals) = (&self.arm.joints[joint].drive, self.signals);
@@ -130,8 +148,8 @@ impl Scene<'_> {
         rotor + drive.viscous * signals.qd[joint][k] + drive.coulomb * self.sign(joint, k)
     }
 
-    /// What is to be explained, of each joint.
-    pub fn target(&self) -> Vec<Vec<f64>> {
+    /// What is to be explained.
+    pub fn target(&self) -> Column {
         let signals = self.signals;
         let of = |joint: usize| match self.domain {
             Domain::Torque => {
@@ -145,6 +163,6 @@ impl Scene<'_> {
                 signals.filtered(&gaps)
             }
         };
-        (0..signals.joints()).map(of).collect()
+        Column { parts: (0..signals.joints()).map(|joint| (joint, of(joint))).collect() }
     }
 }

@@ -1,24 +1,40 @@
 //! From a log to what is said of it.
 
+use std::cell::RefCell;
+
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::effects::{CATALOGUE, LogEffect, Spot};
+use super::known;
+use super::model::{Acting, Model};
 use super::options::{LogOptions, Refused};
 use super::read::{Log, TorqueSide};
 use super::report::{
-    Alternative, Evidence, Filter, Finding, Hidden, JointGap, LogDiagnosis, Parameter,
+    Alternative, Dependence, Evidence, Filter, Finding, Hidden, JointGap, LogDiagnosis, Parameter,
+    Unexplained,
 };
-use super::rigid::{Base, regressor};
-use super::scene::{Column, Domain, Loads, Scene, weights};
+use super::rigid::{Base, body, moved};
+use super::scene::{Domain, Loads};
 use super::search::blocks::LEAST;
-use super::search::fit::{Problem, Term};
+use super::search::case::{Case, Simple, Wanted};
+use super::search::fit::{Links, Term};
 use super::search::judge::{Judged, Unseen, Verdict, judged};
+use super::search::rest::rests;
+use super::search::stock::{Mixed, Stock};
 use super::search::{self, Round, effective};
 use super::signal::Signals;
+use crate::measurement::Body;
 
 /// A joint that is slower than this part of its largest speed counts as standing.
 const STILL: f64 = 0.005;
+
+/// Times that a log is gone through again where effects bend: each makes the error of their values about
+/// its square.
+const AGAIN: usize = 3;
+
+/// Values that change by less than this part are found.
+const FOUND: f64 = 1e-3;
 
 /// Why a log brings the gap that it has: which effects at which places, one after the other, and how far
 /// it shrinks with them on time that no fit has seen.
@@ -26,9 +42,21 @@ const STILL: f64 = 0.005;
 /// # Errors
 /// [`Refused`]: what in the log or the options stands in the way.
 pub fn diagnose(arm: &Arm, log: &Log, options: &LogOptions) -> Result<LogDiagnosis, Refused> {
+    diagnosed(arm, log, options).map(|(diagnosis, _)| diagnosis)
+}
+
+/// The same, and what was found as a model that predicts.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnosed(
+    arm: &Arm,
+    log: &Log,
+    options: &LogOptions,
+) -> Result<(LogDiagnosis, Model), Refused> {
     let (domain, drive, side) = options.rows_of(log)?;
     options.checked(log.period())?;
-    let signals = Signals::of(log, drive, options.band);
+    let mut signals = Signals::of(log, drive, options.band);
     let (found, expected) =
         (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
     if found < expected {
@@ -37,34 +65,83 @@ pub fn diagnose(arm: &Arm, log: &Log, options: &LogOptions) -> Result<LogDiagnos
     let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
     let still: Vec<f64> = signals.qd.iter().map(still).collect();
-    let weights = match domain {
-        Domain::Position => weights(arm, &signals),
-        Domain::Torque => Vec::new(),
+    signals.mark_ways(&still);
+    let base = (domain == Domain::Torque).then(|| Base::of(arm));
+    let payloads: Vec<Option<String>> = log.runs.iter().map(|run| run.payload.clone()).collect();
+    let current = side == Some(TorqueSide::Current);
+    let loaded = loaded(arm, &payloads, &options.payloads, current);
+    let known = known::terms(&options.known, arm.dof(), domain)
+        .map_err(|message| Refused::Known { message })?;
+    let case = Case {
+        arm,
+        signals: &signals,
+        kind: (domain, side),
+        still: &still,
+        base: base.as_ref(),
+        payloads: &payloads,
+        known: &known,
+        loaded: &loaded,
     };
-    let nothing = vec![vec![0.0; signals.rows()]; signals.joints()];
-    let loads = Loads { rigid: nothing.clone(), whole: nothing };
-    let (weights, still, loads, signals) = (&weights[..], &still[..], &loads, &signals);
-    let scene = Scene { arm, signals, domain, side, weights, loads, still };
-    let base = if domain == Domain::Torque { rigid_columns(arm, signals) } else { Vec::new() };
-    let problem = Problem { scene, target: scene.target(), counts: scene.rows(), base };
-    if let Some(joint) = problem.counts.iter().position(|c| !c.contains(&true)) {
+    if let Some(joint) = case.counts().iter().position(|c| !c.contains(&true)) {
         return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
     }
-    let wanted = search::wanted(&problem, options.effects.as_deref());
-    let told = Told { problem: &problem, arm, current: side == Some(TorqueSide::Current) };
-    let (mut left, mut before, mut cannot_see) = (Vec::new(), Vec::new(), Vec::new());
-    let last = search::search(&problem, &wanted, options.seed, &mut |round| {
-        let unseen = Unseen::of(&problem, &round.fit, &round.state.sizes, &round.blocks).sizes();
-        left.push(told.mean(&unseen));
-        if before.is_empty() {
-            (before, cannot_see) = (unseen, hidden(&scene, round));
+    let simple = Simple::of(&case, options.seed);
+    let mut wanted = search::wanted(&case, &simple, options.effects.as_deref());
+    let links = links(&case, options);
+    if links == Links::Free {
+        wanted.retain(|(effect, spot, _)| {
+            effect.carried(arm, *spot).is_none_or(|carried| carried.run.is_some())
+        });
+    }
+    let mut stock = Stock::of(&case, &simple, &wanted, 1);
+    let told = Told { arm, kind: case.kind, current, sizes: sizes(&stock) };
+    let history = RefCell::new(History::default());
+    let mut terms: Vec<Term> = Vec::new();
+    let mut again = 0;
+    let verdict = loop {
+        let offers: Vec<usize> = (0..stock.offers.len()).collect();
+        let last = search::search(&stock, &terms, &links, &offers, options.seed, &mut |round| {
+            history.borrow_mut().note(&stock, &told, round);
+        });
+        let verdict = judged(&stock, &last, &offers, options.seed);
+        if again == AGAIN || !moved_on(&stock, &verdict.fit.terms) {
+            break verdict;
         }
-    });
-    let verdict = judged(&problem, &last, &wanted, options.seed);
-    let after = Unseen::of(&problem, &verdict.fit, &verdict.state.sizes, &verdict.blocks);
-    let counted = problem.counts.iter().flatten().filter(|c| **c).count();
+        again += 1;
+        let more = about(&wanted, &verdict.fit.terms);
+        stock = Stock::of(&case, &simple, &more, 1);
+        terms = verdict.fit.terms.iter().map(|term| again_of(&stock, term)).collect();
+    };
+    let History { before, left, hidden: unseen, alone } = history.into_inner();
+    let after = Unseen::of(&stock, &verdict.fit, &verdict.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
-    Ok(LogDiagnosis {
+    let rests = rests(&stock, &verdict, options.seed).into_iter().map(|rest| Dependence {
+        place: Spot::Joint(rest.joint).to_string(),
+        of: rest.of,
+        share: rest.share,
+        p_value: rest.chance,
+    });
+    let depends_on: Vec<Dependence> = rests.collect();
+    let rigid = |fitted: &[f64]| match &links {
+        Links::Known(values) => values.clone(),
+        Links::Free => fitted[..stock.base].to_vec(),
+    };
+    let acting =
+        |term: &Term| Acting { effect: term.effect, spot: term.spot, values: term.values.clone() };
+    let model = Model {
+        rows: domain,
+        drive,
+        side,
+        band: signals.band,
+        still: still.clone(),
+        payloads: options.payloads.clone(),
+        known: known.clone(),
+        terms: verdict.findings.iter().map(|judged| acting(&judged.term)).collect(),
+        rigid: rigid(&verdict.fit.values),
+        alone: rigid(&alone),
+        simple: simple.clone(),
+    };
+    let diagnosis = LogDiagnosis {
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
         files: log.files.clone(),
@@ -77,59 +154,134 @@ pub fn diagnose(arm: &Arm, log: &Log, options: &LogOptions) -> Result<LogDiagnos
             period: log.period(),
             band: signals.band,
             band_given: options.band.is_some(),
-            standstill: still.to_vec(),
+            standstill: still.clone(),
         },
         evidence: Evidence {
-            effective: effective(&problem.counts, &verdict.correlation, signals),
+            effective: effective(&stock.used, &verdict.correlation, &signals),
             correlation_time: verdict.correlation.clone(),
-            rows: counted,
-            blocks: blocks.rows.len(),
+            rows: stock.used.iter().sum::<f64>() as usize,
+            blocks: blocks.all.len(),
             block_length: blocks.length,
             long_enough: blocks.long_enough,
             held_out_by: if blocks.by_run { "run" } else { "block" },
             folds: blocks.folds,
         },
-        rigid_parameters: problem.base.len(),
-        gap: told.gap(&before, &after.sizes()),
-        findings: told.findings(&last.fit.terms, &left, &verdict, &after),
-        cannot_see,
+        rigid_parameters: if links == Links::Free { stock.base } else { 0 },
+        gap: told.gap(&before, &after.sizes),
+        findings: told.findings(&left, &verdict, &after),
+        cannot_see: hidden(&case, &simple, &loaded, unseen),
+        unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
         remarks: log.remarks(),
-    })
+    };
+    Ok((diagnosis, model))
 }
 
-/// What a unit of each base parameter asks of the joints.
-fn rigid_columns(arm: &Arm, signals: &Signals) -> Vec<Column> {
-    let (n, base) = (arm.dof(), Base::of(arm));
-    let fine = signals.t.len();
-    let at = |of: &[Vec<f64>], k: usize| of.iter().map(|x| x[k]).collect::<Vec<f64>>();
-    let mut columns: Vec<Vec<Vec<f64>>> =
-        base.columns.iter().map(|c| vec![Vec::with_capacity(fine); c / 10 + 1]).collect();
-    for k in 0..fine {
-        let rows = regressor(arm, &at(&signals.q, k), &at(&signals.qd, k), &at(&signals.qdd, k));
-        for (column, index) in columns.iter_mut().zip(&base.columns) {
-            // A link's inertia is felt by its own joint and those below.
-            for (joint, values) in column.iter_mut().enumerate() {
-                values.push(rows[joint * 10 * n + index]);
-            }
+/// Of each run the numbers of the load that is known to be on the last link, in its frame.
+pub(super) fn loaded(
+    arm: &Arm,
+    runs: &[Option<String>],
+    payloads: &[Body],
+    current: bool,
+) -> Vec<Option<[f64; 10]>> {
+    let load = |name: &Option<String>| {
+        let known = payloads.iter().find(|body| Some(&body.name) == name.as_ref())?;
+        Some(moved(&arm.tool, &body(known.mass, &known.com, &Default::default())))
+    };
+    // Of a current no one knows the newton-metres: a known load tells nothing of it.
+    runs.iter().map(|name| load(name).filter(|_| !current)).collect()
+}
+
+/// What is known of the rigid links: the robot file's numbers, if it has them and they are trusted.
+fn links(case: &Case<'_>, options: &LogOptions) -> Links {
+    let weightless = case.arm.joints.iter().all(|joint| joint.mass == 0.0);
+    let current = case.kind.1 == Some(TorqueSide::Current);
+    let trusted = options.known_links && !weightless && !current;
+    let Some(base) = case.base.filter(|_| trusted) else {
+        return Links::Free;
+    };
+    let moments = nalgebra::DVector::from_vec(case.arm.moments());
+    Links::Known((&base.mix * moments).iter().copied().collect())
+}
+
+/// Sizes of the joints' torques, or of their position errors.
+fn sizes(stock: &Stock<'_>) -> Vec<f64> {
+    let rows = stock.sampled(&[Mixed::one(stock.target)], &[1.0]);
+    let size = |rows: &Vec<Option<f64>>| {
+        let count = rows.iter().flatten().count().max(1) as f64;
+        let mean = match stock.case.kind.0 {
+            Domain::Torque => rows.iter().flatten().sum::<f64>() / count,
+            Domain::Position => 0.0,
+        };
+        let sum = rows.iter().flatten().map(|x| (x - mean).powi(2)).sum::<f64>();
+        if sum > 0.0 { (sum / count).sqrt() } else { 1.0 }
+    };
+    rows.iter().map(size).collect()
+}
+
+/// Whether terms that bend have left the values about which they are linearised.
+fn moved_on(stock: &Stock<'_>, terms: &[Term]) -> bool {
+    let moved = |term: &Term| {
+        let pairs = stock.entry(term).at.iter().zip(&term.values);
+        pairs.into_iter().any(|(at, is)| (is - at).abs() > FOUND * is.abs())
+    };
+    terms.iter().any(|term| term.effect.bends() && moved(term))
+}
+
+/// The effects that are asked for, those that bend about the values that they have too.
+fn about(wanted: &[Wanted], terms: &[Term]) -> Vec<Wanted> {
+    let mut wanted = wanted.to_vec();
+    for term in terms.iter().filter(|term| term.effect.bends()) {
+        wanted[term.offer].2.push(term.values.clone());
+    }
+    wanted
+}
+
+/// The same term in another stock, about its own values if it bends.
+fn again_of(stock: &Stock<'_>, term: &Term) -> Term {
+    let entry = if term.effect.bends() { stock.offers[term.offer].entries.len() - 1 } else { 0 };
+    Term { entry, ..term.clone() }
+}
+
+/// What was left before each term.
+#[derive(Default)]
+struct History {
+    /// Of each joint, before any.
+    before: Vec<f64>,
+    /// Of all joints, before each that was added, by effect and place, and at the end.
+    left: Vec<(Vec<(&'static str, Spot)>, f64)>,
+    /// What the model as it was first showed nothing of.
+    hidden: Vec<(&'static dyn LogEffect, Spot)>,
+    /// Values of the links' columns, where they are fitted, before any.
+    alone: Vec<f64>,
+}
+
+impl History {
+    fn note(&mut self, stock: &Stock<'_>, told: &Told<'_>, round: &Round) {
+        let unseen = Unseen::of(stock, &round.fit, &round.sizes, &round.blocks).sizes;
+        let names = round.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
+        self.left.push((names.collect(), told.mean(&unseen)));
+        if self.before.is_empty() {
+            self.before = unseen;
+            self.alone.clone_from(&round.fit.values);
+            let blind = round.asked.candidates.iter().filter(|c| !c.seen);
+            self.hidden = blind.map(|c| (c.term.effect, c.term.spot)).collect();
         }
     }
-    let filtered = |joints: Vec<Vec<f64>>| Column {
-        parts: joints.iter().map(|values| signals.filtered(values)).enumerate().collect(),
-    };
-    columns.into_iter().map(filtered).collect()
 }
 
 /// How numbers are told.
 struct Told<'a> {
-    problem: &'a Problem<'a>,
     arm: &'a Arm,
+    kind: (Domain, Option<TorqueSide>),
     current: bool,
+    /// Sizes of the joints' torques, or of their position errors.
+    sizes: Vec<f64>,
 }
 
 impl Told<'_> {
     /// What a joint's gap is measured in.
     fn gap_unit(&self, joint: usize) -> &'static str {
-        match (self.problem.scene.domain, self.arm.joints[joint].motion) {
+        match (self.kind.0, self.arm.joints[joint].motion) {
             (Domain::Torque, _) if self.current => "A",
             (Domain::Torque, Motion::Revolute) => "N·m",
             (Domain::Torque, Motion::Prismatic) => "N",
@@ -141,10 +293,10 @@ impl Told<'_> {
     /// The unit of an effect's number at a spot.
     fn unit(&self, unit: &str, spot: Spot) -> String {
         let slides = match spot {
-            Spot::Joint(joint) | Spot::Pair(joint, _, _) => {
+            Spot::Joint(joint) | Spot::Pair(joint, ..) => {
                 self.arm.joints[joint].motion == Motion::Prismatic
             }
-            Spot::Interface => false,
+            _ => false,
         };
         let unit = match (slides, unit) {
             (true, "kg·m²") if !self.current => "kg".to_owned(),
@@ -158,25 +310,11 @@ impl Told<'_> {
         }
     }
 
-    /// Sizes of the joints' torques, or of their position errors.
-    fn sizes(&self) -> Vec<f64> {
-        if self.problem.scene.domain == Domain::Position {
-            return self.problem.sizes(&self.problem.target);
-        }
-        let about = |(rows, counts): (&Vec<f64>, &Vec<bool>)| {
-            let used = || rows.iter().zip(counts).filter(|(_, c)| **c).map(|(x, _)| *x);
-            let mean = used().sum::<f64>() / used().count().max(1) as f64;
-            rows.iter().map(|x| x - mean).collect()
-        };
-        let pairs = self.problem.target.iter().zip(&self.problem.counts);
-        self.problem.sizes(&pairs.map(about).collect::<Vec<Vec<f64>>>())
-    }
-
     fn gap(&self, before: &[f64], after: &[f64]) -> Vec<JointGap> {
-        let pairs = before.iter().zip(after).zip(self.sizes());
-        let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), f64))| JointGap {
+        let pairs = before.iter().zip(after).zip(&self.sizes);
+        let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), &f64))| JointGap {
             unit: self.gap_unit(joint),
-            size,
+            size: *size,
             before: *before,
             after: *after,
         };
@@ -185,28 +323,28 @@ impl Told<'_> {
 
     /// Mean over the joints of what is left, as a part of their sizes.
     fn mean(&self, left: &[f64]) -> f64 {
-        let parts = left.iter().zip(self.sizes()).map(|(left, whole)| left / whole);
+        let parts = left.iter().zip(&self.sizes).map(|(left, whole)| left / whole);
         parts.sum::<f64>() / left.len() as f64
     }
 
-    /// Of the terms in the order in which they were `added`; `left` is what was left before each, and at
-    /// the end.
+    /// In the order in which they were added.
     fn findings(
         &self,
-        added: &[Term],
-        left: &[f64],
+        left: &[(Vec<(&'static str, Spot)>, f64)],
         verdict: &Verdict,
         unseen: &Unseen,
     ) -> Vec<Finding> {
-        let mut widths = unseen.half_widths[self.problem.base.len()..].iter();
+        let base = verdict.fit.columns.len()
+            - verdict.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
+        let mut widths = unseen.half_widths[base..].iter();
         let tell = |judged: &Judged| {
             let term = &judged.term;
-            let same =
-                |t: &Term| t.effect.identifier() == term.effect.identifier() && t.spot == term.spot;
-            let round = added.iter().position(same).unwrap_or(0);
+            let name = (term.effect.identifier(), term.spot);
+            // The first round that had it, and the one before.
+            let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
             let numbers = term.effect.numbers().iter().zip(&term.values).zip(&mut widths);
             Finding {
-                effect: term.effect.identifier(),
+                effect: name.0,
                 place: term.spot.to_string(),
                 parameters: numbers
                     .map(|(((name, unit), value), width)| Parameter {
@@ -216,8 +354,8 @@ impl Told<'_> {
                         ci95: [value - width, value + width],
                     })
                     .collect(),
-                held_out_before: left[round],
-                held_out_after: left[round + 1],
+                held_out_before: left[with - 1].1,
+                held_out_after: left[with].1,
                 p_value: judged.chance,
                 alternatives: judged.rivals.iter().map(alternative).collect(),
                 to_separate: (!judged.rivals.is_empty()).then(|| term.effect.about().separated_by),
@@ -232,26 +370,36 @@ fn alternative((term, leaves): &(Term, f64)) -> Alternative {
 }
 
 /// What this log cannot show.
-fn hidden(scene: &Scene<'_>, first: &Round) -> Vec<Hidden> {
+fn hidden(
+    case: &Case<'_>,
+    simple: &Simple,
+    loaded: &[Option<[f64; 10]>],
+    unseen: Vec<(&'static dyn LogEffect, Spot)>,
+) -> Vec<Hidden> {
     let mut hidden = Vec::new();
     let mut tell = |effect: &'static str, place: String, reason: &str| {
         hidden.push(Hidden { effect, place, reason: reason.to_owned() });
     };
-    if scene.domain == Domain::Torque {
+    if case.kind.0 == Domain::Torque && loaded.iter().all(Option::is_none) {
         tell(
             "torque_scale",
-            "every joint".to_owned(),
+            Spot::Arm.to_string(),
             "with free masses all inertias and frictions grow with it, exactly: only a payload of \
              known mass tells",
         );
     }
-    let own = CATALOGUE.iter().filter(|e| e.domain() == scene.domain);
-    for (effect, reason) in own.filter_map(|e: &&dyn LogEffect| Some((e, e.excluded(scene)?))) {
+    let loads = Loads::default();
+    let scene = case.scene(simple, case.signals, &loads);
+    let own = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0);
+    for (effect, reason) in own.filter_map(|e: &&dyn LogEffect| Some((e, e.excluded(&scene)?))) {
         tell(effect.identifier(), "every joint".to_owned(), &reason);
     }
-    for candidate in first.asked.candidates.iter().filter(|c| !c.seen) {
+    let scale = |effect: &&dyn LogEffect, spot: &Spot| {
+        effect.identifier() == "torque_scale" && *spot == Spot::Arm
+    };
+    for (effect, spot) in unseen.iter().filter(|(e, s)| !scale(e, s)) {
         let reason = "what is fitted along does the same in this motion";
-        tell(candidate.term.effect.identifier(), candidate.term.spot.to_string(), reason);
+        tell(effect.identifier(), spot.to_string(), reason);
     }
     hidden
 }

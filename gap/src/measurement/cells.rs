@@ -1,7 +1,6 @@
 //! The rows below the header: cells into numbers in SI.
 
 use csv::StringRecord;
-use nalgebra::Vector6;
 
 use super::Row;
 use super::header::Head;
@@ -116,7 +115,7 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
                 true => Ok(sd),
                 false => Err(Fault::Sigma { found: cell.to_owned() }),
             })?;
-            let all = row.sigma.get_or_insert_with(Vector6::zeros);
+            let all = row.sigma.get_or_insert_default();
             match of {
                 Some((_, k)) => all[k] = sd,
                 // A component's own column says more, whichever comes first.
@@ -127,7 +126,7 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
                 }),
             }
         }
-        Some(Role::Sim(_, k)) => row.sim.get_or_insert_with(Vector6::zeros)[k] = value()?,
+        Some(Role::Sim(_, k)) => row.sim.get_or_insert_default()[k] = value()?,
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Which rows are one pose.
 
 use std::collections::HashMap;
+use std::hash::BuildHasher;
 
 use super::Row;
 
@@ -20,17 +21,22 @@ const FIRST: f64 = 0.371_9;
 /// kind.
 pub(crate) struct Near {
     within: f64,
-    /// The first of each kind, by the cell in which it is.
-    cells: HashMap<Vec<i64>, Vec<(usize, Vec<f64>)>>,
-    kinds: usize,
+    /// The first of each kind, one after the other.
+    firsts: Vec<f64>,
+    /// Of each kind the one before it in its cell.
+    before: Vec<Option<usize>>,
+    /// The last kind that began in a cell, by the cell's hash: cells that share one hold more to
+    /// compare, no more.
+    cells: HashMap<u64, usize>,
 }
 
 impl Near {
     pub(crate) fn new(within: f64) -> Self {
-        Self { within, cells: HashMap::new(), kinds: 0 }
+        Self { within, firsts: Vec::new(), before: Vec::new(), cells: HashMap::new() }
     }
 
-    /// The kind of a point, numbered in the order in which they first appear.
+    /// The kind of a point, numbered in the order in which they first appear; all have as many
+    /// coordinates.
     pub(crate) fn kind(&mut self, point: &[f64]) -> usize {
         // A conversion out of range saturates.
         let cell = |x: f64, off: f64| (x / (SIDE * self.within) + FIRST + off).floor() as i64;
@@ -48,17 +54,22 @@ impl Near {
                 cells.iter_mut().for_each(|cell| cell.push(low));
             }
         }
-        let is_near = |(_, first): &&(usize, Vec<f64>)| {
-            first.iter().zip(point).all(|(a, b)| (a - b).abs() <= self.within)
+        let first = |kind: usize| &self.firsts[kind * point.len()..(kind + 1) * point.len()];
+        let is_near = |kind: &usize| {
+            first(*kind).iter().zip(point).all(|(a, b)| (a - b).abs() <= self.within)
         };
-        let known = cells.iter().filter_map(|cell| self.cells.get(cell)).flatten().find(is_near);
-        if let Some((kind, _)) = known {
-            return *kind;
+        let in_cell = |cell: &Vec<i64>| {
+            let last = self.cells.get(&self.cells.hasher().hash_one(cell)).copied();
+            core::iter::successors(last, |kind| self.before[*kind])
+        };
+        if let Some(kind) = cells.iter().flat_map(in_cell).filter(is_near).min() {
+            return kind;
         }
-        let own = point.iter().map(|x| cell(*x, 0.0)).collect();
-        self.cells.entry(own).or_default().push((self.kinds, point.to_vec()));
-        self.kinds += 1;
-        self.kinds - 1
+        let own: Vec<i64> = point.iter().map(|x| cell(*x, 0.0)).collect();
+        let (own, kind) = (self.cells.hasher().hash_one(own), self.before.len());
+        self.before.push(self.cells.insert(own, kind));
+        self.firsts.extend(point);
+        kind
     }
 }
 
@@ -69,21 +80,23 @@ impl Near {
 /// never one pose.
 pub(crate) fn assign(rows: &mut [Row]) -> usize {
     #[derive(PartialEq, Eq, Hash)]
-    enum Key {
-        Id(String),
+    enum Key<'r> {
+        Id(&'r str),
         Readings(usize),
     }
     let (mut seen, mut readings) = (HashMap::new(), Near::new(SAME));
-    for row in rows {
-        let of = row.session.clone();
+    let mut groups = Vec::with_capacity(rows.len());
+    for row in &*rows {
         let key = match &row.pose {
-            Some(id) => Key::Id(id.clone()),
+            Some(id) => Key::Id(id),
             None => Key::Readings(readings.kind(&row.q)),
         };
         let next = seen.len();
-        row.group = *seen.entry((of, key)).or_insert(next);
+        groups.push(*seen.entry((row.session.as_deref(), key)).or_insert(next));
     }
-    seen.len()
+    let poses = seen.len();
+    rows.iter_mut().zip(groups).for_each(|(row, group)| row.group = group);
+    poses
 }
 
 #[cfg(test)]

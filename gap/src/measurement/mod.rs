@@ -38,7 +38,7 @@ pub use unit::{Dimension, UNITS, Unit};
 use mistake::Mistakes;
 
 pub(crate) use group::Near;
-pub(crate) use role::Role;
+pub(crate) use role::{Role, nearest_name};
 pub(crate) use unit::nearest;
 
 /// A measurement file, in SI.
@@ -181,9 +181,9 @@ pub struct Row {
     pub measured: Vector6<f64>,
     /// The instrument's own standard deviation of each of these, m and rad, 0 where the file has no
     /// column for it; `None` if it has none at all.
-    pub sigma: Option<Vector6<f64>>,
+    pub sigma: Option<Box<Vector6<f64>>>,
     /// The same by the user's own simulator; 0 where [`Measurements::sim_given`] is false.
-    pub sim: Option<Vector6<f64>>,
+    pub sim: Option<Box<Vector6<f64>>>,
 }
 
 impl Row {
@@ -440,7 +440,7 @@ fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
         unit: head.unit_text.clone(),
         values: None,
         cells: Vec::new(),
-        suggestion: role::nearest_name(&head.name, layout),
+        suggestion: nearest_name(&head.name, layout),
     };
     unknown.map(column).collect()
 }

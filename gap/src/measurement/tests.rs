@@ -72,7 +72,7 @@ fn every_column_of_the_format_is_read_in_si() {
     assert_eq!(row.offset, Some([0.0, 0.1, 0.02]));
     let want = Vector6::new(1.0, 2.0, 3.0, core::f64::consts::FRAC_PI_2, 0.5, 0.1);
     assert!((row.measured - want).amax() < 1e-12);
-    assert_eq!(row.sim.unwrap(), Vector6::new(0.254, 0.0, 9.0, 0.0, 0.0, 0.0));
+    assert_eq!(**row.sim.as_ref().unwrap(), Vector6::new(0.254, 0.0, 9.0, 0.0, 0.0, 0.0));
     assert_eq!(data.sim_given, [true, false, true, false, false, false]);
     assert_eq!(data.kind, Kind::Pose { orientation: true });
     assert_eq!(data.components(), 6);
@@ -128,7 +128,7 @@ fn absent_columns_are_zero_or_none() {
     let row = &data.rows[0];
     assert_eq!((row.q.as_slice(), row.wrench), (&[1.0, 2.0, 3.0][..], Vector6::zeros()));
     assert_eq!((&row.direction, row.temperature, row.time, &row.pose), (&None, None, None, &None));
-    assert_eq!((&row.marker, row.offset, row.sim), (&None, Some([0.0; 3]), None));
+    assert_eq!((&row.marker, row.offset, &row.sim), (&None, Some([0.0; 3]), &None));
     assert_eq!(data.kind.components(), [false, false, true, false, false, false]);
 }
 
@@ -484,7 +484,7 @@ fn every_mistake_has_its_own_message() {
 fn standard_deviations_are_of_all_positions_or_of_each_component() {
     let text = "q1,q2,q3,sigma_dz[mm],dy,dz,drx,sigma[um]\n0,0,0,2,1,1,1,5\n";
     let data = read(text).unwrap();
-    let sigma = data.rows[0].sigma.unwrap();
+    let sigma = data.rows[0].sigma.as_ref().unwrap();
     assert_eq!((sigma[1], sigma[2], sigma[3]), (5.0 * 1e-6, 2.0 * 1e-3, 0.0));
     assert!(data.unused.is_empty() && data.extra.is_empty());
     let turned = read("q1,q2,q3,drx,sigma,sigma_dry\n0,0,0,1,1,1\n").unwrap();
@@ -493,7 +493,7 @@ fn standard_deviations_are_of_all_positions_or_of_each_component() {
         ["sigma", "sigma_dry"]
     );
     let turned = read("q1,q2,q3,drx,sigma,sigma_drx[mrad]\n0,0,0,1,1,2\n").unwrap();
-    assert_eq!(turned.rows[0].sigma.unwrap()[3], 2.0 * 1e-3);
+    assert_eq!(turned.rows[0].sigma.as_ref().unwrap()[3], 2.0 * 1e-3);
     assert_eq!(turned.unused[0].header, "sigma");
 }
 

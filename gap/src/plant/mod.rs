@@ -29,6 +29,7 @@ mod transform;
 mod truth;
 
 pub mod design;
+pub mod motion;
 
 use stiffarm_kernels::generic::Arm;
 
@@ -185,7 +186,7 @@ impl Plant {
                 let exact = self.shown(&self.nominal, &Frames::default(), design, at)?;
                 let first = self.nominal.first_order(at, design.kind);
                 let sim = exact.towards(&first, self.reality.geometric);
-                row.sim = Some(only(sim.vector(), components));
+                row.sim = Some(Box::new(only(sim.vector(), components)));
             }
         }
         Ok(measured)

@@ -95,15 +95,16 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
         let unit = if k < 3 { "m" } else { "rad" };
         add(format!("{}[{unit}]", names[k]), Box::new(move |r| number(r.measured[k])));
     }
-    let has_sigma = |k: &usize| data.rows.iter().all(|r| r.sigma.is_some_and(|s| s[*k] > 0.0));
+    let has_sigma =
+        |k: &usize| data.rows.iter().all(|r| r.sigma.as_ref().is_some_and(|s| s[*k] > 0.0));
     for k in (0..6).filter(|k| measured[*k]).filter(has_sigma) {
         let unit = if k < 3 { "m" } else { "rad" };
-        let cell = move |r: &Row| number(r.sigma.map_or(0.0, |sigma| sigma[k]));
+        let cell = move |r: &Row| number(r.sigma.as_ref().map_or(0.0, |sigma| sigma[k]));
         add(format!("{SIGMA_PREFIX}{}[{unit}]", names[k]), Box::new(cell));
     }
     for k in (0..6).filter(|k| data.sim_given[*k]) {
         let unit = if k < 3 { "m" } else { "rad" };
-        let cell = move |r: &Row| number(r.sim.map_or(0.0, |sim| sim[k]));
+        let cell = move |r: &Row| number(r.sim.as_ref().map_or(0.0, |sim| sim[k]));
         add(format!("{SIM_PREFIX}{}[{unit}]", names[k]), Box::new(cell));
     }
     columns

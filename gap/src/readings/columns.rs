@@ -6,7 +6,7 @@ use super::ImportError;
 use super::map::{Convention, Map, Theirs};
 use super::names::{self, Meaning};
 use super::sheet::Table;
-use crate::measurement::{Dimension, Layout, Role, SIM_PREFIX, Unit, nearest};
+use crate::measurement::{Dimension, Role, SIM_PREFIX, Unit, nearest};
 
 /// One column, as it is to be read.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub(super) struct Columns {
     pub ours: Vec<(String, Column)>,
     /// The numbers of an orientation that is to be turned, and which of it each is.
     pub orientation: Vec<(Convention, usize, Column)>,
-    pub mass: Option<Column>,
+    pub load: Option<Column>,
     /// What is kept as it stands.
     pub kept: Vec<Column>,
 }
@@ -99,10 +99,10 @@ impl Columns {
                     }
                 }
             }
-            Meaning::Mass => match &self.mass {
-                Some(first) => twice(first, "the mass on the tool"),
+            Meaning::Load => match &self.load {
+                Some(first) => twice(first, "the load on the tool"),
                 None => {
-                    self.mass = Some(column);
+                    self.load = Some(column);
                     Ok(())
                 }
             },
@@ -127,7 +127,7 @@ impl Meaning {
             Meaning::Ours(name) => name.clone(),
             Meaning::FromZero(index) => format!("q{}", index + 1),
             Meaning::Orientation(convention, k) => format!("{convention:?} {k}"),
-            Meaning::Mass => "mass".to_owned(),
+            Meaning::Load => "load".to_owned(),
         }
     }
 
@@ -148,10 +148,6 @@ fn named(ours: &str) -> Option<Meaning> {
         Meaning::Ours(name) if name != ours => None,
         meaning => Some(meaning),
     }
-    .or_else(|| {
-        let simulated = ours.strip_prefix(SIM_PREFIX).and_then(names::meaning);
-        simulated.map(|_| Meaning::Ours(ours.to_owned()))
-    })
 }
 
 /// The quantity of a column of ours; a joint's is an angle unless its unit is a length.
@@ -162,8 +158,7 @@ pub(super) fn dimension(ours: &str, unit: Option<&str>) -> Option<Dimension> {
         return Some(found.filter(|d| *d == Dimension::Length).unwrap_or(Dimension::Angle));
     }
     // Of what is not a joint's the reader of measurements knows the quantity, whatever the arm.
-    let any = Layout { motions: Vec::new(), markers: Vec::new(), readings: false, payloads: None };
-    Role::of(name, &any).ok()?.dimension(&any)
+    Role::of(name, &names::ANY).ok()?.dimension(&names::ANY)
 }
 
 fn position(table: &Table, theirs: &Theirs) -> Option<usize> {
@@ -186,8 +181,9 @@ fn no_column(table: &Table, map: &Map, ours: &str, theirs: &Theirs) -> ImportErr
 fn unknown(map: &Map, ours: &str) -> ImportError {
     let message = format!(
         "found `{ours}` among the columns, expected a name of ours: q1 …, s1 …, x y z, rx ry rz, \
-         dx … drz, fx … mz, temperature, time, pose, marker, mass, or one number of an orientation: \
-         a b c, roll pitch yaw, qw qx qy qz"
+         dx … drz, distance, from, from_x …, sim_x …, sigma, sigma_x …, fx … mz, temperature, time, \
+         pose, marker, session, payload, mass, or one number of an orientation: a b c, \
+         roll pitch yaw, qw qx qy qz"
     );
     ImportError::Map { map: map.file.clone(), message }
 }

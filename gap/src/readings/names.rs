@@ -1,7 +1,7 @@
 //! What a column is by its name, and the unit that stands in it.
 
 use super::map::Convention;
-use crate::measurement::{DISPLACEMENT_NAMES, POSE_NAMES, Unit, WRENCH_NAMES};
+use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, Unit, WRENCH_NAMES};
 
 /// What a column is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,8 +12,8 @@ pub(super) enum Meaning {
     FromZero(usize),
     /// One number of an orientation that is no rotation vector.
     Orientation(Convention, usize),
-    /// The mass of what hangs on the tool.
-    Mass,
+    /// What hangs on the tool: its mass, or its name.
+    Load,
 }
 
 /// What others call a joint's reading, before its number.
@@ -37,15 +37,29 @@ const AROUND: [(&str, &str); 9] = [
 ];
 
 /// What others call the columns that have no number.
-const WORDS: [(&str, &[&str]); 4] = [
+const WORDS: [(&str, &[&str]); 8] = [
     ("temperature", &["temp", "temperatur", "temperature", "tempc"]),
     ("time", &["time", "timestamp", "zeit", "seconds"]),
     ("pose", &["pose", "poseid", "posture", "config", "configuration", "konfiguration"]),
     ("marker", &["marker", "target", "reflector", "smr", "reflektor"]),
+    ("session", &["session", "sessionid", "sitting", "setup", "station", "sitzung", "aufstellung"]),
+    ("sigma", &["sigma", "std", "stdev", "stddev", "standarddeviation", "standardabweichung"]),
+    ("distance", &["distance", "dist", "ballbar", "abstand", "entfernung"]),
+    ("from", &FIXED),
 ];
 
-/// Names of a mass on the tool.
-const MASSES: [&str; 7] = ["mass", "payload", "payloadmass", "masse", "last", "zuladung", "load"];
+/// What others call the fixed end of a distance.
+const FIXED: [&str; 5] = ["from", "anchor", "socket", "fixedpoint", "festpunkt"];
+
+/// What others write before the name of a component whose standard deviation a column is.
+const SIGMAS: [&str; 4] = ["sigma", "std", "stdev", "stddev"];
+
+/// Names of what hangs on the tool.
+const LOADS: [&str; 7] = ["mass", "payload", "payloadmass", "masse", "last", "zuladung", "load"];
+
+/// Any arm: what is not a joint's is the same on all.
+pub(super) const ANY: Layout =
+    Layout { motions: Vec::new(), markers: Vec::new(), readings: false, payloads: None };
 
 /// Three angles or four numbers, by their names.
 const ORIENTATIONS: [(Convention, &[&str]); 6] = [
@@ -105,8 +119,11 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
     if let Some(word) = WORDS.iter().find(|(_, theirs)| theirs.contains(&folded.as_str())) {
         return ours(word.0);
     }
-    if MASSES.contains(&folded.as_str()) {
-        return Some(Meaning::Mass);
+    if LOADS.contains(&folded.as_str()) {
+        return Some(Meaning::Load);
+    }
+    if Role::of(name, &ANY).is_ok_and(|role| role != Role::Extra) {
+        return ours(name);
     }
     let plain = POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES).chain(&WRENCH_NAMES);
     if let Some(name) = plain.clone().find(|n| **n == folded) {
@@ -116,6 +133,15 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
         if let Some(k) = names.iter().position(|n| *n == folded) {
             return Some(Meaning::Orientation(convention, k));
         }
+    }
+    let behind = |words: &[&str]| -> Option<String> {
+        words.iter().find_map(|word| folded.strip_prefix(word)).map(str::to_owned)
+    };
+    if let Some(component) = behind(&SIGMAS).filter(|of| plain.clone().any(|n| n == of)) {
+        return ours(&format!("sigma_{component}"));
+    }
+    if let Some(axis) = behind(&FIXED).filter(|of| ["x", "y", "z"].contains(&of.as_str())) {
+        return ours(&format!("from_{axis}"));
     }
     let numbered = |letters: &[&str]| {
         let digits = folded.trim_start_matches(|c: char| !c.is_ascii_digit());

@@ -110,3 +110,33 @@ fn what_is_wrong_is_said_with_its_place() {
     let error = import(&Sheet::new("a.xlsx", b"PK\x03\x04junk".to_vec()), &Map::default());
     assert!(error.unwrap_err().to_string().contains("the workbook cannot be read"));
 }
+
+/// Everything that a measurement file holds has its synonyms, and what is nearly one is asked about.
+#[test]
+fn sessions_distances_precisions_and_loads_have_names() {
+    let text = "J1;Abstand [mm];Anchor X [mm];AnchorY [mm];from_z [mm];Std [um];Sitzung;Payload\n\
+                0,1;800,5;1;2;3;20;mon;5kg\n0,2;801;1;2;3;20;tue;none\n";
+    let imported = import_with(text, "").unwrap();
+    let header = imported.csv.lines().next().unwrap();
+    let expected =
+        "q1[rad],distance[mm],from_x[mm],from_y[mm],from_z[mm],sigma[um],session,payload";
+    assert_eq!(header, expected);
+    assert!(imported.csv.ends_with("0.2,801,1,2,3,20,tue,none\n"), "{}", imported.csv);
+    let said = imported.said.join("\n");
+    assert!(said.contains("`Payload` is payload: the names of [[payload]]"), "{said}");
+    // A sigma without a unit is told as the lengths are; what nobody knows keeps its unit.
+    let text = "J1,X [mm],sigma,sigma_y,std z [um],sim_x [mm],sesion,ycd_dy [in]\n\
+                0.1,1,0.02,1e-5,20,2,a,3\n";
+    let imported = import_with(text, "").unwrap();
+    let header = imported.csv.lines().next().unwrap();
+    let expected = "q1[rad],x[mm],sigma[mm],sigma_y[m],sigma_z[um],sim_x[mm],sesion,ycd_dy[in]";
+    assert_eq!(header, expected);
+    let said = imported.said.join("\n");
+    assert!(said.contains("nothing is known of it (did you mean `session`?)"), "{said}");
+    // A map says the same.
+    let map = "[columns]\nsession = \"Tag\"\npayload = \"Was\"\nfrom = \"Wo\"\ndistance = \"L\"\n";
+    let imported = import_with("J1,J2,L,Wo,Tag,Was\n0.1,0.2,0.8,left,mon,plate\n", map).unwrap();
+    let mut header: Vec<&str> = imported.csv.lines().next().unwrap().split(',').collect();
+    header.sort_unstable();
+    assert_eq!(header, ["distance[m]", "from", "payload", "q1[rad]", "q2[rad]", "session"]);
+}

@@ -7,7 +7,7 @@ use super::map::{Convention, Map};
 use super::sheet::{Cells, Table};
 use super::turn::Turn;
 use super::{ImportError, Imported, names};
-use crate::measurement::{Dimension, MOST_RADIANS, Unit, WRENCH_NAMES};
+use crate::measurement::{Dimension, MOST_RADIANS, Unit, WRENCH_NAMES, nearest_name};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
@@ -43,9 +43,17 @@ pub(super) fn write(
     }
     let in_degrees = looks_like(table, &ours, Dimension::Angle, MOST_RADIANS);
     let in_millimetres = looks_like(table, &ours, Dimension::Length, MOST_METRES);
+    // How well lengths are known is told in their unit, if there is one.
+    let length = |(name, column): &&&(String, Column)| {
+        !name.starts_with('q')
+            && dimension(name, None) == Some(Dimension::Length)
+            && column.unit.is_some()
+    };
+    let lengths = ours.iter().find(length).and_then(|(_, column)| column.unit.clone());
     for (name, column) in ours {
         let kind = dimension(name, column.unit.as_deref());
-        let unit = match (kind, &column.unit) {
+        let own = column.unit.as_ref();
+        let unit = match (kind, own.or_else(|| lengths.as_ref().filter(|_| name == "sigma"))) {
             (None, _) => None,
             (Some(kind), Some(found)) => Some(known(table, column, found, kind)?),
             (Some(Dimension::Angle), None) if in_degrees => Some("deg"),
@@ -76,24 +84,24 @@ pub(super) fn write(
     if let Some(turn) = &turn {
         said.push(orientation(table, turn, &mut outputs)?);
     }
-    if let Some(mass) = &columns.mass {
-        if let Some((name, _)) =
-            columns.ours.iter().find(|(n, _)| WRENCH_NAMES[..3].contains(&n.as_str()))
-        {
-            return Err(ImportError::Twice {
-                file: table.file.clone(),
-                first: mass.header.clone(),
-                second: name.clone(),
-                ours: "the load: a mass, or a force".to_owned(),
-            });
-        }
-        said.push(payload(table, mass, map, &mut outputs)?);
+    if let Some(load) = &columns.load {
+        said.push(match names_loads(table, load) {
+            true => payload(load, &mut outputs),
+            false => weight(table, load, columns, map, &mut outputs)?,
+        });
     }
     for column in &columns.kept {
         let bare = names::split(&column.header).0.replace(['[', ']'], " ");
         let clash = names::meaning(&bare).is_some();
-        let header = if clash { format!("raw_{}", bare.trim()) } else { bare.trim().to_owned() };
-        said.push(format!("`{}` is kept as `{header}`: nothing is known of it", column.header));
+        let name = if clash { format!("raw_{}", bare.trim()) } else { bare.trim().to_owned() };
+        let unit = column.unit.as_deref().and_then(Unit::named);
+        let header = unit.map_or(name.clone(), |unit| format!("{name}[{}]", unit.name));
+        let near = nearest_name(&bare, &names::ANY).filter(|_| !clash);
+        let meant = near.map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"));
+        said.push(format!(
+            "`{}` is kept as `{header}`: nothing is known of it{meant}",
+            column.header
+        ));
         outputs.push(Output { header, cell: Box::new(|row| Ok(column.text(row).to_owned())) });
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -152,13 +160,36 @@ fn orientation<'a>(
     Ok(format!("{} are rx, ry, rz: {order}{unit}", headers.join(", ")))
 }
 
+/// Whether a column has names of loads and no number.
+fn names_loads(table: &Table, load: &Column) -> bool {
+    let texts = || table.rows.iter().map(|row| load.text(row)).filter(|text| !is_none(text));
+    load.unit.is_none() && texts().count() > 0 && texts().all(|text| text.parse::<f64>().is_err())
+}
+
+/// What hangs on the tool, by the robot file's names.
+fn payload<'a>(load: &'a Column, outputs: &mut Vec<Output<'a>>) -> String {
+    let cell = |row: &Cells| Ok(load.text(row).to_owned());
+    outputs.push(Output { header: "payload".to_owned(), cell: Box::new(cell) });
+    format!("`{}` is payload: the names of [[payload]] in the robot file", load.header)
+}
+
 /// The weight of a mass on the tool.
-fn payload<'a>(
+fn weight<'a>(
     table: &'a Table,
     mass: &'a Column,
+    columns: &Columns,
     map: &Map,
     outputs: &mut Vec<Output<'a>>,
 ) -> Result<String, ImportError> {
+    let force = columns.ours.iter().find(|(n, _)| WRENCH_NAMES[..3].contains(&n.as_str()));
+    if let Some((name, _)) = force {
+        return Err(ImportError::Twice {
+            file: table.file.clone(),
+            first: mass.header.clone(),
+            second: name.clone(),
+            ours: "the load: a mass, or a force".to_owned(),
+        });
+    }
     let kilograms = match mass.unit.as_deref() {
         None | Some("kg") => 1.0,
         Some("g") => 1e-3,
@@ -213,6 +244,11 @@ fn known(
     })
 }
 
+/// Whether a cell says that it holds nothing.
+fn is_none(text: &str) -> bool {
+    ["", "-", "--", "na", "n/a", "nan"].contains(&text.to_lowercase().as_str())
+}
+
 /// Joints, loads, the rest, what was measured.
 fn order(name: &str) -> (usize, usize) {
     let number = |rest: &str| rest.parse().ok();
@@ -232,9 +268,8 @@ impl Column {
 
     /// The number of a row in the column's unit; `None` of a cell that holds none.
     fn number(&self, table: &Table, row: &Cells) -> Result<Option<f64>, ImportError> {
-        const NONE: [&str; 6] = ["", "-", "--", "na", "n/a", "nan"];
         let text = self.text(row);
-        if NONE.contains(&text.to_lowercase().as_str()) {
+        if is_none(text) {
             return Ok(None);
         }
         match text.parse::<f64>() {

@@ -68,16 +68,6 @@ impl<'a> Actual<'a> {
         }
     }
 
-    /// Whether it differs from the arm as the table has it in its joint values alone.
-    pub(crate) fn is_but_for_joints(&self, plain: &Actual<'_>) -> bool {
-        matches!(self.arm, Cow::Borrowed(_))
-            && self.laws.is_empty()
-            && (&self.fixed, &self.preload) == (&plain.fixed, &plain.preload)
-            && (self.wrench, self.load_point) == (plain.wrench, plain.load_point)
-            && (self.base, self.metre) == (plain.base, plain.metre)
-            && self.loaded_geometry == plain.loaded_geometry
-    }
-
     /// The displacement of a site that does not depend on the load.
     pub fn fixed_at(&mut self, site: Site) -> &mut Vector6<f64> {
         let index = site.index(self.arm.dof());

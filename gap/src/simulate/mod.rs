@@ -26,7 +26,7 @@ use crate::measurement::{Kind, Row};
 
 pub use actual::{Actual, Law, axis};
 pub use beam::chord;
-pub use moment::{Moment, moments};
+pub use moment::{Moment, Moments, moments};
 pub use rest::{beyond_first_order, by_laws, rest};
 pub use sim::{Reading, Sim};
 pub use site::Site;

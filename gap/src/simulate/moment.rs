@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::stream::Stream;
-use crate::measurement::Measurements;
+use crate::measurement::{Measurements, Row};
 
 /// What the order of the rows, and the columns `temperature` and `time`, say of one row.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,34 +30,59 @@ impl Moment {
     }
 }
 
-/// One for each row.
-pub fn moments(data: &Measurements) -> Vec<Moment> {
-    let cold = data.rows.first().and_then(|row| row.temperature);
-    let mut moments = Vec::with_capacity(data.rows.len());
-    for rows in data.sessions() {
-        let (first, start) = (moments.len(), rows[0].time);
-        let stream = Stream::of(rows).map(Arc::new);
-        let mut before = &rows[0].q;
-        for (k, row) in rows.iter().enumerate() {
-            moments.push(Moment {
-                index: first + k,
-                first,
-                last_move: row.q.iter().zip(before).map(|(now, then)| now - then).collect(),
-                warming: row.temperature.zip(cold).map_or(0.0, |(now, first)| now - first),
-                clock: row.time.zip(start).map_or(k as f64, |(now, first)| now - first),
-                stream: stream.clone(),
-            });
-            before = &row.q;
+/// The moments of all rows, each made when it is asked for: of very many rows they would be a good
+/// part of the memory.
+#[derive(Clone, Debug)]
+pub struct Moments<'d> {
+    rows: &'d [Row],
+    /// Of each session its first row, and its readings over time where they are a stream.
+    sessions: Vec<(usize, Option<Arc<Stream>>)>,
+}
+
+impl<'d> Moments<'d> {
+    /// Of measurements.
+    pub fn of(data: &'d Measurements) -> Moments<'d> {
+        let mut first = 0;
+        let each = data.sessions().map(|rows| {
+            let session = (first, Stream::of(rows).map(Arc::new));
+            first += rows.len();
+            session
+        });
+        Moments { sessions: each.collect(), rows: &data.rows }
+    }
+
+    /// Of one row.
+    ///
+    /// # Panics
+    /// Where there is no such row.
+    pub fn at(&self, index: usize) -> Moment {
+        let (row, cold) = (&self.rows[index], self.rows[0].temperature);
+        let session = self.sessions.partition_point(|(first, _)| *first <= index) - 1;
+        let (first, stream) = &self.sessions[session];
+        let before = &self.rows[index.saturating_sub(1).max(*first)].q;
+        let start = self.rows[*first].time;
+        Moment {
+            index,
+            first: *first,
+            last_move: row.q.iter().zip(before).map(|(now, then)| now - then).collect(),
+            warming: row.temperature.zip(cold).map_or(0.0, |(now, first)| now - first),
+            clock: row.time.zip(start).map_or((index - first) as f64, |(now, then)| now - then),
+            stream: stream.clone(),
         }
     }
-    moments
+}
+
+/// One for each row.
+pub fn moments(data: &Measurements) -> Vec<Moment> {
+    let moments = Moments::of(data);
+    (0..data.rows.len()).map(|row| moments.at(row)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixture::{row, table};
-    use crate::measurement::{Kind, Row};
+    use crate::measurement::Kind;
     use nalgebra::Vector6;
 
     #[test]

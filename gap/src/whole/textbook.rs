@@ -7,6 +7,7 @@ use stiffarm_kernels::{Output, Unstable};
 
 use super::{Situation, Whole};
 use crate::displacement::Displacement;
+use crate::effects::Known;
 use crate::simulate::{Actual, Site, by_laws, rotation, translation};
 
 /// Part of a load, and a load, N and N·m, so small that what goes with its cube is none beside what is in
@@ -33,9 +34,31 @@ impl Whole<'_> {
     ) -> Result<Option<Vec<f64>>, Unstable> {
         let (q, beside) = state.split_at(self.arm.dof());
         match output {
+            // What has nothing beyond the table is the table, and its copy would be most of the work.
+            output if self.known.is_empty() => {
+                let w = turned(&self.arm.base, &at.load);
+                self.arm.evaluate(output, state, &w.into()).map(Some)
+            }
             Output::ComplianceByJoints | Output::DeflectionByJoints => Ok(None),
             output => told(self.actual(q, at), beside, output).map(Some),
         }
+    }
+}
+
+impl<'a> Whole<'a> {
+    /// The first effect of which [`Whole::evaluate`] tells not everything at the readings `q`: it bends the
+    /// arm between joints whatever the load, turns a joint by a torque that no load makes, or is the
+    /// instrument's or another simulator's.
+    pub fn untold(&self, q: &[f64], at: &Situation) -> Option<&'a Known> {
+        self.known.iter().find(|one| {
+            let alone = Whole { arm: self.arm, known: core::slice::from_ref(*one) };
+            let actual = alone.actual(q, at);
+            let tool = Site::Tool.index(self.arm.dof());
+            let mut sites = actual.fixed.iter().enumerate();
+            sites.any(|(site, by)| site != tool && *by != Vector6::zeros())
+                || !actual.preload.is_empty()
+                || (actual.metre, actual.loaded_geometry) != (1.0, 0.0)
+        })
     }
 }
 

@@ -42,7 +42,7 @@ impl<'a> Bench<'a> {
                 return Err(WithholdError::NoNoise { what });
             }
         }
-        let nominal = exact(plan.arm, &[], plan.frames.as_ref(), plan.design)?;
+        let nominal = exact(plan.whole(), &[], plan.frames.as_ref(), plan.design)?;
         let mut bench = Bench { plan, nominal, nuisance: None };
         if plan.frames.is_some() {
             bench.nuisance = Some(bench.what_frames_do()?);
@@ -52,7 +52,7 @@ impl<'a> Bench<'a> {
 
     /// What an instrument without noise shows of these truths.
     pub(super) fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
-        exact(self.plan.arm, truths, self.plan.frames.as_ref(), self.plan.design)
+        exact(self.plan.whole(), truths, self.plan.frames.as_ref(), self.plan.design)
     }
 
     /// An effect at a place of chance, its gap about `multiple` times the noise. `None` if it does
@@ -117,7 +117,7 @@ impl<'a> Bench<'a> {
         let (components, noise) = (exact.kind.components(), self.plan.noise);
         let mut gap = Vec::new();
         for (row, nominal) in exact.rows.iter().zip(&self.nominal.rows) {
-            let predicted = row.sim.as_ref().unwrap_or(&nominal.measured);
+            let predicted = row.sim.as_deref().unwrap_or(&nominal.measured);
             let off = difference(&row.measured, predicted, components);
             for k in (0..6).filter(|k| components[*k]) {
                 gap.push(off[k] / if k < 3 { noise.position } else { noise.rotation });

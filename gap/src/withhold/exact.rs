@@ -4,11 +4,14 @@ use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::Unstable;
 use stiffarm_kernels::generic::Arm;
 
+use crate::effects::Known;
 use crate::measurement::{Measurements, Row};
 use crate::plant::{Frames, Plant, PlantError, Truth, has_law};
 use crate::simulate::{Actual, Moment, Sim, moments, origin};
+use crate::whole::Whole;
 
-/// A design as an arm with these truths shows it, in frames that nobody knows if there are any.
+/// A design as an arm, and what its file says beyond the table, show it with these truths, in frames
+/// that nobody knows if there are any.
 ///
 /// The plant measures what it has laws for. An effect of one's own it does not know: a case with one
 /// is measured by the effects' exact models, in the simulation that the diagnosis walks, and tests
@@ -16,15 +19,18 @@ use crate::simulate::{Actual, Moment, Sim, moments, origin};
 ///
 /// # Errors
 /// [`PlantError`]: a truth that the arm cannot have, or a load that it does not carry.
-pub fn exact(
-    arm: &Arm,
+pub fn exact<'a>(
+    whole: impl Into<Whole<'a>>,
     truths: &[Truth],
     frames: Option<&Frames>,
     design: &Measurements,
 ) -> Result<Measurements, PlantError> {
+    let Whole { arm, known } = whole.into();
+    let known: Vec<Known> = known.iter().filter(|known| known.is_there(design)).cloned().collect();
     let frames = frames.cloned().unwrap_or_default();
-    if truths.iter().all(|truth| has_law(truth.effect)) {
-        return Plant::new(arm, truths)?.with_frames(frames).exact(design);
+    let effects = truths.iter().map(|truth| truth.effect).chain(known.iter().map(|k| k.effect));
+    if effects.into_iter().all(has_law) {
+        return Plant::beyond(arm, &known, truths)?.with_frames(frames).exact(design);
     }
     let mut placed = arm.clone();
     placed.tool *= frames.tool;
@@ -46,6 +52,7 @@ pub fn exact(
                 let load = if loaded { row.wrench } else { Vector6::zeros() };
                 let mut actual = Actual::new(arm, &row.q, &load);
                 actual.base = base * arm.base;
+                known.iter().for_each(|known| known.alter(&mut actual, row, &when));
                 truths.iter().for_each(|truth| put(truth, &mut actual, row, &when, sign));
                 actual
             })?;
@@ -55,7 +62,7 @@ pub fn exact(
         };
         let reading = shown(&placed, frames.base, &real, 1.0).map_err(unstable)?;
         let sim = shown(arm, Isometry3::identity(), &lacking, -1.0).map_err(unstable)?;
-        (row.measured, row.sim) = (reading, (!lacking.is_empty()).then_some(sim));
+        (row.measured, row.sim) = (reading, (!lacking.is_empty()).then(|| Box::new(sim)));
     }
     Ok(measured)
 }

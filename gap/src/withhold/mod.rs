@@ -8,6 +8,7 @@ mod bench;
 mod case;
 mod draw;
 mod exact;
+pub mod logs;
 mod predict;
 mod report;
 mod run;
@@ -27,6 +28,7 @@ use crate::diagnose::{DiagnoseError, Options};
 use crate::effects::Effect;
 use crate::measurement::Measurements;
 use crate::plant::{Frames, Noise, PlantError};
+use crate::whole::Whole;
 
 /// What kind of case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -66,10 +68,18 @@ pub struct Plan<'a> {
     pub multiple: [f64; 2],
     /// Decides everything.
     pub seed: u64,
-    /// Of the diagnosis. Its noise is set to the instrument's, its seed and catalogue by the case.
+    /// Of the diagnosis; the arm has the effects that it knows already. Its noise is set to the
+    /// instrument's, its seed and catalogue by the case.
     pub options: &'a Options,
     /// Cases that are worked on at once.
     pub threads: usize,
+}
+
+impl<'a> Plan<'a> {
+    /// The robot, and what its file says beyond the table.
+    fn whole(&self) -> Whole<'a> {
+        Whole { arm: self.arm, known: &self.options.known }
+    }
 }
 
 /// Why there is no result.

@@ -1,7 +1,6 @@
 //! How far the gap really shrinks at poses that the diagnosis has never met.
 
 use nalgebra::Vector6;
-use stiffarm_kernels::generic::Arm;
 
 use super::bench::difference;
 use super::exact;
@@ -9,6 +8,7 @@ use crate::diagnose::Diagnosis;
 use crate::effects::Catalogue;
 use crate::measurement::Measurements;
 use crate::plant::Truth;
+use crate::whole::Whole;
 
 /// What the arm with a diagnosis' findings is predicted to read in each row of a design; `None`
 /// where the findings do not say. Only position and orientation as a file has them.
@@ -17,9 +17,10 @@ pub type Predict<'a> = dyn Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f
 /// The prediction of a plant that has the findings, with the values that were found: what they mean
 /// by the definition of the effects, whatever the diagnosis itself makes of them.
 pub fn with_findings<'a>(
-    arm: &'a Arm,
+    whole: impl Into<Whole<'a>>,
     catalogue: &'a Catalogue,
 ) -> impl Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f64>>> + Sync + 'a {
+    let whole = whole.into();
     move |found, design| {
         let truths: Option<Vec<Truth>> = found
             .findings
@@ -32,7 +33,7 @@ pub fn with_findings<'a>(
                 Some(Truth { effect, place, values })
             })
             .collect();
-        let exact = exact(arm, &truths?, None, design).ok()?;
+        let exact = exact(whole, &truths?, None, design).ok()?;
         Some(exact.rows.into_iter().map(|row| row.measured).collect())
     }
 }

@@ -125,7 +125,7 @@ fn realised_of(plan: &Plan<'_>, setup: &Setup, found: &Diagnosis) -> Option<f64>
     let (mut before, mut after) = (0.0, 0.0);
     for (k, fresh) in plan.fresh.iter().enumerate() {
         let seed = seed_of(setup.seed, k);
-        let shown = |truths: &[Truth]| exact(plan.arm, truths, None, fresh).ok();
+        let shown = |truths: &[Truth]| exact(plan.whole(), truths, None, fresh).ok();
         let measured = blurred(&shown(&truths)?, plan.noise, seed);
         let sums = squares(&measured, &shown(&[])?, &predict(found, fresh)?);
         before += sums[0];

@@ -54,7 +54,11 @@ pub(super) fn report(
             median: median(known().filter_map(|case| case.after).collect()),
         },
         shrink: shrunk(&cases),
-        confusion: confusion(plan, of(Kind::Single)),
+        confusion: confusion(of(Kind::Single).filter_map(|case| {
+            let label = case.labels.first()?;
+            let truth = plan.effects.iter().find(|e| e.identifier() == label.effect)?;
+            Some((truth.identifier(), label, first(case)))
+        })),
         cannot_plant: hidden.into_iter().map(Effect::identifier).collect(),
         failed: cases.iter().filter(|case| case.verdict.is_none()).count(),
         cases,
@@ -125,15 +129,14 @@ fn shrunk(cases: &[Case]) -> Option<Shrunk> {
     Some(Shrunk { median_off: median(off)?, inside: Rate::of(pairs.iter().map(inside)) })
 }
 
-fn confusion<'a>(plan: &Plan<'_>, cases: impl Iterator<Item = &'a Case>) -> Vec<Confusion> {
+/// What was named first how often: of each case the truth's identifier, its label, and the finding.
+pub(super) fn confusion<'a>(
+    cases: impl Iterator<Item = (&'static str, &'a Named, Option<&'a Named>)>,
+) -> Vec<Confusion> {
     let mut counts: BTreeMap<(&'static str, Option<String>, bool), usize> = BTreeMap::new();
-    for case in cases {
-        let Some(label) = case.labels.first() else { continue };
-        let truth = plan.effects.iter().find(|e| e.identifier() == label.effect);
-        let Some(truth) = truth else { continue };
-        let named = first(case);
+    for (truth, label, named) in cases {
         let at_its_place = named.is_some_and(|named| named.place == label.place);
-        let key = (truth.identifier(), named.map(|n| n.effect.clone()), at_its_place);
+        let key = (truth, named.map(|n| n.effect.clone()), at_its_place);
         *counts.entry(key).or_default() += 1;
     }
     let mut rows: Vec<Confusion> = counts

@@ -4,7 +4,9 @@ use crate::effects::{
 };
 use crate::fixture;
 use crate::measurement;
+use crate::plant::Truth;
 use crate::plant::design::{Design, Shape};
+use crate::whole::Whole;
 
 fn design(seed: u64) -> Measurements {
     let kind = measurement::Kind::Pose { orientation: true };
@@ -13,11 +15,14 @@ fn design(seed: u64) -> Measurements {
 }
 
 fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
+    let effects = Some(vec!["joint_compliance".to_owned()]);
+    checked(&Options { effects, ..Options::default() }, change)
+}
+
+fn checked(options: &Options, change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
     let catalogue = Catalogue::default();
     let (arm, design, fresh) = (fixture::springy(), design(1), [design(2), design(3)]);
-    let predict = with_findings(&arm, &catalogue);
-    let options =
-        Options { effects: Some(vec!["joint_compliance".to_owned()]), ..Options::default() };
+    let predict = with_findings(Whole { arm: &arm, known: &options.known }, &catalogue);
     let mut plan = Plan {
         arm: &arm,
         design: &design,
@@ -29,7 +34,7 @@ fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
         cases: 20,
         multiple: [8.0, 20.0],
         seed: 4,
-        options: &options,
+        options,
         threads: 2,
     };
     change(&mut plan);
@@ -125,4 +130,35 @@ fn frames_that_are_unknown_hide_what_moves_them() {
         !shows.contains(&(&BaseFrame as &dyn Effect))
             && shows.contains(&(&Backlash as &dyn Effect))
     );
+}
+
+/// What the robot file says beyond its table is in plant and diagnosis alike: with nothing put in there is
+/// no alarm, and springs are found on top of it.
+#[test]
+fn a_corrected_arm_is_measured_with_what_its_file_says() {
+    let design = design(1);
+    let known = vec![
+        fixture::known("joint_ratio", "joint 2", 0, &[0.01]),
+        fixture::known("base_compliance", "base", 0, &[4e-6, 3e-6, 1e-8]),
+    ];
+    let options = Options {
+        known: known.clone(),
+        effects: Some(vec!["joint_compliance".to_owned(), "joint_ratio".to_owned()]),
+        ..Options::default()
+    };
+    let report = checked(&options, |_| {}).unwrap();
+    assert_eq!(report.false_alarms.hits, 0, "{report:#?}");
+    assert_eq!(report.single.first_named.rate, Some(1.0), "{report:#?}");
+    assert!(report.shrink.unwrap().median_off.abs() < 0.05);
+    let arm = fixture::springy();
+    let shown = |known: &[crate::effects::Known]| {
+        exact(Whole { arm: &arm, known }, &[], None, &design).unwrap().rows[0].measured
+    };
+    assert!((shown(&known) - shown(&[])).norm() > 1e-4);
+    let own = Truth::parse("joint_ratio@joint 2=0.01", &arm).unwrap();
+    let by_plant = exact(&arm, &[own], None, &design).unwrap();
+    let by_file = exact(Whole { arm: &arm, known: &known[..1] }, &[], None, &design).unwrap();
+    for (a, b) in by_plant.rows.iter().zip(&by_file.rows) {
+        assert!((a.measured - b.measured).norm() < 1e-13);
+    }
 }

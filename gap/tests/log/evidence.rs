@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::effects::About;
 use stiffarm_gap::log::effects::{LogEffect, Number, Spot};
-use stiffarm_gap::log::scene::{Column, Domain, Loads, Scene};
+use stiffarm_gap::log::scene::{Column, Domain, Scene};
 use stiffarm_gap::log::search::Round;
-use stiffarm_gap::log::search::fit::Problem;
-use stiffarm_gap::log::search::{State, blocks::correlation_time};
+use stiffarm_gap::log::search::case::{Case, Simple};
+use stiffarm_gap::log::search::fit::Links;
+use stiffarm_gap::log::search::stock::Stock;
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Signal, TorqueSide};
 use stiffarm_kernels::generic::Arm;
@@ -27,10 +28,6 @@ impl LogEffect for Unrelated {
 
     fn about(&self) -> About {
         About::default()
-    }
-
-    fn domain(&self) -> Domain {
-        Domain::Torque
     }
 
     fn spots(&self, _: &Scene<'_>) -> Vec<Spot> {
@@ -58,23 +55,22 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     let q = vec![(0..COUNT).map(|k| (0.7 * STEP * k as f64).sin()).collect()];
     let signals = [(Signal::Q, q), (Signal::Torque, torque), (Signal::QCmd, slow)];
     let log = log(STEP, BTreeMap::from(signals));
-    let signals = Signals::of(&log, Some(Signal::Torque), Some(4.0));
-    let loads = Loads { rigid: Vec::new(), whole: Vec::new() };
-    let scene = Scene {
+    let mut signals = Signals::of(&log, Some(Signal::Torque), Some(4.0));
+    signals.mark_ways(&[0.0]);
+    let case = Case {
         arm,
         signals: &signals,
-        domain: Domain::Torque,
-        side: Some(TorqueSide::Motor),
-        weights: &[],
-        loads: &loads,
+        kind: (Domain::Torque, Some(TorqueSide::Motor)),
         still: &[0.0],
+        base: None,
+        known: &[],
+        payloads: &[None],
+        loaded: &[None],
     };
-    let (target, counts) = (scene.target(), scene.rows());
-    let time = correlation_time(&target[0], &counts[0], &signals);
-    let problem = Problem { scene, target, counts, base: Vec::new() };
-    let state = State { sizes: vec![1.0], loads: loads.clone() };
-    let round = Round::of(&problem, &[], &state, &[(&UNRELATED, Spot::Joint(0))], seed);
-    (round.asked.chances[0], time)
+    let wanted = [(&UNRELATED as &dyn LogEffect, Spot::Joint(0), vec![vec![0.0]])];
+    let stock = Stock::of(&case, &Simple::default(), &wanted, 1);
+    let round = Round::of(&stock, &[], &Links::Free, &[1.0], &[0], seed);
+    (round.asked.chances[0], round.correlation[0])
 }
 
 /// By samples it is significant at 5 % in four trials of five (`docs/logs.md`); by blocks of five

@@ -1,7 +1,9 @@
 //! Logs of plants that are written down in closed form, and what is said of them.
 
 mod evidence;
+mod formats;
 mod plant;
+mod planted;
 mod position;
 mod torque;
 

@@ -45,16 +45,25 @@ pub fn arm() -> Arm {
 
 /// What the weights ask of the drives.
 pub fn gravity(q: [f64; 2]) -> [f64; 2] {
-    let ([l1, l2], [m1, m2]) = (LENGTH, MASS);
+    weights(0.0, q)
+}
+
+fn weights(more: f64, q: [f64; 2]) -> [f64; 2] {
+    let ([l1, l2], [m1, m2]) = (LENGTH, [MASS[0], MASS[1] + more]);
     let second = m2 * l2 * G * (q[0] + q[1]).cos();
     [second + (m1 + m2) * l1 * G * q[0].cos(), second]
 }
 
 /// What the rigid links ask of the drives.
 pub fn rigid(q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
-    let ([l1, l2], [m1, m2]) = (LENGTH, MASS);
+    heavier(0.0, q, v, a)
+}
+
+/// The same with so much more at the tool.
+pub fn heavier(more: f64, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
+    let ([l1, l2], [m1, m2]) = (LENGTH, [MASS[0], MASS[1] + more]);
     let (s2, c2) = q[1].sin_cos();
-    let g = gravity(q);
+    let g = weights(more, q);
     let across = m2 * l1 * l2;
     [
         m2 * l2 * l2 * (a[0] + a[1])

@@ -75,7 +75,8 @@ fn nothing_is_found_where_nothing_is() {
 fn a_scale_of_all_torques_is_a_gauge() {
     let friction = [[6.0, 0.0], [1.5, 2.5]];
     let left = |scale: f64| -> Vec<f64> {
-        let found = diagnosed(&recorded(3, friction, scale));
+        let options = LogOptions { band: Some(8.0), ..LogOptions::default() };
+        let found = diagnose(&arm(), &recorded(3, friction, scale), &options).unwrap();
         assert!(found.cannot_see.iter().any(|h| h.effect == "torque_scale"));
         found.gap.iter().map(|g| g.after / g.size).collect()
     };

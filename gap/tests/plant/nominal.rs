@@ -92,7 +92,7 @@ fn the_sim_of_first_order_is_the_textbooks() {
         let design = rows(MOVED, vec![reading(&q, WRENCH)]);
         let data = plant(&arm, &["geometric_stiffness=1"]).measure(&design, EXACT, 0).unwrap();
         assert_eq!(data.sim_given, [true; 6]);
-        let sim = data.rows[0].sim.unwrap();
+        let sim = **data.rows[0].sim.as_ref().unwrap();
         // As a difference of poses: the rotations do not add up beyond first order.
         assert!((sim - arm.deflection_first_order(&q, &w)).fixed_rows::<3>(0).amax() < 1e-14);
         assert!((sim - arm.deflection_first_order(&q, &w)).amax() < 1e-5);
@@ -100,7 +100,7 @@ fn the_sim_of_first_order_is_the_textbooks() {
         // Half of it is half way.
         let half = plant(&arm, &["geometric_stiffness=0.5"]).measure(&design, EXACT, 0).unwrap();
         let middle = (data.rows[0].measured + sim) / 2.0;
-        assert!((half.rows[0].sim.unwrap() - middle).fixed_rows::<3>(0).amax() < 1e-14);
+        assert!((**half.rows[0].sim.as_ref().unwrap() - middle).fixed_rows::<3>(0).amax() < 1e-14);
         let asked = plant(&arm, &[]).with_first_order_sim().measure(&design, EXACT, 0).unwrap();
         assert_eq!(asked, data);
     }

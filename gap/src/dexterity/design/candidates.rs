@@ -4,13 +4,15 @@ use nalgebra::{DMatrix, Vector6};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Output, Unstable};
 
 use super::Plan;
 use crate::dexterity::{
-    DexterityError, Search, characteristic_length, influence, inverse_condition,
+    DexterityError, Search, block, characteristic_length, influence, inverse_condition,
 };
 use crate::random::between;
 use crate::robot::ranges;
+use crate::whole::Whole;
 
 /// Postures drawn per test wanted, and bounds of their number.
 const PER_TEST: usize = 40;
@@ -48,18 +50,18 @@ pub(super) struct Pool {
     pub(super) length: f64,
 }
 
-pub(super) fn draw(arm: &Arm, plan: &Plan) -> Result<Pool, DexterityError> {
-    let bounds = ranges(arm).map_err(|joint| DexterityError::Unlimited { joint })?;
+pub(super) fn draw(whole: Whole<'_>, plan: &Plan) -> Result<Pool, DexterityError> {
+    let bounds = ranges(whole.arm).map_err(|joint| DexterityError::Unlimited { joint })?;
     let count = (PER_TEST * plan.count).clamp(FEWEST, MOST).max(2 * plan.count);
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     let drawn: Vec<Vec<f64>> =
         (0..count).map(|_| bounds.iter().map(|b| between(&mut random, *b)).collect()).collect();
-    let length = length(arm, &drawn, plan.seed)?;
+    let length = length(whole.arm, &drawn, plan.seed)?;
     let mut postures = Vec::new();
     let mut unstable = None;
     for q in drawn {
-        let inverse_condition = inverse_condition(arm, &q, length)?;
-        let nu_p = plan.loads.iter().map(|load| influence(arm, &q, load).map(|i| i.nu_p));
+        let inverse_condition = inverse_condition(whole, &q, length)?;
+        let nu_p = plan.loads.iter().map(|load| influence(whole, &q, load).map(|i| i.nu_p));
         match nu_p.collect::<Result<Vec<f64>, _>>() {
             Ok(each) => {
                 let nu_p = each.into_iter().fold(0.0, f64::max);
@@ -87,12 +89,15 @@ pub(super) fn pairs(
 }
 
 /// What each test says of springs, and of zeros if poses are measured.
-pub(super) fn blocks(arm: &Arm, plan: &Plan, postures: &[Posture], zeros: bool) -> Vec<Block> {
-    let each = pairs(postures, plan).map(|(posture, load)| Block {
-        posture,
-        load,
-        direction: None,
-        rows: rows(arm, &postures[posture].q, &plan.loads[load], plan, zeros),
+pub(super) fn blocks(
+    whole: Whole<'_>,
+    plan: &Plan,
+    postures: &[Posture],
+    zeros: bool,
+) -> Result<Vec<Block>, Unstable> {
+    let each = pairs(postures, plan).map(|(posture, load)| {
+        let rows = rows(whole, &postures[posture].q, &plan.loads[load], plan, zeros)?;
+        Ok(Block { posture, load, direction: None, rows })
     });
     each.collect()
 }
@@ -105,7 +110,8 @@ fn keep(postures: &mut Vec<Posture>, part: f64, least: usize, cost: impl Fn(&Pos
 }
 
 /// The characteristic length; of an arm that cannot move its tool in all ways, the one that makes
-/// translations and rotations equal on average.
+/// translations and rotations equal on average. It is that of the table: what moves joints alone reaches
+/// the same postures.
 fn length(arm: &Arm, drawn: &[Vec<f64>], seed: u64) -> Result<f64, DexterityError> {
     let search = Search { starts: STARTS, seed, limits: true };
     match characteristic_length(arm, search) {
@@ -123,20 +129,26 @@ fn length(arm: &Arm, drawn: &[Vec<f64>], seed: u64) -> Result<f64, DexterityErro
 }
 
 /// What a test measures per unit of each unknown, in units of the noise.
-fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan, zeros: bool) -> DMatrix<f64> {
-    let n = arm.dof();
+fn rows(
+    whole: Whole<'_>,
+    q: &[f64],
+    load: &Vector6<f64>,
+    plan: &Plan,
+    zeros: bool,
+) -> Result<DMatrix<f64>, Unstable> {
+    let n = whole.arm.dof();
     let noise = plan.noises();
     let measured = noise.len();
-    let springs = arm.compliance_regressor(q, load);
+    let springs = block(whole, Output::ComplianceRegressor, q, load)?;
     // A displacement is the difference of two readings, each with its noise.
     if !zeros {
-        return DMatrix::from_fn(measured, n, |r, c| {
+        return Ok(DMatrix::from_fn(measured, n, |r, c| {
             springs[(r, c)] / (core::f64::consts::SQRT_2 * noise[r])
-        });
+        }));
     }
     // Two poses: unloaded below, loaded above.
-    let zeros = arm.jacobian(q);
-    DMatrix::from_fn(2 * measured, 2 * n, |r, c| {
+    let zeros = block(whole, Output::Jacobian, q, load)?;
+    Ok(DMatrix::from_fn(2 * measured, 2 * n, |r, c| {
         let (row, loaded) = (r % measured, r < measured);
         let value = match (c < n, loaded) {
             (true, true) => springs[(row, c)],
@@ -144,5 +156,5 @@ fn rows(arm: &Arm, q: &[f64], load: &Vector6<f64>, plan: &Plan, zeros: bool) -> 
             (false, _) => zeros[(row, c - n)],
         };
         value / noise[row]
-    })
+    }))
 }

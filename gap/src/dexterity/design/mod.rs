@@ -20,9 +20,10 @@ pub use separate::{DEVIATIONS, Told};
 pub use suspect::{Number, Suspect, SuspectError};
 
 use nalgebra::Vector6;
-use stiffarm_kernels::generic::Arm;
 
 use super::DexterityError;
+use crate::effects::Known;
+use crate::whole::Whole;
 use candidates::{Block, Pool};
 use exchange::{Aim, Choices};
 use separate::Apart;
@@ -104,21 +105,29 @@ pub struct Design {
     pub efficiency: f64,
 }
 
-/// Plans tests for an arm; `done` is told the part of the work that is done, from 0 to 1.
+/// Plans tests for an arm, effects of its file and all; `done` is told the part of the work that is done, from 0 to 1.
 ///
 /// # Errors
 /// [`DexterityError::Setting`] without tests or loads; [`DexterityError::Unlimited`] if a prismatic
 /// joint has no limits; [`DexterityError::AllSingular`]; [`DexterityError::Unstable`] if the arm
 /// buckles under every load in every posture drawn; of two effects [`DexterityError::Idle`] if no
 /// test shows one, and [`DexterityError::Alike`] if none tells them apart.
-pub fn design(arm: &Arm, plan: &Plan, done: &dyn Fn(f64)) -> Result<Design, DexterityError> {
+pub fn design<'a>(
+    whole: impl Into<Whole<'a>>,
+    plan: &Plan,
+    done: &dyn Fn(f64),
+) -> Result<Design, DexterityError> {
     check(plan)?;
-    let pool = candidates::draw(arm, plan)?;
+    let Whole { arm, known } = whole.into();
+    // What happened in one session does not happen in another.
+    let known: Vec<Known> = known.iter().filter(|one| one.session.is_none()).cloned().collect();
+    let whole = Whole { arm, known: &known };
+    let pool = candidates::draw(whole, plan)?;
     if let Purpose::Separate(pair) = &plan.purpose {
-        return apart(arm, plan, pair, &pool, done);
+        return apart(whole, plan, pair, &pool, done);
     }
     let zeros = plan.purpose == Purpose::Diagnose;
-    let blocks = candidates::blocks(arm, plan, &pool.postures, zeros);
+    let blocks = candidates::blocks(whole, plan, &pool.postures, zeros)?;
     let n = arm.dof();
     let kinds: Vec<usize> = (0..if zeros { 2 * n } else { n }).map(|c| c / n).collect();
     let choices = Choices::new(&blocks, &kinds, &Aim::All);
@@ -141,13 +150,13 @@ pub fn design(arm: &Arm, plan: &Plan, done: &dyn Fn(f64)) -> Result<Design, Dext
 
 /// The same to tell two effects apart.
 fn apart(
-    arm: &Arm,
+    whole: Whole<'_>,
     plan: &Plan,
     pair: &[Suspect; 2],
     pool: &Pool,
     done: &dyn Fn(f64),
 ) -> Result<Design, DexterityError> {
-    let apart = Apart::new(arm, plan, pair, &pool.postures)?;
+    let apart = Apart::new(whole, plan, pair, &pool.postures)?;
     let both = [apart.columns(0), apart.columns(1)];
     let aim = Aim::Apart([&both[0], &both[1]]);
     let choices = Choices::new(&apart.blocks, &apart.kinds(), &aim);

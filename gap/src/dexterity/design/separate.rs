@@ -12,7 +12,6 @@ use core::ops::Range;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use stiffarm_kernels::generic::Arm;
 
 use super::Plan;
 use super::candidates::{Block, Posture};
@@ -22,6 +21,7 @@ use crate::dexterity::DexterityError;
 use crate::diagnose::fit::Basis;
 use crate::measurement::Row;
 use crate::random::uniform;
+use crate::whole::Whole;
 
 /// An effect is told from the other where its number is so many of its standard deviations.
 pub const DEVIATIONS: f64 = 3.0;
@@ -60,7 +60,7 @@ impl Apart {
     /// [`DexterityError::Idle`] if no test shows anything of one of the two;
     /// [`DexterityError::NoForm`]; [`DexterityError::Unstable`].
     pub(super) fn new(
-        arm: &Arm,
+        whole: Whole<'_>,
         plan: &Plan,
         pair: &[Suspect; 2],
         postures: &[Posture],
@@ -75,10 +75,10 @@ impl Apart {
             rows.push(Row { wrench, direction, group: posture, ..Row::new(0, q) });
         }
         let all = pair.iter().chain(&plan.along);
-        let line_up = LineUp::new(arm, all, rows.clone());
+        let line_up = LineUp::new(whole.arm, all, rows.clone());
         let line_up = line_up.map_err(|s| DexterityError::NoForm { effect: s.to_string() })?;
         let trials: Vec<Trial<'_>> =
-            rows.iter().map(|row| Trial { arm, row: row.clone(), plan }).collect();
+            rows.iter().map(|row| Trial { whole, row: row.clone(), plan }).collect();
         let blocks = |displacements: bool| -> Result<Vec<DMatrix<f64>>, DexterityError> {
             let each = trials.iter().map(|t| t.rows(&line_up, displacements));
             Ok(each.collect::<Result<_, _>>()?)

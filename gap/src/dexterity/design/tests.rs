@@ -5,14 +5,16 @@ use stiffarm_kernels::generic::Arm;
 
 use super::{Design, Plan, Purpose, Suspect};
 use crate::dexterity::{DexterityError, inverse_condition};
-use crate::effects::Catalogue;
+use crate::effects::{Catalogue, Known};
+use crate::fixture::known;
+use crate::whole::{Situation, Whole};
 
 fn kr240() -> Arm {
     crate::fixture::kr240([0.1, 0.0, 0.15])
 }
 
-fn design(arm: &Arm, plan: &Plan) -> Result<Design, DexterityError> {
-    super::design(arm, plan, &|part| assert!((0.0..=1.0).contains(&part)))
+fn design<'a>(whole: impl Into<Whole<'a>>, plan: &Plan) -> Result<Design, DexterityError> {
+    super::design(whole, plan, &|part| assert!((0.0..=1.0).contains(&part)))
 }
 
 fn plan(purpose: Purpose) -> Plan {
@@ -28,13 +30,14 @@ fn plan(purpose: Purpose) -> Plan {
     }
 }
 
-fn within_limits(arm: &Arm, design: &Design) {
+fn within_limits<'a>(whole: impl Into<Whole<'a>>, design: &Design) {
+    let whole = whole.into();
     for (k, test) in design.tests.iter().enumerate() {
-        for (q, joint) in test.q.iter().zip(&arm.joints) {
+        for (q, joint) in test.q.iter().zip(&whole.arm.joints) {
             let [low, high] = joint.limits.unwrap();
             assert!((low..=high).contains(q));
         }
-        let own = inverse_condition(arm, &test.q, design.length).unwrap();
+        let own = inverse_condition(whole, &test.q, design.length).unwrap();
         assert_eq!(own, test.inverse_condition);
         assert!(design.tests[..k].iter().all(|other| other.q != test.q));
     }
@@ -47,8 +50,9 @@ fn no_single_exchange_is_better() {
     let arm = kr240();
     let plan = Plan { count: 4, ..plan(Purpose::Identify) };
     let found = design(&arm, &plan).unwrap();
-    let pool = super::candidates::draw(&arm, &plan).unwrap();
-    let blocks = super::candidates::blocks(&arm, &plan, &pool.postures, false);
+    let pool = super::candidates::draw(Whole::from(&arm), &plan).unwrap();
+    let blocks =
+        super::candidates::blocks(Whole::from(&arm), &plan, &pool.postures, false).unwrap();
     let determinant = |tests: &[(&[f64], Vector6<f64>)]| {
         let mut sum = DMatrix::<f64>::zeros(6, 6);
         for (q, wrench) in tests {
@@ -71,6 +75,45 @@ fn no_single_exchange_is_better() {
             // Gains of less than a millionth of the logarithm are not taken, and what is assumed
             // to be known before changes each pivot by a millionth.
             assert!(determinant(&tests) <= best * (1.0 + 1e-4));
+        }
+    }
+}
+
+/// What moves joints alone makes of a posture another one, of which the table says everything; what belongs
+/// to another session is not there.
+#[test]
+fn a_corrected_arm_is_planned_at_the_joint_values_that_readings_mean() {
+    let arm = kr240();
+    let slip =
+        Known { session: Some("run1.csv".to_owned()), ..known("slip", "base", 0, &[1.0; 6]) };
+    let ratio = known("joint_ratio", "joint 3", 0, &[0.05]);
+    let both = [ratio.clone(), slip];
+    let plan = plan(Purpose::Diagnose);
+    let found = design(Whole { arm: &arm, known: &both }, &plan).unwrap();
+    let whole = Whole { arm: &arm, known: &[ratio] };
+    within_limits(whole, &found);
+    let noise = plan.noise_position;
+    let mut normal = DMatrix::<f64>::zeros(12, 12);
+    for test in &found.tests {
+        let mut q = test.q.clone();
+        q[2] *= 1.05;
+        let springs = arm.compliance_regressor(&q, &test.wrench).fixed_rows::<3>(0) / noise;
+        let zeros = arm.jacobian(&q).fixed_rows::<3>(0) / noise;
+        for loaded in [0.0, 1.0] {
+            let row = DMatrix::from_fn(3, 12, |r, c| match c {
+                0..6 => loaded * springs[(r, c)],
+                _ => zeros[(r, c - 6)],
+            });
+            normal += row.tr_mul(&row);
+        }
+    }
+    // By the units of both, lest the inverse lose its digits.
+    let unit = normal.diagonal().map(|d| 1.0 / d.sqrt());
+    let unit = DMatrix::from_diagonal(&unit);
+    let covariance = &unit * (&unit * normal * &unit).try_inverse().unwrap() * &unit;
+    for (j, expected) in found.expected.iter().enumerate() {
+        for (found, k) in [(expected.compliance, j), (expected.zero, 6 + j)] {
+            assert!((found.unwrap() / covariance[(k, k)].sqrt() - 1.0).abs() < 1e-4, "{j} {k}");
         }
     }
 }
@@ -107,13 +150,23 @@ fn separate(arm: &Arm, texts: [&str; 2]) -> Plan {
 /// deviations and the smallest displacement: nothing of the effects' own blocks.
 #[test]
 fn what_is_told_apart_is_what_least_squares_tell() {
+    told_apart(&[]);
+    told_apart(&[
+        known("joint_ratio", "joint 3", 0, &[0.03]),
+        known("base_compliance", "base", 0, &[4e-8, 3e-8, 1e-9]),
+        known("wrench_scale", "tool", 0, &[0.2]),
+    ]);
+}
+
+fn told_apart(known: &[Known]) {
     let arm = kr240();
     let plan = separate(&arm, ["joint_compliance@joint 2", "joint_compliance@joint3"]);
-    let found = design(&arm, &plan).unwrap();
+    let found = design(Whole { arm: &arm, known }, &plan).unwrap();
     assert!(found.displacements && found.expected.is_empty());
-    within_limits(&arm, &found);
+    within_limits(Whole { arm: &arm, known }, &found);
     let at = |arm: &Arm, q: &[f64], w: &Vector6<f64>| {
-        crate::simulate::equilibrium(arm, q, w).unwrap().tool.translation.vector
+        let (state, _) = Whole { arm, known }.at(q, &Situation::under(*w)).unwrap();
+        state.tool.translation.vector
     };
     let sagging = |joint: usize, change: f64, test: &super::Planned| {
         let mut arm = arm.clone();
@@ -148,8 +201,8 @@ fn no_single_exchange_tells_more() {
     let plan = Plan { count: 3, ..separate(&arm, ["joint_compliance@joint 2", "wrench_scale"]) };
     let found = design(&arm, &plan).unwrap();
     let Purpose::Separate(pair) = &plan.purpose else { unreachable!() };
-    let pool = super::candidates::draw(&arm, &plan).unwrap();
-    let apart = super::Apart::new(&arm, &plan, pair, &pool.postures).unwrap();
+    let pool = super::candidates::draw(Whole::from(&arm), &plan).unwrap();
+    let apart = super::Apart::new(Whole::from(&arm), &plan, pair, &pool.postures).unwrap();
     let product = |tests: &[usize]| {
         let rows: Vec<_> = tests.iter().map(|&k| apart.blocks[k].rows.clone()).collect();
         let sum = rows.iter().fold(DMatrix::zeros(2, 2), |sum, b| sum + b.transpose() * b);

@@ -11,6 +11,7 @@ use super::suspect::{Number, Suspect};
 use crate::effects::{Effect, Scene, Spot};
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{Actual, Moment, Sim};
+use crate::whole::Whole;
 
 /// The effects of a plan, each at its spot: the two to be told apart, then those that are fitted
 /// along.
@@ -23,7 +24,7 @@ pub(super) struct LineUp {
 /// A test that has not been made.
 #[derive(Clone)]
 pub(super) struct Trial<'a> {
-    pub(super) arm: &'a Arm,
+    pub(super) whole: Whole<'a>,
     pub(super) plan: &'a Plan,
     pub(super) row: Row,
 }
@@ -91,16 +92,19 @@ impl Trial<'_> {
     }
 
     fn change(&self, line_up: &LineUp, kind: Kind, row: &Row) -> Result<Matrix6xX<f64>, Unstable> {
+        let Whole { arm, known } = self.whole;
         let when = Moment::at_rest(vec![0.0; row.q.len()], 0.0);
         let actual = |loaded: bool| {
             let wrench = if loaded { row.wrench } else { Vector6::zeros() };
-            Actual::new(self.arm, &row.q, &wrench)
+            let mut actual = Actual::new(arm, &row.q, &wrench);
+            known.iter().for_each(|known| known.alter(&mut actual, row, &when));
+            actual
         };
         let sim = Sim::of(kind, Isometry3::identity(), None, actual)?;
         Ok(sim.change(|state, loaded| {
             let actual = actual(loaded);
             let scene = Scene {
-                nominal: self.arm,
+                nominal: arm,
                 row,
                 when: &when,
                 actual: &actual,

@@ -1,8 +1,6 @@
 //! How large the noise of the measurement is, and whether what is left of the gap is more than
 //! noise.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector6;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
@@ -226,27 +224,27 @@ impl Repeats {
         components: usize,
     ) -> Option<Self> {
         let visits = &problem.visits;
-        let mut sets: BTreeMap<usize, BTreeMap<usize, Vec<Vector6<f64>>>> = BTreeMap::new();
-        for row in (0..gaps.len()).filter(|row| problem.fits[*row]) {
-            let set = sets.entry(visits.repeats[row]).or_default();
-            set.entry(visits.of_row[row]).or_default().push(gaps[row]);
-        }
-        let mean = |of: &[Vector6<f64>]| of.iter().sum::<Vector6<f64>>() / of.len() as f64;
+        let mut rows: Vec<usize> = (0..gaps.len()).filter(|row| problem.fits[*row]).collect();
+        rows.sort_by_key(|row| (visits.repeats[*row], visits.of_row[*row]));
+        let mean = |rows: &[usize]| {
+            rows.iter().map(|row| gaps[*row]).sum::<Vector6<f64>>() / rows.len() as f64
+        };
         let square = |apart: Vector6<f64>| squares(&[apart], first);
         let (mut within, mut between) = (Apart::default(), Apart::default());
         // How often the variance of a visit is in the squares between them.
         let mut times = 0.0;
-        for set in sets.values() {
-            let all: Vec<Vector6<f64>> = set.values().flatten().copied().collect();
-            let whole = mean(&all);
-            between.beyond += set.len() - 1;
-            times += all.len() as f64;
-            for visit in set.values() {
+        for set in rows.chunk_by(|a, b| visits.repeats[*a] == visits.repeats[*b]) {
+            let (all, whole) = (set.len() as f64, mean(set));
+            times += all;
+            for (number, visit) in
+                set.chunk_by(|a, b| visits.of_row[*a] == visits.of_row[*b]).enumerate()
+            {
                 let (count, own) = (visit.len() as f64, mean(visit));
-                within.squares += visit.iter().map(|gap| square(gap - own)).sum::<f64>();
+                within.squares += visit.iter().map(|row| square(gaps[*row] - own)).sum::<f64>();
                 within.beyond += visit.len() - 1;
                 between.squares += count * square(own - whole);
-                times -= count * count / all.len() as f64;
+                between.beyond += usize::from(number > 0);
+                times -= count * count / all;
             }
         }
         let numbers = |apart: &Apart| (apart.beyond * components) as f64;
@@ -376,7 +374,7 @@ mod tests {
         let (arm, mut data) = (rigid(), data());
         for (k, row) in data.rows.iter_mut().enumerate() {
             row.wrench[0] = 100.0 * k as f64;
-            row.sigma = Some(Vector6::new(3e-4, 4e-4, 5e-4, 0.0, 0.0, 0.0));
+            row.sigma = Some(Box::new(Vector6::new(3e-4, 4e-4, 5e-4, 0.0, 0.0, 0.0)));
         }
         let none = Options::default();
         let mut problem = Problem::new(&arm, &data, &none).unwrap();

@@ -37,7 +37,7 @@ impl Precision {
         let kinds = [0..3, 3..6].map(|range| {
             let numbers: Vec<[f64; 2]> = (data.rows.iter().zip(gaps).zip(fits))
                 .filter(|(_, fits)| **fits)
-                .filter_map(|((row, gap), _)| Some((row.sigma?, gap)))
+                .filter_map(|((row, gap), _)| Some((row.sigma.as_deref()?, gap)))
                 .flat_map(|(sigma, gap)| {
                     range.clone().map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
                 })
@@ -53,7 +53,7 @@ impl Precision {
     fn with(data: &Measurements, beyond: [f64; 2]) -> Self {
         let measured = data.kind.components();
         let own = |k: usize| {
-            let each = data.rows.iter().filter_map(move |row| Some(row.sigma?[k]));
+            let each = data.rows.iter().filter_map(move |row| Some(row.sigma.as_ref()?[k]));
             each.filter(move |s| *s > 0.0 && measured[k])
         };
         let instrument = [0, 3].map(|first| {
@@ -64,13 +64,13 @@ impl Precision {
             return Self::default();
         }
         let whole = [0, 1].map(|kind| instrument[kind].map_or(1.0, |s| s.hypot(beyond[kind])));
-        let row = |sigma: Option<Vector6<f64>>| {
+        let row = |sigma: Option<&Vector6<f64>>| {
             Vector6::from_fn(|k, _| {
                 let own = sigma.map_or(0.0, |sigma| sigma[k]);
                 if own > 0.0 { whole[k / 3] / own.hypot(beyond[k / 3]) } else { 1.0 }
             })
         };
-        Self { rows: data.rows.iter().map(|r| row(r.sigma)).collect(), instrument }
+        Self { rows: data.rows.iter().map(|r| row(r.sigma.as_deref())).collect(), instrument }
     }
 
     /// Of one row.
@@ -123,7 +123,7 @@ mod tests {
         let sigmas = |k: usize| if k.is_multiple_of(3) { 8e-5 } else { 1e-5 };
         let rows = (0..4000).map(|k| {
             let sigma = Vector6::from_fn(|c, _| if c < 3 { sigmas(k) } else { 0.0 });
-            Row { sigma: Some(sigma), ..row(&[0.1], Vector6::zeros()) }
+            Row { sigma: Some(Box::new(sigma)), ..row(&[0.1], Vector6::zeros()) }
         });
         let data = table(rows.collect(), Kind::Pose { orientation: false });
         let gaps: Vec<_> = (0..4000)

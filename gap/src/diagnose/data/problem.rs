@@ -1,7 +1,5 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
-use std::sync::Arc;
-
 use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
@@ -13,7 +11,7 @@ use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::measurement::{Kind, Measurements, Row};
-use crate::simulate::{Actual, Moment, Reading, Sim, moments, origin};
+use crate::simulate::{Actual, Moments, Reading, Sim, origin};
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
@@ -24,7 +22,7 @@ pub(crate) const LARGEST: f64 = 1e50;
 pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
-    pub(crate) moments: Arc<Vec<Moment>>,
+    pub(crate) moments: Moments<'a>,
     /// 1 where a component is measured, else 0.
     pub(crate) mask: Vector6<f64>,
     /// The components that are measured.
@@ -102,15 +100,16 @@ impl<'a> Problem<'a> {
         }
         let known: Vec<Known> =
             options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
-        let moments = Arc::new(moments(data));
-        let seen = |(row, when): (&Row, &Moment)| -> Result<(Reading, f64), DiagnoseError> {
+        let moments = Moments::of(data);
+        let seen = |number: usize| -> Result<(Reading, f64), DiagnoseError> {
+            let (row, when) = (&data.rows[number], moments.at(number));
             let line = row.line;
             let [x, y, z] = row.offset.unwrap_or_default();
             let sim = Sim::of(data.kind, Isometry3::translation(x, y, z), None, |loaded| {
                 let wrench = if loaded { row.wrench } else { Vector6::zeros() };
                 let mut actual = Actual::new(arm, &row.q, &wrench);
                 actual.base = Isometry3::identity();
-                known.iter().for_each(|known| known.alter(&mut actual, row, when));
+                known.iter().for_each(|known| known.alter(&mut actual, row, &when));
                 actual
             });
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
@@ -124,7 +123,7 @@ impl<'a> Problem<'a> {
         };
         // The first row's error is told, however many rows are worked on at once.
         let all: Vec<Result<(Reading, f64), DiagnoseError>> =
-            data.rows.par_iter().zip(&*moments).map(seen).collect();
+            (0..data.rows.len()).into_par_iter().map(seen).collect();
         let (readings, reaches): (Vec<Reading>, Vec<f64>) =
             all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let reach = reaches.into_iter().fold(0.0, f64::max);
@@ -198,6 +197,16 @@ impl<'a> Problem<'a> {
         self.measured.iter().any(|k| *k < 3)
     }
 
+    /// How far a gap is, by what is measured first: m, or rad where no position is.
+    pub(crate) fn size(&self, gap: &Vector6<f64>) -> f64 {
+        gap.fixed_rows::<3>(self.first()).norm()
+    }
+
+    /// The first component of what is measured first: positions, or rotations without them.
+    pub(crate) fn first(&self) -> usize {
+        if self.measures_position() { 0 } else { 3 }
+    }
+
     pub(crate) fn is_unknown(&self, frame: Nuisance) -> bool {
         self.nuisances.contains(&frame)
     }
@@ -220,7 +229,7 @@ impl<'a> Problem<'a> {
         model: &Reading,
         instrument: &Isometry3<f64>,
     ) -> Reading {
-        let (Some(nominal), Some(own)) = (&self.nominal, self.data.rows[row].sim) else {
+        let (Some(nominal), Some(own)) = (&self.nominal, &self.data.rows[row].sim) else {
             return *model;
         };
         let nominal = &nominal[row];

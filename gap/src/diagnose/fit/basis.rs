@@ -1,11 +1,15 @@
 //! Least squares with directions that the data do not decide: found by rank, and left where they
 //! are.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
 pub(crate) const RANK: f64 = 1e-11;
+
+/// Where so much is left of every column beside those before it no direction is near [`RANK`], nor near
+/// any other bound that is asked for.
+const CLEAR: f64 = 1e-4;
 
 /// Coordinates in which a normal matrix is the identity: `tᵀ A t = 1`, undecided directions left
 /// out.
@@ -32,6 +36,10 @@ impl Basis {
             if size > 0.0 { 1.0 / size } else { 0.0 }
         });
         let scaled = DMatrix::from_fn(k, k, |r, c| normal[(r, c)] * scale[r] * scale[c]);
+        if let Some(mut t) = triangular(&scaled) {
+            t.row_iter_mut().zip(scale.iter()).for_each(|(mut row, scale)| row *= *scale);
+            return Self { t };
+        }
         let (values, vectors) = principal(scaled);
         let kept: Vec<usize> = (0..k).filter(|&i| values[i] > least).collect();
         let t = DMatrix::from_fn(k, kept.len(), |r, c| {
@@ -54,6 +62,18 @@ impl Basis {
     pub(crate) fn variances(&self) -> DVector<f64> {
         DVector::from_fn(self.t.nrows(), |r, _| self.t.row(r).norm_squared())
     }
+}
+
+/// The inverse of the transposed root of a scaled matrix that is far from undecided in any direction: far
+/// less work than its principal directions.
+fn triangular(scaled: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let root = Cholesky::new(scaled.clone())?;
+    let is_clear = |pivot: &f64| pivot * pivot > CLEAR;
+    root.l_dirty().diagonal().iter().all(is_clear).then(|| {
+        let mut inverse = DMatrix::identity(scaled.nrows(), scaled.nrows());
+        root.l_dirty().tr_solve_lower_triangular_mut(&mut inverse);
+        inverse
+    })
 }
 
 /// Sweeps after which a decomposition is given up.

@@ -13,7 +13,7 @@ use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
 use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
-use crate::simulate::{Actual, Sim, Site, State, origin};
+use crate::simulate::{Actual, Moment, Sim, Site, State, origin};
 
 /// An effect with its values.
 #[derive(Clone)]
@@ -86,7 +86,7 @@ impl Model {
 
     /// The arm in one row, loaded or not.
     pub(crate) fn actual(&self, problem: &Problem<'_>, row: usize, loaded: bool) -> Actual<'_> {
-        let (data, when) = (&problem.data.rows[row], &problem.moments[row]);
+        let (data, when) = (&problem.data.rows[row], &problem.moments.at(row));
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
         actual.base = self.bases[problem.session_of[row]];
@@ -169,9 +169,10 @@ impl Model {
         row: usize,
         twists: impl Fn(&Scene<'_>) -> Matrix6xX<f64>,
     ) -> Matrix6xX<f64> {
+        let when = problem.moments.at(row);
         sim.change(|state, loaded| {
             let actual = self.actual(problem, row, loaded);
-            twists(&self.scene(problem, row, sim, state, &actual))
+            twists(&self.scene(problem, row, (sim, state), &actual, &when))
         })
     }
 
@@ -179,14 +180,14 @@ impl Model {
         &self,
         problem: &'s Problem<'_>,
         row: usize,
-        sim: &'s Sim,
-        state: &'s State,
+        (sim, state): (&'s Sim, &'s State),
         actual: &'s Actual<'s>,
+        when: &'s Moment,
     ) -> Scene<'s> {
         Scene {
             nominal: problem.arm,
             row: &problem.data.rows[row],
-            when: &problem.moments[row],
+            when,
             actual,
             state,
             point: sim.point(state),

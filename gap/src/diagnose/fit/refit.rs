@@ -33,6 +33,9 @@ const LAST: f64 = 1e-9;
 /// Rows whose products are taken together.
 const CHUNK: usize = 64;
 
+/// Chunks that are worked on at once: enough that no thread waits long for another.
+const AT_ONCE: usize = 256;
+
 /// A model and what it predicts.
 #[derive(Clone)]
 pub(crate) struct Fit {
@@ -111,29 +114,30 @@ pub(crate) fn normal_equations(
         [] => rows.chunks(CHUNK).collect(),
         sets => sets.iter().map(Vec::as_slice).collect(),
     };
-    let parts: Vec<(DMatrix<f64>, DVector<f64>)> = chunks
-        .par_iter()
-        .map(|rows| {
-            let mut columns = DMatrix::zeros(6 * rows.len(), k);
-            let mut gaps = DVector::zeros(6 * rows.len());
-            for (index, &row) in rows.iter().enumerate() {
-                let weights = problem.weights(row, weights);
-                let block = block(problem, fit, row, &weights);
-                columns.rows_mut(6 * index, 6).copy_from(&block);
-                let gap = fit.predicted.gaps[row].component_mul(&weights);
-                gaps.rows_mut(6 * index, 6).copy_from(&gap);
-            }
-            if !problem.constants.is_empty() {
-                subtract_means(&mut columns);
-            }
-            let across = columns.transpose();
-            (&across * &columns, across * gaps)
-        })
-        .collect();
+    let products = |rows: &&[usize]| {
+        let mut columns = DMatrix::zeros(6 * rows.len(), k);
+        let mut gaps = DVector::zeros(6 * rows.len());
+        for (index, &row) in rows.iter().enumerate() {
+            let weights = problem.weights(row, weights);
+            let block = block(problem, fit, row, &weights);
+            columns.rows_mut(6 * index, 6).copy_from(&block);
+            let gap = fit.predicted.gaps[row].component_mul(&weights);
+            gaps.rows_mut(6 * index, 6).copy_from(&gap);
+        }
+        if !problem.constants.is_empty() {
+            subtract_means(&mut columns);
+        }
+        let across = columns.transpose();
+        (&across * &columns, across * gaps)
+    };
     let (mut normal, mut right) = (DMatrix::zeros(k, k), DVector::zeros(k));
-    for (products, with_gap) in &parts {
-        normal += products;
-        right += with_gap;
+    // Some at once: the products of all chunks of very many rows would be as large as the rows.
+    for some in chunks.chunks(AT_ONCE) {
+        let parts: Vec<(DMatrix<f64>, DVector<f64>)> = some.par_iter().map(products).collect();
+        for (products, with_gap) in &parts {
+            normal += products;
+            right += with_gap;
+        }
     }
     let held = fit.model.held(problem);
     for (at, (held, value)) in held.iter().zip(fit.model.values(problem)).enumerate() {

@@ -8,12 +8,9 @@ use super::spread::{Spread, columns};
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fitted, Model, Predicted};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
-use crate::diagnose::report::Cover;
+use crate::diagnose::report::{Cover, EDGE};
 use crate::effects::{Catalogue, Depends, Known, file_name};
 use crate::measurement::{Kind, Measurements};
-
-/// A part of the range within which a value beyond it still counts as inside.
-const EDGE: f64 = 1e-6;
 
 /// What a diagnosis knows of the arm.
 pub struct Explanation {
@@ -169,15 +166,7 @@ impl Explanation {
         }
         let each = data.rows.iter().enumerate();
         let inside = each.map(|(number, row)| {
-            let in_range = |(q, [low, high]): (&f64, &[f64; 2])| {
-                let edge = EDGE * (high - low) + f64::EPSILON;
-                (low - edge..=high + edge).contains(q)
-            };
-            let force = row.wrench.fixed_rows::<3>(0).norm();
-            let moment = row.wrench.fixed_rows::<3>(3).norm();
-            row.q.iter().zip(&self.covers.joints).all(in_range)
-                && force <= self.covers.force * (1.0 + EDGE)
-                && moment <= self.covers.moment * (1.0 + EDGE)
+            self.covers.holds(row)
                 && self.leverage(&problem, &model, &after, number, &numbers)
                     <= self.spread.leverage * (1.0 + EDGE)
         });

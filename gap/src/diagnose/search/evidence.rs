@@ -102,7 +102,9 @@ impl Flips {
         let blocks = screen.blocks.len();
         let variance = scale.variance(screen.left(), screen.basis.rank());
         let signs = sign_patterns(blocks, seed);
-        let shares: Vec<DMatrix<f64>> = tried.par_iter().map(|c| screen.shares(*c)).collect();
+        let left = screen.left_by_block();
+        let shares: Vec<DMatrix<f64>> =
+            tried.par_iter().map(|c| screen.shares(*c, &left)).collect();
         let ranks: BTreeSet<usize> = shares.iter().map(DMatrix::nrows).filter(|r| *r > 0).collect();
         let mut highest = vec![f64::NEG_INFINITY; signs.ncols()];
         for rank in ranks {

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use super::forward::{Explained, Ranked, Search};
 use crate::diagnose::fit::{Basis, Fit, Fitted, Model, squares, strain};
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::sums::Kept;
+use crate::diagnose::sums::{Candidate, Kept};
 
 /// Rounds of taking back and exchanging after each addition.
 const MOST_ROUNDS: usize = 12;
@@ -41,8 +41,7 @@ impl Search<'_, '_> {
         }
         let is_fine = |found: &Fitted| found.effect.forms_are().is_fine(found.spot.form);
         let all = Model::along(self.problem)..now.fit.model.found.len();
-        let open: Vec<usize> = all.filter(|k| !is_fine(&now.fit.model.found[*k])).collect();
-        for index in open.iter().copied() {
+        for index in all.clone() {
             if now.fit.model.found[index].lead > SURE {
                 continue;
             }
@@ -54,6 +53,7 @@ impl Search<'_, '_> {
                 now.fit.model.found[index].lead = lead;
             }
         }
+        let open: Vec<usize> = all.filter(|k| !is_fine(&now.fit.model.found[*k])).collect();
         for (number, first) in open.iter().enumerate().filter(|_| end) {
             for second in &open[number + 1..] {
                 let (_, fit) = self.exchanged(now, &[*first, *second], variance)?;
@@ -81,17 +81,26 @@ impl Search<'_, '_> {
         let screen = self.screen(now, kept);
         let costs = without.iter().map(|index| self.cost_of(now, &scale, *index));
         let own = self.left(now) / variance + costs.sum::<f64>();
-        // One effect is no other than itself; of two that one might do for, it may be one of them.
-        let is_it = |r: &&Ranked| {
-            let one = self.candidates[r.candidate].effect();
+        // One effect is no other than itself, but one order of a periodic error is not another; of two
+        // that one might do for, it may be one of them.
+        let is_it = |candidate: &Candidate| {
+            let one = candidate.effect();
             let found = &found[without[0]];
             without.len() == 1
                 && one.is_some_and(|(effect, spot)| {
-                    effect == found.effect && spot.place == found.spot.place
+                    let same = !candidate.forms_are_orders() || spot.form == found.spot.form;
+                    effect == found.effect && spot.place == found.spot.place && same
                 })
         };
+        let resolved = self.resolved();
+        let others =
+            || found.iter().enumerate().filter(|(k, _)| !without.contains(k)).map(|(_, f)| f);
+        let can = |r: &&Ranked| {
+            let candidate = &self.candidates[r.candidate];
+            !is_it(candidate) && candidate.is_apart(&resolved, others())
+        };
         let ranked = self.ranked(&screen, now);
-        let Some(best) = ranked.iter().find(|r| !is_it(r)) else { return Ok((None, None)) };
+        let Some(best) = ranked.iter().find(can) else { return Ok((None, None)) };
         let its = best.cost;
         let lead = (screen.left() - best.score.drop) / variance + its - own;
         if lead + EXCHANGE >= 0.0 {

@@ -225,8 +225,11 @@ impl Search<'_, '_> {
         let trained = screen.trained();
         let before = screen.held_out(&trained, None);
         let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let (resolved, found) = (self.resolved(), &now.fit.model.found);
+        let told =
+            ranked.iter().filter(|r| screen.candidates[r.candidate].is_apart(&resolved, found));
         let mut flips = None;
-        for one in ranked.iter().take(MOST_TRIED) {
+        for one in told.clone().take(MOST_TRIED) {
             let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
             let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
             if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
@@ -245,15 +248,21 @@ impl Search<'_, '_> {
             let significant = |r: &&Ranked| {
                 let chance =
                     scale.chance(&r.score, screen.left(), screen.basis.rank(), tried.len());
-                chance <= SIGNIFICANT && r.gain > 0.0
+                chance <= SIGNIFICANT
+                    && r.gain > 0.0
+                    && flips.chance(&r.score) <= SIGNIFICANT
+                    && screen.held_out(&trained, Some(r.candidate)).white < before.white
             };
             let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
             if periodic(&one) {
-                for other in ranked.iter().filter(periodic).filter(significant) {
-                    let next = self.refined(now, &[], other, &screen);
-                    added.extend(next.filter(|next| self.is_apart(next, &added)));
+                for other in told.clone().filter(periodic) {
                     if added.len() > MOST_ORDERS {
                         break;
+                    }
+                    if screen.candidates[other.candidate].is_apart(&resolved, &added)
+                        && significant(&other)
+                    {
+                        added.extend(self.refined(now, &[], other, &screen));
                     }
                 }
             }
@@ -265,17 +274,16 @@ impl Search<'_, '_> {
         Ok(None)
     }
 
-    /// Whether the range of the joint tells this order of a periodic error from the others.
-    fn is_apart(&self, next: &Fitted, others: &[Fitted]) -> bool {
-        let angles = self.problem.data.rows.iter().map(|r| r.q[next.spot.row()]);
-        let (low, high) =
-            (angles.clone().fold(f64::MAX, f64::min), angles.fold(f64::MIN, f64::max));
-        let resolved = std::f64::consts::TAU / (high - low);
-        let is_near = |other: &Fitted| {
-            other.spot.place == next.spot.place
-                && (other.spot.form.abs_diff(next.spot.form) as f64) < resolved
+    /// How far orders of a periodic error must be from each other for the range of each joint to tell
+    /// them apart (Rayleigh's limit).
+    pub(super) fn resolved(&self) -> Vec<f64> {
+        let of_joint = |joint: usize| {
+            let angles = self.problem.data.rows.iter().map(|r| r.q[joint]);
+            let wide = |[low, high]: [f64; 2], q: f64| [low.min(q), high.max(q)];
+            let [low, high] = angles.fold([f64::MAX, f64::MIN], wide);
+            std::f64::consts::TAU / (high - low)
         };
-        !others.iter().any(is_near)
+        (0..self.problem.arm.dof()).map(of_joint).collect()
     }
 
     /// The model without the effects `out` and with another; `None` if the exact fit does not

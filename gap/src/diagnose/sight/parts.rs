@@ -53,11 +53,10 @@ impl Search<'_, '_> {
     /// Size of the gap before and after in slices of each joint's range, of load, direction and
     /// time.
     pub(crate) fn slices(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Vec<Slice> {
-        let first = if self.problem.measures_position() { 0 } else { 3 };
-        let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
-        let [before, after] = [before, after].map(|gaps| self.problem.kept(gaps));
-        let (before, after): (Vec<f64>, Vec<f64>) =
-            (before.iter().map(size).collect(), after.iter().map(size).collect());
+        let [before, after] = [before, after].map(|gaps| {
+            let sizes: Vec<f64> = gaps.iter().map(|gap| self.problem.size(gap)).collect();
+            self.problem.kept(&sizes)
+        });
         let rows: Vec<&Row> = self.problem.kept_rows().collect();
         let mut slices = Vec::new();
         let mut add = |of: String, values: Vec<f64>| {
@@ -75,7 +74,9 @@ impl Search<'_, '_> {
                 add(format!("s{}", joint + 1), directions);
             }
         }
-        let clocks: Vec<f64> = self.problem.moments.iter().map(|m| m.clock).collect();
+        let moments = &self.problem.moments;
+        let clocks: Vec<f64> =
+            (0..self.problem.fits.len()).map(|row| moments.at(row).clock).collect();
         add("time".to_owned(), self.problem.kept(&clocks));
         slices
     }

@@ -181,6 +181,24 @@ impl Candidate {
         self.effect().is_some_and(|(e, _)| matches!(e.forms_are(), Forms::Orders { .. }))
     }
 
+    /// Whether it is told from some effects of a model: of orders of a periodic error at one joint, by
+    /// how far apart they are, `resolved` for each joint.
+    pub(crate) fn is_apart<'f>(
+        &self,
+        resolved: &[f64],
+        others: impl IntoIterator<Item = &'f Fitted>,
+    ) -> bool {
+        let Some((effect, spot)) = self.effect().filter(|_| self.forms_are_orders()) else {
+            return true;
+        };
+        let is_near = |other: &Fitted| {
+            other.effect == effect
+                && other.spot.place == spot.place
+                && (other.spot.form.abs_diff(spot.form) as f64) < resolved[spot.row()]
+        };
+        !others.into_iter().any(is_near)
+    }
+
     /// Whether both are the same effect at the same place, in whatever form.
     pub(crate) fn is_same(&self, other: &Candidate) -> bool {
         match (self.effect(), other.effect()) {
@@ -189,5 +207,36 @@ impl Candidate {
             }
             _ => false,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::options::Options;
+    use crate::effects::CATALOGUE;
+    use crate::fixture::{rigid, row, table};
+    use crate::measurement::Kind;
+    use nalgebra::Vector6;
+
+    /// Over 2.24 rad orders 9 and 11 are one and the same, 9 and 12 are not.
+    #[test]
+    fn orders_are_apart_by_what_the_range_of_their_joint_resolves() {
+        let (arm, kind) = (rigid(), Kind::Pose { orientation: false });
+        let data = table(vec![row(&[0.1, 0.2, 0.3], Vector6::zeros())], kind);
+        let problem = Problem::new(&arm, &data, &Options::default()).unwrap();
+        let of = |name: &str, joint: usize, form: usize| {
+            let effect = CATALOGUE.into_iter().find(|e| e.identifier() == name).unwrap();
+            let spot = Spot { place: Place::Joint(joint), form };
+            (Candidate::of(&problem, effect, spot, 1), spot)
+        };
+        let order = |joint, form| of("transmission_error", joint, form);
+        let resolved = [std::f64::consts::TAU / 2.24; 3];
+        let (known, spot) = order(1, 9);
+        let known = known.fitted(spot, vec![0.0; 2]).unwrap();
+        let is_apart = |(other, _): (Candidate, Spot)| other.is_apart(&resolved, [&known]);
+        assert!(!is_apart(order(1, 9)) && !is_apart(order(1, 11)) && !is_apart(order(1, 7)));
+        assert!(is_apart(order(1, 12)) && is_apart(order(1, 6)) && is_apart(order(2, 9)));
+        assert!(is_apart(of("backlash", 1, 0)));
     }
 }

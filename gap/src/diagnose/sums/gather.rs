@@ -50,7 +50,7 @@ impl Gathered {
         let problem = wanted.problem;
         let shared = !problem.data.kind.is_difference();
         let layout = Layout::of(wanted.candidates, shared);
-        let first = if problem.measures_position() { 0 } else { 3 };
+        let first = problem.first();
         let (main, other): (Vec<usize>, Vec<usize>) =
             problem.measured.iter().partition(|c| (first..first + 3).contains(*c));
         let kinds = [main, other];
@@ -59,15 +59,13 @@ impl Gathered {
         let k = wanted.columns();
         let of_block = folds.rows_of_blocks();
         let of_rows = |rows: &Vec<usize>| {
-            let sums = wanted.sums(&layout, &kinds, rows, true);
+            let (sums, alike) = wanted.sums(&layout, &kinds, rows);
             let mut white = Products::zeros(k, &layout.sizes);
             for (sum, kind) in sums.iter().zip(&kinds) {
                 white.add_scaled(sum, weigh(kind));
             }
-            let [main, _] = match problem.precision.differs() {
-                true => wanted.sums(&layout, &[kinds[0].clone(), Vec::new()], rows, false),
-                false => sums,
-            };
+            let [main, _] = sums;
+            let main = alike.unwrap_or(main);
             (white, main)
         };
         let kept = if wanted.candidates.is_empty() { k } else { wanted.parameters() };
@@ -115,31 +113,35 @@ impl Wanted<'_> {
         self.parameters() + self.along.iter().map(|c| c.size).sum::<usize>()
     }
 
-    /// Products of some rows, of each kind of component by itself; rows as `precise` as they are, or
-    /// all alike.
+    /// Products of some rows, of each kind of component by itself, each row as precise as it is; and,
+    /// where not all are alike, those of the first kind as if they were.
     fn sums(
         &self,
         layout: &Layout,
         kinds: &[Vec<usize>; 2],
         rows: &[usize],
-        precise: bool,
-    ) -> [Products; 2] {
-        let k = self.columns();
+    ) -> ([Products; 2], Option<Products>) {
+        let (k, precision) = (self.columns(), &self.problem.precision);
         let mut sums = [0, 1].map(|_| Sum::zeros(k, layout));
+        let mut alike = precision.differs().then(|| Sum::zeros(k, layout));
         for chunk in rows.chunks(CHUNK) {
             let mut seen: Vec<Seen> = chunk.iter().map(|row| self.row(layout, k, *row)).collect();
-            if precise && self.problem.precision.differs() {
-                let each = seen.iter_mut().zip(chunk);
-                each.for_each(|(seen, row)| seen.weigh(&self.problem.precision.of_row(*row)));
-            }
-            let rows = seen;
-            let motions = DMatrix::from_fn(rows.len(), layout.motions, |r, m| rows[r].motions[m]);
+            let motions = DMatrix::from_fn(seen.len(), layout.motions, |r, m| seen[r].motions[m]);
             let squares = layout.squares(&motions);
+            let stack = |seen: &[Seen], kind: &[usize]| {
+                Stack::new(layout, k, seen, kind, &motions, &squares)
+            };
+            if let Some(alike) = &mut alike {
+                alike.add(layout, &stack(&seen, &kinds[0]));
+                let each = seen.iter_mut().zip(chunk);
+                each.for_each(|(seen, row)| seen.weigh(&precision.of_row(*row)));
+            }
             for (sum, kind) in sums.iter_mut().zip(kinds).filter(|(_, kind)| !kind.is_empty()) {
-                sum.add(layout, &Stack::new(layout, k, &rows, kind, &motions, &squares));
+                sum.add(layout, &stack(&seen, kind));
             }
         }
-        sums.map(|sum| sum.into_products(layout))
+        let products = |sum: Sum| sum.into_products(layout);
+        (sums.map(products), alike.map(products))
     }
 
     /// Everything of one row.
@@ -152,11 +154,11 @@ impl Wanted<'_> {
             let twists = Matrix6xX::zeros(columns);
             return Seen { twists, motions: vec![0.0; layout.motions], gap };
         };
-        let fitted = model.parameters(problem);
+        let (fitted, when) = (model.parameters(problem), problem.moments.at(row));
         let mut motions = Vec::with_capacity(layout.motions);
         let twists = sim.change(|state, loaded| {
             let actual = model.actual(problem, row, loaded);
-            let scene = model.scene(problem, row, &sim, state, &actual);
+            let scene = model.scene(problem, row, (&sim, state), &actual, &when);
             let mut twists = Matrix6xX::zeros(columns);
             let mut column = layout.carriers;
             let mut put = |block: &Matrix6xX<f64>| {
@@ -213,9 +215,9 @@ mod tests {
         let sums = |shared: bool| {
             let layout = Layout::of(&candidates, shared);
             assert_eq!(layout.borne.is_empty(), !shared);
-            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows, true)
+            wanted.sums(&layout, &[vec![0, 1, 2], vec![3, 4, 5]], &rows)
         };
-        for (shared, own) in sums(true).iter().zip(&sums(false)) {
+        for (shared, own) in sums(true).0.iter().zip(&sums(false).0) {
             assert_eq!((&shared.zz, &shared.zr, shared.rr), (&own.zz, &own.zr, own.rr));
             // Sums of some hundred products, of periodic motions that have rounded forty times.
             let sizes = DVector::from_iterator(

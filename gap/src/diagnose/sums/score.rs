@@ -117,22 +117,26 @@ impl Screen<'_> {
 
     /// Each block's part in the fall of the squares: `Σ_b` over these, flipped in sign or not, is
     /// what the candidate would explain of a gap so flipped. Columns are whitened so that their
-    /// sum's square is the fall.
-    pub(crate) fn shares(&self, candidate: usize) -> DMatrix<f64> {
+    /// sum's square is the fall. `left` is [`Screen::left_by_block`].
+    pub(crate) fn shares(&self, candidate: usize, left: &[DVector<f64>]) -> DMatrix<f64> {
         let range = self.range(candidate);
         let t = &self.total;
         let zx = t.zx.columns_range(range.clone());
         let v = &t.xx[candidate] - zx.tr_mul(&zx);
         let whiten = Basis::decided(&v, &t.xx[candidate].diagonal(), OWN).t;
         let mut shares = DMatrix::zeros(whiten.ncols(), self.blocks.len());
-        for (b, block) in self.blocks.iter().enumerate() {
+        for (b, (block, left)) in self.blocks.iter().zip(left).enumerate() {
             let cross = block.zx.columns_range(range.clone());
             let mine = block.xr.rows_range(range.clone()) - cross.tr_mul(&t.zr);
-            let model = &block.zr - &block.zz * &t.zr;
-            let u = mine - zx.tr_mul(&model);
+            let u = mine - zx.tr_mul(left);
             shares.set_column(b, &whiten.tr_mul(&u));
         }
         shares
+    }
+
+    /// The model's columns in each block with what it leaves of the gap there.
+    pub(crate) fn left_by_block(&self) -> Vec<DVector<f64>> {
+        self.blocks.iter().map(|block| &block.zr - &block.zz * &self.total.zr).collect()
     }
 
     /// The folds with the model fitted to the others.

@@ -33,6 +33,14 @@ pub(crate) struct Certainty {
     pub(crate) seen: DMatrix<f64>,
 }
 
+impl Certainty {
+    /// Of two parameters, −1 to 1; 0 of one that the data leave undecided.
+    pub(super) fn correlation(&self, a: usize, b: usize) -> f64 {
+        let size = (self.covariance[(a, a)] * self.covariance[(b, b)]).sqrt();
+        if size > 0.0 { (self.covariance[(a, b)] / size).clamp(-1.0, 1.0) } else { 0.0 }
+    }
+}
+
 impl Search<'_, '_> {
     /// Of the numbers of a fit. The interval of a number is the wider of two: by least squares with the
     /// remainder's variance and what the number is held to, and by how it scatters when one visit

@@ -39,22 +39,20 @@ impl Search<'_, '_> {
         let mut out = 0;
         now = self.whole(now)?;
         loop {
-            let (fitted, groups, held_out) = self.shrinking(now)?;
+            let (fitted, shrinking) = self.shrinking(now)?;
             now = fitted;
+            let groups = &shrinking.groups;
             (self.progress)(Stage::Judge(groups.len()));
-            let after = match held_out.last().filter(|_| !groups.is_empty()) {
-                Some(last) => last.clone(),
-                None => before.to_vec(),
-            };
-            let size = Statistics::of(&self.problem.kept(&after));
+            let after = if groups.is_empty() { before } else { &shrinking.after };
+            let size = Statistics::of(&self.problem.kept(after));
             let positions = self.problem.measures_position();
             let main = if positions { size.position_rms } else { size.rotation_rms };
             let unexplained =
                 if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
-            let refitted = Refitted::new(&Held::new(self, &now), &groups, self.options.seed);
+            let refitted = Refitted::new(&Held::new(self, &now), groups, self.options.seed);
             let at_noise = !unexplained.present;
-            let mut findings =
-                self.findings(&now, &groups, before, &held_out, &refitted, at_noise)?;
+            let sizes: Vec<f64> = before.iter().map(|gap| self.problem.size(gap)).collect();
+            let mut findings = self.findings(&now, &shrinking, &sizes, &refitted, at_noise)?;
             let worst = (0..findings.len())
                 .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
                 .filter(|k| {
@@ -63,12 +61,14 @@ impl Search<'_, '_> {
             let Some(worst) = worst else {
                 let certainty = self.certainty(&now);
                 let values = self.intervals(&now, &certainty);
-                for (finding, group) in findings.iter_mut().zip(&groups) {
+                for (finding, group) in findings.iter_mut().zip(groups) {
                     finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
                 }
-                let shrink = self.shrink(before, &after, refitted.spread(0, groups.len()));
-                let residual = is_there.then(|| self.residual(&now, before, &after));
+                let last: Vec<f64> = after.iter().map(|gap| self.problem.size(gap)).collect();
+                let shrink = self.shrink(&sizes, &last, refitted.spread(0, groups.len()));
+                let residual = is_there.then(|| self.residual(&now, before, after));
                 let observability = self.observability(&now.fit, &certainty);
+                let after = if groups.is_empty() { before.to_vec() } else { shrinking.after };
                 let judged =
                     Judged { findings, after, shrink, unexplained, residual, observability };
                 return Ok((now, judged));

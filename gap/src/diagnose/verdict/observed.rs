@@ -3,11 +3,14 @@
 use super::certainty::Certainty;
 use crate::diagnose::fit::{Fit, Model, RANK, principal};
 use crate::diagnose::options::Nuisance;
-use crate::diagnose::report::{Correlation, Observability};
+use crate::diagnose::report::{Correlation, CorrelationMatrix, Observability};
 use crate::diagnose::search::Search;
 
 /// Pairs that are named.
 const MOST: usize = 5;
+
+/// Numbers whose correlations are told one by one.
+const MOST_NUMBERS: usize = 12;
 
 /// A smaller correlation is none to be told.
 const LEAST: f64 = 0.5;
@@ -31,14 +34,25 @@ impl Search<'_, '_> {
             decided: values.len(),
             condition: most / least,
             correlations: self.correlations(fit, certainty),
+            matrix: self.matrix(fit, certainty),
             singular_values,
         })
+    }
+
+    /// Of the numbers of findings: what is fitted along stands before them.
+    fn matrix(&self, fit: &Fit, certainty: &Certainty) -> CorrelationMatrix {
+        let along = fit.model.found.iter().take(Model::along(self.problem));
+        let first = Model::nuisances(self.problem) + along.map(|f| f.values.len()).sum::<usize>();
+        let of: Vec<String> =
+            self.parameters(&fit.model).into_iter().skip(first).take(MOST_NUMBERS).collect();
+        let own = first..first + of.len();
+        let row = |a: usize| own.clone().map(|b| certainty.correlation(a, b)).collect();
+        CorrelationMatrix { rows: own.clone().map(row).collect(), of }
     }
 
     /// The most correlated pairs of numbers, one of them at least of an effect beyond ordinary
     /// calibration: that frames and the table are hardly told apart is no news.
     fn correlations(&self, fit: &Fit, certainty: &Certainty) -> Vec<Correlation> {
-        let covariance = &certainty.covariance;
         let names = self.parameters(&fit.model);
         let found = fit.model.found.iter();
         let mut beyond = vec![false; Model::nuisances(self.problem)];
@@ -46,10 +60,9 @@ impl Search<'_, '_> {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for b in 0..names.len() {
             for a in (0..b).filter(|a| beyond[*a] || beyond[b]) {
-                let size = (covariance[(a, a)] * covariance[(b, b)]).sqrt();
-                let correlation = covariance[(a, b)] / size;
+                let correlation = certainty.correlation(a, b);
                 if correlation.abs() >= LEAST {
-                    pairs.push((correlation.clamp(-1.0, 1.0), a, b));
+                    pairs.push((correlation, a, b));
                 }
             }
         }

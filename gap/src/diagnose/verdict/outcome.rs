@@ -4,13 +4,35 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Basis, Fit, Model, RANK, block, squares};
+use crate::diagnose::fit::{Basis, Fit, Model, RANK, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::Products;
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
+
+/// Rows that are worked on by one thread.
+const CHUNK: usize = 64;
+
+/// Findings in the order in which they shrink the held-out gap most, and what is left of it before the
+/// first and after each.
+pub(crate) struct Shrinking {
+    pub(crate) groups: Vec<Group>,
+    /// Steps × rows: how far each row is off.
+    sizes: DMatrix<f64>,
+    /// Weighted.
+    squares: DVector<f64>,
+    /// Gap of each row with all of them.
+    pub(crate) after: Vec<Vector6<f64>>,
+}
+
+impl Shrinking {
+    /// How far each row is off with the first groups.
+    pub(crate) fn sizes_after(&self, count: usize) -> Vec<f64> {
+        self.sizes.row(count).iter().copied().collect()
+    }
+}
 
 /// The fit's products fold by fold, ready to be solved again without some of its parts.
 pub(crate) struct Held<'h> {
@@ -136,30 +158,51 @@ impl<'h> Held<'h> {
         each.map(|(own, values)| own.left(&values.into_owned())).sum()
     }
 
-    /// Gap of each row, m and rad, with each of the given values.
-    fn gaps(&self, values: &[DMatrix<f64>]) -> Vec<Vec<Vector6<f64>>> {
+    /// What some groups leave of each row: `values` are those before the first and after each.
+    fn shrinking(
+        &self,
+        groups: Vec<Group>,
+        values: &[DMatrix<f64>],
+        weights: &Vector6<f64>,
+    ) -> Shrinking {
         let own = DVector::from_vec(self.fit.model.values(self.problem));
-        let unit = Vector6::repeat(1.0).component_mul(&self.problem.mask);
-        let each: Vec<Vec<Vector6<f64>>> = (0..self.problem.data.rows.len())
-            .into_par_iter()
-            .map(|row| {
-                let block = block(self.problem, self.fit, row, &unit);
-                let gap = self.fit.predicted.gaps[row] + &block * &own;
-                let fold = self.folds.of_row(row);
-                values.iter().map(|values| gap - &block * values.column(fold)).collect()
-            })
-            .collect();
-        (0..values.len()).map(|k| each.iter().map(|gaps| gaps[k]).collect()).collect()
+        let rows = self.problem.data.rows.len();
+        let mut sizes = DMatrix::zeros(values.len(), rows);
+        let mut after = vec![Vector6::zeros(); rows];
+        let of_row = |row: usize, sizes: &mut [f64], squares: &mut DVector<f64>| {
+            let block = block(self.problem, self.fit, row, &self.problem.mask);
+            let gap = self.fit.predicted.gaps[row] + &block * &own;
+            let (fold, weights) = (self.folds.of_row(row), self.problem.weights(row, weights));
+            let mut last = gap;
+            for (step, values) in values.iter().enumerate() {
+                last = gap - &block * values.column(fold);
+                sizes[step] = self.problem.size(&last);
+                squares[step] += last.component_mul(&weights).norm_squared();
+            }
+            last
+        };
+        let chunks = sizes.as_mut_slice().par_chunks_mut(CHUNK * values.len());
+        let parts =
+            chunks.zip(after.par_chunks_mut(CHUNK)).enumerate().map(|(k, (sizes, after))| {
+                let mut squares = DVector::zeros(values.len());
+                let each = after.iter_mut().zip(sizes.chunks_exact_mut(values.len())).enumerate();
+                each.for_each(|(row, (after, sizes))| {
+                    *after = of_row(CHUNK * k + row, sizes, &mut squares);
+                });
+                squares
+            });
+        let parts: Vec<DVector<f64>> = parts.collect();
+        Shrinking { groups, sizes, squares: parts.iter().sum(), after }
     }
 
     /// The held-out gaps without any effect that was found.
     pub(crate) fn without_findings(&self) -> Vec<Vector6<f64>> {
-        self.gaps(&[self.values(&[])]).remove(0)
+        self.shrinking(Vec::new(), &[self.values(&[])], &self.problem.mask).after
     }
 
-    /// The groups in the order in which they shrink the held-out gap most, and the held-out gaps
-    /// before the first and after each.
-    pub(crate) fn ordered(&self, groups: Vec<Group>) -> (Vec<Group>, Vec<Vec<Vector6<f64>>>) {
+    /// The groups in the order in which they shrink the held-out gap most, and what is left before the
+    /// first and after each, its squares by `weights`.
+    pub(crate) fn ordered(&self, groups: Vec<Group>, weights: &Vector6<f64>) -> Shrinking {
         let mut rest = groups;
         let mut done: Vec<Group> = Vec::new();
         let mut values = vec![self.values(&[])];
@@ -173,8 +216,7 @@ impl<'h> Held<'h> {
             done.push(rest.remove(best));
             values.extend(tried.into_iter().nth(best));
         }
-        let gaps = self.gaps(&values);
-        (done, gaps)
+        self.shrinking(done, &values, weights)
     }
 }
 
@@ -188,17 +230,17 @@ fn is_decided(root: &Cholesky<f64, Dyn>, matrix: &DMatrix<f64>) -> bool {
 impl Search<'_, '_> {
     /// The findings in order, as [`Held::ordered`]; those that do not shrink the held-out gap beside
     /// all the others are taken out of the model.
-    #[allow(clippy::type_complexity, reason = "three parts of one answer")]
     pub(crate) fn shrinking(
         &self,
         mut now: Explained,
-    ) -> Result<(Explained, Vec<Group>, Vec<Vec<Vector6<f64>>>), DiagnoseError> {
+    ) -> Result<(Explained, Shrinking), DiagnoseError> {
         loop {
-            let (done, gaps) = Held::new(self, &now).ordered(groups(self.problem, &now.fit.model));
-            let size = |k: usize| squares(self.problem, &gaps[k], &now.weights);
-            let idle = (0..done.len()).rev().find(|&k| size(k + 1) >= size(k));
-            let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, done, gaps)) };
-            let mut out = done[idle].clone();
+            let groups = groups(self.problem, &now.fit.model);
+            let shrinking = Held::new(self, &now).ordered(groups, &now.weights);
+            let Shrinking { groups, squares, .. } = &shrinking;
+            let idle = (0..groups.len()).rev().find(|&k| squares[k + 1] >= squares[k]);
+            let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, shrinking)) };
+            let mut out = groups[idle].clone();
             out.sort_unstable();
             now = self.fitted_without(now, &out)?;
         }

@@ -10,6 +10,9 @@ use crate::diagnose::search::{Explained, Search};
 /// Rows that are named.
 const MOST_NAMED: usize = 5;
 
+/// Quantiles that are told: what a plot shows.
+const MOST_QUANTILES: usize = 99;
+
 /// Fewer numbers than this have no shape.
 const LEAST: usize = 8;
 
@@ -34,8 +37,7 @@ impl Search<'_, '_> {
 
     /// The rows that are left with the largest gaps.
     fn worst(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Vec<Worst> {
-        let first = if self.problem.measures_position() { 0 } else { 3 };
-        let size = |gap: &Vector6<f64>| gap.fixed_rows::<3>(first).norm();
+        let size = |gap: &Vector6<f64>| self.problem.size(gap);
         let rows = &self.problem.data.rows;
         let mut all: Vec<usize> = (0..rows.len()).filter(|row| self.problem.fits[*row]).collect();
         all.sort_by(|a, b| size(&after[*b]).total_cmp(&size(&after[*a])));
@@ -87,7 +89,16 @@ fn normality(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Normality> 
     };
     // The fit of the table turns up again far out, where no chance is left.
     let p_value = if a > 10.0 { 0.0 } else { p_value.clamp(0.0, 1.0) };
-    Some(Normality { excess_kurtosis, anderson_darling: a, p_value })
+    let quantiles = quantiles(&values, &normal);
+    Some(Normality { excess_kurtosis, anderson_darling: a, p_value, quantiles })
+}
+
+/// Of ascending numbers the least, the largest, and some in between, each behind where it would lie.
+fn quantiles(values: &[f64], normal: &Normal) -> Vec<[f64; 2]> {
+    let (last, count) = (values.len() - 1, values.len().min(MOST_QUANTILES));
+    let rank = |k: usize| k * last / (count - 1);
+    let expected = |rank: usize| normal.inverse_cdf((rank as f64 + 0.5) / values.len() as f64);
+    (0..count).map(rank).map(|rank| [expected(rank), values[rank]]).collect()
 }
 
 /// Of what is left at one visit with what is left at the next, in the order of measuring.
@@ -140,6 +151,20 @@ mod tests {
 
     fn three(x: [f64; 3]) -> Vector6<f64> {
         Vector6::new(x[0], x[1], x[2], 0.0, 0.0, 0.0)
+    }
+
+    /// Where numbers lie as normal ones do, the pairs are on the line; both ends are among them.
+    #[test]
+    fn quantiles_of_normal_numbers_are_theirs() {
+        let normal = Normal::standard();
+        for (count, told) in [(8, 8), (99, 99), (1000, 99)] {
+            let rank = |k: usize| normal.inverse_cdf((k as f64 + 0.5) / count as f64);
+            let values: Vec<f64> = (0..count).map(|k| 2.0 * rank(k)).collect();
+            let pairs = quantiles(&values, &normal);
+            assert_eq!(pairs.len(), told);
+            assert!(pairs.iter().all(|[expected, is]| (is - 2.0 * expected).abs() < 1e-12));
+            assert_eq!((pairs[0][1], pairs[told - 1][1]), (values[0], values[count - 1]));
+        }
     }
 
     #[test]

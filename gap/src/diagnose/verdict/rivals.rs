@@ -1,6 +1,8 @@
 //! What else could explain what a finding explains: every candidate in its place, beside all the
 //! others.
 
+use rayon::prelude::*;
+
 use super::outcome::Group;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::Alternative;
@@ -50,34 +52,36 @@ impl Search<'_, '_> {
             })
         };
         let rows = self.problem.kept_rows().count() as f64;
-        let mut alternatives: Vec<Alternative> = Vec::new();
-        let mut seen: Vec<usize> = Vec::new();
-        let mut nearest = None;
+        // Of the forms of one effect the best speaks for it.
+        let mut rivals: Vec<&Ranked> = Vec::new();
         for one in &ranked {
             let candidate = &screen.candidates[one.candidate];
-            // Of the forms of one effect the best speaks for it.
-            if is_found(candidate) || seen.iter().any(|s| screen.candidates[*s].is_same(candidate))
-            {
-                continue;
+            let is_same = |other: &&Ranked| screen.candidates[other.candidate].is_same(candidate);
+            if !is_found(candidate) && !rivals.iter().any(is_same) {
+                rivals.push(one);
             }
-            seen.push(one.candidate);
+        }
+        let judged = rivals.par_iter().filter_map(|one| {
+            let candidate = &screen.candidates[one.candidate];
+            let (effect, spot) = candidate.effect()?;
             let evidence = (screen.left() - one.score.drop) / variance + one.cost - own;
             let weak = evidence <= WEAK || !at_noise;
             let apart =
                 evidence > EVEN && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
             let held_out = screen.held_out(&trained, Some(one.candidate));
-            let Some((effect, spot)) = candidate.effect() else { continue };
-            if !apart && nearest.is_none() {
-                let values = one.score.values.iter().copied().collect();
-                nearest = Some((candidate.clone(), values));
-            }
-            alternatives.push(Alternative {
+            let alternative = Alternative {
                 effect: effect.identifier(),
                 place: spot.place.to_string(),
                 held_out_after: (held_out.plain / rows).sqrt(),
                 separable: apart,
-            });
-        }
+            };
+            let values = one.score.values.iter().copied().collect();
+            Some((alternative, (candidate.clone(), values)))
+        });
+        let judged: Vec<(Alternative, (Candidate, Vec<f64>))> = judged.collect();
+        let nearest = judged.iter().find(|(rival, _)| !rival.separable).map(|(_, it)| it.clone());
+        let mut alternatives: Vec<Alternative> =
+            judged.into_iter().map(|(rival, _)| rival).collect();
         alternatives.sort_by(|a, b| {
             (a.separable.cmp(&b.separable)).then(a.held_out_after.total_cmp(&b.held_out_after))
         });

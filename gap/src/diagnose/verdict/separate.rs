@@ -81,18 +81,17 @@ impl Search<'_, '_> {
         row: usize,
         wrench: &Vector6<f64>,
     ) -> Option<Vector6<f64>> {
-        let model = &now.fit.model;
+        let (model, when) = (&now.fit.model, self.problem.moments.at(row));
         let mut moved = self.problem.data.rows[row].clone();
         moved.wrench = *wrench;
         let actual = |with: bool| {
             let mut actual = crate::simulate::Actual::new(&model.arm, &moved.q, &moved.wrench);
             actual.base = model.bases[self.problem.session_of[row]];
-            let when = &self.problem.moments[row];
             let known = self.problem.known.iter();
-            known.for_each(|known| known.alter(&mut actual, &moved, when));
+            known.for_each(|known| known.alter(&mut actual, &moved, &when));
             for (index, found) in model.found.iter().enumerate() {
                 if with || !group.contains(&index) {
-                    found.effect.alter(&mut actual, &moved, when, found.spot, &found.values);
+                    found.effect.alter(&mut actual, &moved, &when, found.spot, &found.values);
                 }
             }
             actual
@@ -105,7 +104,7 @@ impl Search<'_, '_> {
         let scene = crate::effects::Scene {
             nominal: self.problem.arm,
             row: &moved,
-            when: &self.problem.moments[row],
+            when: &when,
             actual: &without,
             state: &state,
             point,

@@ -2,6 +2,7 @@
 //! are there (Meinshausen & Bühlmann 2010).
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::diagnose::data::{Stream, generator, shuffled};
 use crate::diagnose::fit::Basis;
@@ -25,7 +26,7 @@ impl Search<'_, '_> {
         screen: &Screen<'_>,
         contenders: &[usize],
         now: &Explained,
-        is_it: &dyn Fn(usize) -> bool,
+        is_it: &(dyn Fn(usize) -> bool + Sync),
     ) -> f64 {
         let blocks = screen.blocks.len();
         if blocks < LEAST_BLOCKS {
@@ -33,16 +34,16 @@ impl Search<'_, '_> {
         }
         let contenders: Vec<usize> = contenders.iter().copied().take(CONTENDERS).collect();
         let mut generator = generator(self.options.seed, Stream::Halves);
-        let mut again = 0;
-        for _ in 0..HALVES {
-            let order = shuffled(&mut generator, blocks);
+        let halves: Vec<Vec<usize>> =
+            (0..HALVES).map(|_| shuffled(&mut generator, blocks)).collect();
+        let found_again = |order: &&Vec<usize>| {
             let half: Vec<&Products> =
                 order.iter().take(blocks / 2).map(|b| &screen.blocks[*b]).collect();
             let costs = self.costs(screen, &half, &contenders, now);
             let best = costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-            again += usize::from(best.is_some_and(|(candidate, _)| is_it(candidate)));
-        }
-        again as f64 / HALVES as f64
+            best.is_some_and(|(candidate, _)| is_it(candidate))
+        };
+        halves.par_iter().filter(found_again).count() as f64 / HALVES as f64
     }
 
     /// Cost of each contender on some of the blocks.

@@ -1,10 +1,10 @@
 //! The findings and frames as they are reported.
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Isometry3, Vector3};
 
 use super::bootstrap::{shrink, shrink_interval};
 use super::certainty::Certainty;
-use super::outcome::Group;
+use super::outcome::Shrinking;
 use super::refitted::Refitted;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
@@ -15,21 +15,21 @@ use crate::effects::ParameterReport;
 use crate::gap::rms;
 
 impl Search<'_, '_> {
-    /// Each group with what it takes of the gap, and its rivals, still without its numbers. `held_out`
-    /// are the gaps before the first group and after each; `before` those of the robot file as it is.
+    /// Each group with what it takes of the gap, and its rivals, still without its numbers. `before`
+    /// is how far the robot file as it is leaves each row.
     pub(crate) fn findings(
         &self,
         now: &Explained,
-        groups: &[Group],
-        before: &[Vector6<f64>],
-        held_out: &[Vec<Vector6<f64>>],
+        shrinking: &Shrinking,
+        before: &[f64],
         refitted: &Refitted,
         at_noise: bool,
     ) -> Result<Vec<Finding>, DiagnoseError> {
-        let mut findings = Vec::with_capacity(groups.len());
-        for (number, group) in groups.iter().enumerate() {
+        let mut findings = Vec::with_capacity(shrinking.groups.len());
+        let mut last = before.to_vec();
+        for (number, group) in shrinking.groups.iter().enumerate() {
             let first = &now.fit.model.found[group[0]];
-            let last = if number == 0 { before } else { &held_out[number] };
+            let after = shrinking.sizes_after(number + 1);
             let rivals = self.rivals(now, group, at_noise)?;
             let to_separate =
                 rivals.nearest.as_ref().map(|rival| self.separating(now, group, rival));
@@ -37,37 +37,25 @@ impl Search<'_, '_> {
                 effect: first.effect.identifier(),
                 place: first.spot.place.to_string(),
                 parameters: Vec::new(),
-                held_out: self.shrink(
-                    last,
-                    &held_out[number + 1],
-                    refitted.spread(number, number + 1),
-                ),
+                held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
                 p_value: rivals.p_value,
                 stability: rivals.stability,
                 alternatives: rivals.alternatives,
                 to_separate,
             });
+            last = after;
         }
         Ok(findings)
     }
 
-    /// From gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.
-    pub(super) fn shrink(
-        &self,
-        before: &[Vector6<f64>],
-        after: &[Vector6<f64>],
-        spread: f64,
-    ) -> Shrink {
-        let first = if self.problem.measures_position() { 0 } else { 3 };
-        let size = |g: &Vector6<f64>| g.fixed_rows::<3>(first).norm();
-        let sizes = |gaps: &[Vector6<f64>]| -> Vec<f64> { gaps.iter().map(size).collect() };
-        let (before, after) = (sizes(before), sizes(after));
+    /// From sizes of gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.
+    pub(super) fn shrink(&self, before: &[f64], after: &[f64], spread: f64) -> Shrink {
         let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes));
         let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
-        let shrink = shrink(sum(&before), sum(&after));
+        let shrink = shrink(sum(before), sum(after));
         Shrink {
-            before: rms(&before),
-            after: rms(&after),
+            before: rms(before),
+            after: rms(after),
             shrink,
             shrink_ci95: shrink_interval(shrink, spread, self.folds.blocks()),
         }

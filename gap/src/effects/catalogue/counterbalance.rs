@@ -41,7 +41,8 @@ impl Effect for Counterbalance {
 
     /// Joints that turn about an axis that is level in every posture.
     fn places(&self, arm: &Arm) -> Vec<Place> {
-        let up = arm.gravity.normalize();
+        // Gravity is told in the base's axes, the Jacobian in those in which the base stands.
+        let up = arm.base.rotation * arm.gravity.normalize();
         let jacobian = |q: f64| {
             let q: Vec<f64> = (0..arm.dof()).map(|k| q * (1.0 + 0.3 * k as f64)).collect();
             arm.jacobian(&q)

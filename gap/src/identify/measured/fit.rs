@@ -224,6 +224,9 @@ fn advice(problem: &Problem<'_>, unknown: Unknown) -> Option<Pull> {
     let Unknown::Joint(joint) = unknown else { return None };
     let part = |k: usize| problem.measured.iter().any(|m| m / 3 == k / 3);
     let weights = Vector6::from_fn(|k, _| f64::from(u8::from(part(k))));
-    let postures = problem.data.rows.iter().map(|row| row.q.as_slice());
+    let nominal = Model::nominal(problem);
+    let joints = |row| nominal.actual(problem, row, true).joints;
+    let postures: Vec<Vec<f64>> = (0..problem.data.rows.len()).map(joints).collect();
+    let postures = postures.iter().map(Vec::as_slice);
     pull(problem.arm, postures, |_| Some(Matrix6::from_diagonal(&weights)), joint - 1)
 }

@@ -25,6 +25,7 @@ use nalgebra::Vector6;
 
 use super::pull::Pull;
 use crate::diagnose::{DiagnoseError, Options};
+use crate::effects::Known;
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
 
@@ -34,6 +35,8 @@ const FOLDS: usize = 10;
 /// What to look for, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
+    /// What the robot file says beyond its table: the springs are found on top of it.
+    pub known: Vec<Known>,
     /// The beams of the robot file too.
     pub links: bool,
     /// The foundation too.
@@ -54,6 +57,7 @@ impl Default for Question {
     /// Joints only, intervals of 95 %.
     fn default() -> Question {
         Question {
+            known: Vec::new(),
             links: false,
             base: false,
             noise_position: None,
@@ -68,6 +72,7 @@ impl Default for Question {
 impl Question {
     fn options(&self, data: &Measurements) -> Options {
         Options {
+            known: self.known.clone(),
             folds: Some(self.folds.unwrap_or(data.poses.min(FOLDS))),
             seed: self.seed,
             noise_position: self.noise_position,

@@ -1,6 +1,6 @@
 //! A joint stops short of where it is driven to: teeth with play, or a servo that friction holds back.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
 use crate::log::scene::{Column, Domain, Scene};
 
@@ -26,18 +26,14 @@ impl LogEffect for Backlash {
         Domain::Position
     }
 
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("half_width", "rad")]
     }
 
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let joint = joint(spot);
-        let ways = scene.last_way(joint);
-        vec![scene.column(joint, |k| -ways[k])]
+        let ways = &scene.signals.ways[joint];
+        vec![scene.column(joint, |k| -f64::from(ways[k]))]
     }
 
     fn may_be(&self, values: &[f64]) -> bool {

@@ -1,8 +1,9 @@
 //! A joint that moves is braked by the same torque at any speed.
 
-use super::{LogEffect, Number, Spot, joint, joints};
-use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use super::{LogEffect, Number, Spot, joint, row};
+use crate::effects::{About, RobotFile, significant};
+use crate::log::read::TorqueSide;
+use crate::log::scene::{Column, Scene};
 
 /// A torque against the motion, `coulomb · sign(q̇)`.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +23,6 @@ impl LogEffect for CoulombFriction {
         }
     }
 
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("coulomb", "N·m")]
     }
@@ -41,5 +34,17 @@ impl LogEffect for CoulombFriction {
 
     fn may_be(&self, values: &[f64]) -> bool {
         values[0] >= 0.0
+    }
+
+    fn in_file(&self, scene: &Scene<'_>, spot: Spot) -> bool {
+        scene.side.is_some_and(TorqueSide::is_driven)
+            && scene.arm.joints[joint(spot)].drive.coulomb > 0.0
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
+        file.at_row(row(spot), |row| {
+            row.joint.drive.coulomb = Some(significant(row.nominal.drive.coulomb + values[0]));
+            Some("coulomb")
+        })
     }
 }

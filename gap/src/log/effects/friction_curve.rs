@@ -1,8 +1,8 @@
 //! Friction rises with the speed, and the less the faster: lubricants thin as they are sheared.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// A torque against the motion, `root · √|q̇| sign(q̇)`, beside Coulomb and viscous.
 #[derive(Clone, Copy, Debug)]
@@ -20,14 +20,6 @@ impl LogEffect for FrictionCurve {
             confused_with: "`viscous_friction` over a narrow range of speeds; `stribeck`.",
             separated_by: "Three speeds or more, slow ones among them.",
         }
-    }
-
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
     }
 
     fn numbers(&self) -> &'static [Number] {

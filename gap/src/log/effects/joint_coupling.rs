@@ -2,7 +2,7 @@
 
 use super::{LogEffect, Number, Spot};
 use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// A motor whose angle is the sum (or the difference) of two joints' values: its inertia, viscous and
 /// Coulomb friction act on both, beside what is each joint's own (Stäubli's wrist: Gautier, Janot &
@@ -22,10 +22,6 @@ impl LogEffect for JointCoupling {
             confused_with: "The two joints' own friction and rotors.",
             separated_by: "Motion of one of the two joints alone.",
         }
-    }
-
-    fn domain(&self) -> Domain {
-        Domain::Torque
     }
 
     /// Neighbours whose axes turn, both ways.

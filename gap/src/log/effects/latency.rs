@@ -9,7 +9,7 @@ use crate::log::scene::{Column, Domain, Scene};
 pub struct Latency;
 
 /// Delays from which the search begins, s.
-const STARTS: [f64; 6] = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4];
+const STARTS: [f64; 10] = [0.0, 0.01, 0.02, 0.035, 0.06, 0.1, 0.14, 0.2, 0.28, 0.4];
 
 impl LogEffect for Latency {
     fn identifier(&self) -> &'static str {
@@ -47,18 +47,22 @@ impl LogEffect for Latency {
         vec![whole(scene, rate)]
     }
 
-    fn value(&self, scene: &Scene<'_>, _: Spot, values: &[f64]) -> Option<Column> {
-        Some(whole(scene, |joint| {
+    fn bends(&self) -> bool {
+        true
+    }
+
+    fn value(&self, scene: &Scene<'_>, _: Spot, values: &[f64]) -> Column {
+        whole(scene, |joint| {
             let commands = &scene.signals.command[joint];
             ago(scene, joint, values[0])
                 .iter()
                 .zip(commands)
                 .map(|(then, now)| then - now)
                 .collect()
-        }))
+        })
     }
 
-    fn starts(&self) -> Vec<Vec<f64>> {
+    fn probes(&self, _: &Scene<'_>, _: Spot) -> Vec<Vec<f64>> {
         STARTS.iter().map(|delay| vec![*delay]).collect()
     }
 

@@ -1,8 +1,8 @@
 //! A gear brakes the more the more it carries.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// A torque against the motion, `part · |τ| sign(q̇)`.
 #[derive(Clone, Copy, Debug)]
@@ -22,25 +22,14 @@ impl LogEffect for LoadFriction {
         }
     }
 
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("part", "1")]
     }
 
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let joint = joint(spot);
-        let mut column = scene.column(joint, |k| scene.sign(joint, k));
-        for (_, rows) in &mut column.parts {
-            rows.iter_mut().zip(&scene.loads.rigid[joint]).for_each(|(x, load)| *x *= load.abs());
-        }
-        vec![column]
+        let load = &scene.loads.rigid[joint];
+        vec![scene.column(joint, |k| scene.sign(joint, k) * load[k].abs())]
     }
 
     fn beside(&self) -> Option<&'static str> {

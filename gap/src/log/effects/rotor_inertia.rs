@@ -1,9 +1,8 @@
 //! The rotor of the motor turns with the gear ratio: the joint is heavier than its link, about its own axis alone.
 
-use super::{LogEffect, Number, Spot, joint, joints};
-use crate::effects::About;
-use crate::log::read::TorqueSide;
-use crate::log::scene::{Column, Domain, Scene};
+use super::{LogEffect, Number, Spot, behind_the_gear, joint, row};
+use crate::effects::{About, RobotFile, significant};
+use crate::log::scene::{Column, Scene};
 
 /// A torque `inertia · q̈`, the inertia as the joint feels it (rotor times the square of the ratio).
 #[derive(Clone, Copy, Debug)]
@@ -23,14 +22,6 @@ impl LogEffect for RotorInertia {
         }
     }
 
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("inertia", "kg·m²")]
     }
@@ -41,11 +32,20 @@ impl LogEffect for RotorInertia {
     }
 
     fn excluded(&self, scene: &Scene<'_>) -> Option<String> {
-        let link = scene.side == Some(TorqueSide::Link);
-        link.then(|| "the torque is measured behind the gear, where no rotor is felt".to_owned())
+        behind_the_gear(scene)
     }
 
     fn may_be(&self, values: &[f64]) -> bool {
         values[0] >= 0.0
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
+        file.at_row(row(spot), |row| {
+            let drive = &row.nominal.drive;
+            // The file's is at the motor.
+            let rotor = drive.rotor_inertia + values[0] / (drive.gear * drive.gear);
+            row.joint.drive.rotor_inertia = Some(significant(rotor));
+            Some("rotor_inertia")
+        })
     }
 }

@@ -1,11 +1,14 @@
 //! A servo without an integral part stands where its error makes the torque that the weights ask for.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint, joints, weightless};
 use crate::effects::About;
 use crate::log::scene::{Column, Domain, Scene};
 
 /// Torques below this part of the largest are none.
 const ROUNDING: f64 = 1e-9;
+
+/// So many postures of the log show whether a joint feels weights.
+const POSTURES: usize = 50;
 
 /// The joint gives way to the weights, `compliance · g`, `g` the weights' torque about its axis.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +34,15 @@ impl LogEffect for ServoDroop {
 
     fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
         // A joint about a vertical axis feels rounding alone.
-        let most = |rows: &Vec<f64>| rows.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let all = scene.weights.iter().map(most).fold(0.0, f64::max);
-        let feels = |spot: &Spot| most(&scene.weights[joint(*spot)]) > ROUNDING * all;
+        let signals = scene.signals;
+        let mut most = vec![0.0_f64; signals.joints()];
+        for k in (0..signals.t.len()).step_by(signals.t.len().div_ceil(POSTURES)) {
+            let q: Vec<f64> = signals.q.iter().map(|q| q[k]).collect();
+            let torques = scene.arm.weight_torque(&q);
+            most.iter_mut().zip(torques.iter()).for_each(|(m, x)| *m = m.max(x.abs()));
+        }
+        let all = most.iter().copied().fold(0.0, f64::max);
+        let feels = |spot: &Spot| most[joint(*spot)] > ROUNDING * all;
         joints(scene).into_iter().filter(feels).collect()
     }
 
@@ -43,12 +52,11 @@ impl LogEffect for ServoDroop {
 
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let joint = joint(spot);
-        vec![Column::of(joint, scene.weights[joint].clone())]
+        vec![Column::of(joint, scene.weights()[0][joint].clone())]
     }
 
     fn excluded(&self, scene: &Scene<'_>) -> Option<String> {
-        let weightless = scene.arm.joints.iter().all(|joint| joint.mass == 0.0);
-        weightless.then(|| "the robot file has no mass: give its rows `mass` and `com`".to_owned())
+        weightless(scene)
     }
 
     fn may_be(&self, values: &[f64]) -> bool {

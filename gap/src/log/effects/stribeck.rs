@@ -1,16 +1,16 @@
 //! Friction falls when a joint begins to move.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// A torque against the motion beside Coulomb's, `torque · exp(−(q̇/speed)²) sign(q̇)` (Armstrong-Hélouvry,
 /// Dupont & Canudas de Wit 1994, eq. 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Stribeck;
 
-/// Speeds from which the search begins, rad/s: a decade about what gears have.
-const SPEEDS: [f64; 3] = [0.01, 0.03, 0.1];
+/// Speeds from which the search begins, rad/s: what gears have.
+const SPEEDS: [f64; 5] = [0.01, 0.022, 0.05, 0.11, 0.24];
 
 impl LogEffect for Stribeck {
     fn identifier(&self) -> &'static str {
@@ -24,14 +24,6 @@ impl LogEffect for Stribeck {
             confused_with: "`friction_curve`, a sign that is smoothed.",
             separated_by: "Speeds below 0.05 rad/s.",
         }
-    }
-
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
     }
 
     fn numbers(&self) -> &'static [Number] {
@@ -49,14 +41,18 @@ impl LogEffect for Stribeck {
         ]
     }
 
-    fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Option<Column> {
+    fn bends(&self) -> bool {
+        true
+    }
+
+    fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
         let mut column = self.columns(scene, spot, values).swap_remove(0);
         let rows = column.parts.iter_mut().flat_map(|(_, rows)| rows);
         rows.for_each(|x| *x *= values[0]);
-        Some(column)
+        column
     }
 
-    fn probes(&self) -> Vec<Vec<f64>> {
+    fn probes(&self, _: &Scene<'_>, _: Spot) -> Vec<Vec<f64>> {
         SPEEDS.iter().map(|speed| vec![0.0, *speed]).collect()
     }
 

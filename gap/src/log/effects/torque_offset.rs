@@ -1,8 +1,8 @@
 //! A torque or current is told from a wrong zero, or friction differs between the two ways.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// A constant.
 #[derive(Clone, Copy, Debug)]
@@ -20,14 +20,6 @@ impl LogEffect for TorqueOffset {
             confused_with: "The moment of a link, where the joint turns little; `coulomb_friction` where it moves one way.",
             separated_by: "A full turn in both directions.",
         }
-    }
-
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
     }
 
     fn numbers(&self) -> &'static [Number] {

@@ -1,9 +1,8 @@
 //! A motor gives less torque per ampere the more it carries: its iron saturates.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, behind_the_gear, joint};
 use crate::effects::About;
-use crate::log::read::TorqueSide;
-use crate::log::scene::{Column, Domain, Scene};
+use crate::log::scene::{Column, Scene};
 
 /// What is told beyond the torque, `part · τ |τ|`.
 #[derive(Clone, Copy, Debug)]
@@ -23,21 +22,15 @@ impl LogEffect for TorqueSaturation {
         }
     }
 
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("part", "1/(N·m)")]
     }
 
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let joint = joint(spot);
-        vec![Column::of(joint, scene.loads.whole[joint].iter().map(|x| x * x.abs()).collect())]
+        let (rigid, friction) = (&scene.loads.rigid[joint], &scene.loads.friction[joint]);
+        let load = |k: usize| rigid[k] + friction[k];
+        vec![scene.column(joint, |k| load(k) * load(k).abs())]
     }
 
     fn beside(&self) -> Option<&'static str> {
@@ -49,7 +42,6 @@ impl LogEffect for TorqueSaturation {
     }
 
     fn excluded(&self, scene: &Scene<'_>) -> Option<String> {
-        let link = scene.side == Some(TorqueSide::Link);
-        link.then(|| "the torque is measured behind the gear, not told by the motor".to_owned())
+        behind_the_gear(scene)
     }
 }

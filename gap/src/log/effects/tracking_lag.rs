@@ -1,6 +1,6 @@
 //! A position servo follows with an error: its damping over its stiffness, its inertia over its stiffness.
 
-use super::{LogEffect, Number, Spot, joint, joints};
+use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
 use crate::log::scene::{Column, Domain, Scene};
 
@@ -24,10 +24,6 @@ impl LogEffect for TrackingLag {
 
     fn domain(&self) -> Domain {
         Domain::Position
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
     }
 
     fn numbers(&self) -> &'static [Number] {

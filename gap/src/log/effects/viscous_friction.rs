@@ -1,8 +1,9 @@
 //! A joint is braked in proportion to its speed: grease, seals, the back electromotive force.
 
-use super::{LogEffect, Number, Spot, joint, joints};
-use crate::effects::About;
-use crate::log::scene::{Column, Domain, Scene};
+use super::{LogEffect, Number, Spot, joint, row};
+use crate::effects::{About, RobotFile, significant};
+use crate::log::read::TorqueSide;
+use crate::log::scene::{Column, Scene};
 
 /// A torque against the motion, `viscous · q̇`.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +23,6 @@ impl LogEffect for ViscousFriction {
         }
     }
 
-    fn domain(&self) -> Domain {
-        Domain::Torque
-    }
-
-    fn spots(&self, scene: &Scene<'_>) -> Vec<Spot> {
-        joints(scene)
-    }
-
     fn numbers(&self) -> &'static [Number] {
         &[("viscous", "N·m·s/rad")]
     }
@@ -41,5 +34,17 @@ impl LogEffect for ViscousFriction {
 
     fn may_be(&self, values: &[f64]) -> bool {
         values[0] >= 0.0
+    }
+
+    fn in_file(&self, scene: &Scene<'_>, spot: Spot) -> bool {
+        scene.side.is_some_and(TorqueSide::is_driven)
+            && scene.arm.joints[joint(spot)].drive.viscous > 0.0
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
+        file.at_row(row(spot), |row| {
+            row.joint.drive.viscous = Some(significant(row.nominal.drive.viscous + values[0]));
+            Some("viscous")
+        })
     }
 }

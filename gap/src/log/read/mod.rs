@@ -1,4 +1,4 @@
-//! Joint logs: text into runs of samples, in SI.
+//! Joint logs: text, and the files of others, into runs of samples, in SI.
 //!
 //! ```csv
 //! # torque_side = motor
@@ -14,18 +14,31 @@
 //! Damaged rows are what a real log has: cells missing or too many, no number, a number that no joint
 //! has. They are left out, counted, and told by line. What is wrong with the header is an error.
 
+#[cfg(any(feature = "mcap", feature = "rosbag2"))]
+mod cdr;
 mod clock;
 mod column;
+mod format;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod names;
+#[cfg(feature = "parquet")]
+mod parquet;
+#[cfg(any(feature = "mcap", feature = "rosbag2"))]
+mod ros;
+#[cfg(feature = "rosbag2")]
+mod rosbag2;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text;
 mod unit;
 
 use std::collections::BTreeMap;
 
 pub use clock::Clock;
 pub use column::{Signal, is_log};
+pub use format::{Format, Opened};
 pub use names::Names;
 use stiffarm_kernels::Motion;
 
@@ -54,6 +67,11 @@ impl TorqueSide {
         ("commanded", TorqueSide::Commanded),
         ("external", TorqueSide::External),
     ];
+
+    /// Whether friction and rotors of the drive are in it.
+    pub fn is_driven(self) -> bool {
+        matches!(self, TorqueSide::Motor | TorqueSide::Commanded)
+    }
 
     /// Of a word; `None` if it is none.
     pub fn named(word: &str) -> Option<TorqueSide> {
@@ -100,7 +118,9 @@ pub struct Log {
 pub struct Damaged {
     /// The file.
     pub file: String,
-    /// Its line, from 1.
+    /// What its rows are called: `line`, `row`, `message`.
+    pub row: &'static str,
+    /// Which of them it is, from 1.
     pub line: u64,
     /// `found 20 cells, expected 13`.
     pub reason: String,
@@ -113,48 +133,63 @@ pub enum LogError {
     #[error("{file}: found no header, expected a row of names: t[s], q1[rad] …, tau1[N*m] …")]
     NoHeader { file: String },
     #[error(
-        "{file}: line {line}: found no column `{missing}`, expected it beside `{beside}`: the arm has \
+        "{file}: {at}: found no column `{missing}`, expected it beside `{beside}`: the arm has \
          {joints} joints{}",
         suggestion.as_ref().map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
     )]
     Missing {
         file: String,
-        line: u64,
-        missing: String,
-        beside: String,
+        at: String,
+        missing: Box<str>,
+        beside: Box<str>,
         joints: usize,
         suggestion: Option<String>,
     },
+    #[error("{file}: {at}: found `{found}`, expected joints 1 to {joints}: the arm has no other")]
+    Beyond { file: String, at: String, found: String, joints: usize },
     #[error(
-        "{file}: line {line}: found `{found}`, expected joints 1 to {joints}: the arm has no other"
-    )]
-    Beyond { file: String, line: u64, found: String, joints: usize },
-    #[error(
-        "{file}: line {line}: found joint values alone, expected beside them tau1 … or i1 … (what \
+        "{file}: {at}: found joint values alone, expected beside them tau1 … or i1 … (what \
          drives the joints) or q_cmd1 … (where they were to be)"
     )]
-    NothingLogged { file: String, line: u64 },
+    NothingLogged { file: String, at: String },
     #[error(
-        "{file}: line {line}, column {column}: found the unit `{unit}` of `{name}`, expected one of {known}"
+        "{file}: {at}, column {column}: found the unit `{unit}` of `{name}`, expected one of {known}"
     )]
-    Unit { file: String, line: u64, column: usize, name: String, unit: String, known: &'static str },
-    #[error(
-        "{file}: line {line}, columns {first} and {second}: found `{name}` twice, expected it once"
-    )]
-    Twice { file: String, line: u64, first: usize, second: usize, name: String },
+    Unit {
+        file: String,
+        at: String,
+        column: usize,
+        name: String,
+        unit: Box<str>,
+        known: &'static str,
+    },
+    #[error("{file}: {at}, columns {first} and {second}: found `{name}` twice, expected it once")]
+    Twice { file: String, at: String, first: usize, second: usize, name: String },
     #[error(
         "{file}: found no row that can be read, expected rows of {cells} numbers below the header{}",
-        first.as_ref().map_or_else(String::new, |d| format!(": line {}: {}", d.line, d.reason))
+        first.as_ref().map_or_else(String::new, |d| format!(": {} {}: {}", d.row, d.line, d.reason))
     )]
     NoRows { file: String, cells: usize, first: Option<Damaged> },
     #[error(
-        "{file}: line {line}: found `torque_side = {found}`, expected motor, link, current, commanded or external"
+        "{file}: {at}: found `torque_side = {found}`, expected motor, link, current, commanded or external"
     )]
-    Side { file: String, line: u64, found: String },
+    Side { file: String, at: String, found: String },
     #[error(
         "{file}: found {found}, expected what {first} has: the files of one log have the same columns and the same torque_side"
     )]
     Unlike { file: String, found: String, first: String },
+    #[error("{file}: {message}")]
+    Unreadable { file: String, message: String },
+    #[error(
+        "{file}: found the arm's joints in {topics}, expected them in one topic: say which with --topic"
+    )]
+    Topics { file: String, topics: String },
+    #[error(
+        "{file}: found no joint states{}, expected messages of sensor_msgs/JointState or \
+         control_msgs/JointTrajectoryControllerState in the topic",
+        if topics.is_empty() { String::new() } else { format!(" (there are {topics})") }
+    )]
+    NoTopic { file: String, topics: String },
     #[error("{map}: {message}")]
     Map { map: String, message: String },
     #[error("{map}: found no column `{column}` in {file}, expected the one that is {ours}")]
@@ -172,7 +207,7 @@ impl Log {
         motions: &[Motion],
         names: &Names,
     ) -> Result<Log, LogError> {
-        table::read(file, bytes, motions, names)
+        text::read(file, bytes, motions, names)
     }
 
     /// With the runs of another file.
@@ -222,14 +257,23 @@ impl Log {
             let more = self.damaged.len().saturating_sub(lines.len());
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };
             said.push(format!(
-                "{}: {} of {} rows are damaged and left out: line {}{more}; line {}: {}",
+                "{}: {} of {} rows are damaged and left out: {row} {}{more}; {row} {}: {}",
                 first.file,
                 self.damaged.len(),
                 self.damaged.len() + self.samples,
                 lines.join(", "),
                 first.line,
-                first.reason
+                first.reason,
+                row = first.row,
             ));
+        }
+        if !self.unknown.is_empty() {
+            let named: Vec<&str> = self.unknown.iter().take(8).map(String::as_str).collect();
+            let more = match self.unknown.len() - named.len() {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            said.push(format!("nothing reads {}{more}", named.join(", ")));
         }
         said.extend(clock::remarks(&self.runs));
         said

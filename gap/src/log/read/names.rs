@@ -13,6 +13,8 @@ use crate::readings::map::{Map, Theirs};
 struct Format {
     name: &'static str,
     time: &'static str,
+    /// What tells the runs apart.
+    run: &'static str,
     stems: &'static [(&'static str, Signal)],
 }
 
@@ -20,16 +22,22 @@ const FORMATS: [Format; 6] = [
     Format {
         name: "ros",
         time: "header.stamp",
+        run: "",
         stems: &[
             ("position", Signal::Q),
             ("velocity", Signal::Qd),
             ("effort", Signal::Torque),
             ("reference.positions", Signal::QCmd),
+            ("reference.velocities", Signal::QdCmd),
+            ("feedback.positions", Signal::Q),
+            ("feedback.velocities", Signal::Qd),
+            ("feedback.effort", Signal::Torque),
         ],
     },
     Format {
         name: "rtde",
         time: "timestamp",
+        run: "",
         stems: &[
             ("actual_q", Signal::Q),
             ("actual_qd", Signal::Qd),
@@ -43,6 +51,7 @@ const FORMATS: [Format; 6] = [
     Format {
         name: "libfranka",
         time: "time",
+        run: "",
         stems: &[
             ("q", Signal::Q),
             ("dq", Signal::Qd),
@@ -55,16 +64,19 @@ const FORMATS: [Format; 6] = [
     Format {
         name: "lerobot",
         time: "timestamp",
+        run: "episode_index",
         stems: &[("observation.state", Signal::Q), ("action", Signal::QCmd)],
     },
     Format {
         name: "sage",
         time: "timestamp",
+        run: "",
         stems: &[("positions", Signal::Q), ("velocities", Signal::Qd), ("torques", Signal::Torque)],
     },
     Format {
         name: "pace",
         time: "time",
+        run: "",
         stems: &[("dof_pos", Signal::Q), ("des_dof_pos", Signal::QCmd)],
     },
 ];
@@ -74,8 +86,15 @@ const FORMATS: [Format; 6] = [
 pub struct Names {
     format: Option<&'static Format>,
     map: Map,
+    #[cfg_attr(
+        not(any(feature = "mcap", feature = "rosbag2")),
+        expect(dead_code, reason = "formats with topics are features")
+    )]
+    topic: Option<String>,
     /// The joints' names, base to tip.
     joints: Vec<String>,
+    /// Whether joint values, sent or measured, are all that is needed.
+    motion: bool,
 }
 
 impl core::fmt::Debug for Format {
@@ -90,6 +109,16 @@ impl Names {
         Names { joints, ..Names::default() }
     }
 
+    /// Of a motion that is to be followed: it needs no more than where the joints are sent.
+    pub fn of_motion(self) -> Names {
+        Names { motion: true, ..self }
+    }
+
+    /// Whether joint values, sent or measured, are all that is needed.
+    pub(super) fn is_of_motion(&self) -> bool {
+        self.motion
+    }
+
     /// Those of a program, by its name; `None` if it is none of [`Names::formats`].
     pub fn of_format(self, name: &str) -> Option<Names> {
         let format = FORMATS.iter().find(|f| f.name == name)?;
@@ -99,6 +128,22 @@ impl Names {
     /// Those of a map, which may be given for any columns whatever.
     pub fn mapped(self, map: Map) -> Names {
         Names { map, ..self }
+    }
+
+    /// Of messages those of this topic.
+    pub fn of_topic(self, topic: String) -> Names {
+        Names { topic: Some(topic), ..self }
+    }
+
+    #[cfg(any(feature = "mcap", feature = "rosbag2"))]
+    pub(super) fn topic(&self) -> Option<&str> {
+        self.topic.as_deref()
+    }
+
+    /// Those of a program where no other is named.
+    #[cfg(any(feature = "mcap", feature = "rosbag2"))]
+    pub(super) fn or_of_format(self, name: &str) -> Names {
+        if self.format.is_some() { self } else { self.clone().of_format(name).unwrap_or(self) }
     }
 
     /// The programs whose names are known.
@@ -161,6 +206,9 @@ impl Names {
         if plain == format.time || plain.ends_with(&format!("/{}", format.time)) {
             return Some(Role::Time);
         }
+        if plain == format.run {
+            return Some(Role::Run);
+        }
         format.stems.iter().find_map(|(stem, signal)| {
             let role = |joint| Role::Joint(*signal, joint);
             // `/joint_states/elbow/position`.
@@ -205,6 +253,9 @@ mod tests {
             ("lerobot", "action.1", second(Signal::QCmd)),
             ("pace", "des_dof_pos_1", second(Signal::QCmd)),
             ("sage", "torques.elbow", second(Signal::Torque)),
+            ("sage", "positions[1]", second(Signal::Q)),
+            ("lerobot", "episode_index", Some(Role::Run)),
+            ("ros", "/arm/elbow/reference.positions", second(Signal::QCmd)),
         ] {
             let names = names().of_format(format).unwrap();
             assert_eq!(role(&names, header), expected, "{format}: {header}");

@@ -1,8 +1,7 @@
-//! The rows of a file into runs.
+//! Rows of cells into runs, whatever file they stand in.
 
 use std::collections::BTreeMap;
 
-use csv::{ByteRecord, ReaderBuilder};
 use stiffarm_kernels::Motion;
 
 use super::column::{Role, Signal, split};
@@ -14,13 +13,46 @@ use crate::measurement::nearest;
 /// since 1970 are below 1e10.)
 const LARGEST: f64 = 1e12;
 
-/// What may separate cells; of equally many the first.
-const SEPARATORS: [u8; 4] = [b',', b';', b'\t', b' '];
+/// What a file says before its rows.
+pub(super) struct Header {
+    /// Of the columns.
+    pub names: Vec<String>,
+    /// Where they stand: `line 3`.
+    pub at: String,
+    /// What its rows are called: `line`.
+    pub row: &'static str,
+    /// Where its torques are measured, if it says so.
+    pub side: Option<TorqueSide>,
+}
+
+/// A cell of a row.
+#[derive(Clone, Copy)]
+pub(super) enum Cell<'c> {
+    /// As a text has it.
+    Text(&'c [u8]),
+    /// As a file of numbers has it.
+    #[cfg_attr(
+        not(any(feature = "mcap", feature = "parquet", feature = "rosbag2")),
+        expect(dead_code, reason = "files of numbers are features")
+    )]
+    Number(f64),
+}
+
+/// A file whose rows come one by one.
+pub(super) struct Table {
+    columns: Columns,
+    log: Log,
+    row: &'static str,
+    open: Option<Open>,
+    sample: Sample,
+}
 
 /// What one column is.
 struct Head {
     role: Role,
     scale: Scale,
+    /// Of a joint's column, which among those of the run.
+    slot: usize,
 }
 
 /// The columns of a file.
@@ -29,6 +61,7 @@ struct Columns {
     heads: Vec<Option<Head>>,
     unknown: Vec<String>,
     signals: Vec<Signal>,
+    joints: usize,
 }
 
 /// A run as its rows come in.
@@ -37,7 +70,8 @@ struct Open {
     name: String,
     payload: String,
     t: Vec<f64>,
-    signals: BTreeMap<Signal, Vec<Vec<f64>>>,
+    /// Of each signal each joint, one behind the other.
+    values: Vec<Vec<f64>>,
     contact: Vec<bool>,
     repeated: usize,
 }
@@ -46,118 +80,90 @@ struct Open {
 #[derive(Default)]
 struct Sample {
     t: f64,
-    /// Signal, joint, value.
-    values: Vec<(Signal, usize, f64)>,
+    /// As in a run.
+    values: Vec<f64>,
     run: String,
     payload: String,
     contact: bool,
 }
 
-pub(super) fn read(
-    file: &str,
-    bytes: &[u8],
-    motions: &[Motion],
-    names: &Names,
-) -> Result<Log, LogError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let (side, first) = comments(file, bytes)?;
-    let header_line = bytes.split(|b| *b == b'\n').nth(first).unwrap_or_default();
-    let separator = separator(header_line);
-    let mut rows = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .delimiter(separator)
-        .comment(Some(b'#'))
-        .from_reader(bytes);
-    let mut record = ByteRecord::new();
-    let mut next = |record: &mut ByteRecord| rows.read_byte_record(record).unwrap_or(false);
-    if !next(&mut record) {
-        return Err(LogError::NoHeader { file: file.to_owned() });
+impl Table {
+    /// Of a file with this header; `motions` are those of the arm's joints.
+    pub(super) fn new(
+        file: &str,
+        header: &Header,
+        motions: &[Motion],
+        names: &Names,
+    ) -> Result<Table, LogError> {
+        let columns = Columns::of(file, header, motions, names)?;
+        let log = Log {
+            files: vec![file.to_owned()],
+            samples: 0,
+            runs: Vec::new(),
+            side: header.side,
+            damaged: Vec::new(),
+            unknown: columns.unknown.clone(),
+        };
+        Ok(Table { columns, log, row: header.row, open: None, sample: Sample::default() })
     }
-    let line = first as u64 + 1;
-    let header: Vec<String> =
-        record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect();
-    let columns = Columns::of(file, line, &header, motions, names)?;
-    let mut log = Log {
-        files: vec![file.to_owned()],
-        samples: 0,
-        runs: Vec::new(),
-        side,
-        damaged: Vec::new(),
-        unknown: columns.unknown.clone(),
-    };
-    let mut open: Option<Open> = None;
-    while next(&mut record) {
-        let line = record.position().map_or(0, csv::Position::line);
-        match columns.sample(&record) {
-            Err(reason) => log.damaged.push(Damaged { file: file.to_owned(), line, reason }),
-            Ok(sample) => {
-                log.samples += 1;
-                let continues = open.as_ref().is_some_and(|run| run.takes(&sample));
-                if !continues {
-                    log.runs.extend(open.take().map(|run| run.close(file)));
-                    open = Some(Open::new(&sample, &columns.signals, motions.len()));
+
+    /// Whether a column's cells are read.
+    #[cfg(feature = "parquet")]
+    pub(super) fn reads(&self, column: usize) -> bool {
+        self.columns.heads[column].is_some()
+    }
+
+    /// The next row, which is the one so many in its file, from 1.
+    pub(super) fn push<'c>(&mut self, row: u64, cells: impl ExactSizeIterator<Item = Cell<'c>>) {
+        match self.columns.read(cells, &mut self.sample) {
+            Err(reason) => self.damaged(row, reason),
+            Ok(()) => {
+                self.log.samples += 1;
+                if !self.open.as_ref().is_some_and(|open| open.takes(&self.sample)) {
+                    self.close();
                 }
-                if let Some(run) = &mut open {
-                    run.push(sample);
-                }
+                let open = self.open.get_or_insert_with(|| Open::new(&self.sample));
+                open.push(&self.sample);
             }
         }
     }
-    log.runs.extend(open.map(|run| run.close(file)));
-    if log.runs.is_empty() {
-        let first = log.damaged.into_iter().next();
-        return Err(LogError::NoRows { file: file.to_owned(), cells: header.len(), first });
-    }
-    Ok(log)
-}
 
-/// What comments say of the torque side, and the index of the first line that is none.
-fn comments(file: &str, bytes: &[u8]) -> Result<(Option<TorqueSide>, usize), LogError> {
-    let (mut side, mut header) = (None, 0);
-    let mut before = true;
-    for (index, line) in bytes.split(|b| *b == b'\n').enumerate() {
-        match line.strip_prefix(b"#") {
-            Some(comment) => {
-                let text = String::from_utf8_lossy(comment);
-                if let Some((name, value)) = text.split_once('=')
-                    && name.trim() == "torque_side"
-                {
-                    let word: String =
-                        value.trim().chars().take_while(|c| c.is_alphanumeric()).collect();
-                    let known = TorqueSide::named(&word).ok_or_else(|| LogError::Side {
-                        file: file.to_owned(),
-                        line: index as u64 + 1,
-                        found: word,
-                    })?;
-                    side = Some(known);
-                }
-            }
-            None if before && !line.trim_ascii().is_empty() => (before, header) = (false, index),
-            // Comments may stand on top alone: a log of a million rows is not searched for them.
-            None if !before => break,
-            None => {}
+    /// A row that cannot be read, and why.
+    pub(super) fn damaged(&mut self, line: u64, reason: String) {
+        let file = self.log.files.concat();
+        self.log.damaged.push(Damaged { file, row: self.row, line, reason });
+    }
+
+    /// The log of all rows.
+    pub(super) fn end(mut self) -> Result<Log, LogError> {
+        self.close();
+        let Table { columns, mut log, .. } = self;
+        if log.runs.is_empty() {
+            let (file, first) = (log.files.concat(), log.damaged.drain(..).next());
+            return Err(LogError::NoRows { file, cells: columns.heads.len(), first });
         }
+        Ok(log)
     }
-    Ok((side, header))
-}
 
-fn separator(header: &[u8]) -> u8 {
-    let count = |s: &u8| header.iter().filter(|b| *b == s).count();
-    SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',')
+    /// Ends the run that is open.
+    fn close(&mut self) {
+        let signals = (&self.columns.signals[..], self.columns.joints);
+        let run = self.open.take().map(|open| open.close(&self.log.files[0], signals));
+        self.log.runs.extend(run);
+    }
 }
 
 impl Columns {
     fn of(
         file: &str,
-        line: u64,
-        header: &[String],
+        header: &Header,
         motions: &[Motion],
         names: &Names,
     ) -> Result<Columns, LogError> {
-        let mut heads: Vec<Option<Head>> = Vec::with_capacity(header.len());
+        let at = &header.at;
+        let mut heads: Vec<Option<Head>> = Vec::with_capacity(header.names.len());
         let (mut unknown, mut used) = (Vec::new(), BTreeMap::new());
-        for (index, text) in header.iter().enumerate() {
+        for (index, text) in header.names.iter().enumerate() {
             let found = names.role(text, &mut used)?;
             let Some((role, said)) = found else {
                 unknown.push(text.clone());
@@ -168,7 +174,7 @@ impl Columns {
             if let Some(first) = heads.iter().position(same) {
                 return Err(LogError::Twice {
                     file: file.to_owned(),
-                    line,
+                    at: at.clone(),
                     first: first + 1,
                     second: index + 1,
                     name: role.name(),
@@ -179,7 +185,7 @@ impl Columns {
             {
                 return Err(LogError::Beyond {
                     file: file.to_owned(),
-                    line,
+                    at: at.clone(),
                     found: text.clone(),
                     joints: motions.len(),
                 });
@@ -191,10 +197,10 @@ impl Columns {
             if let (Some(quantity), Some(unit)) = (role.quantity(motions), unit) {
                 scale = quantity.scale(unit).ok_or_else(|| LogError::Unit {
                     file: file.to_owned(),
-                    line,
+                    at: at.clone(),
                     column: index + 1,
                     name: role.name(),
-                    unit: unit.to_owned(),
+                    unit: unit.into(),
                     known: quantity.units(),
                 })?;
             }
@@ -204,7 +210,7 @@ impl Columns {
                     offset: scale.factor * theirs.offset + scale.offset,
                 };
             }
-            heads.push(Some(Head { role, scale }));
+            heads.push(Some(Head { role, scale, slot: 0 }));
         }
         if let Some((ours, theirs)) = names.unused(&used) {
             return Err(LogError::NoColumn {
@@ -214,19 +220,28 @@ impl Columns {
                 ours: ours.to_owned(),
             });
         }
-        let mut columns = Columns { heads, unknown, signals: Vec::new() };
-        columns.complete(file, line, motions.len())?;
+        let (signals, joints) = (Vec::new(), motions.len());
+        let mut columns = Columns { heads, unknown, signals, joints };
+        columns.complete(file, at, names.is_of_motion())?;
+        for head in columns.heads.iter_mut().flatten() {
+            if let Role::Joint(signal, joint) = head.role {
+                let before = columns.signals.iter().position(|s| *s == signal).unwrap_or(0);
+                head.slot = before * joints + joint;
+            }
+        }
         Ok(columns)
     }
 
     /// Every signal has all joints, and there are those that are needed.
-    fn complete(&mut self, file: &str, line: u64, joints: usize) -> Result<(), LogError> {
+    fn complete(&mut self, file: &str, at: &str, motion: bool) -> Result<(), LogError> {
+        let joints = self.joints;
         let roles: Vec<Role> = self.heads.iter().flatten().map(|head| head.role).collect();
         let missing = |missing: String, beside: String| {
             let suggestion = nearest(&missing, self.unknown.iter().map(String::as_str));
             let suggestion = suggestion.map(str::to_owned);
-            let file = file.to_owned();
-            Err(LogError::Missing { file, line, missing, beside, joints, suggestion })
+            let (file, at) = (file.to_owned(), at.to_owned());
+            let (missing, beside) = (missing.into_boxed_str(), beside.into_boxed_str());
+            Err(LogError::Missing { file, at, missing, beside, joints, suggestion })
         };
         if !roles.contains(&Role::Time) {
             return missing("t".to_owned(), "q1".to_owned());
@@ -240,59 +255,82 @@ impl Columns {
                     let name = |joint| Role::Joint(signal, joint).name();
                     return missing(name(lacks), name(first));
                 }
-                (None, _) if signal == Signal::Q => {
+                (None, _) if signal == Signal::Q && !motion => {
                     return missing("q1".to_owned(), "t".to_owned());
                 }
                 (None, _) => {}
             }
         }
+        if motion {
+            let told = [Signal::Q, Signal::QCmd].iter().any(|signal| self.signals.contains(signal));
+            return if told { Ok(()) } else { missing("q_cmd1".to_owned(), "t".to_owned()) };
+        }
         let needed = [Signal::Torque, Signal::Current, Signal::QCmd];
         if !needed.iter().any(|signal| self.signals.contains(signal)) {
-            return Err(LogError::NothingLogged { file: file.to_owned(), line });
+            return Err(LogError::NothingLogged { file: file.to_owned(), at: at.to_owned() });
         }
         Ok(())
     }
 
-    /// The numbers of a row, in SI; what damages it.
-    fn sample(&self, record: &ByteRecord) -> Result<Sample, String> {
-        if record.len() != self.heads.len() {
-            return Err(format!("found {} cells, expected {}", record.len(), self.heads.len()));
+    /// The numbers of a row, in SI, into a sample; what damages it.
+    fn read<'c>(
+        &self,
+        cells: impl ExactSizeIterator<Item = Cell<'c>>,
+        sample: &mut Sample,
+    ) -> Result<(), String> {
+        if cells.len() != self.heads.len() {
+            return Err(format!("found {} cells, expected {}", cells.len(), self.heads.len()));
         }
-        let mut sample = Sample::default();
-        sample.values.reserve(self.heads.len());
-        for (cell, head) in record.iter().zip(&self.heads) {
+        sample.values.resize(self.signals.len() * self.joints, 0.0);
+        sample.contact = false;
+        for (cell, head) in cells.zip(&self.heads) {
             let Some(head) = head else { continue };
-            let text = || String::from_utf8_lossy(cell).trim().to_owned();
-            if matches!(head.role, Role::Run | Role::Payload) {
-                match head.role {
-                    Role::Run => sample.run = text(),
-                    _ => sample.payload = text(),
-                }
+            if let Role::Run | Role::Payload = head.role {
+                let word =
+                    if head.role == Role::Run { &mut sample.run } else { &mut sample.payload };
+                cell.text_into(word);
                 continue;
             }
-            let number = core::str::from_utf8(cell).ok().and_then(|c| c.trim().parse::<f64>().ok());
-            let number = number.map(|x| head.scale.to_si(x)).filter(|x| x.abs() < LARGEST);
+            let number = cell.number().map(|x| head.scale.to_si(x)).filter(|x| x.abs() < LARGEST);
             let number = number.ok_or_else(|| {
-                format!("found `{}` for {}, expected a number", text(), head.role.name())
+                let mut found = String::new();
+                cell.text_into(&mut found);
+                format!("found `{found}` for {}, expected a number", head.role.name())
             })?;
             match head.role {
                 Role::Time => sample.t = number,
-                Role::Joint(signal, joint) => sample.values.push((signal, joint, number)),
-                Role::Contact => sample.contact = number != 0.0,
+                Role::Joint(..) => sample.values[head.slot] = number,
                 // A wrench on the tool is kept out of the fits as contact is.
                 _ => sample.contact |= number != 0.0,
             }
         }
-        Ok(sample)
+        Ok(())
+    }
+}
+
+impl Cell<'_> {
+    fn number(self) -> Option<f64> {
+        match self {
+            Cell::Text(bytes) => core::str::from_utf8(bytes).ok()?.trim().parse().ok(),
+            Cell::Number(number) => Some(number),
+        }
+    }
+
+    fn text_into(self, word: &mut String) {
+        word.clear();
+        match self {
+            Cell::Text(bytes) => word.push_str(String::from_utf8_lossy(bytes).trim()),
+            Cell::Number(number) => word.push_str(&number.to_string()),
+        }
     }
 }
 
 impl Open {
-    fn new(first: &Sample, signals: &[Signal], joints: usize) -> Open {
+    fn new(first: &Sample) -> Open {
         Open {
             name: first.run.clone(),
             payload: first.payload.clone(),
-            signals: signals.iter().map(|signal| (*signal, vec![Vec::new(); joints])).collect(),
+            values: vec![Vec::new(); first.values.len()],
             ..Open::default()
         }
     }
@@ -303,26 +341,26 @@ impl Open {
             && self.t.last().is_none_or(|last| sample.t >= *last)
     }
 
-    fn push(&mut self, sample: Sample) {
+    fn push(&mut self, sample: &Sample) {
         if self.t.last() == Some(&sample.t) {
             self.repeated += 1;
             return;
         }
         self.t.push(sample.t);
         self.contact.push(sample.contact);
-        for (signal, joint, value) in sample.values {
-            if let Some(joints) = self.signals.get_mut(&signal) {
-                joints[joint].push(value);
-            }
-        }
+        self.values.iter_mut().zip(&sample.values).for_each(|(to, value)| to.push(*value));
     }
 
-    fn close(self, file: &str) -> Run {
+    /// With the signals that it has, of so many joints each.
+    fn close(mut self, file: &str, (signals, joints): (&[Signal], usize)) -> Run {
+        let each = signals.iter().zip(self.values.chunks_mut(joints.max(1)));
         Run {
             name: if self.name.is_empty() { file.to_owned() } else { self.name },
             clock: Clock::of(&self.t, self.repeated),
             t: self.t,
-            signals: self.signals,
+            signals: each
+                .map(|(s, values)| (*s, values.iter_mut().map(core::mem::take).collect()))
+                .collect(),
             payload: (!self.payload.is_empty()).then_some(self.payload),
             contact: self.contact,
         }

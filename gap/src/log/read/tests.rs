@@ -21,7 +21,7 @@ fn units_runs_and_sides_are_read() {
     assert_eq!(run.signals[&Signal::Q], [vec![2.0 * quarter, quarter], vec![5e-3, 6e-3]]);
     assert_eq!(run.signals[&Signal::Torque], [vec![1.5, 2.5], vec![2.0, 3.0]]);
     assert_eq!(log.unknown, ["note"]);
-    assert!(log.remarks().is_empty());
+    assert_eq!(log.remarks(), ["nothing reads note"]);
 }
 
 /// Stamps that go back begin another run; one that stands twice is one sample.
@@ -88,4 +88,18 @@ fn the_separator_is_found() {
     let names = Names::default().of_format("rtde").unwrap();
     let log = Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS, &names).unwrap();
     assert_eq!(log.runs[0].signals[&Signal::Current], [vec![3.0], vec![4.0]]);
+}
+
+/// SAGE writes all joints into one cell.
+#[test]
+fn a_cell_may_hold_all_joints() {
+    let text =
+        "timestamp,positions,torques\n0,\"[1, 2]\",\"[3.5,4]\"\n1,\"[1, 2, 3]\",\"[3.5,4]\"\n";
+    let names = Names::default().of_format("sage").unwrap();
+    let log = Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS, &names).unwrap();
+    assert_eq!(log.runs[0].signals[&Signal::Torque], [vec![3.5], vec![4.0]]);
+    assert_eq!(
+        (log.damaged[0].line, log.damaged[0].reason.as_str()),
+        (3, "found 6 cells, expected 5")
+    );
 }

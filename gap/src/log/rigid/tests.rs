@@ -1,99 +1,62 @@
-use nalgebra::{DVector, Matrix3};
-use stiffarm_kernels::generic::{Drive, Joint};
-
 use super::*;
+use crate::fixture;
 
-/// Links of random lengths, twists and inertias: of each its numbers about the frame's origin.
-fn arm(convention: Convention, motions: &[Motion], dice: &mut Dice) -> (Arm, Vec<f64>) {
-    let (mut joints, mut numbers) = (Vec::new(), Vec::new());
-    for motion in motions {
-        let mut draw = || dice.between(-1.0, 1.0);
-        let mass = 2.0 + draw();
-        let com = Vector3::new(draw(), draw(), draw());
-        let root = Matrix3::from_fn(|_, _| draw());
-        // About the origin: Steiner's part of the mass is in it.
-        let inertia = root * root.transpose()
-            + (Matrix3::identity() * com.norm_squared() - com * com.transpose()) * mass;
-        numbers.extend([mass].into_iter().chain((mass * com).iter().copied()));
-        numbers.extend(ENTRIES.map(|(row, column)| inertia[(row, column)]));
-        joints.push(Joint {
-            motion: *motion,
-            theta: draw(),
-            d: draw(),
-            a: draw(),
-            alpha: draw(),
-            beta: draw(),
-            compliance: 0.0,
-            mass,
-            com,
-            inertia: root * root.transpose(),
-            drive: Drive::default(),
-            limits: None,
-            beam: None,
-        });
-    }
-    let arm = Arm {
-        name: "random".to_owned(),
-        convention,
-        joints,
-        base: Isometry3::rotation(Vector3::new(0.3, -0.2, 0.5)),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity: Vector3::new(1.0, -2.0, -9.0),
+/// Three joints, one of which slides, with whole tensors.
+fn weighty(convention: &str) -> Arm {
+    let row = |kind: &str, k: usize| {
+        let numbers = format!(
+            "theta = 0.{k}1\nd = 0.{k}3\na = 0.{k}5\nalpha = 0.{k}7\nmass = {k}.5\ncom = [0.1, -0.{k}, 0.05]"
+        );
+        let inertia = "inertia = [0.3, 0.02, -0.03, 0.4, 0.01, 0.35]";
+        format!("[[joint]]\ntype = \"{kind}\"\n{numbers}\n{inertia}\n")
     };
-    (arm, numbers)
+    let rows = [row("revolute", 1), row("prismatic", 2), row("revolute", 3)].concat();
+    fixture::arm(&format!("name = \"weighty\"\nconvention = \"{convention}\"\n{rows}"))
 }
 
-fn arms() -> Vec<(Arm, Vec<f64>)> {
-    let mut dice = Dice::new(1, Stream::Arm);
-    let (turns, slides) = (Motion::Revolute, Motion::Prismatic);
-    [Convention::Standard, Convention::Modified]
-        .into_iter()
-        .flat_map(|c| [(c, vec![turns; 4]), (c, vec![turns, slides, turns, slides])])
-        .map(|(convention, motions)| arm(convention, &motions, &mut dice))
-        .collect()
-}
-
-fn torques(arm: &Arm, numbers: &[f64], q: &[f64], qd: &[f64], qdd: &[f64]) -> DVector<f64> {
-    let n = arm.dof();
-    let rows = regressor(arm, q, qd, qdd);
-    DVector::from_fn(n, |j, _| (0..10 * n).map(|k| rows[j * 10 * n + k] * numbers[k]).sum())
-}
-
-/// At rest the drives hold the weights: the textbook of the statics.
+/// Against the mass matrix of the textbook.
 #[test]
-fn at_rest_it_holds_the_weights() {
-    for (arm, numbers) in arms() {
-        let (q, still) = ([0.4, -0.7, 1.1, 0.2], [0.0; 4]);
-        let held = torques(&arm, &numbers, &q, &still, &still) + arm.weight_torque(&q);
-        assert!(held.amax() < 1e-12, "{held}");
-    }
-}
-
-/// In motion: the textbook, which takes each link's force and moment down the chain.
-#[test]
-fn in_motion_it_is_the_textbooks_inverse_dynamics() {
-    let mut dice = Dice::new(3, Stream::Poses);
-    for (arm, numbers) in arms() {
-        for _ in 0..20 {
-            let [q, qd, qdd] = [3.0, 5.0, 20.0]
-                .map(|size| (0..4).map(|_| size * dice.between(-1.0, 1.0)).collect::<Vec<f64>>());
-            let expected = arm.inverse_dynamics(&q, &qd, &qdd);
-            let off = torques(&arm, &numbers, &q, &qd, &qdd) - &expected;
-            // A few hundred sums of products up to a thousand.
-            assert!(off.amax() < 1e-11 * (1.0 + expected.amax()), "{off}");
+fn what_a_joint_alone_accelerates_is_the_diagonal_of_the_mass_matrix() {
+    for arm in ["standard", "modified"].map(weighty) {
+        let q: Vec<f64> = (0..arm.dof()).map(|k| 0.4 - 0.7 * k as f64).collect();
+        let mass = arm.mass_matrix(&q);
+        // Rotors are no links.
+        let rotor = |k: usize| arm.joints[k].drive.gear.powi(2) * arm.joints[k].drive.rotor_inertia;
+        for (k, found) in diagonal(&arm, &q, &arm.moments()).into_iter().enumerate() {
+            let expected = mass[(k, k)] - rotor(k);
+            assert!(
+                (found - expected).abs() < 1e-12 * mass[(0, 0)].abs().max(1.0),
+                "{found} {expected}"
+            );
         }
     }
 }
 
-/// Of a general arm whose base leans, so that gravity reaches the first joint too.
+/// A body that is moved is the body whose centre is there, and whose tensor is turned.
 #[test]
-fn the_base_is_what_can_be_seen() {
-    let mut dice = Dice::new(2, Stream::Arm);
-    let (one, _) = arm(Convention::Modified, &[Motion::Revolute], &mut dice);
-    // A leaning axis: about it the inertia, and the two first moments across it.
-    assert_eq!(Base::of(&one).columns, [1, 2, 9]);
-    let (general, _) = arm(Convention::Modified, &[Motion::Revolute; 6], &mut dice);
-    // Seven of each link beyond the first (Mayeda, Yoshida & Osuka 1990).
-    assert_eq!(Base::of(&general).columns.len(), 3 + 5 * 7);
+fn a_body_is_the_same_in_another_frame() {
+    let (com, mass) = (Vector3::new(0.1, -0.2, 0.3), 2.5);
+    let root = Matrix3::new(0.3, 0.1, -0.2, 0.4, 0.5, 0.6, -0.1, 0.2, 0.7);
+    let inertia = root * root.transpose();
+    let frame = Isometry3::new(Vector3::new(0.5, 0.4, -0.3), Vector3::new(0.7, -0.4, 1.1));
+    let turn = frame.rotation.to_rotation_matrix();
+    let expected = body(
+        mass,
+        &(frame * nalgebra::Point3::from(com)).coords,
+        &(turn * inertia * turn.transpose()),
+    );
+    for (found, expected) in moved(&frame, &body(mass, &com, &inertia)).iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
+}
+
+/// Every column is the sum of base columns that the mix says: at a motion that no one has drawn.
+#[test]
+fn all_columns_are_sums_of_base_columns() {
+    let arm = weighty("standard");
+    let base = Base::of(&arm);
+    let motion = |from: f64| (0..arm.dof()).map(|k| from - 0.6 * k as f64).collect::<Vec<f64>>();
+    let regressor = arm.torque_regressor(&motion(0.9), &motion(-0.3), &motion(2.0));
+    let sums = regressor.select_columns(&base.columns) * &base.mix;
+    assert!((sums - &regressor).amax() < 1e-9 * regressor.amax());
 }

@@ -1,21 +1,19 @@
 //! A model of a log, fitted: what the rigid links ask, and effects at their places.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
-use super::blocks::{Blocks, correlation_time};
-use super::sums::{Rows, Solver, Stack, sum};
+use super::stock::{Entry, Mixed, Stock};
+use super::sums::{Solver, sum};
 use crate::log::effects::{LogEffect, Spot};
-use crate::log::scene::{Column, Loads, Scene};
-
-/// Rounds of linearising again; each makes the error of the values about its square.
-const ROUNDS: usize = 8;
-
-/// Values that change by less than this part are found.
-const STILL: f64 = 1e-6;
 
 /// An effect at a place, with its values.
 #[derive(Clone)]
 pub struct Term {
+    /// Which of the stock's offers.
+    pub offer: usize,
+    /// About which values it is linearised.
+    pub entry: usize,
     /// The effect.
     pub effect: &'static dyn LogEffect,
     /// Where.
@@ -24,45 +22,13 @@ pub struct Term {
     pub values: Vec<f64>,
 }
 
-/// What is to be explained, and by what in any case.
-pub struct Problem<'a> {
-    /// The log.
-    pub scene: Scene<'a>,
-    /// The gap, of each joint.
-    pub target: Vec<Vec<f64>>,
-    /// Which rows count.
-    pub counts: Vec<Vec<bool>>,
-    /// Columns that are always fitted, and are no finding: the rigid links.
-    pub base: Vec<Column>,
-}
-
-/// A term where it has its values. What is sought is how much is to be added to `from`.
-pub struct Linear {
-    /// Per unit of each number.
-    pub columns: Vec<Column>,
-    /// What the term does where it is, taken from the left side.
-    pub done: Column,
-    /// Its values there; zero of a term that is in proportion to them.
-    pub from: Vec<f64>,
-}
-
-impl Term {
-    /// Its columns at its values.
-    pub fn linear(&self, scene: &Scene<'_>) -> Linear {
-        let columns = self.effect.columns(scene, self.spot, &self.values);
-        match self.effect.value(scene, self.spot, &self.values) {
-            Some(mut done) => {
-                let rows = done.parts.iter_mut().flat_map(|(_, rows)| rows);
-                rows.for_each(|x| *x = -*x);
-                Linear { columns, done, from: self.values.clone() }
-            }
-            None => Linear {
-                columns,
-                done: Column::default(),
-                from: vec![0.0; self.effect.numbers().len()],
-            },
-        }
-    }
+/// What is known of the rigid links.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Links {
+    /// Nothing: they are fitted along.
+    Free,
+    /// The values of their columns.
+    Known(Vec<f64>),
 }
 
 /// A fit.
@@ -70,94 +36,93 @@ impl Term {
 pub struct Fitted {
     /// With their values.
     pub terms: Vec<Term>,
-    /// The base's columns, then the terms' in their order.
-    pub columns: Vec<Column>,
+    /// The rigid links' columns, if these are free, then the terms' in their order.
+    pub columns: Vec<Mixed>,
     /// What they are fitted to.
-    pub left: Column,
+    pub left: Mixed,
     /// Values of all columns.
     pub values: Vec<f64>,
-    /// What is left, of each joint.
-    pub residual: Vec<Vec<f64>>,
+    /// What is known of the rigid links.
+    pub links: Links,
+}
+
+impl Stock<'_> {
+    /// An effect at a place where it is linearised.
+    pub fn term(&self, offer: usize, entry: usize) -> Term {
+        let of = &self.offers[offer];
+        let values = of.entries[entry].at.clone();
+        Term { offer, entry, effect: of.effect, spot: of.spot, values }
+    }
+
+    /// Its columns there.
+    pub fn entry(&self, term: &Term) -> &Entry {
+        &self.offers[term.offer].entries[term.entry]
+    }
+
+    /// What is to be explained, less what is known of the links and what terms do where they are
+    /// linearised.
+    pub fn left(&self, links: &Links, terms: &[Term]) -> Mixed {
+        let known: &[f64] = if let Links::Known(values) = links { values } else { &[] };
+        let known = known.iter().enumerate().map(|(column, value)| (column, -value));
+        let done = terms.iter().filter_map(|term| self.entry(term).done.as_ref());
+        let done = done.flat_map(|done| done.of.iter().map(|(column, x)| (*column, -x)));
+        let of = [(self.target, 1.0)].into_iter().chain(known).chain(done);
+        Mixed { of: of.collect(), run: None }
+    }
 }
 
 impl Fitted {
-    /// What it asks of the drives; the base's columns are the first so many.
-    pub fn loads(&self, base: usize) -> Loads {
-        let part = |count: usize| {
-            let mut part: Vec<Vec<f64>> =
-                self.residual.iter().map(|r| vec![0.0; r.len()]).collect();
-            for (column, value) in self.columns.iter().zip(&self.values).take(count) {
-                for (joint, rows) in &column.parts {
-                    part[*joint].iter_mut().zip(rows).for_each(|(x, c)| *x += value * c);
-                }
-            }
-            part
-        };
-        Loads { rigid: part(base), whole: part(self.columns.len()) }
+    /// Fits the links, if they are free, and these terms by least squares, each joint's rows told in
+    /// its size.
+    pub fn of(stock: &Stock<'_>, terms: &[Term], links: &Links, sizes: &[f64]) -> Fitted {
+        let base = if *links == Links::Free { stock.base } else { 0 };
+        let own = terms.iter().flat_map(|term| stock.entry(term).columns.clone());
+        let columns: Vec<Mixed> = (0..base).map(Mixed::one).chain(own).collect();
+        let left = stock.left(links, terms);
+        let mut all = columns.clone();
+        all.push(left.clone());
+        let products = stock.whole().products(&all, &all, &weights(sizes));
+        let products = sum(products.iter()).unwrap_or_else(|| DMatrix::zeros(all.len(), all.len()));
+        let values = minimum(&products);
+        let mut found = values[base..].iter();
+        let mut terms = terms.to_vec();
+        for term in &mut terms {
+            let entry = stock.entry(term);
+            // What is linearised is sought beside the values there; what is in proportion whole.
+            let from = entry.at.iter().map(|at| if entry.done.is_some() { *at } else { 0.0 });
+            term.values = from.zip(&mut found).map(|(from, by)| from + by).collect();
+        }
+        Fitted { terms, columns, left, values, links: links.clone() }
+    }
+
+    /// The columns and the left side, with their values and −1.
+    pub fn bordered(&self) -> (Vec<Mixed>, Vec<f64>) {
+        let columns = self.columns.iter().chain([&self.left]).cloned().collect();
+        (columns, self.values.iter().copied().chain([-1.0]).collect())
+    }
+
+    /// Root mean square of what is left of each joint.
+    pub fn sizes(&self, stock: &Stock<'_>) -> Vec<f64> {
+        let (columns, values) = self.bordered();
+        stock.sizes(&columns, &values)
+    }
+
+    /// What is left at the rows of the sample, of each joint.
+    pub fn sampled(&self, stock: &Stock<'_>) -> Vec<Vec<Option<f64>>> {
+        let (columns, values) = self.bordered();
+        let values: Vec<f64> = values.iter().map(|x| -x).collect();
+        stock.sampled(&columns, &values)
+    }
+
+    /// The correlation time of what is left, of each joint, s.
+    pub fn correlation(&self, stock: &Stock<'_>) -> Vec<f64> {
+        self.sampled(stock).par_iter().map(|rows| stock.correlation(rows)).collect()
     }
 }
 
-impl Problem<'_> {
-    /// Fits the base and these terms by least squares, each joint's rows told in its size; `loads` are
-    /// those of the model before.
-    pub fn fit(&self, terms: &[Term], sizes: &[f64], loads: &Loads) -> Fitted {
-        let scene = Scene { loads, ..self.scene };
-        let mut terms = terms.to_vec();
-        let rows = Rows { counts: self.counts.clone(), sizes: sizes.to_vec() };
-        let whole = Blocks::whole(self.scene.signals.rows());
-        for round in 1.. {
-            let linear: Vec<Linear> = terms.iter().map(|t| t.linear(&scene)).collect();
-            let bends = linear.iter().any(|l| !l.done.parts.is_empty());
-            let left = self.left(&linear);
-            let from: Vec<f64> = linear.iter().flat_map(|l| l.from.clone()).collect();
-            let own = linear.into_iter().flat_map(|l| l.columns);
-            let columns: Vec<Column> = self.base.iter().cloned().chain(own).collect();
-            let all: Vec<&Column> = columns.iter().chain([&left]).collect();
-            let stack = Stack::of(&all, &rows);
-            let products = sum(stack.products(&stack, &whole).iter());
-            let products = products.unwrap_or_else(|| DMatrix::zeros(all.len(), all.len()));
-            let values = minimum(&products);
-            let found = values[self.base.len()..].iter().zip(&from).map(|(by, from)| from + by);
-            let own = terms.iter_mut().flat_map(|term| &mut term.values);
-            let mut moved = 0.0_f64;
-            for (value, found) in own.zip(found) {
-                moved = moved.max((found - *value).abs() / (1e-9 + found.abs()));
-                *value = found;
-            }
-            if !bends || moved < STILL || round == ROUNDS {
-                let residual = residual(&columns, &left, &values);
-                return Fitted { terms, columns, left, values, residual };
-            }
-        }
-        unreachable!("the rounds are counted")
-    }
-
-    /// The target less what terms do where they are.
-    fn left(&self, linear: &[Linear]) -> Column {
-        let mut target = self.target.clone();
-        for (joint, rows) in linear.iter().flat_map(|l| &l.done.parts) {
-            target[*joint].iter_mut().zip(rows).for_each(|(x, done)| *x += done);
-        }
-        Column { parts: target.into_iter().enumerate().collect() }
-    }
-
-    /// Root mean square of each joint's rows that count.
-    pub fn sizes(&self, rows: &[Vec<f64>]) -> Vec<f64> {
-        let size = |(rows, counts): (&Vec<f64>, &Vec<bool>)| {
-            let used = rows.iter().zip(counts).filter(|(_, c)| **c).map(|(x, _)| x * x);
-            let (sum, count) = used.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
-            // A joint without rows has no size: it is told in one.
-            if sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
-        };
-        rows.iter().zip(&self.counts).map(size).collect()
-    }
-
-    /// The correlation time of each joint's rows, s.
-    pub fn correlation(&self, rows: &[Vec<f64>]) -> Vec<f64> {
-        let signals = self.scene.signals;
-        let pairs = rows.iter().zip(&self.counts);
-        pairs.map(|(rows, counts)| correlation_time(rows, counts, signals)).collect()
-    }
+/// What rows weigh that are told in these sizes.
+pub fn weights(sizes: &[f64]) -> Vec<f64> {
+    sizes.iter().map(|size| 1.0 / (size * size)).collect()
 }
 
 /// The values of least squares, of products whose last column is the left side's.
@@ -165,16 +130,6 @@ pub fn minimum(products: &DMatrix<f64>) -> Vec<f64> {
     let n = products.nrows() - 1;
     let matrix = products.view((0, 0), (n, n)).into_owned();
     let right = products.view((0, n), (n, 1)).into_owned();
-    Solver::of(&matrix).solve(&right).column(0).iter().copied().collect()
-}
-
-/// What columns leave of the left side.
-pub fn residual(columns: &[Column], left: &Column, values: &[f64]) -> Vec<Vec<f64>> {
-    let mut residual: Vec<Vec<f64>> = left.parts.iter().map(|(_, rows)| rows.clone()).collect();
-    for (column, value) in columns.iter().zip(values) {
-        for (joint, rows) in &column.parts {
-            residual[*joint].iter_mut().zip(rows).for_each(|(x, c)| *x -= value * c);
-        }
-    }
-    residual
+    let solved: DVector<f64> = Solver::of(&matrix).solve(&right).column(0).into_owned();
+    solved.iter().copied().collect()
 }

@@ -5,12 +5,12 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::blocks::Blocks;
-use super::candidates::without_each;
-use super::fit::{Fitted, Problem, Term, residual};
-use super::sums::{Rows, Solver, Stack, sum};
-use super::{Asked, CHANCE, Round, State, is_worse};
-use crate::log::effects::{LogEffect, Spot};
-use crate::log::scene::Column;
+use super::candidates::{Ground, without_each};
+use super::fit::{Fitted, Links, Term, weights};
+use super::stock::Stock;
+use super::sums::{Solver, quadratic, sum};
+use super::{Asked, CHANCE, Round, is_worse};
+use crate::log::effects::{LINKS, Spot};
 
 /// Rivals of one finding that are told.
 const RIVALS: usize = 5;
@@ -21,8 +21,28 @@ pub struct Judged {
     pub term: Term,
     /// The chance that something unrelated does as well.
     pub chance: f64,
+    /// What it leaves of each block, held out.
+    squares: Vec<f64>,
     /// What would do instead, with what it leaves for each that the finding leaves; the best first.
     pub rivals: Vec<(Term, f64)>,
+}
+
+impl Judged {
+    /// Notes that other numbers of all links would do instead, if what these leave is not told from what
+    /// the finding leaves.
+    fn beside_links(&mut self, squares: &[f64]) {
+        if !is_worse(squares, &self.squares) {
+            let ratio = squares.iter().sum::<f64>() / self.squares.iter().sum::<f64>();
+            let links = Term {
+                offer: usize::MAX,
+                entry: 0,
+                effect: LINKS,
+                spot: Spot::Arm,
+                values: Vec::new(),
+            };
+            self.rivals.push((links, ratio.sqrt()));
+        }
+    }
 }
 
 /// What a log says at the end.
@@ -31,8 +51,8 @@ pub struct Verdict {
     pub findings: Vec<Judged>,
     /// The model.
     pub fit: Fitted,
-    /// What it leaves and asks.
-    pub state: State,
+    /// Size of what it leaves of each joint.
+    pub sizes: Vec<f64>,
     /// Correlation time of what it leaves in each joint, s.
     pub correlation: Vec<f64>,
     /// How the time is divided.
@@ -41,28 +61,30 @@ pub struct Verdict {
 
 /// Judges each term beside the others, and drops those that are not told from accident, or have become
 /// what no such thing is, one after the other.
-pub fn judged(
-    problem: &Problem<'_>,
-    last: &Round,
-    wanted: &[(&'static dyn LogEffect, Spot)],
-    seed: u64,
-) -> Verdict {
-    let (mut fit, mut state) = (last.fit.clone(), last.state.clone());
+pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
+    let (mut fit, mut sizes) = (last.fit.clone(), last.sizes.clone());
     loop {
         // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
-        let correlation = problem.correlation(&fit.residual);
+        let correlation = fit.correlation(stock);
         let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(problem.scene.signals, longest);
+        let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
+        let sums = stock.sums(&blocks);
         let without = |k: usize| -> Judged {
             let mut others = fit.terms.clone();
             let term = others.remove(k);
-            let near = |(effect, spot): &&(&'static dyn LogEffect, Spot)| {
-                let itself = effect.identifier() == term.effect.identifier() && *spot == term.spot;
-                itself || spot.meets(term.spot)
-            };
-            let asked: Vec<_> = wanted.iter().filter(near).copied().collect();
-            let lacks = problem.fit(&others, &state.sizes, &state.loads);
-            Asked::of(problem, &lacks, &state, &blocks, &asked, seed).judge(term)
+            let near = |offer: &&usize| stock.offers[**offer].spot.meets(term.spot);
+            let asked: Vec<usize> = offers.iter().filter(near).copied().collect();
+            let lacks = Fitted::of(stock, &others, &fit.links, &sizes);
+            let mut judged =
+                Asked::of(stock, &lacks, &sizes, (&blocks, &sums), &asked, seed).judge(term);
+            if fit.links != Links::Free
+                && judged.term.effect.carried(stock.case.arm, judged.term.spot).is_none()
+            {
+                let free = Fitted::of(stock, &others, &Links::Free, &sizes);
+                let squares = Ground::of(stock, &free, &sizes, &blocks, &sums).squares;
+                judged.beside_links(&squares);
+            }
+            judged
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
         let wrong = |j: &Judged| !j.term.effect.may_be(&j.term.values);
@@ -72,16 +94,16 @@ pub fn judged(
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
         match worst.filter(|k| wrong(&all[*k]) || all[*k].chance > CHANCE) {
-            None => return Verdict { findings: all, fit, state, correlation, blocks },
+            None => return Verdict { findings: all, fit, sizes, correlation, blocks },
             Some(worst) => {
                 let mut terms = fit.terms.clone();
                 let gone = terms.remove(worst);
-                // What stood beside it alone goes with it.
+                // What stood beside it alone goes with it; beside the robot file's it may be found again.
                 terms.retain(|t| {
                     t.spot != gone.spot || t.effect.beside() != Some(gone.effect.identifier())
                 });
-                fit = problem.fit(&terms, &state.sizes, &state.loads);
-                state = State::of(problem, &fit);
+                fit = Fitted::of(stock, &terms, &fit.links, &sizes);
+                sizes = fit.sizes(stock);
             }
         }
     }
@@ -89,12 +111,10 @@ pub fn judged(
 
 impl Asked {
     /// The finding that the model lacks.
-    fn judge(&self, term: Term) -> Judged {
-        let same =
-            |t: &Term| t.effect.identifier() == term.effect.identifier() && t.spot == term.spot;
-        let Some(own) = self.candidates.iter().position(|c| same(&c.term)) else {
+    fn judge(self, term: Term) -> Judged {
+        let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
-            return Judged { term, chance: 1.0, rivals: Vec::new() };
+            return Judged { term, chance: 1.0, squares: self.squares, rivals: Vec::new() };
         };
         let left = |k: usize| self.candidates[k].squares.iter().sum::<f64>();
         let best = &self.candidates[own].squares;
@@ -111,47 +131,39 @@ impl Asked {
         rivals.truncate(RIVALS);
         let ratio = |k: usize| (left(k) / left(own)).sqrt();
         let rivals = rivals.into_iter().map(|k| (self.candidates[k].term.clone(), ratio(k)));
-        Judged { chance: self.chances[own], rivals: rivals.collect(), term }
+        let squares = best.clone();
+        Judged { chance: self.chances[own], squares, rivals: rivals.collect(), term }
     }
 }
 
 /// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.
 pub struct Unseen {
-    /// Of each joint; of rows that no block has, NaN.
-    pub residual: Vec<Vec<f64>>,
+    /// Root mean square of each joint's rows that were held out; 0 of a joint that has none.
+    pub sizes: Vec<f64>,
     /// Half the width of each column's interval.
     pub half_widths: Vec<f64>,
 }
 
 impl Unseen {
     /// Of a fit told in these sizes.
-    pub fn of(problem: &Problem<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
-        let rows = Rows { counts: problem.counts.clone(), sizes: sizes.to_vec() };
-        let all: Vec<&Column> = fit.columns.iter().chain([&fit.left]).collect();
-        let stack = Stack::of(&all, &rows);
-        let products = stack.products(&stack, blocks);
-        let mut unseen: Vec<Vec<f64>> =
-            problem.target.iter().map(|rows| vec![f64::NAN; rows.len()]).collect();
-        for (fold, values) in without_each(&products, blocks).into_iter().enumerate() {
-            let left = residual(&fit.columns, &fit.left, &values);
-            let own = blocks.rows.iter().zip(&blocks.fold).filter(|(_, f)| **f == fold);
-            for range in own.map(|(range, _)| range.clone()) {
-                for ((to, from), counts) in unseen.iter_mut().zip(&left).zip(&problem.counts) {
-                    range.clone().filter(|k| counts[*k]).for_each(|k| to[k] = from[k]);
-                }
-            }
-        }
-        Unseen { residual: unseen, half_widths: half_widths(&products, &fit.values) }
-    }
-
-    /// Root mean square of each joint's rows that were held out; 0 of a joint that has none.
-    pub fn sizes(&self) -> Vec<f64> {
-        let size = |rows: &Vec<f64>| {
-            let used = rows.iter().filter(|x| x.is_finite());
-            let (sum, count) = used.fold((0.0, 0.0), |(sum, n), x| (sum + x * x, n + 1.0));
-            if count > 0.0 { f64::sqrt(sum / count) } else { 0.0 }
+    pub fn of(stock: &Stock<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
+        let sums = stock.sums(blocks);
+        let (columns, _) = fit.bordered();
+        let products = sums.products(&columns, &columns, &weights(sizes));
+        let values = without_each(&products, blocks);
+        let joints = sizes.len();
+        let size = |joint: usize| {
+            let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
+            let own = sums.products(&columns, &columns, &alone);
+            let left = own.iter().zip(&blocks.fold);
+            let left = left.map(|(own, fold)| quadratic(own, &values[*fold].clone().push(-1.0)));
+            let rows = stock.rows_of(blocks, joint);
+            if rows > 0.0 { (left.sum::<f64>() / rows).sqrt() } else { 0.0 }
         };
-        self.residual.iter().map(size).collect()
+        Unseen {
+            sizes: (0..joints).into_par_iter().map(size).collect(),
+            half_widths: half_widths(&products, &fit.values),
+        }
     }
 }
 

@@ -7,19 +7,26 @@
 
 pub mod blocks;
 pub mod candidates;
+pub mod case;
 pub mod fit;
+pub mod grains;
 pub mod judge;
+pub mod rest;
+mod ripples;
+pub mod stock;
 pub mod sums;
 
-use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use blocks::Blocks;
 use candidates::{Candidate, Ground};
-use fit::{Fitted, Problem, Term};
+use case::{Case, Simple, Wanted};
+use fit::{Fitted, Links, Term};
+use stock::Stock;
+use sums::Sums;
 
 use super::effects::{CATALOGUE, LogEffect, Spot};
-use super::scene::{Loads, Scene};
+use super::scene::Loads;
 use super::signal::Signals;
 
 /// A chance above this is not told from accident.
@@ -28,27 +35,12 @@ const CHANCE: f64 = 0.05;
 /// No log shows more.
 const MOST: usize = 80;
 
-/// How large what is left is, and how the drives are loaded.
-#[derive(Clone, Debug)]
-pub struct State {
-    /// Size of what the model leaves in each joint.
-    pub sizes: Vec<f64>,
-    /// What it asks of the drives.
-    pub loads: Loads,
-}
-
-impl State {
-    fn of(problem: &Problem<'_>, fit: &Fitted) -> State {
-        State { sizes: problem.sizes(&fit.residual), loads: fit.loads(problem.base.len()) }
-    }
-}
-
 /// One round: a model, and what could be added to it.
 pub struct Round {
     /// The model.
     pub fit: Fitted,
-    /// What it leaves, and asks of the drives.
-    pub state: State,
+    /// Size of what it leaves of each joint.
+    pub sizes: Vec<f64>,
     /// Correlation time of that, of each joint, s.
     pub correlation: Vec<f64>,
     /// How the time is divided.
@@ -67,39 +59,43 @@ pub struct Asked {
     pub chances: Vec<f64>,
 }
 
-/// Effects and places that are asked for.
-pub fn wanted(
-    problem: &Problem<'_>,
-    only: Option<&[String]>,
-) -> Vec<(&'static dyn LogEffect, Spot)> {
-    let scene = &problem.scene;
+/// Effects and places that are asked for, and about which values.
+pub fn wanted(case: &Case<'_>, simple: &Simple, only: Option<&[String]>) -> Vec<Wanted> {
+    let loads = Loads::default();
+    let scene = case.scene(simple, case.signals, &loads);
     let named = |e: &&&dyn LogEffect| {
         only.is_none_or(|names| names.iter().any(|name| name == e.identifier()))
     };
-    let asked = CATALOGUE.iter().filter(|e| e.domain() == scene.domain).filter(named);
-    let asked = asked.filter(|e| e.excluded(scene).is_none());
-    asked.flat_map(|e| e.spots(scene).into_iter().map(|spot| (*e, spot))).collect()
+    let asked = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0).filter(named);
+    let asked = asked.filter(|e| e.excluded(&scene).is_none());
+    let at = |e: &&'static dyn LogEffect| -> Vec<Wanted> {
+        let spots = e.spots(&scene).into_iter();
+        let probed = spots.map(|spot| (*e, spot, e.probes(&scene, spot)));
+        probed.filter(|(.., probes)| !probes.is_empty()).collect()
+    };
+    asked.flat_map(at).collect()
 }
 
 impl Round {
-    /// Fits the terms and asks for others among those wanted.
+    /// Fits the terms and asks for others among the offers.
     pub fn of(
-        problem: &Problem<'_>,
+        stock: &Stock<'_>,
         terms: &[Term],
-        before: &State,
-        wanted: &[(&'static dyn LogEffect, Spot)],
+        links: &Links,
+        sizes: &[f64],
+        offers: &[usize],
         seed: u64,
     ) -> Round {
-        let fit = problem.fit(terms, &before.sizes, &before.loads);
+        let fit = Fitted::of(stock, terms, links, sizes);
         // Once more, each joint told in what is left of it.
-        let sizes = problem.sizes(&fit.residual);
-        let fit = problem.fit(&fit.terms, &sizes, &fit.loads(problem.base.len()));
-        let state = State::of(problem, &fit);
-        let correlation = problem.correlation(&fit.residual);
+        let fit = Fitted::of(stock, &fit.terms, links, &fit.sizes(stock));
+        let sizes = fit.sizes(stock);
+        let correlation = fit.correlation(stock);
         let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(problem.scene.signals, longest);
-        let asked = Asked::of(problem, &fit, &state, &blocks, wanted, seed);
-        Round { fit, state, correlation, blocks, asked }
+        let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
+        let sums = stock.sums(&blocks);
+        let asked = Asked::of(stock, &fit, &sizes, (&blocks, &sums), offers, seed);
+        Round { fit, sizes, correlation, blocks, asked }
     }
 
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
@@ -108,7 +104,7 @@ impl Round {
         let Asked { squares, candidates, chances } = &self.asked;
         let whole: f64 = squares.iter().sum();
         let left = |c: &Candidate| c.squares.iter().sum::<f64>();
-        let gain = |c: &Candidate| (whole - left(c)) / c.term.effect.numbers().len() as f64;
+        let gain = |c: &Candidate| (whole - left(c)) / c.things();
         let told = candidates.iter().zip(chances).filter(|(_, p)| **p <= CHANCE).map(|(c, _)| c);
         let told = told.filter(|c| left(c) < whole && c.term.effect.may_be(&c.term.values));
         told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
@@ -116,51 +112,61 @@ impl Round {
 }
 
 impl Asked {
-    /// Asks a model for those of the wanted that it lacks.
+    /// Asks a model for those of the offers that it lacks.
     fn of(
-        problem: &Problem<'_>,
+        stock: &Stock<'_>,
         fit: &Fitted,
-        state: &State,
-        blocks: &Blocks,
-        wanted: &[(&'static dyn LogEffect, Spot)],
+        sizes: &[f64],
+        (blocks, sums): (&Blocks, &Sums),
+        offers: &[usize],
         seed: u64,
     ) -> Asked {
-        let scene = Scene { loads: &state.loads, ..problem.scene };
-        let ground = Ground::of(scene, &problem.counts, fit, &state.sizes, blocks);
+        let ground = Ground::of(stock, fit, sizes, blocks, sums);
         let has = |name: &str, spot: Spot| {
             fit.terms.iter().any(|t| t.effect.identifier() == name && t.spot == spot)
         };
-        let asked = wanted.iter().filter(|(e, spot)| {
-            !has(e.identifier(), *spot) && e.beside().is_none_or(|other| has(other, *spot))
-        });
-        let terms: Vec<Term> = asked
-            .map(|(effect, spot)| Term { effect: *effect, spot: *spot, values: Vec::new() })
-            .collect();
-        let candidates: Vec<Candidate> = terms.par_iter().map(|t| ground.candidate(t)).collect();
+        let loads = Loads::default();
+        let simple = Simple::default();
+        let scene = stock.case.scene(&simple, stock.case.signals, &loads);
+        let stands = |name: &str, spot: Spot| {
+            let named = CATALOGUE.iter().find(|e| e.identifier() == name);
+            has(name, spot) || named.is_some_and(|e| e.in_file(&scene, spot))
+        };
+        let lacks = |offer: &&usize| {
+            let of = &stock.offers[**offer];
+            !has(of.effect.identifier(), of.spot)
+                && of.effect.beside().is_none_or(|other| stands(other, of.spot))
+        };
+        let asked: Vec<usize> = offers.iter().filter(lacks).copied().collect();
+        let candidates = ground.candidates(&asked);
         let chances = ground.chances(&candidates, seed);
         Asked { squares: ground.squares, candidates, chances }
     }
 }
 
-/// Looks for effects among those wanted, one after the other. `each` is told every round; the last, in
-/// which none was added, is returned.
+/// Looks for effects among the offers beside some terms, one after the other. `each` is told every
+/// round; the last, in which none was added, is returned.
 pub fn search(
-    problem: &Problem<'_>,
-    wanted: &[(&'static dyn LogEffect, Spot)],
+    stock: &Stock<'_>,
+    terms: &[Term],
+    links: &Links,
+    offers: &[usize],
     seed: u64,
     each: &mut dyn FnMut(&Round),
 ) -> Round {
-    let mut state =
-        State { sizes: problem.sizes(&problem.target), loads: problem.scene.loads.clone() };
-    let mut terms: Vec<Term> = Vec::new();
+    let mut sizes = vec![1.0; stock.case.signals.joints()];
+    if terms.is_empty() {
+        sizes = stock.sizes(&[stock.left(links, &[])], &[1.0]);
+    }
+    let mut terms = terms.to_vec();
     loop {
-        let round = Round::of(problem, &terms, &state, wanted, seed);
+        let round = Round::of(stock, &terms, links, &sizes, offers, seed);
         each(&round);
         let Some(best) = round.best().filter(|_| terms.len() < MOST) else { return round };
         let added = best.term.clone();
         terms = round.fit.terms;
         terms.push(added);
-        state = round.state;
+        sizes = round.sizes;
     }
 }
 
@@ -176,8 +182,6 @@ pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
 }
 
 /// Independent numbers that the rows of the joints hold.
-pub fn effective(counts: &[Vec<bool>], correlation: &[f64], signals: &Signals) -> f64 {
-    let rows = |counts: &Vec<bool>| counts.iter().filter(|c| **c).count() as f64;
-    let pairs = counts.iter().zip(correlation);
-    pairs.map(|(c, time)| rows(c) * signals.step() / (2.0 * time)).sum()
+pub fn effective(used: &[f64], correlation: &[f64], signals: &Signals) -> f64 {
+    used.iter().zip(correlation).map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
 }

@@ -2,75 +2,78 @@
 
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
 
-use super::blocks::Blocks;
-use crate::log::scene::Column;
+use super::stock::Mixed;
 
 /// A column of which less than this part of its square stands apart from those before it says nothing
 /// of its own.
 const APART: f64 = 1e-9;
 
-/// The rows of every joint, with what they weigh.
-#[derive(Clone, Debug)]
-pub struct Rows {
-    /// Whether a row counts, of each joint.
-    pub counts: Vec<Vec<bool>>,
-    /// Size of what is left in each joint: rows are told in it.
-    pub sizes: Vec<f64>,
+/// Products of the stored columns of each joint, block by block.
+#[derive(Clone, Debug, Default)]
+pub struct Sums {
+    /// The run of each block.
+    pub runs: Vec<usize>,
+    /// Where each stored column stands among a joint's, of each joint.
+    pub at: Vec<Vec<Option<usize>>>,
+    /// Of each joint each block's.
+    pub joints: Vec<Vec<DMatrix<f64>>>,
 }
 
-/// Some columns, each joint's rows beside each other and weighed; `columns[i]` is what each is of all.
-#[derive(Clone, Debug)]
-struct Joint {
-    matrix: DMatrix<f64>,
-    columns: Vec<usize>,
-}
-
-/// Columns that are multiplied with each other.
-#[derive(Clone, Debug)]
-pub struct Stack {
-    joints: Vec<Joint>,
-    count: usize,
-}
-
-impl Stack {
-    /// Of columns, over so many joints.
-    pub fn of(columns: &[&Column], rows: &Rows) -> Stack {
-        let joint = |joint: usize| {
-            let parts = columns.iter().enumerate().flat_map(|(c, column)| {
-                let parts = column.parts.iter().filter(move |(on, _)| *on == joint);
-                parts.map(move |(_, part)| (c, part))
-            });
-            let parts: Vec<(usize, &Vec<f64>)> = parts.collect();
-            let counts = &rows.counts[joint];
-            let matrix = DMatrix::from_fn(counts.len(), parts.len(), |k, c| match counts[k] {
-                true => parts[c].1[k] / rows.sizes[joint],
-                false => 0.0,
-            });
-            Joint { matrix, columns: parts.into_iter().map(|(c, _)| c).collect() }
-        };
-        Stack { joints: (0..rows.counts.len()).map(joint).collect(), count: columns.len() }
-    }
-
-    /// The products with another's columns, of each block.
-    pub fn products(&self, other: &Stack, blocks: &Blocks) -> Vec<DMatrix<f64>> {
-        let of = |range: &core::ops::Range<usize>| {
-            let mut sum = DMatrix::zeros(self.count, other.count);
-            for (mine, theirs) in self.joints.iter().zip(&other.joints) {
-                if mine.columns.is_empty() || theirs.columns.is_empty() {
+impl Sums {
+    /// Products of some columns with others, of each block; each joint's rows weigh so much.
+    pub fn products(
+        &self,
+        columns: &[Mixed],
+        others: &[Mixed],
+        weights: &[f64],
+    ) -> Vec<DMatrix<f64>> {
+        let mut all = vec![DMatrix::zeros(columns.len(), others.len()); self.runs.len()];
+        for ((joint, at), weight) in self.joints.iter().zip(&self.at).zip(weights) {
+            if *weight == 0.0 {
+                continue;
+            }
+            let (columns, others) = (here(columns, at), here(others, at));
+            for ((product, sum), run) in joint.iter().zip(&mut all).zip(&self.runs) {
+                let is_there = |of: &Here| of.run.is_none_or(|own| own == *run);
+                if product.nrows() == 0 {
                     continue;
                 }
-                let part = |joint: &Joint| joint.matrix.rows(range.start, range.len()).into_owned();
-                let product = part(mine).tr_mul(&part(theirs));
-                for (r, row) in mine.columns.iter().enumerate() {
-                    for (c, column) in theirs.columns.iter().enumerate() {
-                        sum[(*row, *column)] += product[(r, c)];
+                for other in others.iter().filter(|c| is_there(c)) {
+                    for column in columns.iter().filter(|c| is_there(c)) {
+                        let mut total = 0.0;
+                        for (b, more) in &other.of {
+                            let stored = product.column(*b);
+                            total +=
+                                column.of.iter().map(|(a, x)| x * stored[*a]).sum::<f64>() * more;
+                        }
+                        sum[(column.index, other.index)] += weight * total;
                     }
                 }
             }
-            sum
-        };
-        blocks.rows.iter().map(of).collect()
+        }
+        all
     }
+}
+
+/// What a joint has of a column.
+struct Here {
+    index: usize,
+    of: Vec<(usize, f64)>,
+    run: Option<usize>,
+}
+
+fn here(columns: &[Mixed], at: &[Option<usize>]) -> Vec<Here> {
+    let of = |(index, column): (usize, &Mixed)| Here {
+        index,
+        of: column.of.iter().filter_map(|(id, x)| Some((at[*id]?, *x))).collect(),
+        run: column.run,
+    };
+    columns.iter().enumerate().map(of).filter(|here| !here.of.is_empty()).collect()
+}
+
+/// `xᵀ A x`, not below zero.
+pub fn quadratic(matrix: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
+    x.dot(&(matrix * x)).max(0.0)
 }
 
 /// The least of the squares `xᵀ A x − 2 bᵀ x`; unknowns that say nothing beside those before them stay
@@ -155,16 +158,21 @@ pub fn sum<'m>(matrices: impl Iterator<Item = &'m DMatrix<f64>>) -> Option<DMatr
 }
 
 impl Solver {
+    /// What is left of columns of these squares, without those of which nothing is.
+    pub fn apart(left: &DMatrix<f64>, squares: &DVector<f64>) -> DMatrix<f64> {
+        let mut told = left.clone();
+        for k in (0..left.nrows()).filter(|k| left[(*k, *k)] <= APART * squares[*k]) {
+            told.row_mut(k).fill(0.0);
+            told.column_mut(k).fill(0.0);
+        }
+        told
+    }
+
     /// `L⁻¹` of what is left `L Lᵀ` of columns of these squares, so that `|L⁻¹ v|²` tells `v` in what it
     /// weighs; rows of 0 of those that say nothing.
     pub fn inverse_root(left: &DMatrix<f64>, squares: &DVector<f64>) -> DMatrix<f64> {
         let n = left.nrows();
-        let mut told = left.clone();
-        for k in (0..n).filter(|k| left[(*k, *k)] <= APART * squares[*k]) {
-            told.row_mut(k).fill(0.0);
-            told.column_mut(k).fill(0.0);
-        }
-        let solver = Solver::of(&told);
+        let solver = Solver::of(&Solver::apart(left, squares));
         let mut root = DMatrix::identity(n, n);
         for mut column in root.column_iter_mut() {
             solver.forwards(column.as_view_mut());

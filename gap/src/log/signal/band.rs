@@ -13,12 +13,17 @@ const MOST: usize = 40;
 /// A spectrum stands clear of the floor at so many times its power.
 const CLEAR: f64 = 10.0;
 
-/// The band is at most this part of the sampling rate, and at least that part.
+/// The band is at most this part of the sampling rate.
 const WIDEST: f64 = 0.2;
-const NARROWEST: f64 = 0.005;
 
-/// The band, Hz, of stretches of joint values at even steps of `period`.
-pub(super) fn found(stretches: &[Vec<Vec<f64>>], period: f64) -> f64 {
+/// It is at least this part, of torques.
+pub(super) const TORQUES: f64 = 0.005;
+
+/// The same of positions: the gap itself is not differentiated, and servos are logged slowly.
+pub(super) const POSITIONS: f64 = 0.04;
+
+/// The band, Hz, of stretches of joint values at even steps of `period`, at least this part of the rate.
+pub(super) fn found(stretches: &[Vec<Vec<f64>>], period: f64, narrowest: f64) -> f64 {
     let joints = stretches.first().map_or(0, Vec::len);
     let edges = (0..joints).filter_map(|joint| {
         let parts: Vec<&[f64]> = stretches.iter().map(|s| s[joint].as_slice()).collect();
@@ -27,7 +32,7 @@ pub(super) fn found(stretches: &[Vec<Vec<f64>>], period: f64) -> f64 {
     let rate = 1.0 / period;
     let widest = edges.fold(0.0, f64::max) * rate;
     let widest = if widest > 0.0 { widest } else { WIDEST * rate };
-    widest.clamp(NARROWEST * rate, WIDEST * rate)
+    widest.clamp(narrowest * rate, WIDEST * rate)
 }
 
 /// Mean power at each frequency, from 0 to half the rate, of windows of the samples' rate (which has no

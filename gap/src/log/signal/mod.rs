@@ -34,6 +34,9 @@ const KEPT: f64 = 4.0;
 /// Joint values are differentiated with so many times the band.
 const WIDER: f64 = 2.0;
 
+/// Reaches of the filter after which nothing of an end is left: a thousandth of each is, of four 1e-12.
+const ROOM: f64 = 4.0;
+
 /// Jitter below this part of a step is none: stamps are rounded.
 const ROUNDED: f64 = 0.02;
 
@@ -65,8 +68,12 @@ pub struct Signals {
     pub drive: Vec<Vec<f64>>,
     /// Commanded joint values, as they are; empty where there are none.
     pub command: Vec<Vec<f64>>,
-    /// Joint values as they were measured.
+    /// Joint values as they were measured; empty where torques are looked at.
     pub measured: Vec<Vec<f64>>,
+    /// Temperature, °C; empty where it is not logged.
+    pub temperature: Vec<Vec<f64>>,
+    /// Which way each joint moved last, −1, 0 before its first move, or 1; see [`Signals::mark_ways`].
+    pub ways: Vec<Vec<i8>>,
     /// Where the arm touches something.
     pub contact: Vec<bool>,
     /// The band's edge, Hz.
@@ -93,7 +100,8 @@ impl Signals {
     pub fn of(log: &Log, drive: Option<Signal>, band: Option<f64>) -> Signals {
         let mut wanted = vec![Signal::Q];
         let has = |signal: &Signal| log.has(*signal);
-        wanted.extend([Signal::Qd, Signal::QCmd].iter().filter(|s| has(s)).copied());
+        let more = [Signal::Qd, Signal::QCmd, Signal::Temperature];
+        wanted.extend(more.iter().filter(|s| has(s)).copied());
         wanted.extend(drive);
         let period = log.period();
         let evens: Vec<Even> = (0..log.runs.len())
@@ -102,7 +110,8 @@ impl Signals {
         let at = |signal| wanted.iter().position(|s| *s == signal);
         let band = band.unwrap_or_else(|| {
             let joints = |e: &Even| e.signals[0].clone();
-            band::found(&evens.iter().map(joints).collect::<Vec<_>>(), period)
+            let narrowest = if drive.is_some() { band::TORQUES } else { band::POSITIONS };
+            band::found(&evens.iter().map(joints).collect::<Vec<_>>(), period, narrowest)
         });
         let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
         let thin = thinning(band, period);
@@ -119,6 +128,8 @@ impl Signals {
             drive: empty(),
             command: empty(),
             measured: empty(),
+            temperature: empty(),
+            ways: vec![Vec::new(); joints],
             contact: Vec::new(),
             band,
             period,
@@ -145,7 +156,11 @@ impl Signals {
                 all.qdd[joint].extend(rate(&qd, period));
                 all.qd[joint].extend(qd);
                 all.q[joint].extend(q);
-                all.measured[joint].extend(measured);
+                if drive.is_none() {
+                    all.measured[joint].extend(measured);
+                }
+                let temperature = of(Signal::Temperature).into_iter().flatten();
+                all.temperature[joint].extend(temperature);
                 all.command[joint].extend(of(Signal::QCmd).into_iter().flatten());
                 all.drive[joint].extend(drive.and_then(of).into_iter().flatten());
             }
@@ -153,6 +168,54 @@ impl Signals {
             all.contact.extend(even.contact);
         }
         all
+    }
+
+    /// Notes which way each joint moved last, as soon as it moves faster than `still`. A joint that
+    /// stands keeps its direction.
+    pub fn mark_ways(&mut self, still: &[f64]) {
+        let of = |(speeds, still): (&Vec<f64>, &f64)| {
+            let mut ways = Vec::with_capacity(speeds.len());
+            for span in &self.spans {
+                let mut way = 0;
+                for speed in &speeds[span.fine.clone()] {
+                    if speed.abs() > *still {
+                        way = if *speed > 0.0 { 1 } else { -1 };
+                    }
+                    ways.push(way);
+                }
+            }
+            ways
+        };
+        self.ways = self.qd.iter().zip(still).map(of).collect();
+    }
+
+    /// A part of a span by itself, with so much room at both its ends that no end is felt in its `rows`;
+    /// and how many of its rows are that room, before them.
+    pub fn stretch(&self, span: &Span, rows: &Range<usize>) -> (Signals, usize) {
+        let room = (ROOM * self.reach() / self.step()).ceil() as usize;
+        let from = rows.start.saturating_sub(room).max(span.kept.start);
+        let to = (rows.end + room).min(span.kept.end);
+        let at = |row: usize| span.fine.start + (row - span.kept.start) * self.every;
+        let fine = at(from)..at(to).min(span.fine.end);
+        fn part<T: Clone>(all: &[Vec<T>], fine: &Range<usize>) -> Vec<Vec<T>> {
+            let of = |x: &Vec<T>| x.get(fine.clone()).map_or_else(Vec::new, <[T]>::to_vec);
+            all.iter().map(of).collect()
+        }
+        let signals = Signals {
+            spans: vec![Span { run: span.run, fine: 0..fine.len(), kept: 0..to - from }],
+            t: self.t[fine.clone()].to_vec(),
+            q: part(&self.q, &fine),
+            qd: part(&self.qd, &fine),
+            qdd: part(&self.qdd, &fine),
+            drive: part(&self.drive, &fine),
+            command: part(&self.command, &fine),
+            measured: part(&self.measured, &fine),
+            temperature: part(&self.temperature, &fine),
+            ways: part(&self.ways, &fine),
+            contact: self.contact[fine.clone()].to_vec(),
+            ..*self
+        };
+        (signals, rows.start - from)
     }
 
     /// Number of joints.
@@ -197,6 +260,11 @@ impl Signals {
             }
         }
         rows
+    }
+
+    /// What is computed at every fine sample of one span, through the filter.
+    pub fn smoothed(&self, fine: &[f64]) -> Vec<f64> {
+        self.filter.map_or_else(|| fine.to_vec(), |filter| filter.apply(fine))
     }
 
     /// The samples that are kept, of what is known at every fine one.

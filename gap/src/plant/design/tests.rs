@@ -90,7 +90,8 @@ fn the_file_reads_back() {
         let mut data = plant.measure(&design.rows(&arm), noise, 7).unwrap();
         let measured = kind.components().map(|is| f64::from(u8::from(is)));
         for (number, row) in data.rows.iter_mut().enumerate() {
-            row.sigma = Some(Vector6::from(measured) * (1e-5 * (1.0 + number as f64)));
+            let sigma = Vector6::from(measured) * (1e-5 * (1.0 + number as f64));
+            row.sigma = Some(Box::new(sigma));
         }
         let text = csv(&arm, &data, &["two\nlines".to_owned()]);
         assert!(text.starts_with("# two\n# lines\ntime[s],"), "{text}");

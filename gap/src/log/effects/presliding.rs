@@ -1,0 +1,83 @@
+//! Teeth and rollers give a little before a joint that turns round slides.
+
+use super::{LogEffect, Number, Spot, joint};
+use crate::effects::About;
+use crate::log::scene::{Column, Scene};
+
+/// Of Coulomb's friction the part `torque` builds up over a `distance` behind each reversal (Dahl 1968):
+/// `distance · z' = q̇ (1 − z sign q̇)`, of which `torque · (z − sign q̇)` is the change.
+#[derive(Clone, Copy, Debug)]
+pub struct Presliding;
+
+/// Distances from which the search begins, rad.
+const DISTANCES: [f64; 5] = [3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
+
+/// Part of a distance by which the slope over it is taken.
+const STEP: f64 = 0.05;
+
+impl LogEffect for Presliding {
+    fn identifier(&self) -> &'static str {
+        "presliding"
+    }
+
+    fn about(&self) -> About {
+        About {
+            reality: "Teeth and rollers give a little before a joint that turns round slides.",
+            signature: "Friction that comes back by and by behind a reversal.",
+            confused_with: "`stribeck`, `latency`, a sign that is smoothed.",
+            separated_by: "Small reversals, and large ones.",
+        }
+    }
+
+    fn numbers(&self) -> &'static [Number] {
+        &[("torque", "N·m"), ("distance", "rad")]
+    }
+
+    fn columns(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
+        let (joint, [torque, distance]) = (joint(spot), [values[0], values[1]]);
+        let here = bristles(scene, joint, distance);
+        let [less, more] = [1.0 - STEP, 1.0 + STEP].map(|by| bristles(scene, joint, by * distance));
+        let slope = torque / (2.0 * STEP * distance);
+        vec![
+            scene.column(joint, |k| here[k] - scene.sign(joint, k)),
+            scene.column(joint, |k| slope * (more[k] - less[k])),
+        ]
+    }
+
+    fn bends(&self) -> bool {
+        true
+    }
+
+    fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
+        let joint = joint(spot);
+        let here = bristles(scene, joint, values[1]);
+        scene.column(joint, |k| values[0] * (here[k] - scene.sign(joint, k)))
+    }
+
+    fn probes(&self, _: &Scene<'_>, _: Spot) -> Vec<Vec<f64>> {
+        DISTANCES.iter().map(|distance| vec![0.0, *distance]).collect()
+    }
+
+    fn may_be(&self, values: &[f64]) -> bool {
+        values[0] >= 0.0 && values[1] > 0.0
+    }
+
+    fn beside(&self) -> Option<&'static str> {
+        Some("coulomb_friction")
+    }
+}
+
+/// How far the bristles are bent, −1 to 1: exactly, where the joint moves one way between two samples.
+fn bristles(scene: &Scene<'_>, joint: usize, distance: f64) -> Vec<f64> {
+    let (q, ways) = (&scene.signals.q[joint], &scene.signals.ways[joint]);
+    let mut bent = ways.first().map_or(0.0, |way| f64::from(*way));
+    let mut before = q.first().copied().unwrap_or(0.0);
+    let next = |at: &f64| {
+        let moved = at - before;
+        before = *at;
+        let way = moved.signum();
+        bent = way + (bent - way) * (-moved.abs() / distance).exp();
+        bent
+    };
+    q.iter().map(next).collect()
+}

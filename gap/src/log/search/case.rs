@@ -1,0 +1,232 @@
+//! A log that is to be explained, and the columns of a stretch of it.
+
+use stiffarm_kernels::generic::Arm;
+
+use super::fit::{Fitted, Links};
+use super::ripples;
+use super::stock::{Mixed, Stock};
+use crate::log::effects::{COULOMB, LogEffect, OFFSET, Spot, VISCOUS};
+use crate::log::model::Acting;
+use crate::log::read::TorqueSide;
+use crate::log::rigid::Base;
+use crate::log::scene::{Column, Domain, Loads, Scene};
+use crate::log::signal::Signals;
+
+/// Fine samples are enough for the simple model.
+const ENOUGH: usize = 60_000;
+
+/// What is to be explained, and by what in any case.
+pub struct Case<'a> {
+    /// The arm of the robot file.
+    pub arm: &'a Arm,
+    /// Even and band-limited.
+    pub signals: &'a Signals,
+    /// What the rows are, and where a torque is measured.
+    pub kind: (Domain, Option<TorqueSide>),
+    /// Speeds below which a joint counts as standing, rad/s or m/s.
+    pub still: &'a [f64],
+    /// The rigid links, which are no finding; of torque rows.
+    pub base: Option<&'a Base>,
+    /// Of each run what it carries, by its name; `None` is nothing.
+    pub payloads: &'a [Option<String>],
+    /// What the robot file knows beyond its table.
+    pub known: &'a [Acting],
+    /// Of each run the numbers of the load that is known to be on the last link, in its frame.
+    pub loaded: &'a [Option<[f64; 10]>],
+}
+
+/// A simple model of the drives.
+#[derive(Clone, Debug, Default)]
+pub struct Simple {
+    /// Of the rigid links' columns.
+    values: Vec<f64>,
+    /// Coulomb and viscous friction of each joint.
+    friction: Vec<[f64; 2]>,
+    /// Ripples of each joint that stand out, in periods per radian or metre.
+    pub ripples: Vec<Vec<f64>>,
+}
+
+/// An effect at a place, and values about which it is asked for.
+pub type Wanted = (&'static dyn LogEffect, Spot, Vec<Vec<f64>>);
+
+impl Simple {
+    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows
+    /// nothing.
+    pub fn of(case: &Case<'_>, seed: u64) -> Simple {
+        let joints = case.signals.joints();
+        let nothing = Simple {
+            values: vec![0.0; case.base.map_or(0, |base| base.columns.len())],
+            friction: vec![[0.0; 2]; joints],
+            ripples: vec![Vec::new(); joints],
+        };
+        if case.kind.0 == Domain::Position {
+            return nothing;
+        }
+        let effects = [COULOMB, VISCOUS, OFFSET];
+        let spots = (0..joints).map(Spot::Joint);
+        let wanted: Vec<Wanted> =
+            spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]]))).collect();
+        let thinned = case.signals.t.len().div_ceil(ENOUGH);
+        let stock = Stock::of(case, &nothing, &wanted, thinned);
+        let terms = (0..stock.offers.len()).map(|offer| stock.term(offer, 0)).collect::<Vec<_>>();
+        let sizes = vec![1.0; joints];
+        let rough = Fitted::of(&stock, &terms, &Links::Free, &sizes);
+        let fit = Fitted::of(&stock, &terms, &Links::Free, &rough.sizes(&stock));
+        let values = |effect: usize| fit.terms.iter().skip(effect).step_by(3).map(|t| t.values[0]);
+        Simple {
+            friction: values(0)
+                .zip(values(1))
+                .map(|(coulomb, viscous)| [coulomb, viscous])
+                .collect(),
+            ripples: ripples::found(&stock, &fit.sampled(&stock), seed),
+            values: fit.values[..stock.base].to_vec(),
+        }
+    }
+}
+
+impl Case<'_> {
+    /// Which rows count, of each joint: away from the ends of the filters, no contact, and for torques
+    /// no standstill, where friction takes any value up to Coulomb's.
+    pub fn counts(&self) -> Vec<Vec<bool>> {
+        let signals = self.signals;
+        let touches = signals.kept(&signals.contact);
+        let free = signals.settled().into_iter().zip(touches).map(|(s, touch)| s && !touch);
+        let free: Vec<bool> = free.collect();
+        let counts = |joint: usize| {
+            let speeds = signals.kept(&signals.qd[joint]);
+            let moves = |speed: f64| speed.abs() > self.still[joint];
+            let pairs = speeds.into_iter().zip(&free);
+            let position = self.kind.0 == Domain::Position;
+            pairs.map(|(speed, free)| *free && (position || moves(speed))).collect()
+        };
+        (0..signals.joints()).map(counts).collect()
+    }
+
+    /// A scene of some signals, with what the simple model asks there.
+    pub fn scene<'s>(
+        &'s self,
+        simple: &'s Simple,
+        signals: &'s Signals,
+        loads: &'s Loads,
+    ) -> Scene<'s> {
+        let Simple { ripples, .. } = simple;
+        Scene::new(self.arm, signals, self.kind, loads, self.still, ripples, self.payloads)
+    }
+
+    /// The stored columns of an effect that only changes what a link's numbers are.
+    pub fn carried(&self, effect: &dyn LogEffect, spot: Spot) -> Option<Vec<Mixed>> {
+        let carried = effect.carried(self.arm, spot)?;
+        let base = self.base?;
+        let column = |numbers: [f64; 10]| {
+            let part = |row: usize| -> f64 {
+                let mix = base.mix.row(row);
+                (0..10).map(|k| mix[10 * carried.link + k] * numbers[k]).sum()
+            };
+            let parts = (0..base.columns.len()).map(|row| (row, part(row)));
+            Mixed { of: parts.filter(|(_, x)| *x != 0.0).collect(), run: carried.run }
+        };
+        Some(carried.numbers.into_iter().map(column).collect())
+    }
+
+    /// All columns at the rows of some signals of one run: rigid links, effects, what is to be
+    /// explained.
+    pub fn columns(
+        &self,
+        simple: &Simple,
+        wanted: &[Wanted],
+        signals: &Signals,
+        run: usize,
+    ) -> Vec<Column> {
+        let rigid = self.base.map_or_else(Vec::new, |base| rigid_columns(self.arm, base, signals));
+        let loads = self.loads(simple, &rigid, signals, run);
+        let scene = self.scene(simple, signals, &loads);
+        let filtered = |column: &Column| {
+            let parts = column.parts.iter();
+            Column { parts: parts.map(|(on, fine)| (*on, signals.filtered(fine))).collect() }
+        };
+        let mut columns: Vec<Column> = rigid.iter().map(filtered).collect();
+        for (effect, spot, probes) in wanted {
+            if effect.carried(self.arm, *spot).is_some() {
+                continue;
+            }
+            for values in probes {
+                columns.extend(effect.columns(&scene, *spot, values));
+                columns.extend(effect.bends().then(|| effect.value(&scene, *spot, values)));
+            }
+        }
+        let mut target = scene.target();
+        if let (Some(base), Some(load)) = (self.base, self.loaded.get(run).copied().flatten()) {
+            let asks = loaded(base, &load);
+            for (column, value) in columns.iter().zip(&asks) {
+                for (joint, rows) in &column.parts {
+                    let to = &mut target.parts[*joint].1;
+                    to.iter_mut().zip(rows).for_each(|(x, asks)| *x -= value * asks);
+                }
+            }
+        }
+        for (joint, rows) in self.known.iter().flat_map(|known| known.does(&scene).parts) {
+            target.parts[joint].1.iter_mut().zip(rows).for_each(|(x, does)| *x -= does);
+        }
+        columns.push(target);
+        columns
+    }
+
+    /// What the simple model asks at every fine sample.
+    fn loads(&self, simple: &Simple, rigid: &[Column], signals: &Signals, run: usize) -> Loads {
+        let nothing = || vec![vec![0.0; signals.t.len()]; signals.joints()];
+        let mut loads = Loads { rigid: nothing(), known: nothing(), ..Loads::default() };
+        let Some(base) = self.base else { return loads };
+        let add = |to: &mut [Vec<f64>], values: &[f64]| {
+            for (column, value) in rigid.iter().zip(values) {
+                for (joint, rows) in &column.parts {
+                    to[*joint].iter_mut().zip(rows).for_each(|(x, asks)| *x += value * asks);
+                }
+            }
+        };
+        let mut values = simple.values.clone();
+        if let Some(load) = self.loaded.get(run).copied().flatten() {
+            let more = loaded(base, &load);
+            add(&mut loads.known, &more);
+            values.iter_mut().zip(more).for_each(|(x, more)| *x += more);
+        }
+        add(&mut loads.rigid, &values);
+        let friction = |(joint, [coulomb, viscous]): (usize, &[f64; 2])| {
+            // What was found is beyond the robot file's.
+            let drive = &self.arm.joints[joint].drive;
+            let is_driven = self.kind.1.is_some_and(TorqueSide::is_driven);
+            let more = if is_driven { [drive.coulomb, drive.viscous] } else { [0.0; 2] };
+            let [coulomb, viscous] = [coulomb + more[0], viscous + more[1]];
+            signals.qd[joint].iter().map(|v| coulomb * v.signum() + viscous * v).collect()
+        };
+        loads.friction = simple.friction.iter().enumerate().map(friction).collect();
+        loads.numbers = base.numbers(&values);
+        loads
+    }
+}
+
+/// What a load on the last link adds to the values of the base columns.
+fn loaded(base: &Base, load: &[f64; 10]) -> Vec<f64> {
+    let last = base.mix.ncols() - 10;
+    let add = |row: usize| (0..10).map(|k| base.mix[(row, last + k)] * load[k]).sum();
+    (0..base.columns.len()).map(add).collect()
+}
+
+/// What a unit of each base parameter asks of the joints at the fine samples.
+fn rigid_columns(arm: &Arm, base: &Base, signals: &Signals) -> Vec<Column> {
+    let fine = signals.t.len();
+    let at = |of: &[Vec<f64>], k: usize| of.iter().map(|x| x[k]).collect::<Vec<f64>>();
+    let mut columns: Vec<Vec<Vec<f64>>> =
+        base.columns.iter().map(|c| vec![Vec::with_capacity(fine); c / 10 + 1]).collect();
+    for k in 0..fine {
+        let [q, rates, accelerations] = [&signals.q, &signals.qd, &signals.qdd].map(|of| at(of, k));
+        let regressor = arm.torque_regressor(&q, &rates, &accelerations);
+        for (column, index) in columns.iter_mut().zip(&base.columns) {
+            // A link's inertia is felt by its own joint and those below.
+            for (joint, values) in column.iter_mut().enumerate() {
+                values.push(regressor[(joint, *index)]);
+            }
+        }
+    }
+    let column = |joints: Vec<Vec<f64>>| Column { parts: joints.into_iter().enumerate().collect() };
+    columns.into_iter().map(column).collect()
+}

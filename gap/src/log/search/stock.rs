@@ -1,0 +1,386 @@
+//! All columns that a log may be explained by, and their products, summed in one pass.
+//!
+//! A million samples of seven joints are some hundred columns of which none is kept: the log goes by in
+//! stretches, each brings its columns to the [`Grain`]s that it covers, and what is asked later is asked
+//! of these sums. Every so-manyth row is kept beside them, for what sums cannot tell: how long what is
+//! left remembers, and what it depends on.
+
+use core::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::blocks::{Block, Blocks, correlation_time};
+use super::case::{Case, Simple, Wanted};
+use super::grains::{Grain, grains};
+use super::sums::{Sums, quadratic};
+use crate::log::effects::{LogEffect, Spot};
+use crate::log::signal::Signals;
+
+/// Rows that are kept, about.
+const SAMPLE: usize = 20_000;
+
+/// Fine samples of a stretch, about: what its columns take is a few tens of megabytes.
+const STRETCH: usize = 16_384;
+
+/// A sum of stored columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mixed {
+    /// A stored column, and how often.
+    pub of: Vec<(usize, f64)>,
+    /// The one run that it is of; zero in all others.
+    pub run: Option<usize>,
+}
+
+impl Mixed {
+    /// A stored column.
+    pub fn one(column: usize) -> Mixed {
+        Mixed { of: vec![(column, 1.0)], run: None }
+    }
+}
+
+/// An effect at a place, linearised about some values.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// What a unit of each number changes of the rows.
+    pub columns: Vec<Mixed>,
+    /// What it does at these values, where that is not in proportion to them.
+    pub done: Option<Mixed>,
+    /// The values.
+    pub at: Vec<f64>,
+}
+
+/// An effect at a place that may be asked for.
+pub struct Offer {
+    /// The effect.
+    pub effect: &'static dyn LogEffect,
+    /// Where.
+    pub spot: Spot,
+    /// About the values from which its own are sought.
+    pub entries: Vec<Entry>,
+}
+
+/// What is stored of one joint.
+struct Own {
+    /// The stored columns that this joint has.
+    columns: Vec<usize>,
+    /// Where a stored column stands among them.
+    at: Vec<Option<usize>>,
+    /// Products of its columns, of each grain's head and of what is behind it.
+    parts: Vec<[DMatrix<f64>; 2]>,
+    /// Its columns at the rows that are kept, zero where a row does not count.
+    sample: Vec<Vec<f32>>,
+}
+
+/// Columns and their products.
+pub struct Stock<'a> {
+    /// The log.
+    pub case: &'a Case<'a>,
+    /// Which rows count, of each joint.
+    pub counts: Vec<Vec<bool>>,
+    /// How many of those that were gone through.
+    pub used: Vec<f64>,
+    /// The finest parts of the time.
+    pub grains: Vec<Grain>,
+    /// Effects that may be asked for.
+    pub offers: Vec<Offer>,
+    /// The first so many stored columns are the rigid links'.
+    pub base: usize,
+    /// The stored column of what is to be explained.
+    pub target: usize,
+    /// Rows of the sample.
+    pub rows: Vec<usize>,
+    joints: Vec<Own>,
+    whole: Sums,
+}
+
+/// Rows of grains that are gone through at once.
+struct Stretch {
+    grains: Range<usize>,
+    rows: Range<usize>,
+}
+
+/// What one stretch brings, of each joint.
+struct Brought {
+    columns: Vec<usize>,
+    parts: Vec<[DMatrix<f64>; 2]>,
+    sample: Vec<Vec<f32>>,
+}
+
+impl<'a> Stock<'a> {
+    /// Of a log and the effects that may be asked for, with loads as the simple model has them. Every
+    /// `thinned`-th stretch alone is gone through where so much is enough.
+    pub fn of(case: &'a Case<'a>, simple: &Simple, wanted: &[Wanted], thinned: usize) -> Stock<'a> {
+        let signals = case.signals;
+        let (grains, counts) = (grains(signals), case.counts());
+        let all = stretches(&grains, signals);
+        let every = signals.rows().div_ceil(SAMPLE);
+        let went: Vec<&Stretch> = all.iter().step_by(thinned).collect();
+        let brought: Vec<Vec<Brought>> = went
+            .par_iter()
+            .map(|stretch| bring(case, simple, wanted, stretch, &grains, &counts, every))
+            .collect();
+        let base = case.base.map_or(0, |base| base.columns.len());
+        let (offers, target) = offers(case, wanted, base);
+        let of = |stretch: &&Stretch| stretch.rows.clone();
+        let rows = went.iter().flat_map(of).filter(|row| row % every == 0).collect();
+        let used = |counts: &Vec<bool>| went.iter().flat_map(of).filter(|k| counts[*k]).count();
+        let used = counts.iter().map(|counts| used(counts) as f64).collect();
+        let mut joints: Vec<Own> =
+            (0..signals.joints()).map(|_| Own::new(target, grains.len())).collect();
+        for (stretch, brought) in went.iter().zip(brought) {
+            joints.iter_mut().zip(brought).for_each(|(own, more)| own.take(stretch, more));
+        }
+        let whole = Sums::default();
+        let mut stock =
+            Stock { case, counts, used, grains, offers, base, target, rows, joints, whole };
+        stock.whole = stock.sums(&Blocks::whole(&stock.grains));
+        stock
+    }
+
+    /// Products of all columns of each joint over whole runs.
+    pub fn whole(&self) -> &Sums {
+        &self.whole
+    }
+
+    /// Products of all columns of each joint over each block.
+    pub fn sums(&self, blocks: &Blocks) -> Sums {
+        let joint = |own: &Own| {
+            let block = |block: &Block| {
+                let n = own.columns.len();
+                let mut sum = DMatrix::zeros(n, n);
+                for grain in block.grains.clone() {
+                    let [head, body] = &own.parts[grain];
+                    if !(block.purged && grain == block.grains.start) {
+                        add(&mut sum, head);
+                    }
+                    add(&mut sum, body);
+                }
+                sum
+            };
+            blocks.all.iter().map(block).collect()
+        };
+        Sums {
+            runs: blocks.all.iter().map(|block| block.run).collect(),
+            at: self.joints.iter().map(|own| own.at.clone()).collect(),
+            joints: self.joints.iter().map(joint).collect(),
+        }
+    }
+
+    /// Rows of a joint that count and are in some block.
+    pub fn rows_of(&self, blocks: &Blocks, joint: usize) -> f64 {
+        let of = |block: &Block| {
+            let (first, last) = (block.grains.start, block.grains.end - 1);
+            let head = &self.grains[first].head;
+            let start = if block.purged { head.end } else { head.start };
+            let counts = &self.counts[joint][start..self.grains[last].rows.end];
+            counts.iter().filter(|counts| **counts).count()
+        };
+        blocks.all.iter().map(of).sum::<usize>() as f64
+    }
+
+    /// Root mean square of what columns with these values, −1 of the left side, leave of each joint.
+    pub fn sizes(&self, columns: &[Mixed], values: &[f64]) -> Vec<f64> {
+        let joints = self.joints.len();
+        let values = DVector::from_column_slice(values);
+        let size = |joint: usize| {
+            let weights: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
+            let products = self.whole.products(columns, columns, &weights);
+            let sum: f64 = products.iter().map(|product| quadratic(product, &values)).sum();
+            // A joint without rows has no size: it is told in one.
+            if sum > 0.0 { (sum / self.used[joint]).sqrt() } else { 1.0 }
+        };
+        (0..joints).into_par_iter().map(size).collect()
+    }
+
+    /// What columns with these values are at the rows of the sample, of each joint; a hole where a row
+    /// does not count.
+    pub fn sampled(&self, columns: &[Mixed], values: &[f64]) -> Vec<Vec<Option<f64>>> {
+        let runs: Vec<usize> = self.rows.iter().map(|row| self.run_of(*row)).collect();
+        let joint = |(joint, own): (usize, &Own)| {
+            let mut sum = vec![0.0; self.rows.len()];
+            for (column, value) in columns.iter().zip(values) {
+                for (stored, times) in &column.of {
+                    let Some(at) = own.at[*stored] else { continue };
+                    let times = times * value;
+                    let rows = &own.sample[at];
+                    for ((sum, x), run) in sum.iter_mut().zip(rows).zip(&runs) {
+                        if column.run.is_none_or(|own| own == *run) {
+                            *sum += times * f64::from(*x);
+                        }
+                    }
+                }
+            }
+            let counts = self.rows.iter().map(|row| self.counts[joint][*row]);
+            sum.into_iter().zip(counts).map(|(x, counts)| counts.then_some(x)).collect()
+        };
+        self.joints.par_iter().enumerate().map(|(k, own)| joint((k, own))).collect()
+    }
+
+    fn grain_of(&self, row: usize) -> usize {
+        self.grains.partition_point(|grain| grain.rows.end <= row)
+    }
+
+    fn run_of(&self, row: usize) -> usize {
+        self.grains[self.grain_of(row)].run
+    }
+
+    /// The block that a row is in; `None` of one between two blocks.
+    pub fn block_of(&self, blocks: &Blocks, row: usize) -> Option<usize> {
+        let grain = self.grain_of(row);
+        let at = blocks.all.partition_point(|block| block.grains.end <= grain);
+        let block = &blocks.all[at];
+        let head = block.purged && block.grains.start == grain && row < self.grains[grain].head.end;
+        (!head).then_some(at)
+    }
+
+    /// The correlation time of what is told at the rows of the sample, s.
+    pub fn correlation(&self, sampled: &[Option<f64>]) -> f64 {
+        let signals = self.case.signals;
+        let every = signals.rows().div_ceil(SAMPLE);
+        let mut parts: Vec<Vec<Option<f64>>> = vec![Vec::new(); signals.spans.len()];
+        for (row, x) in self.rows.iter().zip(sampled) {
+            let at = signals.spans.partition_point(|span| span.kept.end <= *row);
+            parts[at].push(*x);
+        }
+        correlation_time(&parts, every as f64 * signals.step())
+    }
+}
+
+/// Adds what there is; a grain that nothing was brought to has an empty matrix.
+fn add(sum: &mut DMatrix<f64>, more: &DMatrix<f64>) {
+    if more.nrows() > 0 {
+        *sum += more;
+    }
+}
+
+/// Neighbouring grains of one run, so many that a stretch is worth its ends.
+fn stretches(grains: &[Grain], signals: &Signals) -> Vec<Stretch> {
+    let most = STRETCH / (signals.t.len() / signals.rows().max(1)).max(1);
+    let mut all: Vec<Stretch> = Vec::new();
+    for (k, grain) in grains.iter().enumerate() {
+        match all.last_mut() {
+            Some(last)
+                if grains[last.grains.start].run == grain.run
+                    && grain.rows.end - last.rows.start <= most =>
+            {
+                last.grains.end = k + 1;
+                last.rows.end = grain.rows.end;
+            }
+            _ => all.push(Stretch { grains: k..k + 1, rows: grain.rows.clone() }),
+        }
+    }
+    all
+}
+
+/// The stored columns that each effect's numbers are of: the base's first, then the effects' in their
+/// order, then what is to be explained.
+fn offers(case: &Case<'_>, wanted: &[Wanted], base: usize) -> (Vec<Offer>, usize) {
+    let mut next = base;
+    let mut take = || {
+        next += 1;
+        next - 1
+    };
+    let mut offers = Vec::new();
+    for (effect, spot, probes) in wanted {
+        let entries = match case.carried(*effect, *spot) {
+            Some(columns) => vec![Entry { at: vec![0.0; columns.len()], columns, done: None }],
+            None => probes
+                .iter()
+                .map(|at| Entry {
+                    columns: at.iter().map(|_| Mixed::one(take())).collect(),
+                    done: effect.bends().then(|| Mixed::one(take())),
+                    at: at.clone(),
+                })
+                .collect(),
+        };
+        offers.push(Offer { effect: *effect, spot: *spot, entries });
+    }
+    (offers, next)
+}
+
+/// Goes through one stretch: products and rows of all columns.
+fn bring(
+    case: &Case<'_>,
+    simple: &Simple,
+    wanted: &[Wanted],
+    stretch: &Stretch,
+    grains: &[Grain],
+    counts: &[Vec<bool>],
+    every: usize,
+) -> Vec<Brought> {
+    let signals = case.signals;
+    let joints = signals.joints();
+    let mut brought: Vec<Brought> = Vec::new();
+    let own = &grains[stretch.grains.clone()];
+    for span in &signals.spans {
+        let rows = stretch.rows.start.max(span.kept.start)..stretch.rows.end.min(span.kept.end);
+        if rows.is_empty() {
+            continue;
+        }
+        let (part, before) = signals.stretch(span, &rows);
+        let columns = case.columns(simple, wanted, &part, span.run);
+        for joint in 0..joints {
+            let parts = columns.iter().enumerate().flat_map(|(id, column)| {
+                let parts = column.parts.iter().filter(move |(on, _)| *on == joint);
+                parts.map(move |(_, rows)| (id, rows))
+            });
+            let parts: Vec<(usize, &Vec<f64>)> = parts.collect();
+            if brought.len() <= joint {
+                let empty = || DMatrix::zeros(parts.len(), parts.len());
+                brought.push(Brought {
+                    columns: parts.iter().map(|(id, _)| *id).collect(),
+                    parts: own.iter().map(|_| [empty(), empty()]).collect(),
+                    sample: vec![Vec::new(); parts.len()],
+                });
+            }
+            let to = &mut brought[joint];
+            for (grain, sums) in own.iter().zip(&mut to.parts) {
+                let behind = grain.head.end..grain.rows.end;
+                for (range, sum) in [&grain.head, &behind].into_iter().zip(sums) {
+                    let used = range.start.max(rows.start)..range.end.min(rows.end);
+                    let used: Vec<usize> = used.filter(|row| counts[joint][*row]).collect();
+                    if used.is_empty() {
+                        continue;
+                    }
+                    let at = |k: usize, c: usize| parts[c].1[used[k] - rows.start + before];
+                    let matrix = DMatrix::from_fn(used.len(), parts.len(), at);
+                    *sum += matrix.tr_mul(&matrix);
+                }
+            }
+            let kept = rows.clone().filter(|row| row % every == 0);
+            for row in kept {
+                let counts = counts[joint][row];
+                for (sample, (_, x)) in to.sample.iter_mut().zip(&parts) {
+                    let x = x[row - rows.start + before] as f32;
+                    sample.push(if counts { x } else { 0.0 });
+                }
+            }
+        }
+    }
+    brought
+}
+
+impl Own {
+    fn new(target: usize, grains: usize) -> Own {
+        let none = || [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
+        Own {
+            columns: Vec::new(),
+            at: vec![None; target + 1],
+            parts: (0..grains).map(|_| none()).collect(),
+            sample: Vec::new(),
+        }
+    }
+
+    fn take(&mut self, stretch: &Stretch, more: Brought) {
+        if self.columns.is_empty() {
+            more.columns.iter().enumerate().for_each(|(k, id)| self.at[*id] = Some(k));
+            self.sample = vec![Vec::new(); more.columns.len()];
+            self.columns = more.columns;
+        }
+        for (grain, sums) in stretch.grains.clone().zip(more.parts) {
+            self.parts[grain] = sums;
+        }
+        self.sample.iter_mut().zip(more.sample).for_each(|(to, rows)| to.extend(rows));
+    }
+}

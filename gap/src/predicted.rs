@@ -1,0 +1,124 @@
+//! What an arm as its file has it reads in rows of its own: nothing is fitted.
+
+use nalgebra::{Isometry3, Vector6};
+use rayon::prelude::*;
+use stiffarm_kernels::Unstable;
+
+use crate::diagnose::DiagnoseError;
+use crate::effects::Known;
+use crate::measurement::{Kind, Measurements, Row};
+use crate::simulate::{Actual, Moment, Sim, moments, origin};
+use crate::whole::Whole;
+
+/// The rows with what the arm is to read in the place of what was measured, at static equilibrium under
+/// each row's load with every effect of the robot file. The user's own simulator, if the rows have one,
+/// plays no part; what happened in another session is not there.
+///
+/// # Errors
+/// [`DiagnoseError`]: rows of another robot, a marker or a point whose place nobody knows, a load that
+/// the arm does not bear.
+pub fn predicted<'a>(
+    whole: impl Into<Whole<'a>>,
+    data: &Measurements,
+) -> Result<Measurements, DiagnoseError> {
+    let Whole { arm, known } = whole.into();
+    let known: Vec<Known> = known.iter().filter(|known| known.is_there(data)).cloned().collect();
+    let here = Whole { arm, known: &known };
+    let read = |(row, when): (&Row, &Moment)| -> Result<Row, DiagnoseError> {
+        are_known(here, data, row)?;
+        let unstable = |_| DiagnoseError::Unstable { file: data.file.clone(), line: row.line };
+        let measured = reading(here, data.kind, row, when).map_err(unstable)?;
+        Ok(Row { measured, sim: None, ..row.clone() })
+    };
+    // The first row's error is told, however many are worked on at once.
+    let rows: Vec<Result<Row, DiagnoseError>> =
+        data.rows.par_iter().zip(&moments(data)).map(read).collect();
+    let rows = rows.into_iter().collect::<Result<_, _>>()?;
+    Ok(Measurements { rows, sim_given: [false; 6], ..data.clone() })
+}
+
+fn are_known(whole: Whole<'_>, data: &Measurements, row: &Row) -> Result<(), DiagnoseError> {
+    let (file, expected) = (|| data.file.clone(), whole.arm.dof());
+    if row.q.len() != expected {
+        return Err(DiagnoseError::Joints { file: file(), found: row.q.len(), expected });
+    }
+    if let (Some(marker), None) = (&row.marker, row.offset) {
+        return Err(DiagnoseError::NewMarker { file: file(), marker: marker.clone() });
+    }
+    if data.kind == Kind::Distance && row.from.is_none() {
+        let point = row.from_point.clone().unwrap_or_default();
+        return Err(DiagnoseError::NewPoint { file: file(), point });
+    }
+    Ok(())
+}
+
+fn reading(
+    Whole { arm, known }: Whole<'_>,
+    kind: Kind,
+    row: &Row,
+    when: &Moment,
+) -> Result<Vector6<f64>, Unstable> {
+    let [x, y, z] = row.offset.unwrap_or_default();
+    let sim = Sim::of(kind, Isometry3::translation(x, y, z), None, |loaded| {
+        let wrench = if loaded { row.wrench } else { Vector6::zeros() };
+        let mut actual = Actual::new(arm, &row.q, &wrench);
+        known.iter().for_each(|known| known.alter(&mut actual, row, when));
+        actual
+    })?;
+    let mask = Vector6::from_iterator(kind.components().map(f64::from));
+    Ok(sim.seen_from(origin(kind, row)).reading().vector().component_mul(&mask))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{known, springy};
+    use crate::plant::Plant;
+    use crate::plant::design::{Design, Shape};
+
+    /// Against the plant, which shares nothing with it: an effect of each kind, and all that is measured.
+    #[test]
+    fn it_is_what_a_plant_shows_without_noise() {
+        let arm = springy();
+        let effects = [
+            known("transmission_error", "joint 2", 2, &[3e-4, -1e-4]),
+            known("joint_hardening", "joint 2", 0, &[1e-12]),
+            known("backlash", "joint 3", 0, &[4e-4]),
+            known("settling_lag", "joint 1", 0, &[2e-4]),
+            known("drift", "base", 0, &[1e-8; 6]),
+        ];
+        let pose = Kind::Pose { orientation: true };
+        for kind in [pose, Kind::Displacement { components: [true; 6] }, Kind::Distance] {
+            let design =
+                Design { shape: Shape::Force, poses: 6, repeats: 1, payload: 10.0, kind, seed: 2 };
+            let rows = design.rows(&arm);
+            let plant = Plant::beyond(&arm, &effects, &[]).unwrap().exact(&rows).unwrap();
+            let found = predicted(Whole { arm: &arm, known: &effects }, &rows).unwrap();
+            let bare = predicted(&arm, &rows).unwrap();
+            for (k, (is, shown)) in found.rows.iter().zip(&plant.rows).enumerate() {
+                let off = (is.measured - shown.measured).amax();
+                assert!(off < 1e-10, "{kind:?} {k}: {off:e}");
+            }
+            let moved = |k: usize| (found.rows[k].measured - bare.rows[k].measured).amax();
+            // Of a difference only what grows with the load is left.
+            let least = if matches!(kind, Kind::Displacement { .. }) { 1e-6 } else { 1e-4 };
+            assert!((0..rows.rows.len()).any(|k| moved(k) > least), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn what_nobody_knows_is_refused() {
+        let arm = springy();
+        let kind = Kind::Distance;
+        let design =
+            Design { shape: Shape::Force, poses: 2, repeats: 1, payload: 10.0, kind, seed: 2 };
+        let mut rows = design.rows(&arm);
+        rows.rows[3].from = None;
+        let error = predicted(&arm, &rows).unwrap_err();
+        assert!(matches!(error, DiagnoseError::NewPoint { .. }), "{error}");
+        rows.rows[1].marker = Some("smr".to_owned());
+        rows.rows[1].offset = None;
+        let error = predicted(&arm, &rows).unwrap_err();
+        assert!(matches!(error, DiagnoseError::NewMarker { .. }), "{error}");
+    }
+}

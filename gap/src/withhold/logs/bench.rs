@@ -1,0 +1,215 @@
+//! The plant on its motion: how large an effect is in multiples of the noise, and its size drawn.
+
+use std::cmp::Ordering;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::rigid::Rigid;
+use super::{LogPlan, LogWithholdError};
+use crate::dice::Dice;
+use crate::motion::Course;
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot};
+
+/// An effect of which other masses can do all but this part does not show.
+const APART: f64 = 0.1;
+
+/// Nothing is made larger than this part of what a joint's drive gives: it would be another arm.
+const LARGEST: f64 = 1.0;
+
+/// A drive that bends farther than this under what it gives, rad or m, is none that a controller of encoders holds.
+const BENT: f64 = 0.02;
+
+/// Everything that cases share.
+pub(super) struct Bench<'a> {
+    pub(super) plan: &'a LogPlan<'a>,
+    /// Of each run, what the arm of the file would tell.
+    nominal: Vec<Vec<Vec<f64>>>,
+    rigid: Rigid,
+    /// Spread of what each joint tells, in its noise.
+    spread: f64,
+    /// Largest rate of each joint.
+    rates: Vec<f64>,
+}
+
+/// An effect put in.
+pub(super) struct Planted {
+    pub(super) truth: MotionTruth,
+    pub(super) multiple: f64,
+}
+
+impl<'a> Bench<'a> {
+    pub(super) fn new(plan: &'a LogPlan<'a>) -> Result<Bench<'a>, LogWithholdError> {
+        let nominal = exact(plan, &[])?;
+        let n = plan.arm.dof();
+        let of_joint = |j: usize| nominal.iter().flat_map(move |run| run[j].iter());
+        let spread = |j: usize| {
+            let count = of_joint(j).count() as f64;
+            let mean = of_joint(j).sum::<f64>() / count;
+            (of_joint(j).map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()
+        };
+        let noise: Vec<f64> = (0..n)
+            .map(|j| match plan.logged {
+                Logged::Torque(_) => plan.recording.torque * spread(j),
+                Logged::Position => plan.recording.reading,
+            })
+            .collect();
+        if noise.iter().any(|size| *size <= 0.0) {
+            let what = if plan.logged == Logged::Position { "readings" } else { "torques" };
+            return Err(LogWithholdError::NoNoise { what });
+        }
+        let courses: Vec<&dyn Course> = plan.stages.iter().map(|stage| stage.course).collect();
+        // The links are fitted along, unless the diagnosis is told that the file's masses are theirs.
+        let weighed = plan.arm.joints.iter().any(|joint| joint.mass != 0.0);
+        let known = plan.options.known_links && weighed;
+        let free = plan.logged != Logged::Position && !known;
+        let rates = (0..n).map(|j| fastest(&courses, j)).collect();
+        let largest = (0..n).map(|j| spread(j) / noise[j]).fold(0.0, f64::max);
+        Ok(Bench {
+            plan,
+            rigid: Rigid::of(plan.arm, &courses, &noise, free),
+            nominal,
+            spread: largest,
+            rates,
+        })
+    }
+
+    /// An effect at a spot of chance, about `multiple` times the noise beyond what other masses could
+    /// do; `None` if it does not show anywhere in this motion.
+    pub(super) fn plant(
+        &self,
+        law: &'static Law,
+        multiple: f64,
+        dice: &mut Dice,
+    ) -> Option<Planted> {
+        let mut spots = self.spots(law);
+        dice.shuffle(&mut spots);
+        spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, dice))
+    }
+
+    /// Where an effect may be put. Of runs only those that are told to hold something may hold more.
+    fn spots(&self, law: &Law) -> Vec<Spot> {
+        let LogPlan { arm, stages, .. } = self.plan;
+        let mut spots = law.spots(arm, stages.len());
+        spots.retain(|spot| match spot {
+            Spot::Tool(run) => stages[*run].payload.is_some(),
+            _ => true,
+        });
+        spots
+    }
+
+    fn plant_at(
+        &self,
+        law: &'static Law,
+        spot: Spot,
+        multiple: f64,
+        dice: &mut Dice,
+    ) -> Option<Planted> {
+        let mut truth = MotionTruth { law, spot, values: self.draw(law, spot, dice) };
+        let (mut found, mut all) = (0.0, 0.0);
+        // What is no multiple of its size comes close in a few steps.
+        for _ in 0..6 {
+            [all, found] = self.sizes(&truth).ok()?;
+            if found.partial_cmp(&(APART * all)) != Some(Ordering::Greater) {
+                return None;
+            }
+            let off = multiple / found;
+            if (off - 1.0).abs() < 0.05 {
+                break;
+            }
+            for ((name, _), value) in law.numbers.iter().zip(&mut truth.values) {
+                *value *= if is_form(law, name) { 1.0 } else { off };
+            }
+        }
+        let close = (found / multiple - 1.0).abs() < 0.2 && all <= LARGEST * self.spread;
+        (close && !self.bends(&truth)).then_some(Planted { truth, multiple: found })
+    }
+
+    /// Whether a drive gives way too far.
+    fn bends(&self, truth: &MotionTruth) -> bool {
+        let ("joint_elasticity", Spot::Joint(joint)) = (truth.law.name, truth.spot) else {
+            return false;
+        };
+        let given = self.nominal.iter().flat_map(|run| &run[joint]);
+        truth.values[0] * given.fold(0.0_f64, |most, x| most.max(x.abs())) > BENT
+    }
+
+    fn sizes(&self, truth: &MotionTruth) -> Result<[f64; 2], MotionError> {
+        let mut changed = exact(self.plan, core::slice::from_ref(truth))?;
+        for (changed, nominal) in changed.iter_mut().zip(&self.nominal) {
+            for (changed, nominal) in changed.iter_mut().zip(nominal) {
+                changed.iter_mut().zip(nominal).for_each(|(c, n)| *c -= n);
+            }
+        }
+        Ok(self.rigid.sizes(&changed, self.plan.recording.rate))
+    }
+
+    /// Numbers of chance, of which the size is made right afterwards.
+    fn draw(&self, law: &Law, spot: Spot, dice: &mut Dice) -> Vec<f64> {
+        let joints = match spot {
+            Spot::Joint(a) => [a, a],
+            Spot::Pair(a, b, _) => [a, b],
+            _ => [0, 0],
+        };
+        let fastest = joints.map(|j| self.rates[j]).into_iter().fold(0.0, f64::max);
+        let drives = joints.map(|j| &self.plan.arm.joints[j].drive);
+        let rotor = drives.map(|d| d.gear * d.gear * d.rotor_inertia);
+        if matches!(spot, Spot::Link(_) | Spot::Tool(_)) {
+            return body(1.0, 0.15 * dice.normal3());
+        }
+        let mut number = |name: &str| match name {
+            // A film of grease has built up well below the largest rate.
+            "speed" => fastest * dice.between(0.03, 0.1),
+            // Gears and grease yield by some milliradians.
+            "distance" => dice.between(0.005, 0.02),
+            // Teeth of a gear and poles of a motor.
+            "order" => dice.between(20.0, 200.0).round(),
+            "viscous" if law.name == "joint_coupling" => 1.0 / fastest,
+            // No motor drives two joints that do not feel it each as their own.
+            "inertia" if law.name == "joint_coupling" => 0.5 * rotor[0].min(rotor[1]),
+            "inertia" if law.name == "tracking_lag" => 0.02,
+            // Friction falls while it warms, and is there to fall.
+            "rate" => -0.1,
+            "compliance" => 1e-5,
+            "delay" => 0.01,
+            "part" => 1e-2,
+            "cos" | "sin" | "rx" | "ry" | "rz" => 0.1 * dice.normal(),
+            "offset" | "half_difference" | "scale" => 0.1 * dice.sign(),
+            _ => 1.0,
+        };
+        law.numbers.iter().map(|(name, _)| number(name)).collect()
+    }
+}
+
+/// The ten numbers of a point mass.
+fn body(mass: f64, at: Vector3<f64>) -> Vec<f64> {
+    let second = Matrix3::identity() * at.norm_squared() - at * at.transpose();
+    let [x, y, z] = at.into();
+    let second = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)].map(|at| second[at]);
+    [1.0, x, y, z].into_iter().chain(second).map(|number| mass * number).collect()
+}
+
+/// Numbers that do not grow with the size.
+fn is_form(law: &Law, name: &str) -> bool {
+    law.is_form(name) || (law.name == "joint_coupling" && name == "inertia")
+}
+
+fn exact(plan: &LogPlan<'_>, truths: &[MotionTruth]) -> Result<Vec<Vec<Vec<f64>>>, MotionError> {
+    let plant = MovingPlant::new(plan.arm, truths, plan.logged, plan.recording);
+    plan.stages.iter().enumerate().map(|(k, stage)| plant.exact(k, stage)).collect()
+}
+
+fn fastest(courses: &[&dyn Course], joint: usize) -> f64 {
+    let rates = courses.iter().flat_map(|course| {
+        (0..500).map(move |k| course.at(course.duration() * f64::from(k) / 500.0).qd[joint])
+    });
+    rates.fold(0.0, |most: f64, rate| most.max(rate.abs()))
+}
+
+/// Whether such a log can show an effect at all.
+pub(super) fn may_show(law: &Law, logged: Logged) -> bool {
+    let rows = match logged {
+        Logged::Torque(_) => crate::plant::motion::Rows::Torque,
+        Logged::Position => crate::plant::motion::Rows::Position,
+    };
+    law.rows.contains(&rows)
+}

@@ -1,0 +1,155 @@
+//! One effect after the other, planted by its law, and what is said of it.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+use stiffarm_gap::dice::{Dice, Stream};
+use stiffarm_gap::log::report::LogDiagnosis;
+use stiffarm_gap::log::{Log, LogOptions, Run, Signal, diagnose};
+use stiffarm_gap::measurement::Body;
+
+use super::plant::{Path, arm, heavier, log, noise, rigid};
+
+const STEP: f64 = 0.01;
+const COUNT: usize = 8000;
+
+/// Time, joint values, rates and accelerations.
+struct Now {
+    t: f64,
+    q: [f64; 2],
+    v: [f64; 2],
+    a: [f64; 2],
+}
+
+/// Torques of the rigid links and of what is planted beside them.
+fn recorded(seed: u64, mut more: impl FnMut(&Now) -> [f64; 2]) -> Log {
+    let path = Path::new(seed, 0.6);
+    let mut dice = Dice::new(seed, Stream::Noise);
+    let [first, second] = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.1));
+    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
+    for (k, noise) in first.into_iter().zip(second).map(|(a, b)| [a, b]).enumerate() {
+        let t = STEP * k as f64;
+        let [at, v, a] = path.at(t);
+        let (asks, more) = (rigid(at, v, a), more(&Now { t, q: at, v, a }));
+        for j in 0..2 {
+            q[j].push(at[j] + 1e-6 * dice.normal());
+            torque[j].push(asks[j] + more[j] + noise[j]);
+        }
+    }
+    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+}
+
+fn diagnosed(log: &Log) -> LogDiagnosis {
+    let options = LogOptions { band: Some(10.0), ..LogOptions::default() };
+    diagnose(&arm(), log, &options).unwrap()
+}
+
+/// The numbers of an effect at a place, which is named: as a finding, or as what would do instead.
+fn numbers(found: &LogDiagnosis, effect: &str, place: &str) -> Vec<f64> {
+    let is = |f: &&stiffarm_gap::log::report::Finding| f.effect == effect && f.place == place;
+    let finding = found.findings.iter().find(is);
+    let finding = finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}"));
+    finding.parameters.iter().map(|p| p.value).collect()
+}
+
+fn close(found: f64, expected: f64, part: f64) {
+    assert!((found / expected - 1.0).abs() < part, "{found}, expected {expected}");
+}
+
+/// Tolerances are twice the 95 % intervals of 80 s that hold some hundreds of independent numbers, and what
+/// the band of 10 Hz takes of a step.
+#[test]
+fn what_is_planted_beside_friction_is_named_with_its_numbers() {
+    let bent = recorded(11, |now| {
+        let v = now.v[1];
+        [0.0, (2.0 + 4.0 * v.abs().sqrt()) * v.signum()]
+    });
+    close(numbers(&diagnosed(&bent), "friction_curve", "joint 2")[0], 4.0, 0.15);
+    let loaded = recorded(12, |now| {
+        let load = rigid(now.q, now.v, now.a)[0].abs();
+        [(2.0 + 0.1 * load) * now.v[0].signum(), 0.0]
+    });
+    close(numbers(&diagnosed(&loaded), "load_friction", "joint 1")[0], 0.1, 0.15);
+    let warmer = recorded(13, |now| [6.0 * (1.0 - 0.3 * now.t / 60.0) * now.v[0].signum(), 0.0]);
+    let found = diagnosed(&warmer);
+    let [coulomb, rate] = ["coulomb_friction", "warm_up"].map(|e| numbers(&found, e, "joint 1")[0]);
+    // The rate is of the friction that a model without it has, in the middle of 80 s.
+    close(coulomb, 6.0, 0.05);
+    close(rate, -0.3 / (1.0 - 0.3 * 40.0 / 60.0), 0.15);
+}
+
+#[test]
+fn what_is_planted_alone_is_named_with_its_numbers() {
+    let rotor = recorded(21, |now| [0.0, 0.4 * now.a[1]]);
+    close(numbers(&diagnosed(&rotor), "rotor_inertia", "joint 2")[0], 0.4, 0.1);
+    let offset = recorded(22, |_| [0.0, 1.5]);
+    close(numbers(&diagnosed(&offset), "torque_offset", "joint 2")[0], 1.5, 0.1);
+    let ripple = recorded(23, |now| [0.0, (40.0 * now.q[1] + 0.3).cos()]);
+    let found = numbers(&diagnosed(&ripple), "torque_ripple", "joint 2");
+    assert_eq!(found[0], 40.0, "{found:?}");
+    // What turns fast is above the band: it takes a part.
+    close(found[1].hypot(found[2]), 1.0, 0.2);
+    let path = Path::new(24, 0.6);
+    let late = recorded(24, |now| {
+        let [q, v, a] = path.at(now.t - 0.02);
+        let (then, is) = (rigid(q, v, a), rigid(now.q, now.v, now.a));
+        [then[0] - is[0], then[1] - is[1]]
+    });
+    close(numbers(&diagnosed(&late), "latency", "the interface")[0], 0.02, 0.1);
+}
+
+/// Dahl's model, integrated in steps of the log.
+#[test]
+fn friction_that_builds_up_is_named_with_its_distance() {
+    let (mut bent, mut before) = (0.0_f64, None::<f64>);
+    let log = recorded(31, |now| {
+        let moved = now.q[1] - before.unwrap_or(now.q[1]);
+        before = Some(now.q[1]);
+        let steps = 50;
+        for _ in 0..steps {
+            let by = moved / f64::from(steps);
+            bent += by / 0.03 * (1.0 - bent * moved.signum());
+        }
+        [0.0, 5.0 * bent]
+    });
+    let found = numbers(&diagnosed(&log), "presliding", "joint 2");
+    close(found[0], 5.0, 0.15);
+    close(found[1], 0.03, 0.3);
+}
+
+#[test]
+fn a_link_that_is_heavier_than_the_file_says_is_named() {
+    let log = recorded(41, |now| {
+        let (is, file) = (heavier(0.5, now.q, now.v, now.a), rigid(now.q, now.v, now.a));
+        [is[0] - file[0], is[1] - file[1]]
+    });
+    let options = LogOptions { band: Some(10.0), known_links: true, ..LogOptions::default() };
+    let found = diagnose(&arm(), &log, &options).unwrap();
+    assert_eq!((found.findings[0].effect, &*found.findings[0].place), ("link_inertia", "link 2"));
+    close(numbers(&found, "link_inertia", "link 2")[0], 0.5, 0.1);
+}
+
+/// Two runs, the second with two kilograms at the tool, torques all told 1.25 times: with free masses only
+/// the known load tells it.
+#[test]
+fn a_known_load_tells_the_scale_of_all_torques() {
+    let friction = |now: &Now| [6.0 * now.v[0].signum(), 1.5 * now.v[1].signum()];
+    let scaled = |mut log: Log| {
+        let run: &mut Run = &mut log.runs[0];
+        let torques = run.signals.get_mut(&Signal::Torque).expect("torques");
+        torques.iter_mut().flatten().for_each(|x| *x *= 1.25);
+        log
+    };
+    let mut both = scaled(recorded(51, friction));
+    let mut second = scaled(recorded(52, |now| {
+        let (is, bare) = (heavier(2.0, now.q, now.v, now.a), rigid(now.q, now.v, now.a));
+        let brakes = friction(now);
+        [is[0] - bare[0] + brakes[0], is[1] - bare[1] + brakes[1]]
+    }));
+    second.runs[0].payload = Some("two".to_owned());
+    both.runs.extend(second.runs);
+    let payloads = vec![Body { name: "two".to_owned(), mass: 2.0, com: Vector3::zeros() }];
+    let options = LogOptions { band: Some(8.0), payloads, ..LogOptions::default() };
+    let found = diagnose(&arm(), &both, &options).unwrap();
+    close(1.0 + numbers(&found, "torque_scale", "every joint")[0], 1.25, 0.03);
+}
