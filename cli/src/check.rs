@@ -94,6 +94,13 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let count = args.count as usize;
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
+    if agreement.too_large > 0 {
+        let evaluations = thousands(agreement.too_large);
+        return Err(Failure::with_help(
+            format!("{}: {evaluations} evaluations are too large for a double", source.given),
+            "check the table's numbers",
+        ));
+    }
     Ok(Checked { source, agreement })
 }
 

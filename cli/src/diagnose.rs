@@ -1,6 +1,7 @@
 //! `stiffarm diagnose`: the gap between model and measurement, and what closes it.
 
 mod accepted;
+mod campaign;
 mod check;
 mod compared;
 mod corrected;
@@ -9,31 +10,28 @@ mod provenance;
 
 use std::path::PathBuf;
 
-use serde::Serialize;
-use sha2::{Digest, Sha256};
-use stiffarm_gap::diagnose::{Prior, Stage, Stop};
+use stiffarm_gap::diagnose::{Prior, Stage};
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::{DiagnoseError, Diagnosis, Options, diagnose_with};
+use stiffarm_gap::{DiagnoseError, Options};
 use stiffarm_kernels::generic::Arm;
 
 pub use accepted::Accepted;
+pub use campaign::Campaign;
 pub use check::Check;
 pub use compared::{Compared, Reached};
-use corrected::{Corrections, Format};
+use corrected::Corrections;
+pub use corrected::Format;
+pub use log::{Check as LogCheck, Motion};
 pub use provenance::{Hashes, Provenance};
 
 use super::Verdict;
-use super::screen::Screen;
-use crate::input::data;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
-use crate::report::Report;
 use crate::terminal::failure::Failure;
 use crate::terminal::interrupt;
-use crate::terminal::json;
 use crate::terminal::note::note;
 use crate::terminal::output::{Target, print};
-use crate::terminal::progress::Stages;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -99,7 +97,7 @@ pub struct Args {
     /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
     #[arg(long = "rival", value_name = "PREFIX")]
     rivals: Vec<String>,
-    /// Predict another measurement file of the same arm with what was found
+    /// Predict another file of the same arm with what was found
     #[arg(long, value_name = "OTHER.csv")]
     check: Option<PathBuf>,
     /// Compare with an earlier diagnosis of the arm (JSON): what came, what went, what changed
@@ -128,23 +126,12 @@ pub struct Args {
     log: log::LogArgs,
 }
 
-/// The diagnosis as it is written.
-#[derive(Serialize)]
-struct Written<'a> {
-    #[serde(flatten)]
-    diagnosis: &'a Diagnosis,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    doubts: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    check: Option<&'a Check>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    accept: Option<&'a Accepted>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    compared: Option<&'a Compared>,
-    #[serde(flatten)]
-    hashes: &'a Hashes,
-    /// The robot file with what was found: the whole is a robot to every command.
-    corrected: String,
+/// What was diagnosed.
+pub enum Found {
+    /// Measurements at rest.
+    Campaign(Box<Campaign>),
+    /// A log of the arm in motion.
+    Motion(Box<Motion>),
 }
 
 /// Runs the command.
@@ -152,87 +139,38 @@ struct Written<'a> {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
-    let bytes = match log::files(args)? {
-        log::Files::Log(files) => return log::run(args, &source, &files, quiet),
-        log::Files::Measurements(bytes) => bytes,
+    let found = match find(args, Catalogue::default(), quiet)? {
+        Found::Motion(found) => return found.write(args, quiet),
+        Found::Campaign(found) => found,
     };
-    let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
-    let tolerance = args.accept.as_ref().map(length).transpose()?;
-    let arm = source.arm()?;
-    let options = args.options(&source, &arm)?;
-    let layout = data::layout(&source)?;
-    let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
-    let hash = Sha256::new_with_prefix(&bytes);
-    drop(bytes);
-    let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
-    let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
-    if let Some(other) = &other {
-        data::doubted(&arm, other, &options.nuisances, quiet);
-    }
-    let stages = Stages::new(quiet);
-    interrupt::ends(&options.stop);
-    let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
-        .map_err(plain)?;
-    drop(stages);
-    let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
-    let check = check.map_err(plain)?;
-    let found = &diagnosed.diagnosis;
-    let made = Provenance::of(&args.data[0], hash, &source.text)?;
-    let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
-    let compared = compared.transpose()?;
-    let has_positions = data.kind.components()[..3].contains(&true);
-    let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
-    let accepted = tolerance.map(judge).transpose()?;
-    let corrected = Corrections::new(&source, &data, &diagnosed);
     if let Some(target) = &args.json {
-        let written = Written {
-            diagnosis: found,
-            doubts,
-            check: check.as_ref(),
-            accept: accepted.as_ref(),
-            compared: compared.as_ref(),
-            hashes: &made.hashes,
-            corrected: corrected.text(),
-        };
-        target.write(&json::text(&written)?)?;
+        target.write(&found.json()?)?;
     }
-    args.write_arm(&corrected, quiet)?;
-    let screen = Screen {
-        found,
-        data: &data,
-        arm: &arm,
-        catalogue: &options.catalogue,
-        rivals: &args.rivals,
-        check: check.as_ref(),
-        accepted: accepted.as_ref(),
-        compared: compared.as_ref(),
-    };
+    args.write_arm(&found.corrections(), quiet)?;
     if let Some(target) = &args.report {
-        let (explanation, words) = (&diagnosed.explanation, screen.words());
-        let report = Report {
-            found,
-            data: &data,
-            arm: &arm,
-            placed: explanation.arm(),
-            gaps: &explanation.predict(&data).map_err(plain)?,
-            options: &options,
-            words: &words,
-            made: &made,
-        };
-        let page = report.html();
-        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
-        target.write(&page)?;
+        target.write(&found.page()?)?;
     }
     let written: Vec<_> =
         [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&screen.text())?;
+        print(&found.text())?;
     }
-    match accepted {
-        Some(Accepted { accepted: false, .. }) => Ok(Verdict::Failed),
-        _ => Ok(Verdict::Good),
+    Ok(if found.is_accepted() { Verdict::Good } else { Verdict::Failed })
+}
+
+/// Diagnoses what was given, with the effects of `catalogue`.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data or the options.
+pub fn find(args: &Args, catalogue: Catalogue, quiet: bool) -> Result<Found, Failure> {
+    let source = args.robot.load(quiet)?;
+    match log::files(args)? {
+        log::Files::Log(parts) => {
+            Motion::new(args, source, parts, quiet).map(|found| Found::Motion(Box::new(found)))
+        }
+        log::Files::Measurements(bytes) => Campaign::new(args, source, bytes, catalogue, quiet)
+            .map(|found| Found::Campaign(Box::new(found))),
     }
 }
 
@@ -289,19 +227,19 @@ impl Args {
             (self.folds.is_some(), "--folds"),
             (self.nested, "--nested"),
             (!self.rivals.is_empty(), "--rival"),
-            (self.check.is_some(), "--check"),
-            (self.write_robot.is_some(), "--write-robot"),
-            (self.write_urdf.is_some(), "--write-urdf"),
-            (self.write_mjcf.is_some(), "--write-mjcf"),
             (self.accept.is_some(), "--accept"),
             (self.compare.is_some(), "--compare"),
-            (self.report.is_some(), "--report"),
         ]
         .into_iter()
         .find_map(|(given, name)| given.then_some(name))
     }
 
-    fn options(&self, source: &Source, arm: &Arm) -> Result<Options, Failure> {
+    fn options(
+        &self,
+        source: &Source,
+        arm: &Arm,
+        catalogue: Catalogue,
+    ) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
         };
@@ -325,7 +263,8 @@ impl Args {
             tolerance: tolerance.transpose()?,
             rivals: self.rivals.clone(),
             known: source.known.clone(),
-            stop: Stop::default(),
+            stop: interrupt::stop(),
+            catalogue,
             ..Options::default()
         };
         options.fit_along(&self.nuisance).map_err(plain)?;

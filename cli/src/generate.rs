@@ -9,9 +9,11 @@ use stiffarm_codegen::emit::{
     flexible_latex, flexible_rust, latex, mjcf, rust, urdf,
 };
 use stiffarm_codegen::robot::{Asked, Refused, Robot};
+use stiffarm_kernels::generic::BaseParameter;
 
 use super::Verdict;
 use crate::input::source::{self, Source};
+use crate::inside::owner;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::{Target, print};
 use crate::terminal::text::{bad, dim, good};
@@ -26,6 +28,7 @@ Examples:
   stiffarm generate arm.toml --emit latex --outputs jacobian,deflection > arm.tex
   stiffarm generate ur5 --emit rust --outputs pose,jacobian --out src/ur5.rs
   stiffarm generate better.toml --emit urdf --out better.urdf
+  stiffarm generate ur5 --emit base
   stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
   stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
@@ -93,6 +96,8 @@ enum Emit {
     Urdf,
     /// The arm as bodies with its joints' springs, for MuJoCo
     Mjcf,
+    /// Which sums of the links' moments of mass its torques can tell: base parameters, a line each
+    Base,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -111,6 +116,20 @@ enum SinesFrom {
     Math,
     /// The caller: only the functions that take sines and cosines
     Given,
+}
+
+/// The base parameters, each with the column of the torque regressor that is its own, from 1.
+fn base(robot: &Robot) -> Result<String, Failure> {
+    let arm = stiffarm_gap::robot::arm(robot).map_err(|error| Failure::new(error.to_string()))?;
+    let sums = arm.base_parameters();
+    let count = sums.len();
+    let head = format!(
+        "{}: {count} base parameters of {} moments of mass\ncolumn  sum\n",
+        robot.name,
+        10 * robot.dof()
+    );
+    let line = |sum: &BaseParameter| format!("{:>6}  {sum}\n", sum.moment + 1);
+    Ok(sums.iter().map(line).fold(head, |text, line| text + &line))
 }
 
 /// What a parser of the command line can say.
@@ -136,6 +155,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             robot.ask(asked).map_err(refused)?;
         }
     }
+    let all = &source.robot.outputs;
+    source.refuse_motion(if all.is_empty() { &Output::EACH } else { all })?;
     let mut verdict = Verdict::Good;
     for (name, text) in args.files(&source)? {
         // One text is the file that was named, several are in the folder that was named.
@@ -147,7 +168,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             (Some(_), _) => {}
             (None, Some(Target::File(path))) => {
                 let file = place(path);
-                if let Some(folder) = file.parent() {
+                if let Some(folder) = file.parent().filter(|_| owner(&file).is_none()) {
                     std::fs::create_dir_all(folder)
                         .map_err(|error| Failure::io("write", &file, &error))?;
                 }
@@ -175,8 +196,8 @@ impl Args {
             other if other != Emit::Rust && self.fused => {
                 Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
             }
-            Emit::Urdf | Emit::Mjcf if !self.outputs.is_empty() => Err(Failure::new(
-                "--outputs is for rust, c, latex and dot: urdf and mjcf are the arm itself",
+            Emit::Urdf | Emit::Mjcf | Emit::Base if !self.outputs.is_empty() => Err(Failure::new(
+                "--outputs is for rust, c, latex and dot: urdf, mjcf and base are of the arm itself",
             )),
             Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
                 Err(Failure::with_help(
@@ -218,6 +239,7 @@ impl Args {
             },
             (Emit::Urdf, None) => urdf(robot).map_err(|error| symbolic(robot, &error))?,
             (Emit::Mjcf, None) => mjcf(robot).map_err(|error| symbolic(robot, &error))?,
+            (Emit::Base, None) => base(robot)?,
             (Emit::Rust, None) => rust(robot, &self.options()),
         };
         let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };

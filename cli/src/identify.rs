@@ -86,8 +86,8 @@ pub struct Args {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let question = args.question()?;
     let source = args.robot.load(quiet)?;
-    let arm =
-        source.arm_alone("identify", "springs are fitted on the joint values of the table")?;
+    let question = Question { known: source.known.clone(), ..question };
+    let arm = source.arm_at_its_base()?;
     let data = data::read(&args.data, &data::layout(&source)?, quiet)?;
     // Loads are told in the base's axes, and so are springs.
     let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {

@@ -7,9 +7,8 @@ mod sweep;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use nalgebra::Isometry3;
 use stiffarm_gap::dexterity::Map;
-use stiffarm_kernels::generic::Arm;
+use stiffarm_gap::whole::Whole;
 
 use super::Verdict;
 use crate::input::quantity;
@@ -88,12 +87,8 @@ pub struct Args {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let table = source.arm()?;
-    let joints = |q: &[f64]| match args.of {
-        // The diagnosis knows what the file says.
-        Of::Shrink => Ok(q.to_vec()),
-        _ => source.real_joints("map", &table, q),
-    };
-    let arm = Arm { base: Isometry3::identity(), ..table.clone() };
+    let arm = source.arm_at_its_base()?;
+    let whole = Whole { arm: &arm, known: &source.known };
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
     let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &table, quiet)?;
     let asked =
@@ -106,7 +101,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let unstable = AtomicUsize::new(0);
     let map = sweep.plane.map(|q| {
         progress.add(1);
-        match asked.value(&arm, &joints(q)?) {
+        // The diagnosis of a shrink knows what the file says.
+        if args.of != Of::Shrink {
+            source.refuse_untold("map", &whole, q, &asked.situation())?;
+        }
+        match asked.value(whole, q) {
             Ok(value) => Ok(value),
             Err(NoValue::Unstable) => {
                 unstable.fetch_add(1, Ordering::Relaxed);

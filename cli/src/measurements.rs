@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use stiffarm_gap::measurement::bytes;
 use stiffarm_gap::readings::{Map, Sheet, import};
 
 use super::Verdict;
 use crate::input::data;
 use crate::input::source::RobotArgs;
+use crate::inside::bytes;
 use crate::terminal::failure::Failure;
 use crate::terminal::note::note;
 use crate::terminal::output::Target;

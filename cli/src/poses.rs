@@ -1,6 +1,7 @@
 //! `stiffarm poses`: a measurement file that is still to be measured.
 
 mod file;
+mod motion;
 mod screen;
 
 use clap::ValueEnum;
@@ -9,12 +10,14 @@ use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use crate::input::quantity;
 use crate::input::source::RobotArgs;
 use crate::input::wrench::wrench;
+use crate::motion::MotionArgs;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::{Target, print};
 use crate::terminal::progress::{PARTS, Progress};
@@ -27,12 +30,19 @@ Examples:
   stiffarm poses arm.toml --count 10 --for separate 'joint_compliance@joint 2' \\
       'link_compliance@link 2' --load 0,0,-2kN,0,0,0 --load 0,1kN,0,0,0,0 --csv plan.csv
 
+  stiffarm poses panda --for motion --period 20s --max-rate 1.2 --csv commands.csv
+
 Postures are drawn within the joint limits; those that are not dexterous are left out, and those in
 which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
 are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
 loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. For `separate`
 those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
 `stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
+
+For `motion` the joints are sent along a Fourier series that holds the limits and begins and ends at
+rest, and whose log says most of what friction, rotors and the like do (D-optimality): of the effects
+that are named, or of the usual ones; two that are named are told from each other (T-optimality). The
+file is what a controller and `stiffarm simulate --log` take.
 
 Fill in the empty columns, put the readings that the controller shows into q1 … qn, and give the
 file to `stiffarm identify` or `stiffarm diagnose`. Nothing here knows of floor, cables or cell:
@@ -44,13 +54,13 @@ leave out the rows that cannot be reached.";
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// How many postures
+    /// How many postures; not of a motion
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
-    count: u16,
+    count: Option<u16>,
     /// What the measurements are for
     #[arg(long = "for", value_enum, value_name = "PURPOSE", default_value_t = For::Identify)]
     purpose: For,
-    /// The two effects of `--for separate`, each effect@place
+    /// The two effects of `--for separate`, or those of `--for motion`, each effect@place
     #[arg(value_name = "EFFECT")]
     effects: Vec<String>,
     /// Frames known to be unknown, fitted along by `--for separate`: base_frame, tool_frame
@@ -72,9 +82,11 @@ pub struct Args {
     /// Seed of the postures that are chosen from; the same seed gives the same bytes
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Write the measurement file (`-`: to standard output, in place of the screen)
-    #[arg(long, value_name = "OUT")]
+    /// Write the measurement file, or the commands (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT", group = "moved")]
     csv: Target,
+    #[command(flatten)]
+    motion: MotionArgs,
 }
 
 /// What the measurements are for.
@@ -86,6 +98,8 @@ pub enum For {
     Diagnose,
     /// To tell two effects apart: give both behind it
     Separate,
+    /// Joint logs of an arm that moves: commands instead of postures
+    Motion,
 }
 
 /// Runs the command.
@@ -94,11 +108,17 @@ pub enum For {
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
-    let arm =
-        source.arm_alone("poses", "postures are chosen by the table, which tells the same ones")?;
+    if args.purpose == For::Motion {
+        return motion::run(args, &source, quiet);
+    }
+    if let Some(option) = args.motion.given() {
+        return Err(Failure::new(format!("{option} is for --for motion")));
+    }
+    let arm = source.arm_at_its_base()?;
+    let whole = Whole { arm: &arm, known: &source.known };
     let plan = args.plan(&arm)?;
     let progress = Progress::new(&source.given, PARTS, quiet);
-    let found = design(&arm, &plan, &|part| progress.reach(part, PARTS));
+    let found = design(whole, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
     let found = found.map_err(|error| Failure::new(error.to_string()))?;
     args.csv.write(&file::file(&source, &plan, &found))?;
@@ -125,7 +145,9 @@ impl Args {
         let (length, angle) = (Dimension::Length, Dimension::Angle);
         let turned = quantity::with_unit("--noise-rotation", &self.noise_rotation, angle)?;
         Ok(Plan {
-            count: usize::from(self.count),
+            count: usize::from(self.count.ok_or_else(|| {
+                Failure::new("found no --count, expected how many postures: --count 20")
+            })?),
             purpose: self.purpose(arm)?,
             along: self.along(arm)?,
             loads,
@@ -143,7 +165,7 @@ impl Args {
         let found = self.effects.len();
         match (self.purpose, &self.effects[..]) {
             (For::Identify, []) => Ok(Purpose::Identify),
-            (For::Diagnose, []) => Ok(Purpose::Diagnose),
+            (For::Diagnose | For::Motion, []) => Ok(Purpose::Diagnose),
             (For::Separate, [a, b]) => Ok(Purpose::Separate([suspect(a)?, suspect(b)?])),
             (For::Separate, _) => Err(Failure::with_help(
                 format!(

@@ -1,4 +1,6 @@
-//! `stiffarm simulate`: measurements of an arm with chosen effects.
+//! `stiffarm simulate`: measurements, or a joint log, of an arm with chosen effects.
+
+mod log;
 
 use std::path::PathBuf;
 
@@ -15,6 +17,7 @@ use super::Verdict;
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::{data, quantity};
+use crate::motion::{MotionArgs, RecordArgs};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::text::short;
@@ -26,15 +29,17 @@ Examples:
       --effect 'tool_frame:x=1mm,rz=0.5mrad' --design force --payload 500N --csv -
   stiffarm simulate arm.toml run1.csv --effect 'slip@tool:after=40,x=0.3mm' \\
       --withhold --csv blind.csv
+  stiffarm simulate panda --log log.csv --effect 'presliding@joint 4:torque=0.5,distance=0.01'
+  stiffarm simulate arm.toml commands.csv --log log.csv --logged position --effect latency=0.1
 
 An EFFECT is effect@place=value, which sets its first parameter, or effect@place:name=value,…
 Effects and places are those that `stiffarm diagnose` looks for; a value has its unit or is in SI.";
 
-/// Measurements of an arm with chosen effects
+/// Measurements, or a joint log, of an arm with chosen effects
 ///
 /// Exact transforms at static equilibrium on the loaded geometry, with noise. Without DATA the
 /// poses and loads are drawn; with DATA they are those of the file, and only what was measured is
-/// replaced.
+/// replaced. With --log the arm is moved: along the commands of DATA, or along motions that are drawn.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -58,8 +63,21 @@ pub struct Args {
     #[arg(long)]
     withhold: bool,
     /// Where the measurement file goes (`-`: to standard output)
-    #[arg(long, value_name = "OUT")]
-    csv: Target,
+    #[arg(long, value_name = "OUT", required_unless_present = "log", conflicts_with = "log")]
+    csv: Option<Target>,
+    /// Move the arm, and write a joint log there (`-`: to standard output)
+    #[arg(
+        long,
+        value_name = "OUT",
+        group = "moved",
+        conflicts_with_all = ["frames", "first_order_sim", "design", "poses", "payload", "repeats",
+                              "measure", "noise_position", "noise_rotation"]
+    )]
+    log: Option<Target>,
+    #[command(flatten)]
+    motion: MotionArgs,
+    #[command(flatten)]
+    record: RecordArgs,
 }
 
 /// What is measured, and how well.
@@ -130,6 +148,9 @@ const MOST_ROWS: usize = 1_000_000;
 /// carry, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
+    if let Some(target) = &args.log {
+        return log::run(args, &source, target);
+    }
     let arm = source.arm()?;
     let truths = args.truths(&arm)?;
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
@@ -147,7 +168,9 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         plant = plant.with_first_order_sim();
     }
     let measured = plant.measure(&design, noise, seed).map_err(plain)?;
-    args.csv.write(&csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
+    if let Some(target) = &args.csv {
+        target.write(&csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
+    }
     Ok(Verdict::Good)
 }
 
@@ -183,12 +206,17 @@ impl Args {
             lines
                 .push("measured in unknown frames: base_frame and tool_frame are nuisances".into());
         }
-        match truths {
-            _ if self.withhold => lines.push("effects withheld".to_owned()),
-            [] => lines.push("no effect: the arm is as the robot file says".to_owned()),
-            some => lines.extend(some.iter().map(|truth| format!("effect {truth} (SI)"))),
-        }
+        lines.extend(self.told(truths));
         lines
+    }
+
+    /// What was put in, if it may be told.
+    fn told(&self, truths: &[impl core::fmt::Display]) -> Vec<String> {
+        match truths {
+            _ if self.withhold => vec!["effects withheld".to_owned()],
+            [] => vec!["no effect: the arm is as the robot file says".to_owned()],
+            some => some.iter().map(|truth| format!("effect {truth} (SI)")).collect(),
+        }
     }
 }
 

@@ -1,16 +1,20 @@
 //! `stiffarm withhold`: what an experiment can find, before anyone runs it.
 
+mod motion;
+
 use std::path::PathBuf;
 
 use stiffarm_gap::Options;
 use stiffarm_gap::plant;
-use stiffarm_gap::withhold::{Plan, Rate, Report, with_findings, withhold};
+use stiffarm_gap::whole::Whole;
+use stiffarm_gap::withhold::{Confusion, Plan, Rate, Report, with_findings, withhold};
 
 use super::Verdict;
 use super::simulate::{ExperimentArgs, plain};
 use crate::input::named;
 use crate::input::quantity::counted;
 use crate::input::source::RobotArgs;
+use crate::motion::{MotionArgs, RecordArgs};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::{Target, print};
@@ -22,6 +26,8 @@ Examples:
   stiffarm withhold ur5 --cases 40 --report check.html
   stiffarm withhold arm.toml run1.csv --noise-position 30um --json check.json
   stiffarm withhold arm.toml --design force --payload 500N --effects backlash,joint_compliance
+  stiffarm withhold panda --motion --cases 40 --period 30s --noise-torque 3%
+  stiffarm withhold arm.toml commands.csv --motion --logged position --effects latency,backlash
 
 Effects are put into a plant one at a time, in pairs and not at all, and also with the effect taken
 out of what the diagnosis knows; the diagnosis is not told. Each is sized so that its gap is so many
@@ -29,7 +35,8 @@ times the noise.";
 
 /// What an experiment can find, before anyone runs it
 ///
-/// With DATA, the poses and loads of that file; without, a drawn design.
+/// With DATA, the poses and loads of that file; without, a drawn design. With --motion the arm is moved
+/// and its joint log diagnosed: along the commands of DATA, or along motions that are drawn.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -46,11 +53,24 @@ pub struct Args {
     /// As many cases as it takes to tell 95 % from 98 %: 500
     #[arg(long)]
     full: bool,
-    /// Smallest and largest size of an effect's gap, in multiples of the noise
-    #[arg(long, value_name = "FROM,TO", default_value = "8,20", value_delimiter = ',')]
+    /// Smallest and largest size of an effect's gap, in multiples of the noise [default: 8,20; of a
+    /// motion 1,3]
+    #[arg(long, value_name = "FROM,TO", value_delimiter = ',')]
     sizes: Vec<f64>,
     #[command(flatten)]
     experiment: ExperimentArgs,
+    /// Of joint logs: move the arm
+    #[arg(
+        long,
+        group = "moved",
+        conflicts_with_all = ["report", "design", "poses", "payload", "repeats", "measure",
+                              "noise_position", "noise_rotation"]
+    )]
+    motion: bool,
+    #[command(flatten)]
+    moved: MotionArgs,
+    #[command(flatten)]
+    record: RecordArgs,
     /// Write everything as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
@@ -74,26 +94,27 @@ const MOST: usize = 6;
 /// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
 /// that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    if args.motion {
+        return motion::run(args, quiet);
+    }
     let effects = match &args.effects {
         Some(names) => named::effects(&plant::effects(), names, "--effects: ")?,
         None => plant::effects(),
     };
-    let [from, to] = args.sizes[..] else {
-        let found = counted(args.sizes.len(), "value");
-        return Err(Failure::new(format!("--sizes: found {found}, expected two: 8,20")));
-    };
+    let multiple = args.multiple([8.0, 20.0])?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm_alone(
-        "withhold",
-        "the arms of its bench have the table and what is put into them, nothing else",
-    )?;
+    let arm = source.arm_at_its_base()?;
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),
         None => args.experiment.other_sessions(&arm)?,
     };
-    let options = Options { version: env!("CARGO_PKG_VERSION").to_owned(), ..Options::default() };
-    let predict = with_findings(&arm, &options.catalogue);
+    let options = Options {
+        known: source.known.clone(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        ..Options::default()
+    };
+    let predict = with_findings(Whole { arm: &arm, known: &options.known }, &options.catalogue);
     let cases = if args.full { FULL } else { args.cases };
     let plan = Plan {
         arm: &arm,
@@ -104,7 +125,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         frames: None,
         effects: &effects,
         cases,
-        multiple: [from, to],
+        multiple,
         seed: args.experiment.seed,
         options: &options,
         threads: THREADS,
@@ -119,12 +140,30 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         let page = crate::report::withheld::html(&report);
         target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
     }
-    let piped = [&args.json, &args.report].contains(&&Some(Target::Stdout));
-    let unasked = quiet && args.json.is_some();
-    if !(piped || unasked) {
+    if !args.is_enough(quiet) {
         print(&screen(&report))?;
     }
     Ok(Verdict::Good)
+}
+
+impl Args {
+    /// The sizes that are asked for, else the usual ones.
+    fn multiple(&self, usual: [f64; 2]) -> Result<[f64; 2], Failure> {
+        match self.sizes[..] {
+            [] => Ok(usual),
+            [from, to] => Ok([from, to]),
+            _ => {
+                let found = counted(self.sizes.len(), "value");
+                Err(Failure::new(format!("--sizes: found {found}, expected two: 8,20")))
+            }
+        }
+    }
+
+    /// Whether the screen is not wanted beside what is written.
+    fn is_enough(&self, quiet: bool) -> bool {
+        let piped = [&self.json, &self.report].contains(&&Some(Target::Stdout));
+        piped || quiet && self.json.is_some()
+    }
 }
 
 fn screen(report: &Report) -> String {
@@ -141,7 +180,7 @@ fn screen(report: &Report) -> String {
     );
     let mut text = format!("{}\n{}\n\n{}\n", bold(&report.robot), dim(facts), bold("Found"));
     text.push_str(&indented(&rates(report), 2));
-    text.push_str(&confusions(report));
+    text.push_str(&confusions(&report.confusion));
     if !report.cannot_plant.is_empty() {
         let names = report.cannot_plant.join(", ");
         text.push_str(&format!("\n{}  {names}\n", bold("Does not show here")));
@@ -154,19 +193,27 @@ fn screen(report: &Report) -> String {
     text
 }
 
-fn rates(report: &Report) -> String {
-    let mut rows = Vec::new();
-    let mut add = |what: &str, rate: Rate, remark: String| {
+/// A line for each rate that there is.
+fn rates_of(all: &[(&str, Rate, String)]) -> String {
+    let line = |(what, rate, remark): &(&str, Rate, String)| {
         let percent = |x: f64| format!("{:.0}", 100.0 * x);
-        let Some((value, [low, high])) = rate.rate.zip(rate.ci95) else { return };
-        rows.push(vec![
-            what.to_owned(),
+        let (value, [low, high]) = rate.rate.zip(rate.ci95)?;
+        Some(vec![
+            (*what).to_owned(),
             format!("{} %", percent(value)),
             format!("[{} to {}]", percent(low), percent(high)),
             format!("{} of {}", rate.hits, rate.of),
-            remark,
-        ]);
+            remark.clone(),
+        ])
     };
+    let rows: Vec<Vec<String>> = all.iter().filter_map(line).collect();
+    use Align::{Left, Right};
+    table(&rows, &[Left, Right, Left, Left, Left])
+}
+
+fn rates(report: &Report) -> String {
+    let mut rows = Vec::new();
+    let mut add = |what, rate, remark| rows.push((what, rate, remark));
     let none = String::new;
     add("an effect where there is none", report.false_alarms, none());
     add("something unexplained where there is none", report.false_unexplained, none());
@@ -184,15 +231,12 @@ fn rates(report: &Report) -> String {
     if let Some(shrink) = &report.shrink {
         add("shrink at new poses as predicted", shrink.inside, none());
     }
-    use Align::{Left, Right};
-    table(&rows, &[Left, Right, Left, Left, Left])
+    rates_of(&rows)
 }
 
-fn confusions(report: &Report) -> String {
-    let wrong = |c: &&stiffarm_gap::withhold::Confusion| {
-        c.named.as_deref() != Some(c.truth) || !c.at_its_place
-    };
-    let row = |c: &stiffarm_gap::withhold::Confusion| {
+fn confusions(confusion: &[Confusion]) -> String {
+    let wrong = |c: &&Confusion| c.named.as_deref() != Some(c.truth) || !c.at_its_place;
+    let row = |c: &Confusion| {
         let named = match &c.named {
             None => "nothing".to_owned(),
             Some(named) if named == c.truth => format!("{named}, at another place"),
@@ -200,7 +244,7 @@ fn confusions(report: &Report) -> String {
         };
         vec![c.truth.to_owned(), format!("→ {named}"), counted(c.cases, "case")]
     };
-    let all: Vec<_> = report.confusion.iter().filter(wrong).collect();
+    let all: Vec<_> = confusion.iter().filter(wrong).collect();
     if all.is_empty() {
         return String::new();
     }

@@ -7,6 +7,7 @@ use stiffarm_gap::Diagnosis;
 use stiffarm_gap::diagnose::{Finding, Shrink};
 
 use super::provenance::Hashes;
+use crate::input::source;
 use crate::terminal::failure::Failure;
 
 /// What is read of the earlier diagnosis.
@@ -95,7 +96,7 @@ impl Compared {
     /// # Errors
     /// [`Failure`]: it cannot be read, is no diagnosis, or one of another robot.
     pub fn with(file: &Path, found: &Diagnosis, now: &Hashes) -> Result<Compared, Failure> {
-        let text = std::fs::read_to_string(file).map_err(|e| Failure::io("read", file, &e))?;
+        let text = source::text(file)?;
         let name = file.display().to_string();
         let last: Last = serde_json::from_str(&text).map_err(|error| {
             Failure::with_help(

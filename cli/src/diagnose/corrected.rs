@@ -4,6 +4,7 @@
 use std::cell::OnceCell;
 
 use stiffarm_codegen::emit::{lost_in_mjcf, lost_in_urdf, mjcf, urdf};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
@@ -35,7 +36,11 @@ impl<'a> Corrections<'a> {
     }
 
     fn found(&self) -> &Corrected {
-        self.found.get_or_init(|| corrected(&self.source.robot, self.diagnosed))
+        self.found.get_or_init(|| {
+            let mut found = corrected(&self.source.robot, self.diagnosed);
+            found.robot.effects.extend(self.source.motion.iter().cloned());
+            found
+        })
     }
 
     /// What has to be known of any file of the corrected arm, a sentence each.
@@ -59,15 +64,7 @@ impl<'a> Corrections<'a> {
     /// # Errors
     /// [`Failure`] if the table has cells that are no numbers.
     pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        let robot = &self.found().robot;
-        let (written, lost, name) = match format {
-            Format::Urdf => (urdf(robot), lost_in_urdf(robot), "a URDF"),
-            Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "an MJCF"),
-        };
-        let text = written.map_err(|error| Failure::new(error.to_string()))?;
-        let sentence =
-            format!("{name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
-        Ok((text, (!lost.is_empty()).then_some(sentence)))
+        exported(&self.found().robot, format)
     }
 
     /// The robot file.
@@ -91,6 +88,21 @@ impl<'a> Corrections<'a> {
     }
 }
 
+/// A corrected arm as another program reads it, and a sentence on what it has no place for.
+///
+/// # Errors
+/// [`Failure`] if the table has cells that are no numbers.
+pub fn exported(robot: &Robot, format: Format) -> Result<(String, Option<String>), Failure> {
+    let (written, lost, name) = match format {
+        Format::Urdf => (urdf(robot), lost_in_urdf(robot), "a URDF"),
+        Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "an MJCF"),
+    };
+    let text = written.map_err(|error| Failure::new(error.to_string()))?;
+    let sentence =
+        format!("{name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
+    Ok((text, (!lost.is_empty()).then_some(sentence)))
+}
+
 fn line(outcome: &Outcome) -> String {
     let (p, entry) = (&outcome.parameter, &outcome.entry);
     let [low, high] = p.ci95;
@@ -112,7 +124,7 @@ fn frame(n: &NuisanceReport) -> String {
 }
 
 /// A line of comment, whatever the names in it hold.
-fn comment(line: &str) -> String {
+pub fn comment(line: &str) -> String {
     let plain: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     format!("# {plain}").trim_end().to_owned() + "\n"
 }

@@ -9,6 +9,7 @@ use std::time::{Duration, SystemTime};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use crate::inside::words;
 use crate::terminal::failure::Failure;
 
 /// Of what and how.
@@ -43,7 +44,7 @@ impl Provenance {
         // What is no file, such as a pipe, has no date.
         let about = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
         let written = about.and_then(|about| about.modified().ok());
-        let words = std::env::args().skip(1).map(|word| quoted(&word));
+        let words = words().into_iter().map(|word| quoted(&word));
         let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
         Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
     }

@@ -1,11 +1,13 @@
 //! What a robot file says beyond its table, as commands take it: read, honoured, or refused.
 
 use stiffarm_codegen::robot::beyond::EffectError;
-use stiffarm_codegen::robot::{Located, Robot, Spot};
+use stiffarm_codegen::robot::{Effect, Located, Robot, Spot};
 use stiffarm_gap::corrected::{FoldError, folded};
 use stiffarm_gap::effects::{Catalogue, Depends, Known};
+use stiffarm_gap::log::known::is_of_motion;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Input, Output};
 
 use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
@@ -28,7 +30,7 @@ impl Source {
     /// The file as it stands, and all its effects as the catalogue knows them: none is taken into the table.
     ///
     /// # Errors
-    /// [`Failure`]: a table without numbers; [`Source::understood`] has seen the effects.
+    /// [`Failure`]: a table without numbers; the reading has seen the effects.
     pub fn as_it_stands(&self) -> Result<(Arm, Vec<Known>), Failure> {
         let wrong = |error: String| Failure::new(error);
         let arm = stiffarm_gap::robot::arm(&self.file).map_err(|e| wrong(e.to_string()))?;
@@ -37,13 +39,20 @@ impl Source {
         Ok((arm, known))
     }
 
-    /// Refuses an effect, for a command that does not honour it, and says why.
+    /// Refuses effects of motion for what is asked of rates and torques: no kernel has them.
     ///
     /// # Errors
-    /// [`Failure`] names the effect where it stands.
-    pub fn refuse_effects(&self, command: &str, because: &str) -> Result<(), Failure> {
-        let first = self.known.first();
-        first.map_or(Ok(()), |known| Err(self.refusal(command, known, &format!(": {because}"))))
+    /// [`Failure`] names the first where it stands.
+    pub fn refuse_motion(&self, outputs: &[Output]) -> Result<(), Failure> {
+        let drives = [Input::Accelerations, Input::Torques];
+        let moves = |o: &&Output| o.inputs().iter().any(|input| drives.contains(input));
+        let (Some(effect), Some(output)) = (self.motion.first(), outputs.iter().find(moves)) else {
+            return Ok(());
+        };
+        let (id, place) = (effect.id.value.replace('_', " "), &effect.place.value);
+        let message = format!("{} has no {id}, as the file has at {place}", output.name());
+        let help = "ask for other --outputs, or take the [[effect]] out of a copy of the file";
+        Err(self.mistakes([(&effect.at, message, Some(help.to_owned()))]))
     }
 
     /// Refuses an effect that nothing decides: neither posture and load nor what else is known.
@@ -60,13 +69,20 @@ impl Source {
         open.map_or(Ok(()), |(known, _)| Err(self.refusal(command, known, lacking(known))))
     }
 
-    /// The joint values that readings mean: some effects do nothing else than move joints.
+    /// Refuses the same, and an effect of which no output tells everything.
     ///
     /// # Errors
-    /// [`Failure`] names another effect where it stands.
-    pub fn real_joints(&self, command: &str, arm: &Arm, q: &[f64]) -> Result<Vec<f64>, Failure> {
-        let whole = Whole { arm, known: &self.known };
-        whole.joints(q).map_err(|known| self.refusal(command, known, lacking(known)))
+    /// [`Failure`] names the effect where it stands.
+    pub fn refuse_untold(
+        &self,
+        command: &str,
+        whole: &Whole<'_>,
+        q: &[f64],
+        at: &Situation,
+    ) -> Result<(), Failure> {
+        self.refuse_undecided(command, whole, at)?;
+        let untold = whole.untold(q, at);
+        untold.map_or(Ok(()), |known| Err(self.refusal(command, known, "")))
     }
 
     fn refusal(&self, command: &str, known: &Known, because: &str) -> Failure {
@@ -90,7 +106,14 @@ impl Source {
     }
 
     /// The same with its effects read: those that the table holds are in it then.
-    pub(super) fn understood(self) -> Result<Source, Failure> {
+    pub(super) fn understood(mut self) -> Result<Source, Failure> {
+        // A name that arms at rest know too is told by its numbers.
+        let at_rest = Catalogue::default();
+        let moves = |e: &mut Effect| {
+            is_of_motion(e) && (!e.numbers.is_empty() || at_rest.named(&e.id.value).is_none())
+        };
+        self.motion = self.robot.effects.extract_if(.., moves).collect();
+        self.file.effects.clone_from(&self.robot.effects);
         if self.robot.effects.is_empty() {
             return Ok(self);
         }

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
-use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake, bytes};
+use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
 use stiffarm_gap::{Measurements, ReadError};
 use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
 use super::source::Source;
+use crate::inside::bytes;
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::note::note;
 use crate::terminal::snippet;

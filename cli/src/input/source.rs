@@ -3,13 +3,16 @@
 use std::path::Path;
 
 use nalgebra::Isometry3;
-use stiffarm_codegen::robot::{Dimension as Cell, Motion, Robot, Symbol};
+use serde::Deserialize as _;
+use stiffarm_codegen::robot::{Dimension as Cell, Effect, Motion, Robot, Symbol};
+use stiffarm_gap::diagnose::Cover;
 use stiffarm_gap::effects::Known;
-use stiffarm_gap::measurement::{Dimension, bytes};
+use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::quantity;
+use crate::inside::{bytes, owner};
 use crate::terminal::failure::{Failure, Remark};
 
 /// Which robot.
@@ -32,18 +35,28 @@ pub struct Source {
     pub robot: Robot,
     /// The effects that are left.
     pub known: Vec<Known>,
-    /// The model without any effect taken into the table.
+    /// The effects that act in motion alone.
+    pub motion: Vec<Effect>,
+    /// The model without any effect taken into the table, or of motion.
     pub(super) file: Robot,
     /// The file's text.
     pub text: String,
     /// Whether it is one of the collection.
     pub built_in: bool,
+    /// Of a diagnosis, where its data have been.
+    pub covers: Option<Cover>,
 }
 
 impl RobotArgs {
     /// The robot of that file or id, whose parameters have numbers.
     pub fn named(robot: &str) -> RobotArgs {
         RobotArgs { robot: robot.to_owned(), set: Vec::new() }
+    }
+
+    /// The same with numbers for its symbolic parameters, each NAME=VALUE.
+    #[must_use]
+    pub fn set(self, set: Vec<String>) -> RobotArgs {
+        RobotArgs { set, ..self }
     }
 
     /// Reads the robot and gives every symbolic parameter its number.
@@ -86,7 +99,16 @@ impl RobotArgs {
 impl Source {
     fn new(given: &str, robot: Robot, text: String, built_in: bool) -> Source {
         let (given, file) = (given.to_owned(), robot.clone());
-        Source { given, robot, known: Vec::new(), file, text, built_in }
+        Source {
+            given,
+            robot,
+            known: Vec::new(),
+            motion: Vec::new(),
+            file,
+            text,
+            built_in,
+            covers: None,
+        }
     }
 
     /// The table as the textbook has it; what the file says beyond it is [`Source::known`].
@@ -97,12 +119,11 @@ impl Source {
         stiffarm_gap::robot::arm(&self.robot).map_err(|error| Failure::new(error.to_string()))
     }
 
-    /// The table for a command that honours nothing beyond it and stands at the arm's base.
+    /// The same for a command that stands at the arm's base.
     ///
     /// # Errors
-    /// As [`Source::arm`] and [`Source::refuse_effects`].
-    pub fn arm_alone(&self, command: &str, because: &str) -> Result<Arm, Failure> {
-        self.refuse_effects(command, because)?;
+    /// As [`Source::arm`].
+    pub fn arm_at_its_base(&self) -> Result<Arm, Failure> {
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 
@@ -132,26 +153,28 @@ fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
             let robot = parse(toml, given, true)?;
             return Ok(Source::new(given, robot, toml.to_owned(), true));
         }
-        if !Path::new(given).exists() {
+        if owner(Path::new(given)).is_none() && !Path::new(given).exists() {
             return Err(no_such_robot(given));
         }
     }
     let text = text(Path::new(given))?;
-    let text = if given.ends_with(".json") { corrected(given, &text)? } else { text };
+    let (text, covers) =
+        if given.ends_with(".json") { diagnosis(given, &text)? } else { (text, None) };
     let robot = parse(&text, given, quiet)?;
-    Ok(Source::new(given, robot, text, false))
+    Ok(Source { covers, ..Source::new(given, robot, text, false) })
 }
 
-/// The robot file that a diagnosis in JSON holds.
-fn corrected(given: &str, json: &str) -> Result<String, Failure> {
+/// The robot file that a diagnosis in JSON holds, and where its data have been.
+fn diagnosis(given: &str, json: &str) -> Result<(String, Option<Cover>), Failure> {
     let read: Result<serde_json::Value, _> = serde_json::from_str(json);
     let read = read.map_err(|error| Failure::new(format!("{given}: this is no JSON: {error}")))?;
-    read["corrected"].as_str().map(str::to_owned).ok_or_else(|| {
+    let corrected = read["corrected"].as_str().ok_or_else(|| {
         Failure::with_help(
             format!("{given}: found no `corrected`, expected a diagnosis"),
             "`stiffarm diagnose ROBOT DATA --json OUT.json` writes one",
         )
-    })
+    })?;
+    Ok((corrected.to_owned(), Cover::deserialize(&read["covers"]).ok()))
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
@@ -189,7 +212,7 @@ pub fn text(path: &Path) -> Result<String, Failure> {
                 column + 1,
                 bytes[valid]
             ),
-            "the file is TOML, saved as UTF-8",
+            "save the file as UTF-8",
         )
     })
 }

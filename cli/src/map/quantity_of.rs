@@ -7,8 +7,9 @@ use stiffarm_gap::dexterity::{
     DexterityError, Search, characteristic_length, influence, inverse_condition,
 };
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_kernels::Unstable;
+use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::{Output, Unstable};
 
 use super::learnt::Learnt;
 use crate::input::quantity;
@@ -131,15 +132,15 @@ impl Quantity {
     ///
     /// # Errors
     /// [`NoValue`]; [`NoValue::Unstable`] where there is no value.
-    pub fn value(&self, arm: &Arm, q: &[f64]) -> Result<f64, NoValue> {
+    pub fn value(&self, whole: Whole<'_>, q: &[f64]) -> Result<f64, NoValue> {
         Ok(match self.of {
-            Of::Condition => inverse_condition(arm, q, self.length)?,
-            Of::NuP => 100.0 * influence(arm, q, &self.wrench)?.nu_p,
-            Of::NuR => influence(arm, q, &self.wrench)?.nu_r.to_degrees(),
-            Of::Deflection => 1e3 * self.displacement(arm, q)?.norm(),
+            Of::Condition => inverse_condition(whole, q, self.length)?,
+            Of::NuP => 100.0 * influence(whole, q, &self.wrench)?.nu_p,
+            Of::NuR => influence(whole, q, &self.wrench)?.nu_r.to_degrees(),
+            Of::Deflection => 1e3 * self.displacement(whole, q)?.norm(),
             Of::Stiffness => {
                 let force: Vector3<f64> = self.wrench.fixed_rows::<3>(0).into_owned();
-                let along = self.displacement(arm, q)?.dot(&force) / force.norm();
+                let along = self.displacement(whole, q)?.dot(&force) / force.norm();
                 // A rigid direction has no finite stiffness, and no colour.
                 if along > 0.0 { 1e-6 * force.norm() / along } else { f64::NAN }
             }
@@ -150,8 +151,14 @@ impl Quantity {
         })
     }
 
-    fn displacement(&self, arm: &Arm, q: &[f64]) -> Result<Vector3<f64>, Unstable> {
-        Ok(arm.deflection(q, &self.wrench)?.fixed_rows::<3>(0).into_owned())
+    fn displacement(&self, whole: Whole<'_>, q: &[f64]) -> Result<Vector3<f64>, Unstable> {
+        let deflection = whole.evaluate(Output::Deflection, q, &self.situation())?;
+        Ok(deflection.map_or_else(Vector3::zeros, |d| Vector3::new(d[0], d[1], d[2])))
+    }
+
+    /// The load, and nothing else that is known.
+    pub fn situation(&self) -> Situation {
+        Situation::under(self.wrench)
     }
 
     /// Of [`Quantity::value`]; empty where it has none.

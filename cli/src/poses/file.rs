@@ -1,6 +1,7 @@
 //! The plan as a measurement file.
 
 use nalgebra::Vector6;
+use stiffarm_codegen::robot::Frame;
 use stiffarm_gap::dexterity::design::{Design, Plan, Planned};
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENCH_NAMES};
 
@@ -35,16 +36,20 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
         };
         format!("{}[{unit}]", names[k])
     }));
+    let (frame, axes) = match source.robot.base == Frame::default() {
+        true => ("base frame", "base axes"),
+        false => ("frame in which [base] stands", "that frame's axes; loads in base axes"),
+    };
     let what = match found.displacements {
-        true => "loaded minus unloaded, of the tool origin",
-        false => "of the tool in the base frame, before and under the load",
+        true => "loaded minus unloaded, of the tool origin".to_owned(),
+        false => format!("of the tool in the {frame}, before and under the load"),
     };
     let sides = match directed {
         true => "# s1 … say from which side each joint comes to rest: 1 with rising readings.\n",
         false => "",
     };
     let mut text = format!(
-        "# {}: fill in {} to {}, {what}, base axes.\n{sides}{}\n",
+        "# {}: fill in {} to {}, {what}, {axes}.\n{sides}{}\n",
         source.robot.name.replace(char::is_control, " "),
         names[0],
         names[measured - 1],

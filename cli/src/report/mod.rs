@@ -12,6 +12,8 @@ mod embedded;
 mod experiment;
 mod forest;
 pub mod identified;
+mod known;
+pub mod logged;
 mod method;
 mod page;
 mod performance;

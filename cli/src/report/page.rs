@@ -4,11 +4,13 @@ use askama::Template;
 use stiffarm_gap::diagnose::{Finding, NuisanceReport};
 
 use super::experiment::drawn_of;
+use super::known::{Known, known, left};
 use super::performance::{Figures, figures};
 use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
 use super::worst::worst;
 use super::{Report, embedded, method};
+use crate::screen::chance;
 
 /// Places or rivals that are named one by one.
 const MOST: usize = 8;
@@ -22,6 +24,7 @@ pub(super) const SCRIPT: &str = concat!(
     include_str!("script/theme.js"),
     include_str!("script/plot.js"),
     include_str!("script/residuals.js"),
+    include_str!("script/quantiles.js"),
     include_str!("script/arm.js"),
 );
 
@@ -44,6 +47,8 @@ struct Page<'a> {
     since: &'a str,
     performance: Figures,
     worst: Vec<Worst>,
+    left: Vec<String>,
+    known: Option<Known>,
     date: String,
     hidden: &'a [String],
     covers: Vec<String>,
@@ -63,8 +68,10 @@ struct Found<'a> {
     name: String,
     said: String,
     numbers: &'a [String],
-    shrink: String,
-    evidence: String,
+    /// From what to what, and by how much.
+    shrink: (String, String),
+    /// The chance of it without cause, and how often it is found again.
+    evidence: (String, String),
     /// What this data does not tell from it.
     same: Vec<String>,
     more: usize,
@@ -114,8 +121,8 @@ struct Compared<'a> {
 /// The page.
 pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
     let found = report.found;
-    let left = &found.unexplained;
-    let size = report.main_unit().with_unit(left.position_rms);
+    let unexplained = &found.unexplained;
+    let size = report.main_unit().with_unit(unexplained.position_rms);
     let page = Page {
         robot: &found.robot,
         file: &report.data.file,
@@ -127,16 +134,18 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         findings: findings(report),
         parts: found.parts.iter().map(|p| (p.part, percent(p.share))).collect(),
         places: places(&found.places),
-        unexplained: left.present.then(|| Left {
+        unexplained: unexplained.present.then(|| Left {
             size,
-            places: places(&left.places),
-            depends_on: &left.depends_on,
+            places: places(&unexplained.places),
+            depends_on: &unexplained.depends_on,
         }),
         acceptance: report.words.acceptance.as_ref(),
         changes: &report.words.changes,
         since: &report.words.since,
         performance: figures(report),
         worst: worst_poses(report),
+        left: left(report),
+        known: known(report),
         date: date(report),
         hidden: &report.words.hidden,
         covers: covers(report),
@@ -176,25 +185,16 @@ fn findings<'a>(report: &Report<'a>) -> Vec<Found<'a>> {
     each.collect()
 }
 
-fn shrink(report: &Report<'_>, finding: &Finding) -> String {
+fn shrink(report: &Report<'_>, finding: &Finding) -> (String, String) {
     let (held, unit) = (&finding.held_out, report.main_unit());
     let [low, high] = held.shrink_ci95.map(percent);
-    format!(
-        "{} → {}, {} less [{low} to {high}]",
-        unit.number(held.before),
-        unit.with_unit(held.after),
-        percent(held.shrink)
-    )
+    let sizes = format!("{} → {}", unit.number(held.before), unit.with_unit(held.after));
+    (sizes, format!("{} less [{low} to {high}]", percent(held.shrink)))
 }
 
-/// The chance of it without cause, and how often it is found again.
-fn evidence(finding: &Finding) -> String {
-    let chance = match finding.p_value {
-        p if p < 1e-15 => "p < 1e-15".to_owned(),
-        p => format!("p = {p:.1e}"),
-    };
+fn evidence(finding: &Finding) -> (String, String) {
     let again = percent(finding.stability);
-    format!("{chance}; found again on {again} of random halves of the poses")
+    (chance(finding.p_value), format!("found again on {again} of random halves"))
 }
 
 fn places(shares: &[stiffarm_gap::diagnose::Share]) -> Vec<Place<'_>> {

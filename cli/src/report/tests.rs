@@ -184,6 +184,36 @@ fn a_page_opens_with_its_sentence_and_holds_every_row() {
     assert_eq!(points.len(), before.len());
 }
 
+/// Two numbers of one wave at a joint, and a spring: what is told of their correlations is one matrix, and
+/// what is left lies along the line.
+#[test]
+fn what_is_left_and_how_numbers_are_told_is_shown() {
+    let effects = ["joint_compliance", "transmission_error"];
+    let bench = Bench::new(POSE, 60, &[SPRING, WAVE], &effects, true);
+    let html = bench.html();
+    for text in
+        ["Is what is left noise?", "How well the numbers are told from each other", "matrix"]
+    {
+        assert!(html.contains(text), "{text}");
+    }
+    let data = embedded(&html);
+    let matrix = &data["diagnosis"]["observability"]["matrix"];
+    let names = matrix["of"].as_array().expect("names");
+    assert!(names.contains(&"compliance of joint_compliance at joint 2".into()), "{names:?}");
+    let at = |r: usize, c: usize| matrix["rows"][r][c].as_f64().expect("a number");
+    for r in 0..names.len() {
+        assert!((at(r, r) - 1.0).abs() < 1e-12);
+        assert!((0..names.len()).all(|c| at(r, c) == at(c, r) && at(r, c).abs() <= 1.0));
+    }
+    assert_eq!(html.matches("style=\"--share:60%\"").count(), names.len());
+    let quantiles = &data["diagnosis"]["residual"]["normality"]["quantiles"];
+    let far = quantiles.as_array().expect("pairs").iter().map(|pair| {
+        (pair[0].as_f64().expect("a number") - pair[1].as_f64().expect("a number")).abs()
+    });
+    // Of 1080 normal numbers the largest scatters by 0.35 of a deviation; two of these to either side.
+    assert!(far.fold(0.0, f64::max) < 1.0, "{quantiles}");
+}
+
 /// The slope of the points over the torque is the planted spring, by a straight line through them
 /// alone: the sign, the projection and the torque are right.
 #[test]

@@ -176,7 +176,7 @@ fn paragraph(text: &str) -> String {
 }
 
 /// A probability with two digits; one that is smaller than rounding is only bounded.
-fn chance(p: f64) -> String {
+pub fn chance(p: f64) -> String {
     match p {
         p if p < 1e-15 => "p < 1e-15".to_owned(),
         p if p < 1e-3 => format!("p = {p:.1e}"),

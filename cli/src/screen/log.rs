@@ -1,9 +1,10 @@
 //! The diagnosis of a joint log on one screen.
 
-use stiffarm_gap::log::report::{Finding, Parameter};
+use stiffarm_gap::log::report::{Finding, JointGap, Parameter};
 use stiffarm_gap::log::{Domain, LogDiagnosis};
 
 use super::{BAR, MOST, WIDTH, percent, words};
+use crate::diagnose::LogCheck;
 use crate::input::quantity::counted;
 use crate::terminal::text::{
     Align, bad, bar, bold, decimals, dim, fixed, good, indented, left_bar, listed, minus, short,
@@ -23,12 +24,44 @@ const NARROW: usize = 12;
 const MARGIN: usize = 14;
 
 /// The whole screen.
-pub fn text(found: &LogDiagnosis) -> String {
+pub fn text(found: &LogDiagnosis, check: Option<&LogCheck>) -> String {
     let sentence = wrapped(&sentence(found), WIDTH, 0);
-    [head(found), format!("\n{sentence}\n"), gap(found), findings(found), notes(found)].concat()
+    let check = check.map_or_else(String::new, |check| {
+        format!("\n{}", wrapped(&checked(found, check), WIDTH, 0))
+    });
+    let parts =
+        [head(found), format!("\n{sentence}\n"), gap(found), check, findings(found), notes(found)];
+    parts.concat()
+}
+
+/// What is left of another log.
+pub fn checked(found: &LogDiagnosis, check: &LogCheck) -> String {
+    let [before, after] = left(&check.gap).map(|part| format!("{} %", fixed(100.0 * part, 1)));
+    let text = format!(
+        "Of {} ({}) the same model leaves {after} {}, without the findings {before}; nothing is \
+         fitted to it.",
+        check.files.join(", "),
+        counted(check.samples, "sample"),
+        what(found.rows),
+    );
+    text
+}
+
+/// Of what a part is told.
+fn what(rows: Domain) -> &'static str {
+    match rows {
+        Domain::Torque => "of the torques' spread",
+        Domain::Position => "of the position errors",
+    }
 }
 
 fn head(found: &LogDiagnosis) -> String {
+    let facts = format!("{}: {}", found.files.join(", "), facts(found));
+    format!("{}\n{}\n", bold(&found.robot), dim(wrapped(&facts, WIDTH, 2).trim_end()))
+}
+
+/// What the rows are, how many, and how they are judged.
+pub fn facts(found: &LogDiagnosis) -> String {
     let evidence = &found.evidence;
     let rows = match (found.rows, found.torque_side) {
         (Domain::Torque, Some(side)) => format!("torques, {}", format!("{side:?}").to_lowercase()),
@@ -39,32 +72,28 @@ fn head(found: &LogDiagnosis) -> String {
         "run" => format!("each of {} runs held out in turn", evidence.folds),
         _ => format!("held out in {} folds of blocks", evidence.folds),
     };
-    let facts = format!(
-        "{}: {rows}; {} in {}; below {} Hz; about {:.0} independent numbers, blocks of {} s, {held}",
-        found.files.join(", "),
+    format!(
+        "{rows}; {} in {}; below {} Hz; about {:.0} independent numbers, blocks of {} s, {held}",
         counted(found.samples, "sample"),
         counted(found.runs, "run"),
         short(found.filter.band),
         evidence.effective,
         short(evidence.block_length),
-    );
-    format!("{}\n{}\n", bold(&found.robot), dim(wrapped(&facts, WIDTH, 2).trim_end()))
+    )
 }
 
 /// Mean of the joints' gaps as parts of their sizes, before and after.
-fn left(found: &LogDiagnosis) -> [f64; 2] {
-    let mean = |of: fn(&stiffarm_gap::log::report::JointGap) -> f64| {
-        found.gap.iter().map(|g| of(g) / g.size).sum::<f64>() / found.gap.len() as f64
+pub fn left(gap: &[JointGap]) -> [f64; 2] {
+    let mean = |of: fn(&JointGap) -> f64| {
+        gap.iter().map(|g| of(g) / g.size).sum::<f64>() / gap.len() as f64
     };
     [mean(|g| g.before), mean(|g| g.after)]
 }
 
-fn sentence(found: &LogDiagnosis) -> String {
-    let [before, after] = left(found).map(|part| format!("{} %", fixed(100.0 * part, 1)));
-    let what = match found.rows {
-        Domain::Torque => "of the torques' spread",
-        Domain::Position => "of the position errors",
-    };
+/// What the model lacks, and what that leaves.
+pub fn sentence(found: &LogDiagnosis) -> String {
+    let [before, after] = left(&found.gap).map(|part| format!("{} %", fixed(100.0 * part, 1)));
+    let what = what(found.rows);
     if found.findings.is_empty() {
         return format!(
             "Nothing is found: no effect that was tried makes the gap of {before} {what} smaller on \
@@ -92,13 +121,32 @@ fn sentence(found: &LogDiagnosis) -> String {
     text
 }
 
-fn gap(found: &LogDiagnosis) -> String {
-    // Position errors are told in what people read.
-    let shown = |unit: &'static str| match unit {
+/// Position errors are told in what people read.
+pub fn shown(unit: &'static str) -> (&'static str, f64) {
+    match unit {
         "rad" => ("°", 180.0 / core::f64::consts::PI),
         "m" => ("mm", 1e3),
         other => (other, 1.0),
+    }
+}
+
+/// Of each joint its name, its size, what is left before and after, and what part that is.
+pub fn gaps(found: &LogDiagnosis) -> Vec<[String; 5]> {
+    let of = |(joint, gap): (usize, &JointGap)| {
+        let (name, factor) = shown(gap.unit);
+        let number = |x: f64| short(factor * x);
+        [
+            format!("joint {}", joint + 1),
+            format!("{} {name}", number(gap.size)),
+            number(gap.before),
+            number(gap.after),
+            format!("{} %", fixed(100.0 * gap.after / gap.size, 1)),
+        ]
     };
+    found.gap.iter().enumerate().map(of).collect()
+}
+
+fn gap(found: &LogDiagnosis) -> String {
     let size = match found.rows {
         Domain::Torque => "spread",
         Domain::Position => "as logged",
@@ -109,16 +157,9 @@ fn gap(found: &LogDiagnosis) -> String {
     };
     let heads = ["Gap, rms", size, before, "with the findings", ""];
     let mut rows = vec![heads.map(|h| if h == "Gap, rms" { bold(h) } else { dim(h) }).to_vec()];
-    for (joint, gap) in found.gap.iter().enumerate() {
-        let (name, factor) = shown(gap.unit);
-        let number = |x: f64| short(factor * x);
-        rows.push(vec![
-            format!("  joint {}", joint + 1),
-            format!("{} {name}", number(gap.size)),
-            number(gap.before),
-            number(gap.after),
-            bar(gap.after / gap.size.max(gap.before), BAR),
-        ]);
+    for (gap, [joint, size, before, after, _]) in found.gap.iter().zip(gaps(found)) {
+        let left = bar(gap.after / gap.size.max(gap.before), BAR);
+        rows.push(vec![format!("  {joint}"), size, before, after, left]);
     }
     use Align::{Left, Right};
     table(&rows, &[Left, Right, Right, Right, Left])
@@ -175,7 +216,7 @@ fn details(finding: &Finding) -> String {
 }
 
 /// `viscous 8.13 [8.01 to 8.25] N·m·s/rad`.
-fn number(p: &Parameter) -> String {
+pub fn number(p: &Parameter) -> String {
     let half = 0.5 * (p.ci95[1] - p.ci95[0]);
     let digits = decimals(half, 2).min(decimals(p.value.abs(), 3).max(decimals(half, 1)));
     let shown = |x: f64| match (1e-4..1e5).contains(&p.value.abs()) {
@@ -205,6 +246,19 @@ fn notes(found: &LogDiagnosis) -> String {
         );
         text.push_str(&note("Too short", few));
     }
+    if let Some(most) = found.unexplained.depends_on.first() {
+        let share = percent(most.share);
+        let rest = format!("of {}: {share} of what is left goes with its {}", most.place, most.of);
+        text.push_str(&note("Unexplained", rest));
+    }
+    for (k, line) in hidden(found).into_iter().enumerate() {
+        text.push_str(&note(if k == 0 { "Cannot see" } else { "" }, line));
+    }
+    indented(&text, 0)
+}
+
+/// What the log cannot show and why, places of the same kind in one line.
+pub fn hidden(found: &LogDiagnosis) -> Vec<String> {
     let mut told: Vec<(&str, &str, Vec<&str>)> = Vec::new();
     for hidden in &found.cannot_see {
         let same = |t: &&mut (&str, &str, Vec<&str>)| {
@@ -215,9 +269,8 @@ fn notes(found: &LogDiagnosis) -> String {
             None => told.push((hidden.effect, &hidden.reason, vec![hidden.place.as_str()])),
         }
     }
-    for (k, (effect, reason, places)) in told.into_iter().enumerate() {
-        let name = if k == 0 { "Cannot see" } else { "" };
-        text.push_str(&note(name, format!("{} at {}: {reason}", words(effect), places.join(", "))));
-    }
-    indented(&text, 0)
+    let line = |(effect, reason, places): (&str, &str, Vec<&str>)| {
+        format!("{} at {}: {reason}", words(effect), places.join(", "))
+    };
+    told.into_iter().map(line).collect()
 }

@@ -4,14 +4,14 @@ mod campaign;
 mod effect;
 mod finding;
 mod hidden;
-mod log;
+pub mod log;
 mod notes;
 mod sentence;
 mod size;
 mod unit;
 mod words;
 
-pub use log::text as log_text;
+pub use finding::chance;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;
@@ -239,7 +239,7 @@ pub fn noise_from(source: &str) -> &'static str {
 }
 
 /// `joint_compliance` as it is said.
-fn words(identifier: &str) -> String {
+pub(crate) fn words(identifier: &str) -> String {
     identifier.replace('_', " ")
 }
 

@@ -9,6 +9,8 @@ use annotate_snippets::{AnnotationKind, Element, Level, Renderer, Snippet};
 use console::style;
 use stiffarm_codegen::robot::Located;
 
+use crate::inside::host;
+
 /// Why a command could not do its work: exit status 2.
 #[derive(Debug)]
 pub enum Failure {
@@ -26,8 +28,10 @@ pub enum Failure {
 /// Something to say about a place in a file.
 #[derive(Debug)]
 pub struct Remark {
-    message: String,
-    help: Option<String>,
+    /// What was found and what was expected.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
     /// Used as it is, but probably not meant.
     doubt: bool,
     /// The file's name, its text, and the bytes that are meant.
@@ -52,7 +56,12 @@ impl Failure {
 
     /// Prints it to standard error; where that is closed there is no one to tell.
     pub fn print(&self) {
-        let text = match self {
+        let _ = std::io::stderr().write_all(self.text().as_bytes());
+    }
+
+    /// All of it, as it is printed.
+    pub fn text(&self) -> String {
+        match self {
             Failure::Plain { message, help } => {
                 let blue = |text| style(text).for_stderr().blue().bright().bold();
                 let head = style("error").for_stderr().red().bright().bold();
@@ -64,8 +73,7 @@ impl Failure {
             Failure::File(remarks) => {
                 remarks.iter().map(Remark::render).collect::<Vec<_>>().join("\n")
             }
-        };
-        let _ = std::io::stderr().write_all(text.as_bytes());
+        }
     }
 }
 
@@ -113,6 +121,14 @@ impl Remark {
         Remark { doubt, ..Remark::error(message, located.help.clone(), path, text, span) }
     }
 
+    /// File, line and column (from 1), where it is about a place in one.
+    pub fn place(&self) -> Option<(&str, usize, usize)> {
+        let (file, text, span) = self.place.as_ref()?;
+        let before = text.get(..span.start)?;
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        Some((file, before.matches('\n').count() + 1, line.chars().count() + 1))
+    }
+
     fn render(&self) -> String {
         let level = if self.doubt { Level::WARNING } else { Level::ERROR };
         let mut group = level.primary_title(&self.message).elements(None::<Element<'_>>);
@@ -132,6 +148,11 @@ impl Remark {
 
     /// Prints a warning to standard error.
     pub fn print(&self) {
-        let _ = std::io::stderr().write_all(self.render().as_bytes());
+        match host() {
+            Some(host) => host.remark(&self.render()),
+            None => {
+                let _ = std::io::stderr().write_all(self.render().as_bytes());
+            }
+        }
     }
 }

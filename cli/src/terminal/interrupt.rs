@@ -2,12 +2,19 @@
 
 use stiffarm_gap::diagnose::Stop;
 
+use crate::inside::host;
+
 /// What a shell makes of a program that an interrupt has ended.
 const INTERRUPTED: i32 = 130;
 
-/// The first Ctrl-C asks the search for its end, the second ends the program.
-pub fn ends(search: &Stop) {
-    let search = search.clone();
+/// What a search is told to stop by. The first Ctrl-C asks for its end, the second ends the program; inside
+/// another program, that program asks.
+pub fn stop() -> Stop {
+    if let Some(host) = host() {
+        return host.stop();
+    }
+    let search = Stop::default();
+    let stop = search.clone();
     let handler = move || {
         if search.is_asked() {
             std::process::exit(INTERRUPTED);
@@ -16,4 +23,5 @@ pub fn ends(search: &Stop) {
     };
     // Where no handler can be set, the first Ctrl-C ends the program, as it always does.
     ctrlc::set_handler(handler).unwrap_or_default();
+    stop
 }

@@ -8,6 +8,7 @@ use clap::{ArgMatches, Command};
 use tempfile::NamedTempFile;
 
 use super::failure::{Failure, reason};
+use crate::inside::{host, owner};
 
 /// Where a result goes: a file, or standard output for `-`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,10 @@ impl Target {
         match self {
             Target::Stdout => print(text),
             Target::File(path) => {
+                if let Some(owner) = owner(path) {
+                    owner.write(&path.display().to_string(), text);
+                    return Ok(());
+                }
                 file(path, text.as_bytes()).map_err(|error| Failure::io("write", path, &error))
             }
         }
@@ -94,6 +99,10 @@ fn place(path: &Path) -> PathBuf {
 /// # Errors
 /// [`Failure`] if standard output cannot be written to.
 pub fn print(text: &str) -> Result<(), Failure> {
+    if let Some(host) = host() {
+        host.write("-", text);
+        return Ok(());
+    }
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

@@ -103,3 +103,15 @@ fn what_is_not_stable_is_left_out_and_said() {
     assert!(out.contains("left out: "), "{out}");
     assert!(out.ends_with("✓ all agree\n"), "{out}");
 }
+
+/// Numbers that are right but leave no room for their products are no disagreement.
+#[test]
+fn what_is_too_large_for_a_double_is_said() {
+    let folder = Folder::new();
+    let robot =
+        "name = \"far\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1e308\n";
+    let file = folder.file("far.toml", robot);
+    let err = stiffarm(&["check", &file, "--count", "20", "--quiet"]).refused();
+    assert!(err.contains("evaluations are too large for a double"), "{err}");
+    assert!(err.contains("check the table's numbers") && !err.contains("inf"), "{err}");
+}

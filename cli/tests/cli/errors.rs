@@ -165,7 +165,7 @@ fn options_of_diagnose_that_do_not_fit() {
     with(&["--noise-position", "-3um"], &["found `-3um`, expected a positive number"]);
     with(&["--noise-rotation", "3um"], &["--noise-rotation: found `3um`", "rad, deg, mrad"]);
     with(&["--effects", "joint_complience"], &["did you mean `joint_compliance`?"]);
-    with(&["--folds", "1"], &["found 1 folds, expected 2 to 12"]);
+    with(&["--folds", "1"], &["found 1 fold, expected 2 to 12"]);
     with(&["--folds", "x"], &["--folds"]);
 }
 

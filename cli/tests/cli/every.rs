@@ -10,6 +10,7 @@ const SPRINGS: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workben
 const MAP: [&str; 8] = ["map", "ur5", "--over", "q2,q3", "--of", "condition", "--steps", "3"];
 const WITHHOLD: [&str; 6] = ["withhold", "lin_planar", "--cases", "2", "--poses", "6"];
 const SIMULATE: [&str; 4] = ["simulate", "ur5", "--poses", "2"];
+const PREDICT: [&str; 3] = ["predict", "docs/workbench/arm.toml", "docs/workbench/check.csv"];
 const POSES: [&str; 4] = ["poses", "ur10", "--count", "2"];
 const RAW: [&str; 2] = ["measurements", "docs/workbench/run.csv"];
 const URDF: [&str; 2] = ["import", "tests/data/urdf/panda.urdf"];
@@ -25,7 +26,7 @@ const COMPENSATE: [&str; 6] = [
 ];
 
 /// A command, and an option behind which a file is written.
-const WRITES: [(&[&str], &str); 21] = [
+const WRITES: [(&[&str], &str); 23] = [
     (&EVAL, "--json"),
     (&["robots"], "--json"),
     (&["effects"], "--json"),
@@ -41,6 +42,8 @@ const WRITES: [(&[&str], &str); 21] = [
     (&LIN, "--json"),
     (&LIN, "--write-robot"),
     (&LIN, "--report"),
+    (&PREDICT, "--csv"),
+    (&PREDICT, "--json"),
     (&SIMULATE, "--csv"),
     (&WITHHOLD, "--json"),
     (&WITHHOLD, "--report"),

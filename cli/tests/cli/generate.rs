@@ -145,3 +145,15 @@ fn the_command_fuses_rust_alone() {
         assert!(said.contains(message), "{arguments:?}: {said}");
     }
 }
+
+/// Of a PUMA 560 motion tells 36 numbers (Mayeda, Yoshida & Osuka 1990), those of its last link among them.
+#[test]
+fn base_parameters_are_listed() {
+    let out = stiffarm(&["generate", "puma560", "--emit", "base"]).good();
+    assert!(out.contains(": 36 base parameters of 60 moments of mass\n"), "{out}");
+    assert_eq!(out.lines().count(), 2 + 36);
+    assert!(out.contains("\n    55  xx6 - yy6\n"), "{out}");
+    let refused =
+        stiffarm(&["generate", "puma560", "--emit", "base", "--outputs", "pose"]).refused();
+    assert!(refused.contains("base are of the arm itself"), "{refused}");
+}

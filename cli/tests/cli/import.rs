@@ -111,6 +111,9 @@ fn mistakes_are_shown_where_they_stand() {
     let err = stiffarm(&["import", "tests/data/urdf/oblique.urdf"]).refused();
     assert!(err.contains("choose the tip with --tip: "), "{err}");
     assert!(err.contains("needle (5 moving)"), "{err}");
+    let junk = folder.file("arm.urdf", [b'<', 0xff, b'\n']);
+    let err = stiffarm(&["import", &junk]).refused();
+    assert!(err.contains("found byte 0xff, expected UTF-8") && !err.contains("TOML"), "{err}");
     let err = stiffarm(&["import", "no.urdf"]).refused();
     assert!(err.contains("cannot read no.urdf: no such file"), "{err}");
 }

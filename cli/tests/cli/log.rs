@@ -1,5 +1,7 @@
 //! `stiffarm diagnose` of joint logs.
 
+mod guide;
+mod outcome;
 mod real;
 
 use std::fmt::Write as _;
@@ -23,6 +25,7 @@ a = 0.8
 alpha = 0.0
 mass = 3.0
 com = [0.0, 0.0, 0.0]
+limits = [-2.5, 2.5]
 ";
 
 /// Torque of a point mass of 3 kg at 0.8 m, with 2 N·m of Coulomb friction and 0.7 N·m·s/rad: rows at

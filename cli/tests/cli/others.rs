@@ -41,7 +41,7 @@ fn completions_know_the_commands() {
 }
 
 /// In the order of the alphabet.
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "check",
     "compensate",
     "completions",
@@ -56,6 +56,7 @@ const COMMANDS: [&str; 17] = [
     "measurements",
     "papers",
     "poses",
+    "predict",
     "robots",
     "simulate",
     "withhold",

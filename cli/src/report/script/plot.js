@@ -48,15 +48,15 @@ function curve(points, x, y) {
   return points.map(at).join("");
 }
 
-// `series` holds {class, points}; `lines` curves; all in the units of the axes.
-function plot({ id, title, description, x, y, series, lines }) {
-  const { width, height, left, right, top, bottom } = SIZE;
+// `series` holds {class, points}; `lines` curves, or {style, points}; all in the units of the axes.
+function plot({ id, title, description, x, y, series, lines, size = SIZE }) {
+  const { width, height, left, right, top, bottom } = size;
   const atX = scale(x.domain, [left, right]);
   const atY = scale(y.domain, [bottom, top]);
   let text = `<title id="${id}-t">${escaped(title)}</title>` +
     `<desc id="${id}-d">${escaped(description)}</desc>` +
     `<text x="${left}" y="16">${escaped(title)}</text>`;
-  for (const tick of x.ticks ?? ticks(x.domain, 4)) {
+  for (const tick of x.ticks ?? ticks(x.domain, Math.round(width / 75))) {
     const px = atX(tick).toFixed(1);
     text += `<line class="mark" x1="${px}" x2="${px}" y1="${top}" y2="${bottom}"/>` +
       `<text class="tick" text-anchor="middle" x="${px}" y="${bottom + 16}">${shown(tick)}</text>`;
@@ -72,7 +72,10 @@ function plot({ id, title, description, x, y, series, lines }) {
     // What was before is hollow: shape and colour both tell.
     if (name === "before") text += `<path class="many inside" d="${dots(points, atX, atY)}"/>`;
   }
-  for (const line of lines) text += `<path class="trend" d="${curve(line, atX, atY)}"/>`;
+  for (const line of lines) {
+    const { style, points } = line.points ? line : { style: "trend", points: line };
+    text += `<path class="${style}" d="${curve(points, atX, atY)}"/>`;
+  }
   const [across, down] = [(left + right) / 2, (top + bottom) / 2];
   text += `<rect class="frame" x="${left}" y="${top}" width="${right - left}" ` +
     `height="${bottom - top}"/><text class="name" text-anchor="middle" x="${across}" ` +

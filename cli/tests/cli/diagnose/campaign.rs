@@ -3,38 +3,14 @@
 use serde_json::Value;
 
 use super::flat;
-use super::plant::{ROBOT, SLACK, SPRING, ZERO};
-use crate::support::{Folder, stiffarm, text};
+use super::plant::{Bench, SLACK, SPRING, ZERO};
+use crate::support::{Run, stiffarm};
 
-/// A folder with the robot file, and measurements of it by the command itself.
-struct Bench {
-    folder: Folder,
-    robot: String,
-}
-
-impl Bench {
-    fn new() -> Bench {
-        let folder = Folder::new();
-        let robot = folder.file("arm.toml", ROBOT);
-        Bench { folder, robot }
-    }
-
-    fn path(&self, name: &str) -> String {
-        text(&self.folder.path(name))
-    }
-
-    fn simulated(&self, name: &str, extra: &[&str]) -> String {
-        let path = self.path(name);
-        let arguments = ["simulate", &self.robot, "--poses", "20", "--csv", &path];
-        stiffarm(&[&arguments[..], extra].concat()).good();
-        path
-    }
-
-    fn diagnosed(&self, run: &str, extra: &[&str]) -> crate::support::Run {
-        let tried = "joint_compliance,joint_offset,backlash";
-        let arguments = ["diagnose", &self.robot, run, "--effects", tried];
-        stiffarm(&[&arguments[..], extra].concat())
-    }
+/// A diagnosis that tries few effects: quick in any build.
+fn diagnosed(bench: &Bench, run: &str, extra: &[&str]) -> Run {
+    let tried = "joint_compliance,joint_offset,backlash";
+    let arguments = ["diagnose", &bench.robot, run, "--effects", tried];
+    stiffarm(&[&arguments[..], extra].concat())
 }
 
 fn json(path: &str) -> Value {
@@ -45,10 +21,10 @@ fn json(path: &str) -> Value {
 fn what_is_not_accepted_is_an_exit_status() {
     let bench = Bench::new();
     let run = bench.simulated("run.csv", &["--effect", SPRING]);
-    let good = bench.diagnosed(&run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]);
+    let good = diagnosed(&bench, &run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]);
     assert_eq!(good.status, 0, "{}", good.err);
     // Three coordinates of 30 µm noise are longer than 10 µm in all but few rows.
-    let bad = bench.diagnosed(&run, &["--accept", "10um"]);
+    let bad = diagnosed(&bench, &run, &["--accept", "10um"]);
     assert_eq!(bad.status, 1, "{}", bad.err);
     assert!(flat(&bad.out).contains("Not accepted: with the findings 95 % of the rows, held out,"));
     let accept = &json(&bench.path("a.json"))["accept"];
@@ -59,9 +35,9 @@ fn what_is_not_accepted_is_an_exit_status() {
     assert_eq!((&accept["accepted"], &accept["of"]), (&Value::Bool(true), &"held out".into()));
     // Of another campaign, where one is checked.
     let other = bench.simulated("other.csv", &["--effect", SPRING, "--seed", "7"]);
-    let checked = bench.diagnosed(&run, &["--accept", "0.5mm", "--check", &other]);
+    let checked = diagnosed(&bench, &run, &["--accept", "0.5mm", "--check", &other]);
     assert!(flat(&checked.out).contains("of the rows of"), "{}", checked.out);
-    let err = bench.diagnosed(&run, &["--accept", "3"]).refused();
+    let err = diagnosed(&bench, &run, &["--accept", "3"]).refused();
     assert!(err.contains("--accept"), "{err}");
 }
 
@@ -70,24 +46,24 @@ fn the_last_campaign_is_compared_with() {
     let bench = Bench::new();
     let last = bench.path("last.json");
     let first = bench.simulated("first.csv", &["--effect", SPRING, "--effect", ZERO]);
-    bench.diagnosed(&first, &["--json", &last]).good();
+    diagnosed(&bench, &first, &["--json", &last]).good();
     let softer = "joint_compliance@joint 2=9e-6 rad/(N·m)";
     let second = ["--effect", softer, "--effect", SLACK, "--seed", "3"];
     let second = bench.simulated("second.csv", &second);
-    let out = flat(&bench.diagnosed(&second, &["--compare", &last]).good());
+    let out = flat(&diagnosed(&bench, &second, &["--compare", &last]).good());
     assert!(out.contains("new: backlash at joint 3"), "{out}");
     assert!(out.contains("no longer found: joint offset at joint 3"), "{out}");
     assert!(out.contains("joint compliance at joint 2: compliance "), "{out}");
     assert!(out.contains("] µrad/(N·m), changed"), "{out}");
     assert!(!out.contains("same measurements"), "{out}");
     let page = bench.path("page.html");
-    let again = bench.diagnosed(&first, &["--compare", &last, "--report", &page]).good();
+    let again = diagnosed(&bench, &first, &["--compare", &last, "--report", &page]).good();
     let again = flat(&again);
     assert!(again.contains("both diagnoses are of the same measurements"), "{again}");
     assert!(again.contains("µrad/(N·m), not told apart") && !again.contains("new:"), "{again}");
     let page = std::fs::read_to_string(page).expect("written");
     assert!(page.contains("<li>both diagnoses are of the same measurements</li>"));
-    let err = bench.diagnosed(&first, &["--compare", &bench.robot]).refused();
+    let err = diagnosed(&bench, &first, &["--compare", &bench.robot]).refused();
     assert!(err.contains("expected a diagnosis (JSON)"), "{err}");
 }
 
@@ -98,7 +74,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     let [better, urdf, mjcf] = ["better.toml", "arm.urdf", "arm.xml"].map(|name| bench.path(name));
     let extra =
         ["--write-robot", &better, "--write-urdf", &urdf, "--write-mjcf", &mjcf, "--seed", "1"];
-    let written = bench.diagnosed(&run, &extra);
+    let written = diagnosed(&bench, &run, &extra);
     assert_eq!(written.status, 0, "{}", written.err);
     let said = flat(&written.err);
     let lost =
@@ -149,7 +125,7 @@ fn sessions_are_told_and_each_has_its_base() {
     let whole = rows(&one, "mon", true) + &rows(&one, "tue", false);
     let both = bench.folder.file("both.csv", whole);
     let nuisance = ["--nuisance", "base_frame,tool_frame"];
-    let out = flat(&bench.diagnosed(&both, &nuisance).good());
+    let out = flat(&diagnosed(&bench, &both, &nuisance).good());
     assert!(out.contains("in 2 sessions, each with a frame of its own"), "{out}");
     assert!(
         out.contains("base frame in mon at (") && out.contains("base frame in tue at ("),
@@ -159,6 +135,6 @@ fn sessions_are_told_and_each_has_its_base() {
     // A session that comes again is refused at its line.
     let mixed = rows(&one, "mon", true) + &rows(&two, "tue", false) + &rows(&one, "mon", false);
     let mixed = bench.folder.file("mixed.csv", mixed);
-    let err = bench.diagnosed(&mixed, &nuisance).refused();
+    let err = diagnosed(&bench, &mixed, &nuisance).refused();
     assert!(err.contains("found session `mon` again"), "{err}");
 }

@@ -8,7 +8,7 @@ use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use super::{flat, line};
 use crate::support::{Folder, stiffarm, text};
 
-pub(super) const ROBOT: &str = r#"
+const ROBOT: &str = r#"
 name = "shoulder and elbow"
 convention = "standard"
 [[joint]]
@@ -41,19 +41,32 @@ pub(super) const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
 pub(super) const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
 pub(super) const SLACK: &str = "backlash@joint 3=0.5 mrad";
 
-/// The robot file, and measurements of it with these truths.
-struct Bench {
-    folder: Folder,
-    robot: String,
+/// A folder with the robot file, and measurements of it.
+pub(super) struct Bench {
+    pub(super) folder: Folder,
+    pub(super) robot: String,
 }
 
 impl Bench {
-    fn new() -> Bench {
+    pub(super) fn new() -> Bench {
         let folder = Folder::new();
         let robot = folder.file("arm.toml", ROBOT);
         Bench { folder, robot }
     }
 
+    pub(super) fn path(&self, name: &str) -> String {
+        text(&self.folder.path(name))
+    }
+
+    /// By the command itself.
+    pub(super) fn simulated(&self, name: &str, extra: &[&str]) -> String {
+        let path = self.path(name);
+        let arguments = ["simulate", &self.robot, "--poses", "20", "--csv", &path];
+        stiffarm(&[&arguments[..], extra].concat()).good();
+        path
+    }
+
+    /// By a plant with these truths.
     fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
         let (robot, _) =
             stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
@@ -170,7 +183,7 @@ fn unknown_frames_are_fitted_along() {
     assert_eq!(found["nuisances"][1]["name"], "tool_frame");
 
     // Tool and base go into the robot file: nothing is unknown then.
-    let better = text(&bench.folder.path("better.toml"));
+    let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
     let written = std::fs::read_to_string(&better).expect("written");
     for frame in ["tool_frame", "base_frame"] {
@@ -206,7 +219,7 @@ fn the_corrected_robot_has_no_gap_left() {
     let said = flat(&said);
     assert!(said.contains("is noise (") && said.contains("nothing is missing"), "{said}");
 
-    let twice = text(&bench.folder.path("twice.toml"));
+    let twice = bench.path("twice.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &twice]);
     assert_eq!(std::fs::read_to_string(&twice).expect("written"), written);
     assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", &twice, "--quiet"]), "");
@@ -217,13 +230,13 @@ fn the_corrected_robot_has_no_gap_left() {
 fn what_the_table_cannot_hold_is_an_effect() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SLACK], 5, false);
-    let better = text(&bench.folder.path("better.toml"));
+    let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
     let written = std::fs::read_to_string(&better).expect("written");
     assert!(written.contains("#   backlash at joint 3: width "), "{written}");
     assert!(written.contains("], in an [[effect]]\n"), "{written}");
     // A diagnosis is a robot to every command: the one that it found.
-    let json = text(&bench.folder.path("found.json"));
+    let json = bench.path("found.json");
     bench.diagnose(&bench.robot, &run, &["--json", &json]);
     let gap = |robot: &str| bench.json(robot, &run, &[])["gap"].clone();
     assert_eq!(gap(&json), gap(&better));
@@ -275,7 +288,7 @@ fn another_file_is_predicted() {
 fn the_rows_that_were_fitted_are_known_again() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SPRING, ZERO], 6, false);
-    let better = text(&bench.folder.path("better.toml"));
+    let better = bench.path("better.toml");
     let found = bench.json(&bench.robot, &run, &["--check", &run, "--write-robot", &better]);
     assert_eq!(found["check"]["fitted"], true);
     let fitted = &found["gap"]["fitted"];
@@ -324,7 +337,7 @@ fn the_same_files_give_the_same_bytes() {
 fn what_cannot_be_is_refused_and_nothing_written() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SPRING], 9, false);
-    let out = text(&bench.folder.path("out.toml"));
+    let out = bench.path("out.toml");
     let refused = |extra: &[&str], expected: &str| {
         let all = [&["diagnose", &bench.robot, &run, "--write-robot", &out], extra].concat();
         let err = stiffarm(&all).refused();

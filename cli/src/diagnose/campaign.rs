@@ -1,0 +1,191 @@
+//! A campaign that was diagnosed, and everything that is made of it.
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use stiffarm_gap::diagnose::{Diagnosed, Prediction};
+use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::measurement::{Dimension, Layout};
+use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
+use stiffarm_kernels::generic::Arm;
+
+use super::corrected::{Corrections, Format};
+use super::{Accepted, Args, Check, Compared, Hashes, Provenance, in_words, plain};
+use crate::input::source::Source;
+use crate::input::{data, quantity};
+use crate::report::Report;
+use crate::screen::Screen;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::progress::Stages;
+
+/// A campaign, diagnosed.
+pub struct Campaign {
+    source: Source,
+    arm: Arm,
+    options: Options,
+    layout: Layout,
+    data: Measurements,
+    diagnosed: Diagnosed,
+    doubts: Vec<String>,
+    check: Option<Check>,
+    accepted: Option<Accepted>,
+    compared: Option<Compared>,
+    made: Provenance,
+}
+
+/// The diagnosis as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    #[serde(flatten)]
+    diagnosis: &'a Diagnosis,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    doubts: &'a Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    check: Option<&'a Check>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    accept: Option<&'a Accepted>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compared: Option<&'a Compared>,
+    #[serde(flatten)]
+    hashes: &'a Hashes,
+    /// The robot file with what was found: the whole is a robot to every command.
+    corrected: String,
+}
+
+impl Campaign {
+    /// Reads and diagnoses the measurements in `bytes`, with the effects of `catalogue`.
+    ///
+    /// # Errors
+    /// [`Failure`]: the data or the options.
+    pub(super) fn new(
+        args: &Args,
+        source: Source,
+        bytes: Vec<u8>,
+        catalogue: Catalogue,
+        quiet: bool,
+    ) -> Result<Campaign, Failure> {
+        let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
+        let tolerance = args.accept.as_ref().map(length).transpose()?;
+        let arm = source.arm()?;
+        let options = args.options(&source, &arm, catalogue)?;
+        let layout = data::layout(&source)?;
+        let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
+        let hash = Sha256::new_with_prefix(&bytes);
+        drop(bytes);
+        let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
+        let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
+        if let Some(other) = &other {
+            data::doubted(&arm, other, &options.nuisances, quiet);
+        }
+        let stages = Stages::new(quiet);
+        let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
+            .map_err(plain)?;
+        drop(stages);
+        let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
+        let check = check.map_err(plain)?;
+        let found = &diagnosed.diagnosis;
+        let made = Provenance::of(&args.data[0], hash, &source.text)?;
+        let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
+        let compared = compared.transpose()?;
+        let has_positions = data.kind.components()[..3].contains(&true);
+        let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
+        let accepted = tolerance.map(judge).transpose()?;
+        Ok(Campaign {
+            source,
+            arm,
+            options,
+            layout,
+            data,
+            diagnosed,
+            doubts,
+            check,
+            accepted,
+            compared,
+            made,
+        })
+    }
+
+    /// Whether the corrected arm is within the tolerance that was asked for; none is always kept.
+    pub fn is_accepted(&self) -> bool {
+        self.accepted.as_ref().is_none_or(|accepted| accepted.accepted)
+    }
+
+    /// The diagnosis in JSON.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be written so.
+    pub fn json(&self) -> Result<String, Failure> {
+        json::text(&Written {
+            diagnosis: &self.diagnosed.diagnosis,
+            doubts: &self.doubts,
+            check: self.check.as_ref(),
+            accept: self.accepted.as_ref(),
+            compared: self.compared.as_ref(),
+            hashes: &self.made.hashes,
+            corrected: self.corrections().text(),
+        })
+    }
+
+    /// The robot file with all that was found.
+    pub fn corrected(&self) -> String {
+        self.corrections().text()
+    }
+
+    /// The same arm as other programs read it, and a sentence on what they have no place for.
+    ///
+    /// # Errors
+    /// [`Failure`] if the table has cells that are no numbers.
+    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        self.corrections().exported(format)
+    }
+
+    pub(super) fn corrections(&self) -> Corrections<'_> {
+        Corrections::new(&self.source, &self.data, &self.diagnosed)
+    }
+
+    /// The diagnosis as it stands on a screen.
+    pub fn text(&self) -> String {
+        self.screen().text()
+    }
+
+    fn screen(&self) -> Screen<'_> {
+        Screen {
+            found: &self.diagnosed.diagnosis,
+            data: &self.data,
+            arm: &self.arm,
+            catalogue: &self.options.catalogue,
+            rivals: &self.options.rivals,
+            check: self.check.as_ref(),
+            accepted: self.accepted.as_ref(),
+            compared: self.compared.as_ref(),
+        }
+    }
+
+    /// The page of the diagnosis, in HTML.
+    ///
+    /// # Errors
+    /// [`Failure`] if the page cannot be made.
+    pub fn page(&self) -> Result<String, Failure> {
+        let explanation = &self.diagnosed.explanation;
+        let report = Report {
+            found: &self.diagnosed.diagnosis,
+            data: &self.data,
+            arm: &self.arm,
+            placed: explanation.arm(),
+            gaps: &explanation.predict(&self.data).map_err(plain)?,
+            options: &self.options,
+            words: &self.screen().words(),
+            made: &self.made,
+        };
+        report.html().map_err(|e| Failure::new(format!("cannot make the report: {e}")))
+    }
+
+    /// What the models before and after make of other measurements of the arm, which stand in `bytes`.
+    ///
+    /// # Errors
+    /// [`Failure`]: the measurements' mistakes, or what was never fitted.
+    pub fn predict(&self, file: &str, bytes: &[u8]) -> Result<Prediction, Failure> {
+        let data = data::read_bytes(file.as_ref(), bytes, &self.layout, false)?;
+        self.diagnosed.explanation.predict(&data).map_err(plain)
+    }
+}

@@ -1,0 +1,136 @@
+//! Which of the files are a joint log.
+
+use std::path::{Path, PathBuf};
+
+use stiffarm_gap::log::{Format, Log, LogError, Names, Opened, is_log};
+use stiffarm_kernels::Motion;
+
+use super::super::Args;
+use crate::inside::bytes;
+use crate::terminal::failure::Failure;
+
+/// What the files are.
+pub enum Files {
+    /// A joint log, file by file.
+    Log(Vec<Part>),
+    /// The bytes of a measurement file.
+    Measurements(Vec<u8>),
+}
+
+/// A file of a log.
+pub struct Part {
+    path: PathBuf,
+    opened: Opened,
+}
+
+impl Part {
+    fn new(path: PathBuf) -> Result<Part, Failure> {
+        let wrong = |error| Failure::io("read", &path, &error);
+        let opened = match path.is_file() {
+            true => Opened::new(&path),
+            false => bytes(&path).map(Opened::from),
+        };
+        Ok(Part { opened: opened.map_err(wrong)?, path })
+    }
+
+    /// Whether its columns are those of a log, as far as its kind does not say it.
+    fn is_log(&self) -> bool {
+        if Format::of(self.opened.head()) != Format::Text {
+            return true;
+        }
+        let mut lines = self.opened.head().split(|b| *b == b'\n').map(String::from_utf8_lossy);
+        let header = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
+        let header = header.unwrap_or_default();
+        let names: Vec<&str> = header.trim().split([',', ';', '\t', ' ']).map(str::trim).collect();
+        is_log(&names)
+    }
+}
+
+/// The files that are meant: of a folder, as ROS 2 makes one of a bag, those that hold messages.
+///
+/// # Errors
+/// [`Failure`]: a folder that cannot be read, or has none.
+fn parts(given: &[PathBuf]) -> Result<Vec<Part>, Failure> {
+    let mut parts = Vec::new();
+    for path in given {
+        if path.is_dir() {
+            let within = messages(path)?;
+            if within.is_empty() {
+                let message = format!("{}: found a folder without .mcap and .db3", path.display());
+                return Err(Failure::new(format!("{message}, expected a file, or a bag of ROS 2")));
+            }
+            parts.extend(within);
+        } else {
+            parts.push(path.clone());
+        }
+    }
+    parts.into_iter().map(Part::new).collect()
+}
+
+fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let wrong = |error| Failure::io("read", folder, &error);
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(wrong)? {
+        let path = entry.map_err(wrong)?.path();
+        let kind = path.extension().and_then(|end| end.to_str());
+        found.extend(matches!(kind, Some("mcap" | "db3")).then_some(path));
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Opens the files, and knows by their columns what they are.
+///
+/// # Errors
+/// [`Failure`]: a file that cannot be read, several that are no log, options of a log beside one that is
+/// none.
+pub fn files(args: &Args) -> Result<Files, Failure> {
+    let parts = parts(&args.data)?;
+    if args.log.map.is_some() || parts.iter().any(Part::is_log) {
+        return Ok(Files::Log(parts));
+    }
+    let refused = |what: String, help| {
+        let first = &args.data[0].display();
+        Err(Failure::with_help(format!("{what}, and {first} is no joint log by its columns"), help))
+    };
+    if let Some(option) = args.log.given() {
+        let help =
+            "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
+        return refused(format!("{option} is for joint logs"), help);
+    }
+    match <[Part; 1]>::try_from(parts) {
+        Ok([part]) if part.path.is_file() => bytes(&part.path)
+            .map(Files::Measurements)
+            .map_err(|error| Failure::io("read", &part.path, &error)),
+        Ok([part]) => Ok(Files::Measurements(part.opened.head().to_vec())),
+        Err(parts) => refused(
+            format!("found {} files", parts.len()),
+            "measurements are diagnosed file by file",
+        ),
+    }
+}
+
+/// The log in another file, or in the files of a folder.
+///
+/// # Errors
+/// [`Failure`]: what cannot be read.
+pub fn other(path: &Path, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
+    read(parts(&[path.to_owned()])?, motions, names)
+}
+
+/// The log in these files.
+///
+/// # Errors
+/// [`Failure`]: what cannot be read.
+pub fn read(parts: Vec<Part>, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
+    let plain = |error: LogError| Failure::new(error.to_string());
+    let mut log: Option<Log> = None;
+    for Part { path, opened } in parts {
+        let next = Log::from_file(&path, opened, motions, names).map_err(plain)?;
+        log = Some(match log {
+            Some(log) => log.and(next).map_err(plain)?,
+            None => next,
+        });
+    }
+    log.ok_or_else(|| Failure::new("found no log, expected a file"))
+}

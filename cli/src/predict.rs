@@ -1,0 +1,141 @@
+//! `stiffarm predict`: what the corrected arm is to read, and how far off it is.
+
+use std::path::PathBuf;
+
+use nalgebra::Vector6;
+use serde::Serialize;
+use stiffarm_gap::Measurements;
+use stiffarm_gap::gap::{Statistics, row_gap};
+use stiffarm_gap::plant::csv;
+use stiffarm_gap::predicted::predicted;
+use stiffarm_gap::simulate::Reading;
+use stiffarm_gap::whole::Whole;
+
+use super::Verdict;
+use crate::input::data;
+use crate::input::quantity::counted;
+use crate::input::source::{RobotArgs, Source};
+use crate::screen::Size;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+use crate::terminal::output::{Target, print};
+use crate::terminal::text::{bold, dim};
+
+const EXAMPLES: &str = "\
+Examples:
+  stiffarm predict found.json run2.csv
+  stiffarm predict better.toml plan.csv --csv expected.csv
+
+DATA is a measurement file, or a plan whose measured cells are empty. Nothing is fitted: base, tool and
+markers stand where the robot file has them. Of a diagnosis (JSON) the rows beyond the joint ranges and
+loads of its data are told and not judged; `stiffarm diagnose … --check` also leaves out those at which
+what was fitted is known less well.";
+
+/// What the arm reads at other postures and loads, and its gap where they were measured
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// The measurement file, or a plan (CSV)
+    data: PathBuf,
+    /// Write the file with what is predicted in the place of what is measured (`-`: to standard output)
+    #[arg(long, value_name = "OUT")]
+    csv: Option<Target>,
+    /// Write the gap as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+}
+
+/// The result as it is written; SI.
+#[derive(Serialize)]
+struct Written<'a> {
+    stiffarm: &'static str,
+    robot: &'a str,
+    file: &'a str,
+    rows: usize,
+    /// Those within the joint ranges and loads of the diagnosis; only they are judged.
+    inside: usize,
+    /// `None` where nothing is measured, or no row is inside.
+    gap: Option<Statistics>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`]: the robot, the data, a load that the arm does not bear, or an output that cannot be
+/// written.
+pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    let source = args.robot.load(quiet)?;
+    let arm = source.arm()?;
+    let layout = data::layout(&source)?;
+    let plan = data::read_plan(&args.data, &layout, quiet)?;
+    let is_measured = plan.rows.iter().any(|row| row.measured != Vector6::zeros());
+    // A row with a hole is no measurement, and is left out and said.
+    let data = if is_measured { data::read(&args.data, &layout, quiet)? } else { plan };
+    if !is_measured && args.csv.is_none() {
+        let message = format!("{}: found nothing measured", args.data.display());
+        return Err(Failure::with_help(message, "--csv OUT writes what is predicted"));
+    }
+    data::doubted(&arm, &data, &[], quiet);
+    let found = predicted(Whole { arm: &arm, known: &source.known }, &data);
+    let found = found.map_err(|error| Failure::new(error.to_string()))?;
+    let covers = |row| source.covers.as_ref().is_none_or(|covers| covers.holds(row));
+    let rows = || data.rows.iter().zip(&found.rows).filter(|(row, _)| covers(row));
+    let gaps: Vec<Vector6<f64>> = rows()
+        .map(|(row, found)| row_gap(&data, row, &Reading::from_vector(&found.measured)))
+        .collect();
+    let written = Written {
+        stiffarm: env!("CARGO_PKG_VERSION"),
+        robot: &source.robot.name,
+        file: &data.file,
+        rows: data.rows.len(),
+        inside: gaps.len(),
+        gap: (is_measured && !gaps.is_empty()).then(|| Statistics::of(&gaps)),
+    };
+    if let Some(target) = &args.csv {
+        let comment = format!("{}, predicted: {}", source.robot.name, data.file);
+        target.write(&csv(&arm, &found, &[comment]))?;
+    }
+    if let Some(target) = &args.json {
+        target.write(&json::text(&written)?)?;
+    }
+    let outputs: Vec<&Target> = [&args.csv, &args.json].into_iter().flatten().collect();
+    let enough = quiet && !outputs.is_empty();
+    if !enough && !outputs.contains(&&Target::Stdout) {
+        print(&screen(&source, &data, &written))?;
+    }
+    Ok(Verdict::Good)
+}
+
+fn screen(source: &Source, data: &Measurements, written: &Written<'_>) -> String {
+    let rows = counted(written.rows, "row");
+    let covered = source.covers.as_ref().map_or_else(String::new, |_| {
+        format!(", {} of them within what was diagnosed", written.inside)
+    });
+    let mut text =
+        format!("{}\n{}\n", bold(written.robot), dim(format!("{}: {rows}{covered}", written.file)));
+    let Some(gap) = &written.gap else {
+        text.push_str(if written.inside == 0 {
+            "None is judged.\n"
+        } else {
+            "Nothing is measured.\n"
+        });
+        return text;
+    };
+    let components = data.kind.components();
+    if components[..3].contains(&true) {
+        let size = Size::of("m", gap.position_max);
+        text.push_str(&format!(
+            "The gap is {} rms, 95 % of the rows within {}, the largest {}.\n",
+            size.with_unit(gap.position_rms),
+            size.with_unit(gap.position_p95),
+            size.with_unit(gap.position_max)
+        ));
+    }
+    if components[3..].contains(&true) {
+        let size = Size::of("rad", gap.rotation_rms);
+        text.push_str(&format!("In rotation it is {} rms.\n", size.with_unit(gap.rotation_rms)));
+    }
+    text
+}

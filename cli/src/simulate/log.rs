@@ -1,0 +1,47 @@
+//! The joint log of an arm that moves.
+
+use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv};
+
+use super::{Args, plain};
+use crate::Verdict;
+use crate::input::quantity::counted;
+use crate::input::source::Source;
+use crate::motion::{self, Courses};
+use crate::terminal::failure::Failure;
+use crate::terminal::output::Target;
+use crate::terminal::text::short;
+
+/// Moves the arm and writes what it logs.
+///
+/// # Errors
+/// [`Failure`]: the robot, the commands, an effect that this arm cannot have, or an output that cannot
+/// be written.
+pub(super) fn run(args: &Args, source: &Source, target: &Target) -> Result<Verdict, Failure> {
+    let arm = motion::arm(source, "simulate --log")?;
+    let seed = args.experiment.seed;
+    let how = (&args.motion, &args.record);
+    let courses = Courses::of(args.data.as_ref(), source, &arm, how, seed)?;
+    let stages = courses.stages();
+    let truths = args.effects.iter().map(|text| MotionTruth::parse(text, &arm, stages.len()));
+    let truths: Vec<MotionTruth> = truths.collect::<Result<_, _>>().map_err(plain)?;
+    let (logged, recording) = (args.record.logged(), args.record.recording()?);
+    let plant = MovingPlant::new(&arm, &truths, logged, recording);
+    let runs = plant.record(&stages, seed).map_err(plain)?;
+    let what = match &args.data {
+        Some(path) => format!("along the commands of {}", path.display()),
+        None => "along motions that were drawn".to_owned(),
+    };
+    let noise = match logged {
+        Logged::Torque(_) => {
+            format!("torques to {} % of their spread", short(100.0 * recording.torque))
+        }
+        Logged::Position => format!("joint values to {}", short(recording.reading)),
+    };
+    let mut comments = vec![
+        format!("{}, simulated: {}, {what}", arm.name, counted(runs.len(), "run")),
+        format!("{noise}, encoders to {}; seed {seed}", short(recording.encoder)),
+    ];
+    comments.extend(args.told(&truths));
+    target.write(&csv(&arm, logged, &runs, &comments))?;
+    Ok(Verdict::Good)
+}

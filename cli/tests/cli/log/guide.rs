@@ -1,0 +1,57 @@
+//! Every command of the guide, in a folder that has its files.
+
+use std::process::Command;
+
+use super::{HEADER, PENDULUM, rows};
+use crate::support::{Folder, read};
+
+/// A servo that comes 50 ms late.
+fn servo(rows: &str) -> String {
+    let row = |line: &str| -> [f64; 2] {
+        let mut cells = line.split(',').map(|cell| cell.parse().expect("a number"));
+        [0, 1].map(|_| cells.next().expect("a cell"))
+    };
+    let all: Vec<[f64; 2]> = rows.lines().skip(1).map(row).collect();
+    let late =
+        all.iter().zip(&all[5..]).map(|(was, now)| format!("{},{},{}\n", now[0], was[1], now[1]));
+    format!("t,q1,q_cmd1\n{}", late.collect::<String>())
+}
+
+#[test]
+fn every_command_of_the_guide_runs() {
+    let folder = Folder::new();
+    let all = rows(HEADER);
+    let lines: Vec<&str> = all.lines().skip(1).collect();
+    let part = |of: &[&str]| format!("{HEADER}\n{}\n", of.join("\n"));
+    folder.file("arm.toml", PENDULUM);
+    folder.file("log.csv", part(&lines[..4000]));
+    folder.file("other.csv", part(&lines[4000..]));
+    for (k, name) in ["run1.csv", "run2.csv", "run3.csv"].into_iter().enumerate() {
+        folder.file(name, part(&lines[2000 * k..2000 * (k + 1)]));
+    }
+    folder.file("servo.csv", servo(&all));
+    folder.file("recorded.csv", rows("timestamp,actual_q_0,actual_current_0"));
+    let guide = read("docs/logs.md");
+    let blocks = guide.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let commands: Vec<&str> = blocks.flat_map(str::lines).collect();
+    assert!(commands.len() > 8, "{commands:?}");
+    for command in commands {
+        // What stands in quotes is one word.
+        let parts = command.split('\'').enumerate();
+        let words = parts.flat_map(|(k, part)| match k % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        });
+        let words = words.skip(1);
+        let run = Command::new(env!("CARGO_BIN_EXE_stiffarm"))
+            .args(words)
+            .current_dir(folder.path(""))
+            .output()
+            .expect("the binary runs");
+        let err = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{command}: {err}");
+    }
+    for made in ["log.html", "better.toml", "better.xml", "better.urdf", "servo.json"] {
+        assert!(folder.names().contains(&made.to_owned()), "{made}");
+    }
+}
