@@ -1,0 +1,352 @@
+//! An arm that Python holds.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use nalgebra::Vector6;
+use numpy::{PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use stiffarm_cli::inside::Host;
+use stiffarm_cli::{RobotArgs, Source};
+use stiffarm_codegen::derive::Given;
+use stiffarm_codegen::robot::Motion;
+use stiffarm_gap::whole::{Situation, Whole};
+use stiffarm_kernels::batch::{self, Wrenches};
+use stiffarm_kernels::{Input, Output, Side};
+
+use crate::arrays::{self, Numbers, Shape, lead, numbers, shape};
+use crate::compiled::{self, Library};
+use crate::engine::{Engines, Poses};
+use crate::work::{self, Unstable};
+
+/// Fewer poses than this take less time than it takes to hand over the interpreter.
+const FEW: usize = 4;
+
+/// An arm: its robot file, and what computes its outputs.
+#[pyclass(frozen, subclass, module = "stiffarm._native")]
+pub struct Arm {
+    source: Source,
+    text: String,
+    engines: Engines,
+}
+
+#[pymethods]
+impl Arm {
+    /// `given`: a path, the id of a built-in robot, or any name of a `text`; `set`: numbers for symbolic parameters,
+    /// NAME=VALUE each.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        given: String,
+        text: Option<Vec<u8>>,
+        set: Vec<String>,
+        hear: &Bound<'_, PyAny>,
+    ) -> PyResult<Arm> {
+        let files: HashMap<_, _> = text.map(|text| (given.clone(), text)).into_iter().collect();
+        let host = Host::new(Vec::new(), files);
+        let is_set = !set.is_empty();
+        let (source, robot, table) = work::wait(
+            py,
+            &host,
+            hear,
+            |_, _| {},
+            move |host| {
+                host.run(|| {
+                    let source = RobotArgs::named(&given).set(set).load(false)?;
+                    let (robot, table) = (source.for_kernels()?, source.arm()?);
+                    Ok((source, robot, table))
+                })
+            },
+        )?;
+        let id = (source.built_in && !is_set).then_some(source.given.as_str());
+        let engines = Engines::new(robot, table, id.and_then(stiffarm_robots::arm));
+        let text = if is_set { source.robot.to_toml() } else { source.text.clone() };
+        Ok(Arm { source, text, engines })
+    }
+
+    /// The arm's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.source.robot.name
+    }
+
+    /// Number of joints.
+    #[getter]
+    fn dof(&self) -> usize {
+        self.source.robot.dof()
+    }
+
+    /// As it was named: a path, an id, or a name.
+    #[getter]
+    fn given(&self) -> &str {
+        &self.source.given
+    }
+
+    /// Whether it is one of the collection, as it is there.
+    #[getter]
+    fn built_in(&self) -> bool {
+        self.source.built_in && self.text == self.source.text
+    }
+
+    /// The robot file (TOML).
+    #[getter]
+    fn toml(&self) -> &str {
+        &self.text
+    }
+
+    /// `revolute` or `prismatic`, base to tip.
+    #[getter]
+    fn joint_types(&self) -> Vec<&'static str> {
+        let of = |motion| match motion {
+            Motion::Revolute => "revolute",
+            Motion::Prismatic => "prismatic",
+        };
+        self.source.robot.joints.iter().map(|joint| of(joint.motion)).collect()
+    }
+
+    /// The joints' limits, rad (m); None where the file has none.
+    #[getter]
+    fn limits(&self) -> Vec<Option<[f64; 2]>> {
+        self.source.robot.joints.iter().map(|joint| joint.limits).collect()
+    }
+
+    /// The effects that the file holds beyond its table: identifier and place of each.
+    #[getter]
+    fn effects(&self) -> Vec<(&'static str, String)> {
+        let known = self.source.known.iter();
+        known.map(|known| (known.effect.identifier(), known.spot.place.to_string())).collect()
+    }
+
+    /// What computes an output: kernels, c, textbook or graph.
+    fn engine(&self, output: &str) -> PyResult<&'static str> {
+        Ok(self.engines.of(named(output)?).name())
+    }
+
+    /// The C that `load_c` takes when it is compiled to a shared library.
+    fn c_source(&self) -> PyResult<String> {
+        compiled::source(self.engines.robot()).map_err(PyValueError::new_err)
+    }
+
+    /// Takes compiled C for every output that it has, once it was compared with what computed them before.
+    fn load_c(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let taken = py.detach(|| {
+            let library = Library::load(&path, self.engines.robot())?;
+            self.engines.take(library)
+        });
+        taken.map_err(|error| PyValueError::new_err(format!("{}: {error}", path.display())))
+    }
+
+    /// An output at one pose or many.
+    ///
+    /// `inputs` are the arrays that it takes of the joints, `wrench` and `out` what they are called; `sides` (n,) and
+    /// `warming` what a corrected arm may depend on.
+    #[pyo3(signature = (output, inputs, wrench=None, out=None, sides=None, warming=None))]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        output: &str,
+        inputs: Vec<Bound<'py, PyAny>>,
+        wrench: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        sides: Option<&Bound<'py, PyAny>>,
+        warming: Option<f64>,
+    ) -> PyResult<Numbers<'py>> {
+        let (output, n) = (named(output)?, self.dof());
+        let given = self.given_beside(py, sides, warming)?;
+        let joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
+        let mut all: Vec<(Vec<usize>, Numbers<'py>)> = Vec::with_capacity(4);
+        for (input, array) in joints.zip(&inputs) {
+            let array = numbers(input.name(), array)?;
+            all.push((lead(input.name(), &array, n)?, array));
+        }
+        if all.len() * n != output.state(n) || inputs.len() != all.len() {
+            let expected = output.state(n) / n;
+            let name = output.name();
+            return Err(PyTypeError::new_err(format!(
+                "{name}: found {} arrays of the joints, expected {expected}",
+                inputs.len()
+            )));
+        }
+        let wrench = match (wrench, output.takes(Input::Wrench)) {
+            (Some(wrench), true) => {
+                let wrench = numbers("wrench", wrench)?;
+                Some((lead("wrench", &wrench, 6)?, wrench))
+            }
+            (None, true) => return Err(PyTypeError::new_err("wrench: found none, expected (6,)")),
+            (_, false) => None,
+        };
+        let dimensions = self::common(all.iter().chain(&wrench).map(|(lead, _)| lead))?;
+        let count: usize = dimensions.iter().product();
+        let read: Vec<_> =
+            all.iter().map(|(_, array)| array.try_readonly()).collect::<Result<_, _>>()?;
+        let parts: Vec<&[f64]> =
+            read.iter().map(|part| part.as_slice()).collect::<Result<_, _>>()?;
+        let whole = matches!(parts[..], [one] if one.len() == count * n);
+        let joined = if whole { Vec::new() } else { join(&parts, count, n) };
+        let states = if whole { parts[0] } else { &joined[..] };
+        let loads = wrench.as_ref().map(|(_, array)| array.try_readonly()).transpose()?;
+        let loads = loads.as_ref().map(|part| part.as_slice()).transpose()?;
+        let none = [0.0; 6];
+        let wrenches = match loads {
+            None => Wrenches::One(&none),
+            Some(loads) => match <&[f64; 6]>::try_from(loads) {
+                Ok(one) => Wrenches::One(one),
+                Err(_) => Wrenches::Each(loads),
+            },
+        };
+        let (rows, columns) = output.shape(n);
+        let poses = Poses { count, states, wrenches, given: &given };
+        let finite = || {
+            all_finite(states).map_err(|at| (at, "the joints' values", states.len()))?;
+            let loads = loads.unwrap_or_default();
+            all_finite(loads).map_err(|at| (at, "wrench", loads.len()))
+        };
+        Shape::of(output, n).fill(py, &dimensions, rows * columns, out, |blocks| {
+            let mut work = || match finite() {
+                Ok(()) => Ok(self.engines.evaluate(output, poses, blocks)),
+                Err(wrong) => Err(wrong),
+            };
+            match if count > FEW { py.detach(work) } else { work() } {
+                Ok(Ok(())) => Ok(()),
+                Ok(Err(unstable)) => Err(refused(py, output, &unstable)),
+                Err((at, what, length)) => Err(PyValueError::new_err(format!(
+                    "{what}: found a value that is not finite, at pose {} (from 0), expected numbers",
+                    at / (length / count.max(1)).max(1)
+                ))),
+            }
+        })
+    }
+}
+
+impl Arm {
+    /// What is said beside posture and load: all that the arm's effects depend on.
+    fn given_beside(
+        &self,
+        py: Python<'_>,
+        sides: Option<&Bound<'_, PyAny>>,
+        warming: Option<f64>,
+    ) -> PyResult<Given> {
+        if !warming.unwrap_or_default().is_finite() {
+            return Err(PyValueError::new_err("warming: expected a finite number"));
+        }
+        let sides = match sides {
+            None => Vec::new(),
+            Some(sides) => {
+                let array = numbers("sides", sides)?;
+                if array.shape() != [self.dof()] {
+                    let (found, n) = (shape(array.shape()), self.dof());
+                    let text = format!("sides: found the shape {found}, expected ({n},)");
+                    return Err(PyValueError::new_err(text));
+                }
+                let sides = array.try_readonly()?.as_slice()?.to_vec();
+                if !sides.iter().all(|side| [-1.0, 0.0, 1.0].contains(side)) {
+                    return Err(PyValueError::new_err("sides: expected -1, 0 or 1 for each joint"));
+                }
+                sides
+            }
+        };
+        if !self.source.known.is_empty() {
+            let at = Situation {
+                direction: (!sides.is_empty()).then(|| sides.iter().map(|s| *s as i8).collect()),
+                warming,
+                ..Situation::under(Vector6::zeros())
+            };
+            let whole = Whole { arm: self.engines.table(), known: &self.source.known };
+            let decided = self.source.refuse_undecided("evaluate", &whole, &at);
+            decided.map_err(|failure| work::error(py, &failure))?;
+        }
+        Ok(Given { sides, warming: warming.unwrap_or_default() })
+    }
+}
+
+/// The output of that name.
+fn named(output: &str) -> PyResult<Output> {
+    let found = Output::EACH.into_iter().find(|known| known.name() == output);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = Output::EACH.iter().map(|known| known.name()).collect();
+        let known = known.join(", ");
+        PyValueError::new_err(format!("found the output `{output}`, expected one of {known}"))
+    })
+}
+
+/// The one shape of a batch among those given; what has none is the same at every pose.
+fn common<'a>(leads: impl Iterator<Item = &'a Vec<usize>>) -> PyResult<Vec<usize>> {
+    let mut found: Vec<usize> = Vec::new();
+    for lead in leads.filter(|lead| !lead.is_empty()) {
+        if !found.is_empty() && found != *lead {
+            let (first, other) = (shape(&found), shape(lead));
+            let text = format!("found batches of the shapes {first} and {other}, expected one");
+            return Err(PyValueError::new_err(text));
+        }
+        found.clone_from(lead);
+    }
+    Ok(found)
+}
+
+/// Values, rates, … of each pose behind each other.
+fn join(parts: &[&[f64]], count: usize, n: usize) -> Vec<f64> {
+    let mut states = Vec::with_capacity(count * n * parts.len());
+    for pose in 0..count {
+        for part in parts {
+            let at = if part.len() == n { 0 } else { pose * n };
+            states.extend_from_slice(&part[at..at + n]);
+        }
+    }
+    states
+}
+
+/// Where the first number is that is not finite.
+fn all_finite(numbers: &[f64]) -> Result<(), usize> {
+    // Without a way out of the loop it runs in lanes.
+    if !numbers.iter().fold(false, |bad, x| bad | !x.is_finite()) {
+        return Ok(());
+    }
+    Err(numbers.iter().position(|x| !x.is_finite()).unwrap_or(0))
+}
+
+fn refused(py: Python<'_>, output: Output, error: &batch::Error) -> PyErr {
+    let raised = Unstable::new_err(match (output, error) {
+        (Output::ForwardDynamics, batch::Error::Unstable { first, count }) => format!(
+            "a joint moves no mass at {count} of the poses, the first being number {first} (from 0): the mass matrix is \
+             not positive definite"
+        ),
+        _ => error.to_string(),
+    });
+    if let batch::Error::Unstable { first, count } = error {
+        let value = raised.value(py);
+        let set = value.setattr("first", first).and_then(|()| value.setattr("count", count));
+        if let Err(other) = set {
+            return other;
+        }
+    }
+    raised
+}
+
+/// What an output is: name, sentence, formula, arguments of the joints, whether it takes a wrench, the shape and the
+/// units of its result in words.
+type Described = (String, String, String, Vec<(String, String)>, bool, String);
+
+/// Every output.
+#[pyfunction]
+pub fn outputs() -> Vec<Described> {
+    let of = |output: Output| {
+        let joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
+        let joints = joints.map(|input| (input.name().to_owned(), input.sentence().to_owned()));
+        (
+            output.name().to_owned(),
+            output.sentence().to_owned(),
+            output.formula().to_owned(),
+            joints.collect(),
+            output.takes(Input::Wrench),
+            arrays::described(output),
+        )
+    };
+    Output::EACH.into_iter().map(of).collect()
+}
+
+/// Identifiers of the built-in arms that have numbers for every parameter.
+#[pyfunction]
+pub fn robots() -> Vec<&'static str> {
+    stiffarm_robots::ARMS.iter().map(|arm| arm.id).collect()
+}

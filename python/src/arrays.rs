@@ -1,0 +1,182 @@
+//! NumPy's arrays in and out: what is read without a copy where it lies well, and where results go.
+
+use numpy::ndarray::{ArrayViewD, IxDyn};
+use numpy::{
+    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::intern;
+use pyo3::prelude::*;
+use stiffarm_kernels::{Form, Output, Side};
+
+/// Doubles in a row, whatever array-like they come from.
+pub type Numbers<'py> = Bound<'py, PyArrayDyn<f64>>;
+
+/// The numbers of an argument; an array of doubles that lies pose after pose is not copied.
+///
+/// # Errors
+/// `TypeError` where they are no real numbers.
+pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Numbers<'py>> {
+    if let Ok(array) = given.cast::<PyArrayDyn<f64>>()
+        && array.is_c_contiguous()
+    {
+        return Ok(array.clone());
+    }
+    let py = given.py();
+    let numpy = py.import(intern!(py, "numpy"))?;
+    let array = numpy.call_method1(intern!(py, "asarray"), (given,))?;
+    let kind = array.cast::<PyUntypedArray>()?.dtype().kind();
+    if !b"iuf".contains(&kind) {
+        let dtype = array.getattr(intern!(py, "dtype"))?;
+        return Err(PyTypeError::new_err(format!("{name}: found {dtype}, expected real numbers")));
+    }
+    let doubles = numpy.call_method1(intern!(py, "ascontiguousarray"), (array, "f8"))?;
+    Ok(doubles.cast_into::<PyArrayDyn<f64>>()?)
+}
+
+/// The dimensions before the last, which is to be `size`.
+///
+/// # Errors
+/// `ValueError` where it is not.
+pub fn lead(name: &str, array: &Numbers<'_>, size: usize) -> PyResult<Vec<usize>> {
+    match array.shape() {
+        [lead @ .., last] if *last == size => Ok(lead.to_vec()),
+        found => Err(PyValueError::new_err(format!(
+            "{name}: found the shape {}, expected ({size},) or (batch, {size})",
+            shape(found)
+        ))),
+    }
+}
+
+/// As Python writes it.
+pub fn shape(dimensions: &[usize]) -> String {
+    let each: Vec<String> = dimensions.iter().map(usize::to_string).collect();
+    let comma = if dimensions.len() == 1 { "," } else { "" };
+    format!("({}{comma})", each.join(", "))
+}
+
+/// How an output's block becomes an array: dimensions of one pose as kernels write them, column after column, and
+/// whether the last two change places for Python, where rows come first.
+pub struct Shape {
+    written: Vec<usize>,
+    swapped: bool,
+    /// Blocks of twelve numbers become homogeneous matrices of sixteen.
+    homogeneous: bool,
+}
+
+impl Shape {
+    /// Of an output of an arm of `n` joints.
+    pub fn of(output: Output, n: usize) -> Shape {
+        let (rows, columns) = output.shape(n);
+        let plain = |written: Vec<usize>| Shape { written, swapped: false, homogeneous: false };
+        match output.form() {
+            Form::Vector if rows == 1 => plain(vec![]),
+            Form::Vector => plain(vec![rows]),
+            Form::Matrix => Shape { swapped: true, ..plain(vec![columns, rows]) },
+            Form::Stack => {
+                let each = output.columns().each().count(n);
+                Shape { swapped: true, ..plain(vec![columns / each, each, rows]) }
+            }
+            Form::Pose => Shape { homogeneous: true, ..plain(vec![4, 4]) },
+            Form::Poses => Shape { homogeneous: true, ..plain(vec![columns / 4, 4, 4]) },
+        }
+    }
+
+    /// The array that a user sees, made of what `fill` writes: the blocks of all poses, one after the other.
+    ///
+    /// # Errors
+    /// `TypeError` and `ValueError` of an `out` that does not fit, and those of `fill`.
+    pub fn fill<'py>(
+        &self,
+        py: Python<'py>,
+        lead: &[usize],
+        size: usize,
+        out: Option<&Bound<'py, PyAny>>,
+        fill: impl FnOnce(&mut [f64]) -> PyResult<()>,
+    ) -> PyResult<Numbers<'py>> {
+        let written = [lead, &self.written].concat();
+        let mut seen: Vec<usize> = (0..written.len()).collect();
+        if self.swapped {
+            seen.swap(lead.len() + self.written.len() - 1, lead.len() + self.written.len() - 2);
+        }
+        let expected: Vec<usize> = seen.iter().map(|axis| written[*axis]).collect();
+        let array = match out {
+            None => {
+                let array = PyArrayDyn::<f64>::zeros(py, written, false);
+                if self.swapped { array.permute(Some(seen.clone()))? } else { array }
+            }
+            Some(out) => ours(out, &expected)?,
+        };
+        let as_written =
+            if self.swapped { array.permute(Some(seen.clone()))? } else { array.clone() };
+        let mut target = as_written.try_readwrite().map_err(|_| {
+            PyValueError::new_err("out: found an array that cannot be written to, or is being read")
+        })?;
+        // A slice lies in Fortran's order, too.
+        match target.as_slice_mut() {
+            Ok(slice) if !self.homogeneous && as_written.is_c_contiguous() => fill(slice)?,
+            _ => {
+                let poses: usize = lead.iter().product();
+                let mut blocks = vec![0.0; poses * size];
+                fill(&mut blocks)?;
+                if self.homogeneous {
+                    blocks = homogeneous(&blocks);
+                }
+                let view = ArrayViewD::from_shape(IxDyn(as_written.shape()), &blocks);
+                let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
+                target.as_array_mut().assign(&view);
+            }
+        }
+        drop(target);
+        Ok(array)
+    }
+}
+
+/// The array that a user wants the result in.
+fn ours<'py>(out: &Bound<'py, PyAny>, expected: &[usize]) -> PyResult<Numbers<'py>> {
+    let array = out
+        .cast::<PyArrayDyn<f64>>()
+        .map_err(|_| PyTypeError::new_err("out: expected an array of numpy.float64"))?;
+    if array.shape() != expected {
+        return Err(PyValueError::new_err(format!(
+            "out: found the shape {}, expected {}",
+            shape(array.shape()),
+            shape(expected)
+        )));
+    }
+    Ok(array.clone())
+}
+
+/// Columns x, y, z, origin of three numbers each as matrices of four rows, row by row.
+fn homogeneous(blocks: &[f64]) -> Vec<f64> {
+    let matrix = |block: &[f64]| -> [f64; 16] {
+        core::array::from_fn(|at| match (at / 4, at % 4) {
+            (3, 3) => 1.0,
+            (3, _) => 0.0,
+            (row, column) => block[3 * column + row],
+        })
+    };
+    blocks.chunks_exact(12).flat_map(matrix).collect()
+}
+
+/// Shape and units of an output's result at one pose, in words.
+pub fn described(output: Output) -> String {
+    let side = |side: Side| match side {
+        Side::Twist | Side::Wrench => "6",
+        Side::Joints => "n",
+        Side::Axes => "3",
+        Side::Entries => "4 n + 6",
+        Side::Moments => "10 n",
+        _ => "4",
+    };
+    let (rows, columns) = (side(output.rows()), output.columns());
+    let shape = match output.form() {
+        Form::Vector if output.rows() == Side::One => "()".to_owned(),
+        Form::Vector => format!("({rows},)"),
+        Form::Stack => format!("(n, {rows}, {})", side(columns.each())),
+        Form::Pose => "(4, 4)".to_owned(),
+        Form::Poses => "(n, 4, 4)".to_owned(),
+        _ => format!("({rows}, {})", side(columns)),
+    };
+    format!("{shape}; {}", output.units().join(", "))
+}

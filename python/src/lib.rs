@@ -1,0 +1,28 @@
+//! The extension module `stiffarm._native`: arms on NumPy's arrays, and the commands of stiffarm run inside
+//! Python. What users see of it is in `stiffarm/`.
+#![deny(unsafe_code)]
+
+mod arm;
+mod arrays;
+mod compiled;
+mod diagnosis;
+mod effect;
+mod engine;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::arm::{Arm, outputs, robots};
+    #[pymodule_export]
+    use super::diagnosis::{Found, diagnose};
+    #[pymodule_export]
+    use super::effect::{Effect, Reading};
+    #[pymodule_export]
+    use super::work::{Error, Unstable, run};
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

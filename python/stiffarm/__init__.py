@@ -1,0 +1,55 @@
+"""Kernels of robot arms on NumPy's arrays, and the diagnosis of their sim-to-real gap.
+
+>>> import stiffarm
+>>> arm = stiffarm.Arm.load("kuka_kr240")
+>>> arm.jacobian([0.1, 0.9, -1.2, 0.4, 0.8, 0.0]).shape
+(6, 6)
+
+Everything is in SI: m, rad, N, N·m, kg, K. A twist is (dx, dy, dz, drx, dry, drz), a wrench (fx, fy, fz, mx, my, mz), both
+at the tool's origin in base axes. Remarks go to the logger ``stiffarm``, progress to tqdm where it is installed.
+"""
+
+from ._native import VERSION as __version__
+from ._native import Effect, Error, Reading, Unstable, robots
+from .arm import Arm
+from .commands import (
+    compensate,
+    generate,
+    identify,
+    import_urdf,
+    measurements,
+    papers,
+    poses,
+    simulate,
+    withhold,
+)
+from .diagnosis import Diagnosis, Prediction, diagnose
+from .record import Record
+from .result import Identification, Result
+from .table import Table
+
+__all__ = [
+    "Arm",
+    "Diagnosis",
+    "Effect",
+    "Error",
+    "Identification",
+    "Prediction",
+    "Reading",
+    "Record",
+    "Result",
+    "Table",
+    "Unstable",
+    "__version__",
+    "compensate",
+    "diagnose",
+    "generate",
+    "identify",
+    "import_urdf",
+    "measurements",
+    "papers",
+    "poses",
+    "robots",
+    "simulate",
+    "withhold",
+]

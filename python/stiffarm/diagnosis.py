@@ -1,0 +1,221 @@
+"""The diagnosis of an arm: why it is not where its model says, and how far the gap shrinks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+
+from . import _native
+from .arm import Arm
+from .record import Record, read
+from .result import framed
+from .run import AnyArm, robot
+from .table import Frame, held
+from .words import Path, Progress, Quantity, each, log, numbers, option
+
+if TYPE_CHECKING:
+    import numpy
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+
+class Prediction(NamedTuple):
+    """What a diagnosis makes of other rows."""
+
+    #: Measured minus predicted without the findings, (m, 6): m and rad; 0 where nothing is measured.
+    before: NDArray[numpy.float64]
+    #: The same with them.
+    after: NDArray[numpy.float64]
+    #: Whether the row lies within the joint ranges and loads that were diagnosed, (m,).
+    inside: NDArray[numpy.bool_]
+
+
+class Diagnosis:
+    """What a diagnosis found; ``str`` of it is the command line's screen, and a notebook shows its page.
+
+    The keys of the command line's JSON are attributes: ``findings``, ``gap``, ``where``, ``cannot_see``, ``unexplained``,
+    ``stopped`` of a campaign; ``findings``, ``gap``, ``joints`` and more of a log.
+    """
+
+    def __init__(self, found: _native.Found) -> None:
+        self._found = found
+        self._dict: Optional[Record] = None
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.to_dict(), name)
+
+    def __str__(self) -> str:
+        return self._found.text()
+
+    __repr__ = __str__
+
+    def to_json(self) -> str:
+        """The JSON, to the byte as the command line writes it."""
+        return self._found.json()
+
+    def to_dict(self) -> Record:
+        """The same as dictionaries and lists, whose keys are attributes too."""
+        if self._dict is None:
+            self._dict = read(self.to_json())
+        return self._dict
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the search was told to stop before its end."""
+        return bool(self.to_dict().get("stopped", False))
+
+    @property
+    def sets(self) -> list[frozenset[tuple[str, str]]]:
+        """For each finding the effects and places that this data cannot tell from it, itself among them."""
+
+        def names(finding: Record) -> frozenset[tuple[str, str]]:
+            others = [a for a in finding.get("alternatives", []) if not a.get("separable", False)]
+            return frozenset((str(one["effect"]), str(one["place"])) for one in [finding, *others])
+
+        return [names(finding) for finding in self.findings]
+
+    @property
+    def shrink(self) -> tuple[float, tuple[float, float]]:
+        """The part of the gap that the findings remove on rows that no fit has seen, and its 95 % interval."""
+        shrink = self.gap["shrink"]
+        low, high = shrink["shrink_ci95"]
+        return 1.0 - shrink["after"] / shrink["before"] if shrink["before"] else 0.0, (low, high)
+
+    @property
+    def corrected(self) -> Arm:
+        """The arm with all that was found."""
+        text = self._found.corrected()
+        if text is None:
+            raise ValueError("a log of currents corrects no robot file: it tells no newton-metres")
+        return Arm.from_toml(text, "<corrected>")
+
+    def to_mjcf(self, path: Optional[Path] = None) -> str:
+        """The corrected arm for MuJoCo, as ``--write-mjcf`` writes it; what it has no place for goes to the log."""
+        return self._exported(True, path)
+
+    def to_urdf(self, path: Optional[Path] = None) -> str:
+        """The corrected arm as a URDF, as ``--write-urdf`` writes it; what it has no place for goes to the log."""
+        return self._exported(False, path)
+
+    def _exported(self, mjcf: bool, path: Optional[Path]) -> str:
+        text, lost = self._found.exported(mjcf)
+        if lost is not None:
+            log.warning("%s", lost)
+        if path is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        return text
+
+    def predict(self, frame: Frame) -> Prediction:
+        """The gaps of other measurements of the arm, before and after."""
+        files: dict[str, bytes] = {}
+        name = held(frame, files)
+        if name not in files:
+            with open(name, "rb") as file:
+                files[name] = file.read()
+        predicted = self._found.predict(name, files[name])
+        if predicted is None:
+            raise ValueError("a diagnosis of a log predicts no poses")
+        return Prediction(*predicted)
+
+    def to_html(self, path: Optional[Path] = None) -> str:
+        """The page that the command line writes with ``--report``; written to `path` too, if there is one."""
+        page = self._found.page()
+        if path is not None:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(page)
+        return page
+
+    def _repr_html_(self) -> str:
+        return framed(self._found.page(), str(self))
+
+    def plot(self) -> Figure:
+        """The gap of every row before and after, and each finding with its interval (``pip install stiffarm[plot]``)."""
+        from .plot import diagnosis
+
+        return diagnosis(self)
+
+
+def diagnose(
+    arm: AnyArm,
+    data: Union[Frame, Sequence[Path]],
+    *,
+    nuisance: Sequence[str] = (),
+    tolerance: Union[None, str, tuple[Quantity, Quantity]] = None,
+    usual: Sequence[str] = (),
+    noise_position: Optional[Quantity] = None,
+    noise_rotation: Optional[Quantity] = None,
+    keep_all: bool = False,
+    effects: Optional[Sequence[str]] = None,
+    own: Sequence[_native.Effect] = (),
+    folds: Optional[int] = None,
+    nested: bool = False,
+    seed: int = 0,
+    rivals: Sequence[str] = (),
+    check: Optional[Frame] = None,
+    compare: Union[None, Path, Diagnosis] = None,
+    accept: Optional[Quantity] = None,
+    torque_side: Optional[str] = None,
+    rows: Optional[str] = None,
+    band: Optional[Quantity] = None,
+    standstill: Optional[float] = None,
+    map: Optional[str] = None,
+    set: Sequence[str] = (),
+    progress: bool = True,
+) -> Diagnosis:
+    """Why the real arm is not where the model says, at rest or in motion.
+
+    data: measurements or a joint log: a path, several paths of one log, a dictionary of arrays, or a table of pandas, polars
+        or pyarrow. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
+        (or ``wrench``, (m, 6)), and what was measured, ``x y z rx ry rz`` or ``dx …``; units in brackets, ``x[mm]``.
+    nuisance: what is known to be unknown, fitted along and never a finding: ``base_frame``, ``tool_frame``, ``geometry``.
+    tolerance: how well the maker holds lengths and angles, standard deviations, m and rad [default: 0.3 mm, 0.5 mrad].
+    noise_position, noise_rotation: standard deviations of a coordinate, m, and of a rotation, rad; or ``"30um"``.
+    effects: try only these; own: effects of one's own, tried beside them.
+    rivals: prefixes of columns with other models' predictions; check: another campaign to predict; compare: an earlier
+        diagnosis; accept: the position error, m, that is accepted in 95 % of the rows.
+    torque_side, rows, band (Hz), standstill (rad/s), map: of joint logs, as in ``stiffarm diagnose --help``.
+
+    Ctrl-C ends it. Raises Error, with the place, of what cannot be used.
+    """
+    files: dict[str, bytes] = {}
+    frames = data if isinstance(data, (list, tuple)) else [data]
+    last = _last(compare, files)
+    if tolerance is not None and not isinstance(tolerance, str):
+        tolerance = ",".join(x if isinstance(x, str) else f"{x!r}{unit}" for x, unit in zip(tolerance, ("m", "rad")))
+    words = [
+        "diagnose",
+        robot(arm, files),
+        *(held(frame, files) for frame in frames),
+        *option("nuisance", list(nuisance)),
+        *option("tolerance", tolerance),
+        *each("usual", usual),
+        *option("noise_position", noise_position, "m"),
+        *option("noise_rotation", noise_rotation, "rad"),
+        *option("keep_all", keep_all),
+        *option("effects", None if effects is None else list(effects)),
+        *option("folds", folds),
+        *option("nested", nested),
+        *option("seed", seed),
+        *each("rival", rivals),
+        *option("check", None if check is None else held(check, files, "<check>")),
+        *option("compare", last),
+        *option("accept", accept, "m"),
+        *option("torque_side", torque_side),
+        *option("rows", rows),
+        *option("band", band, "Hz"),
+        *numbers("standstill", None if standstill is None else [standstill]),
+        *option("map", map),
+        *each("set", set),
+    ]
+    with Progress(progress) as hear:
+        return Diagnosis(_native.diagnose(words, files, list(own), hear))
+
+
+def _last(compare: Union[None, Path, Diagnosis], files: dict[str, bytes]) -> Optional[Path]:
+    if not isinstance(compare, Diagnosis):
+        return compare
+    files["<last>"] = compare.to_json().encode()
+    return "<last>"

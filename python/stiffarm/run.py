@@ -1,0 +1,33 @@
+"""Commands, run inside this program."""
+
+from __future__ import annotations
+
+import os
+from typing import Union
+
+from . import _native
+from .arm import Arm
+from .words import Path, Progress
+
+#: An arm: itself, the id of a built-in one, or the path of a robot file, a URDF or a diagnosis.
+AnyArm = Union[Arm, Path]
+
+
+def robot(arm: AnyArm, files: dict[str, bytes]) -> str:
+    """The word for an arm, its file among the `files` where it is not what that word says."""
+    if not isinstance(arm, Arm):
+        name = os.fspath(arm)
+        if not name.lower().endswith((".urdf", ".xml")):
+            return name
+        arm = Arm.load(name)
+    if not arm.built_in:
+        files[arm.given] = arm.toml.encode()
+    return arm.given
+
+
+def run(words: list[str], files: dict[str, bytes], progress: bool = False) -> tuple[bool, dict[str, str]]:
+    """Whether all was as it should, and what was written, by name; ``-`` is the screen."""
+    with Progress(progress) as hear:
+        return _native.run(words, files, hear)
+
+

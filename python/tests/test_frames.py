@@ -1,0 +1,97 @@
+"""Measurements from whatever holds columns."""
+
+import numpy
+import pytest
+import stiffarm
+
+
+def told(found):
+    """The diagnosis, without what it was read of."""
+    record = dict(found.to_dict())
+    return {key: value for key, value in record.items() if key not in ("data_sha256", "robot_sha256", "corrected")}
+
+
+@pytest.fixture
+def want(campaign, tmp_path):
+    # Without comments, so that rows stand in the same lines.
+    lines = [line for line in campaign.csv.splitlines(keepends=True) if not line.startswith("#")]
+    (tmp_path / "run.csv").write_text("".join(lines), encoding="utf-8")
+    return told(stiffarm.diagnose("kuka_kr240", tmp_path / "run.csv"))
+
+
+def test_a_table_and_a_dictionary(campaign, want):
+    bare = "".join(line for line in campaign.csv.splitlines(keepends=True) if not line.startswith("#"))
+    assert told(stiffarm.diagnose("kuka_kr240", stiffarm.Table(bare))) == want
+    assert told(stiffarm.diagnose("kuka_kr240", dict(campaign))) == want
+
+
+def test_arrays_of_two_dimensions(campaign, want):
+    names, load = [f"q{k}[rad]" for k in range(1, 7)], ["fz[N]", "mx[Nm]", "my[Nm]"]
+    joints = numpy.column_stack([campaign[name] for name in names])
+    loads = numpy.zeros((campaign.rows, 6))
+    loads[:, 2:5] = numpy.column_stack([campaign[name] for name in load])
+    rest = {name: column for name, column in campaign.items() if name not in (*names, *load)}
+    assert told(stiffarm.diagnose("kuka_kr240", {"q": joints, "wrench": loads, **rest})) == want
+
+
+def test_pandas_and_polars_and_arrow(campaign, want):
+    pandas, polars, pyarrow = (pytest.importorskip(name) for name in ("pandas", "polars", "pyarrow"))
+    frames = [campaign.to_pandas(), campaign.to_polars(), pyarrow.table(dict(campaign))]
+    # In pieces, and from some row on: offsets and several batches.
+    frames.append(polars.concat([frames[1][:5], frames[1][5:]], rechunk=False))
+    frames.append(pyarrow.concat_tables([frames[2].slice(0, 7), frames[2].slice(7)]))
+    for frame in frames:
+        assert told(stiffarm.diagnose("kuka_kr240", frame)) == want
+    assert isinstance(frames[0], pandas.DataFrame)
+
+
+def test_arrow_types():
+    pyarrow = pytest.importorskip("pyarrow")
+    polars = pytest.importorskip("polars")
+    from stiffarm import arrow
+
+    columns = {
+        "number": [1.5, None, -2.0, 4.0],
+        "whole": pyarrow.array([1, 2, None, 4], pyarrow.int16()),
+        "truth": [True, False, None, True],
+        "text": ["a", None, "of more than twelve bytes, ä", ""],
+        "large": pyarrow.array(["x", "yy", None, "z"], pyarrow.large_string()),
+        "chosen": pyarrow.array(["p", "q", "p", None]).dictionary_encode(),
+        "nothing": pyarrow.nulls(4),
+    }
+    table = pyarrow.table(columns)
+    want = table.to_pydict()
+    assert arrow.columns(table) == want
+    assert arrow.columns(table.slice(1, 2)) == table.slice(1, 2).to_pydict()
+    frame = polars.DataFrame({"text": want["text"], "number": want["number"]})
+    assert arrow.columns(frame) == frame.to_dict(as_series=False)
+    with pytest.raises(TypeError, match="Arrow's type"):
+        arrow.columns(pyarrow.table({"days": pyarrow.array([0], pyarrow.date32())}))
+
+
+def test_what_is_no_frame():
+    with pytest.raises(TypeError, match="expected a path, a dictionary of arrays"):
+        stiffarm.diagnose("ur5", 5)
+    with pytest.raises(ValueError, match="several lengths"):
+        stiffarm.diagnose("ur5", {"q1": [1.0, 2.0], "x": [1.0]})
+    with pytest.raises(ValueError, match="found the shape"):
+        stiffarm.diagnose("ur5", {"x": numpy.zeros((3, 2))})
+
+
+def test_what_is_not_finite_is_told(campaign, caplog):
+    columns = {name: list(column) for name, column in campaign.items()}
+    columns["x[m]"][4] = float("nan")
+    found = stiffarm.diagnose("kuka_kr240", columns)
+    assert found.measurements == campaign.rows - 1
+    assert "left out" in caplog.text
+    columns["x[m]"] = [float("nan")] * campaign.rows
+    with pytest.raises(stiffarm.Error):
+        stiffarm.diagnose("kuka_kr240", columns)
+
+
+def test_mistakes_are_at_their_cells(campaign):
+    columns = {**campaign, "q1[rad]": ["much"] * campaign.rows}
+    with pytest.raises(stiffarm.Error) as caught:
+        stiffarm.diagnose("kuka_kr240", columns)
+    _, _, file, line, _ = caught.value.mistakes[0]
+    assert (file, line) == ("<data>", 2)

@@ -1,0 +1,142 @@
+"""Every function gives what the command line gives."""
+
+import json
+
+import pytest
+import stiffarm
+
+LIN = ["lin_planar", "robots/data/lin1991_table3.csv"]
+WORKBENCH = ["docs/workbench/arm.toml", "docs/workbench/run.csv"]
+
+
+def test_diagnose(cli, at_root):
+    want = cli("diagnose", *LIN, "--rival", "ycd", "--rival", "ytd", "--json", "-")
+    found = stiffarm.diagnose(*LIN, rivals=["ycd", "ytd"])
+    assert found.to_json() == want
+    assert found.to_dict() == json.loads(want)
+    assert str(found) == cli("diagnose", *LIN, "--rival", "ycd", "--rival", "ytd")
+
+
+def test_the_page(cli, at_root, tmp_path, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
+    cli("diagnose", *LIN, "--seed=0", "--report", tmp_path / "page.html")
+    want = (tmp_path / "page.html").read_text(encoding="utf-8")
+    found = stiffarm.diagnose(*LIN).to_html(tmp_path / "ours.html")
+    assert (tmp_path / "ours.html").read_text(encoding="utf-8") == found
+    # The command that made it stands on it.
+    words = f"diagnose {' '.join(LIN)} --seed=0"
+    assert words in found and found == want.replace(f"{words} --report {tmp_path / 'page.html'}", words)
+
+
+def test_the_corrected_arm(cli, at_root, tmp_path):
+    names = {"robot": "better.toml", "mjcf": "better.xml", "urdf": "better.urdf"}
+    written = [f"--write-{kind}={tmp_path / name}" for kind, name in names.items()]
+    cli("diagnose", *WORKBENCH, "--nuisance", "base_frame,tool_frame", *written)
+    found = stiffarm.diagnose(*WORKBENCH, nuisance=["base_frame", "tool_frame"])
+    texts = {"robot": found.corrected.toml, "mjcf": found.to_mjcf(), "urdf": found.to_urdf(tmp_path / "ours.urdf")}
+    assert texts == {kind: (tmp_path / name).read_text(encoding="utf-8") for kind, name in names.items()}
+    assert (tmp_path / "ours.urdf").read_text(encoding="utf-8") == texts["urdf"]
+
+
+def test_an_earlier_diagnosis(cli, at_root, tmp_path):
+    (tmp_path / "last.json").write_text(cli("diagnose", *LIN, "--json", "-"), encoding="utf-8")
+    want = json.loads(cli("diagnose", *LIN, "--compare", tmp_path / "last.json", "--accept", "0.1mm", "--json", "-"))
+    for last in (tmp_path / "last.json", stiffarm.diagnose(*LIN)):
+        found = stiffarm.diagnose(*LIN, compare=last, accept=1e-4).to_dict()
+        assert found.accept == want["accept"]
+        assert {**found.compared, "file": ""} == {**want["compared"], "file": ""}
+    assert found.corrected == want["corrected"]
+
+
+def test_a_diagnosis_is_an_arm(cli, at_root, tmp_path):
+    found = stiffarm.diagnose(*LIN)
+    (tmp_path / "found.json").write_text(found.to_json(), encoding="utf-8")
+    arm = stiffarm.Arm.load(tmp_path / "found.json")
+    assert arm.toml == found.corrected.toml
+    want = json.loads(cli("eval", tmp_path / "found.json", "--q", "0.1,0.2", "--json", "-"))
+    assert abs(arm.pose([0.1, 0.2])[:3, 3] - want["position"]).max() < 1e-15
+
+
+def test_identify(cli, at_root, tmp_path):
+    out = tmp_path / "springs.toml"
+    want = json.loads(cli("identify", *WORKBENCH, "--json", "-", "--write-robot", out))
+    found = stiffarm.identify(*WORKBENCH)
+    assert found.to_dict() == want
+    assert found.corrected.toml == out.read_text(encoding="utf-8")
+    assert str(found) == cli("identify", *WORKBENCH)
+    assert found.parameters == want["parameters"]
+    assert found.to_html().startswith("<!doctype html>")
+
+
+def test_poses(cli):
+    words = ["kuka_kr240", "--count", "6", "--load", "0,0,-2000.0,0,0,0", "--csv", "-"]
+    found = stiffarm.poses("kuka_kr240", 6, loads=[(0, 0, -2000, 0, 0, 0)])
+    assert found.csv == cli("poses", *words)
+    pair = ["joint_compliance@joint 2", "link_compliance@link 2"]
+    loads = ["0,0,-2kN,0,0,0", "0,1kN,0,0,0,0"]
+    words = ["--count", "4", "--for", "separate", *(f"--load={load}" for load in loads), "--csv", "-"]
+    assert stiffarm.poses("kuka_kr240", 4, purpose="separate", effects=pair, loads=loads).csv == cli("poses", "kuka_kr240", *pair, *words)
+
+
+def test_simulate(cli):
+    words = ["--effect", "backlash@joint 2=0.3 mrad", "--poses", "8", "--payload", "5kg", "--seed", "2", "--csv", "-"]
+    found = stiffarm.simulate("ur5", effects=["backlash@joint 2=0.3 mrad"], poses=8, payload=5.0, seed=2)
+    assert found.csv == cli("simulate", "ur5", *words)
+    assert found["x"].shape == (found.rows,) and found.comments
+
+
+def test_withhold(cli):
+    words = ["ur5", "--cases", "4", "--effects", "joint_compliance", "--poses", "10"]
+    found = stiffarm.withhold("ur5", cases=4, effects=["joint_compliance"], poses=10)
+    assert found.to_dict() == json.loads(cli("withhold", *words, "--json", "-"))
+    assert found._repr_html_().startswith("<iframe")
+
+
+def test_compensate(cli, at_root):
+    words = ["docs/workbench/arm_identified.toml", "--targets", "docs/workbench/path.csv", "--wrench", "0,0,-200.0,0,0,0"]
+    found = stiffarm.compensate(words[0], "docs/workbench/path.csv", wrench=[0, 0, -200, 0, 0, 0])
+    # One target is out of reach.
+    assert found.csv == cli("compensate", *words, "--out", "-", status=1)
+    assert found["status"].count("reached") == found.rows - 1
+
+
+@pytest.mark.parametrize("emit", ["rust", "latex", "dot", "urdf", "mjcf"])
+def test_generate(cli, emit):
+    (text,) = stiffarm.generate("ur5", emit).values()
+    assert text == cli("generate", "ur5", "--emit", emit)
+
+
+def test_generate_c(cli, tmp_path):
+    cli("generate", "ur5", "--emit", "c", "--precision", "f32", "--out", tmp_path)
+    found = stiffarm.generate("ur5", "c", precision="f32")
+    assert found == {path.name: path.read_text(encoding="utf-8") for path in tmp_path.iterdir()}
+
+
+def test_papers(cli):
+    assert stiffarm.papers() == cli("papers")
+
+
+def test_import_urdf(cli, at_root):
+    path = "tests/data/urdf/ur5.urdf"
+    want = cli("import", path, "--base", "base_link", "--tip", "tool0")
+    assert stiffarm.import_urdf(path, base="base_link", tip="tool0").toml == want
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    assert stiffarm.import_urdf(text, base="base_link", tip="tool0").toml == want.replace(path, "<urdf>")
+
+
+def test_measurements(cli, at_root):
+    words = ["docs/workbench/raw.txt", "--map", "docs/workbench/map.toml"]
+    found = stiffarm.measurements(words[0], map=words[2])
+    assert found.csv == cli("measurements", *words)
+
+
+def test_mistakes_read_alike(at_root, stiffarm_program):
+    import subprocess
+
+    words = ["diagnose", "ur5", LIN[1]]
+    told = subprocess.run([stiffarm_program, *words], capture_output=True, text=True, check=False).stderr
+    with pytest.raises(stiffarm.Error) as caught:
+        stiffarm.diagnose(*words[1:])
+    assert told.strip() == f"error: {caught.value}"
+    assert caught.value.mistakes[0][2:] == (LIN[1], 6, caught.value.mistakes[0][4])

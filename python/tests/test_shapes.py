@@ -1,0 +1,61 @@
+"""Shapes, types and strides of arrays, whatever they are."""
+
+import numpy
+import pytest
+import stiffarm
+from hypothesis import given, settings
+from hypothesis import strategies as some
+from hypothesis.extra import numpy as arrays
+
+ARM = stiffarm.Arm.load("stanford")
+N = ARM.dof
+LEADS = arrays.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=5)
+TYPES = some.sampled_from(["f8", "f4", "f2", ">f8", "i1", "i4", "u2", "<i8"])
+
+
+@settings(max_examples=150, deadline=None)
+@given(some.data())
+def test_any_layout_gives_the_same(data):
+    lead, dtype = data.draw(LEADS), data.draw(TYPES)
+    unsigned = numpy.dtype(dtype).kind == "u"
+    values = arrays.from_dtype(numpy.dtype(dtype), min_value=0 if unsigned else -3, max_value=3, allow_nan=False)
+    q = data.draw(arrays.arrays(dtype, (*lead, N), elements=values))
+    plain = numpy.ascontiguousarray(q, dtype=float).reshape(-1, N)
+    want = numpy.array([ARM.jacobian(row) for row in plain]).reshape(*lead, 6, N)
+    reversed_twice = q[..., ::-1].copy()[..., ::-1]
+    every_other = numpy.repeat(q, 2, axis=-1)[..., ::2]
+    for layout in (q, numpy.asfortranarray(q) if q.ndim else q, reversed_twice, every_other, q.tolist() if q.size else q):
+        found = ARM.jacobian(layout)
+        assert found.shape == (*lead, 6, N) and found.dtype == numpy.float64
+        assert (found == want).all()
+    out = numpy.full((*lead, 6, N), numpy.nan)
+    assert ARM.jacobian(q, out=out) is out
+    assert (out == want).all()
+
+
+@settings(max_examples=60, deadline=None)
+@given(some.data())
+def test_what_is_not_finite_is_refused(data):
+    count = data.draw(some.integers(1, 40))
+    q = numpy.zeros((count, N))
+    row, joint = data.draw(some.integers(0, count - 1)), data.draw(some.integers(0, N - 1))
+    q[row, joint] = data.draw(some.sampled_from([numpy.nan, numpy.inf, -numpy.inf]))
+    with pytest.raises(ValueError, match=f"not finite, at pose {row} "):
+        ARM.pose(q)
+
+
+@settings(max_examples=60, deadline=None)
+@given(LEADS, some.integers(0, 9))
+def test_a_wrong_last_dimension_is_refused(lead, size):
+    q = numpy.zeros((*lead, size))
+    if size == N:
+        assert ARM.pose(q).shape == (*lead, 4, 4)
+    else:
+        with pytest.raises(ValueError, match="q: found the shape"):
+            ARM.pose(q)
+
+
+def test_no_poses():
+    for empty in ((0, N), (3, 0, N)):
+        assert ARM.jacobian(numpy.zeros(empty)).shape == (*empty[:-1], 6, N)
+        assert ARM.deflection(numpy.zeros(empty), numpy.zeros(6)).shape == (*empty[:-1], 6)

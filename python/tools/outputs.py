@@ -1,0 +1,88 @@
+"""Writes stiffarm/outputs.py: a method for each output, from the extension module's own list.
+
+    python tools/outputs.py           writes it
+    python tools/outputs.py --check   exit status 1 if it is another
+"""
+
+import pathlib
+import sys
+
+from stiffarm import _native
+
+HEAD = '''"""An arm's outputs, a method each. Written by tools/outputs.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Optional
+
+if TYPE_CHECKING:
+    import numpy
+    from numpy.typing import ArrayLike, NDArray
+
+    Doubles = NDArray[numpy.float64]
+
+
+class Outputs:
+    """What an arm computes.
+
+    Joint values and what else is said of joints are (n,) or (batch, n), wrenches (6,) or (batch, 6), results as each method says,
+    with the batch in front. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm
+    that depends on them.
+    """
+
+    def evaluate(
+        self,
+        output: str,
+        inputs: Sequence[ArrayLike],
+        wrench: Optional[ArrayLike] = None,
+        out: Optional[Doubles] = None,
+        sides: Optional[ArrayLike] = None,
+        warming: Optional[float] = None,
+    ) -> Doubles:
+        """An output by its name."""
+        raise NotImplementedError
+'''
+
+BESIDE = "out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None"
+
+
+def method(name, sentence, formula, joints, takes_wrench, result):
+    given = [f"{argument}: ArrayLike" for argument, _ in joints] + ["wrench: ArrayLike"] * takes_wrench
+    about = [f"        {argument}: {text}." for argument, text in joints]
+    if takes_wrench:
+        about.append("        wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.")
+    shape, units = result.split("; ", 1)
+    values = ", ".join(argument for argument, _ in joints)
+    wrench = "wrench" if takes_wrench else "None"
+    raises = "\n\n        Raises Unstable where the arm has no stable equilibrium; the others are in `out`." if name in FALLIBLE else ""
+    lines = [
+        "",
+        f"    def {name}(",
+        f"        self, {', '.join(given)}, *, {BESIDE}",
+        "    ) -> Doubles:",
+        f'        """{sentence}',
+        "",
+        f"        {formula}",
+        "",
+        *about,
+        f"        Result: {shape}, in {units}.{raises}",
+        '        """',
+        f'        return self.evaluate("{name}", [{values}], {wrench}, out, sides, warming)',
+    ]
+    return "\n".join(lines) + "\n"
+
+
+FALLIBLE = ("deflection", "deflection_with_gravity", "deflection_by_joints", "forward_dynamics")
+
+
+def main():
+    text = HEAD + "".join(method(*output) for output in _native.outputs())
+    path = pathlib.Path(__file__).parent.parent / "stiffarm" / "outputs.py"
+    if "--check" in sys.argv:
+        sys.exit(path.read_text(encoding="utf-8") != text)
+    path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

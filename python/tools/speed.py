@@ -1,0 +1,96 @@
+"""How fast arms are in Python, in one run: a million Jacobians, and the call of one pose beside Pinocchio's and CasADi's.
+
+    python tools/speed.py [RUST]
+
+RUST is what Rust's own batch takes for the million, ms, to compare with: `cargo bench` of the batches says it.
+"""
+
+import statistics
+import sys
+import time
+
+import numpy
+import stiffarm
+
+ROUNDS = 15
+
+
+def median(work, repeat=1):
+    """Seconds of one piece of work, the median of some rounds."""
+    work()
+    rounds = []
+    for _ in range(ROUNDS):
+        begun = time.perf_counter()
+        for _ in range(repeat):
+            work()
+        rounds.append((time.perf_counter() - begun) / repeat)
+    return statistics.median(rounds)
+
+
+def batches():
+    arm = stiffarm.Arm.load("kuka_kr240")
+    q = numpy.random.default_rng(0).uniform(-1.0, 1.0, (1_000_000, 6))
+    out = numpy.empty((1_000_000, 6, 6)).transpose(0, 2, 1)
+    seconds = median(lambda: arm.jacobian(q, out=out))
+    print(f"10^6 Jacobians of the KR 240-2 by {arm.engine('jacobian')}: {1e3 * seconds:.1f} ms")
+    if len(sys.argv) > 1:
+        print(f"  {1e3 * seconds / float(sys.argv[1]):.2f} times Rust's batch")
+
+
+def calls():
+    arm = stiffarm.Arm.load("kuka_kr240")
+    q, out = numpy.full(6, 0.3), numpy.empty((6, 6)).T
+    print("one Jacobian, µs:")
+    print(f"  stiffarm           {1e6 * median(lambda: arm.jacobian(q), 2000):.2f}")
+    print(f"  stiffarm, out=     {1e6 * median(lambda: arm.jacobian(q, out=out), 2000):.2f}")
+    urdf = stiffarm.generate(arm, "urdf")["kuka_kr240.urdf"]
+    try:
+        import pinocchio
+    except ImportError:
+        print("  Pinocchio          not installed: pip install pin")
+    else:
+        model = pinocchio.buildModelFromXML(urdf)
+        data, tip = model.createData(), model.nframes - 1
+        mixed = pinocchio.LOCAL_WORLD_ALIGNED
+        print(f"  Pinocchio          {1e6 * median(lambda: pinocchio.computeFrameJacobian(model, data, q, tip, mixed), 2000):.2f}")
+    try:
+        import casadi
+    except ImportError:
+        print("  CasADi             not installed: pip install casadi")
+    else:
+        jacobian = by_casadi(casadi, arm)
+        assert numpy.abs(numpy.array(jacobian(q))[:3] - arm.jacobian(q)[:3]).max() < 1e-12
+        print(f"  CasADi (3 rows)    {1e6 * median(lambda: jacobian(q), 2000):.2f}")
+
+
+def by_casadi(casadi, arm):
+    """The Jacobian of the tool's position, of the same table."""
+    rows = [row.split("\n") for row in arm.toml.split("[[joint]]")[1:]]
+    q, place = casadi.SX.sym("q", 6), casadi.SX.eye(4)
+
+    def entry(row, name):
+        line = next((line for line in row if line.split("=")[0].strip() == name), f"{name} = 0")
+        text = line.split("=")[1].split("#")[0].strip().strip('"').replace("pi", "3.141592653589793")
+        scale = 1e-3 if text.endswith("mm") else 1.0
+        return scale * eval(text.removesuffix("mm").removesuffix("m").strip())
+
+    def turn(axis, angle):
+        c, s, t = casadi.cos(angle), casadi.sin(angle), casadi.SX.eye(4)
+        a, b = (axis + 1) % 3, (axis + 2) % 3
+        t[a, a], t[a, b], t[b, a], t[b, b] = c, -s, s, c
+        return t
+
+    def move(axis, length):
+        t = casadi.SX.eye(4)
+        t[axis, 3] = length
+        return t
+
+    for k, row in enumerate(rows):
+        alpha, a, theta, d = (entry(row, name) for name in ("alpha", "a", "theta", "d"))
+        place = place @ turn(0, alpha) @ move(0, a) @ turn(2, theta + q[k]) @ move(2, d)
+    return casadi.Function("jacobian", [q], [casadi.jacobian(place[:3, 3], q)])
+
+
+if __name__ == "__main__":
+    batches()
+    calls()
