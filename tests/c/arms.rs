@@ -22,7 +22,7 @@ stiffarm::robot! {
     pub mod by_joints from "tests/c/arm.toml";
     outputs: pose, jacobian, complementary_stiffness, joint_torque, compliance, deflection, hessian,
              jacobian_rate, compliance_by_joints, deflection_by_joints, manipulability,
-             manipulability_by_joints;
+             manipulability_by_joints, inverse_dynamics_by_joints, inverse_dynamics_by_rates;
 }
 
 /// The outputs of the module above, as a robot file asks for them.
@@ -30,7 +30,7 @@ macro_rules! on_request {
     () => {
         "outputs = ['pose', 'jacobian', 'complementary_stiffness', 'joint_torque', 'compliance', 'deflection', \
          'hessian', 'jacobian_rate', 'compliance_by_joints', 'deflection_by_joints', 'manipulability', \
-         'manipulability_by_joints']\n"
+         'manipulability_by_joints', 'inverse_dynamics_by_joints', 'inverse_dynamics_by_rates']\n"
     };
 }
 

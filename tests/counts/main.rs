@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use stiffarm_codegen::derive::{Output, Passes, Readings, derive, derive_with};
+use stiffarm_codegen::derive::{Output, Passes, Program, Readings, derive, derive_at, derive_with};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Robot, Value};
 use stiffarm_robots::ARMS;
@@ -56,6 +56,11 @@ fn counts_are_reviewed() {
             line(&mut table, output.name(), &robot, &[output]);
         }
         line(&mut table, "all", &robot, &Output::ALL);
+        let told =
+            |output: &Output| output.is_on_request() && (moves(&robot) || !output.is_of_motion());
+        for output in Output::EACH.into_iter().filter(told) {
+            line(&mut table, output.name(), &robot, &[output]);
+        }
     }
     insta::assert_snapshot!(table);
 }
@@ -75,8 +80,32 @@ fn counts_of_a_corrected_arm_are_reviewed() {
     insta::assert_snapshot!(table);
 }
 
+/// Of frames and markers, on links within the arm and on its tool.
+#[test]
+fn counts_of_places_are_reviewed() {
+    let (robot, _) =
+        Robot::from_toml(include_str!("../c/framed.toml"), "framed.toml").expect("sound");
+    let mut table = String::from("add + mul (sin-cos pairs)\n");
+    for (place, outputs) in robot.places() {
+        let _ = writeln!(table, "\n{place}");
+        for output in outputs {
+            let program = derive_at(&robot, place, output).expect("the place is there");
+            counted(&mut table, output.name(), &program);
+        }
+    }
+    insta::assert_snapshot!(table);
+}
+
+/// Whether the file says how the mass of some link is spread.
+fn moves(robot: &Robot) -> bool {
+    robot.joints.iter().any(|joint| joint.inertia.is_some())
+}
+
 fn line(table: &mut String, name: &str, robot: &Robot, outputs: &[Output]) {
-    let program = derive(robot, outputs);
+    counted(table, name, &derive(robot, outputs));
+}
+
+fn counted(table: &mut String, name: &str, program: &Program) {
     let ops = program.ops();
     let _ = writeln!(
         table,

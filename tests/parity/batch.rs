@@ -11,17 +11,19 @@ fn by_quantity<T: Copy>(by_pose: &[T], poses: usize) -> Vec<T> {
     (0..size).flat_map(|k| (0..poses).map(move |pose| by_pose[pose * size + k])).collect()
 }
 
+/// Of each pose `state` numbers of the joints.
 struct Case<T> {
     poses: usize,
+    state: usize,
     q: Vec<T>,
     wrenches: Vec<T>,
 }
 
-fn case<T: Number>(dof: usize, poses: usize, draws: &mut Draws) -> Case<T> {
+fn case<T: Number>(state: usize, poses: usize, draws: &mut Draws) -> Case<T> {
     let mut draw = |count: usize, scale: f64| -> Vec<T> {
         (0..count).map(|_| T::lit(0.6 + scale * draws.unit())).collect()
     };
-    Case { poses, q: draw(dof * poses, 2.5), wrenches: draw(6 * poses, 10.0) }
+    Case { poses, state, q: draw(state * poses, 2.5), wrenches: draw(6 * poses, 10.0) }
 }
 
 /// Every pose by a call of its own.
@@ -34,24 +36,24 @@ fn one_by_one<T: Number>(
     let (rows, columns) = output.shape(robot.dof());
     let mut out = vec![T::lit(0.0); rows * columns * case.poses];
     for (pose, out) in out.chunks_mut(rows * columns).enumerate() {
-        let q = &case.q[pose * robot.dof()..][..robot.dof()];
+        let q = &case.q[pose * case.state..][..case.state];
         robot.evaluate(output, q, &wrench(pose), out).expect("the arm is stable");
     }
     out
 }
 
-fn check<T, R>(robot: &R)
+fn check<T, R>(robot: &R, outputs: &[Output])
 where
     T: Number + PartialEq + core::fmt::Debug,
     R: Kernels<T> + Kernels<T::Lanes> + Sync,
 {
     let mut draws = Draws::new(8);
     for poses in [0, 1, 3, 4, 7, 8, 9, 21, 2500] {
-        let case = case::<T>(Kernels::<T>::dof(robot), poses, &mut draws);
-        let wrench = |pose: usize| core::array::from_fn(|k| case.wrenches[6 * pose + k]);
-        let q_rows = by_quantity(&case.q, poses);
-        let wrench_rows = by_quantity(&case.wrenches, poses);
-        for output in [Output::Jacobian, Output::ComplementaryStiffness, Output::Deflection] {
+        for &output in outputs {
+            let case = case::<T>(output.state(Kernels::<T>::dof(robot)), poses, &mut draws);
+            let wrench = |pose: usize| core::array::from_fn(|k| case.wrenches[6 * pose + k]);
+            let q_rows = by_quantity(&case.q, poses);
+            let wrench_rows = by_quantity(&case.wrenches, poses);
             let each = one_by_one(robot, output, &case, wrench);
             let same = one_by_one(robot, output, &case, |_| wrench(0));
             let layouts = [
@@ -82,10 +84,21 @@ where
 
 #[test]
 fn batches_are_poses_one_by_one() {
-    use stiffarm_robots::{kuka_kr240, stanford};
-    check::<f64, _>(&kuka_kr240::Robot);
-    check::<f32, _>(&kuka_kr240::Robot);
-    check::<f64, _>(&stanford::Robot);
+    use stiffarm_robots::{kuka_kr240, stanford, ur10};
+    let at_rest = [Output::Jacobian, Output::ComplementaryStiffness, Output::Deflection];
+    check::<f64, _>(&kuka_kr240::Robot, &at_rest);
+    check::<f32, _>(&kuka_kr240::Robot, &at_rest);
+    check::<f64, _>(&stanford::Robot, &at_rest);
+    let moving = [Output::InverseDynamics, Output::ForwardDynamics, Output::TorqueRegressor];
+    check::<f64, _>(&ur10::Robot, &moving);
+    check::<f32, _>(&ur10::Robot, &moving);
+    let by = [Output::InverseDynamicsByJoints, Output::InverseDynamicsByRates];
+    check::<f64, _>(&crate::by_joints::ur10::Robot, &by);
+    check::<f32, _>(&crate::by_joints::ur10::Robot, &by);
+    check::<f64, _>(
+        &crate::by_joints::kr240::Robot,
+        &[Output::Hessian, Output::DeflectionByJoints],
+    );
 }
 
 #[test]

@@ -1,9 +1,14 @@
 //! Outputs that are generated on request: derivatives by the joints. Compiled, in both precisions, against the textbook,
 //! its differences and dual numbers.
 
+use num_dual::Dual64;
 use stiffarm::kernels::parity::{self, Comparison, Subject};
-use stiffarm::kernels::{Kernels, Output};
+use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm_codegen::derive::{Program, derive};
 use stiffarm_codegen::robot::Robot;
+use stiffarm_robots::ARMS;
+
+use crate::compare::Draws;
 
 stiffarm::robot! {
     /// Springs in all joints, a spherical wrist.
@@ -21,7 +26,17 @@ stiffarm::robot! {
     /// Five joints, one of which slides, one of which is rigid, and beams.
     pub mod various from "tests/c/arm.toml";
     outputs: hessian, jacobian_rate, compliance_by_joints, deflection_by_joints, manipulability,
-             manipulability_by_joints;
+             manipulability_by_joints, inverse_dynamics_by_joints, inverse_dynamics_by_rates;
+}
+stiffarm::robot! {
+    /// Published inertias.
+    pub mod ur10 from "robots/arms/ur10.toml";
+    outputs: inverse_dynamics_by_joints, inverse_dynamics_by_rates;
+}
+stiffarm::robot! {
+    /// Seven links with products of inertia.
+    pub mod panda from "robots/arms/panda.toml";
+    outputs: inverse_dynamics_by_joints, inverse_dynamics_by_rates;
 }
 
 fn check<R: Kernels<f64> + Kernels<f32> + Sync>(robot: &R, file: &str) {
@@ -32,7 +47,7 @@ fn check<R: Kernels<f64> + Kernels<f32> + Sync>(robot: &R, file: &str) {
     let double = parity::compiled(robot, |x: f64| x);
     let single = parity::compiled(robot, |x: f32| f64::from(x));
     let outputs = Kernels::<f64>::outputs(robot);
-    assert!(outputs.len() == 6 && outputs.iter().all(|output| output.is_on_request()));
+    assert!(!outputs.is_empty() && outputs.iter().all(|output| output.is_on_request()));
     let (generated, single) = (&double, Some(&single as _));
     let subject = Subject { outputs, arm: &arm, beyond: None, generated, single };
     for line in parity::agreement(&subject, 1000, 3, &|_| {}).lines {
@@ -47,6 +62,70 @@ fn derivatives_agree_in_every_way() {
     check(&kr240::Robot, "robots/arms/kuka_kr240.toml");
     check(&iiwa::Robot, "robots/arms/iiwa14.toml");
     check(&various::Robot, "tests/c/arm.toml");
+    check(&ur10::Robot, "robots/arms/ur10.toml");
+    check(&panda::Robot, "robots/arms/panda.toml");
+}
+
+/// By a joint's acceleration the torques change as the mass matrix says, whatever the motion: by dual numbers through
+/// the compiled inverse dynamics, and so by joint values and rates.
+#[test]
+fn inverse_dynamics_has_these_derivatives() {
+    use stiffarm_robots::panda::inverse_dynamics;
+    let mut draws = Draws::new(31);
+    for _ in 0..100 {
+        let state: [[f64; 7]; 3] =
+            core::array::from_fn(|_| core::array::from_fn(|_| 2.0 * draws.unit()));
+        let [q, rates, accelerations] = &state;
+        let by = [
+            panda::inverse_dynamics_by_joints(q, rates, accelerations),
+            panda::inverse_dynamics_by_rates(q, rates),
+            stiffarm_robots::panda::mass_matrix(q),
+        ];
+        for (part, matrix) in by.iter().enumerate() {
+            let largest = matrix.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            for (joint, column) in matrix.iter().enumerate() {
+                let mut moved = state.map(|part| part.map(Dual64::lit));
+                moved[part][joint].eps = 1.0;
+                let torque = inverse_dynamics(&moved[0], &moved[1], &moved[2]);
+                // Some hundred roundings of terms that may be ten times what they sum up to.
+                let near = |(t, c): (&Dual64, &f64)| (t.eps - c).abs() < 1e-13 * (1.0 + largest);
+                assert!(torque.iter().zip(column).all(near), "{torque:?} {column:?}");
+            }
+        }
+    }
+}
+
+/// Of every arm of the collection, as the graph tells them.
+fn every_arm(states: usize) {
+    for entry in ARMS {
+        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
+        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+        let moves = robot.joints.iter().any(|joint| joint.inertia.is_some());
+        let asked = |output: &Output| output.is_on_request() && (moves || !output.is_of_motion());
+        let outputs: Vec<Output> = Output::EACH.into_iter().filter(asked).collect();
+        let programs = outputs.iter().map(|output| derive(&robot, &[*output]));
+        let programs: Vec<Program> = programs.collect();
+        let generated = |output, state: &[f64], w: &[f64; 6]| {
+            let at = outputs.iter().position(|known| *known == output).expect("it was asked for");
+            programs[at].evaluate(state, w, |_| f64::NAN).map(|blocks| blocks.concat())
+        };
+        let (outputs, generated) = (&outputs, &generated);
+        let subject = Subject { outputs, arm: &arm, beyond: None, generated, single: None };
+        for line in parity::agreement(&subject, states, 5, &|_| {}).lines {
+            assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
+        }
+    }
+}
+
+#[test]
+fn what_is_on_request_agrees_for_every_arm() {
+    every_arm(100);
+}
+
+#[test]
+#[ignore = "ten thousand states of every arm take minutes"]
+fn what_is_on_request_agrees_at_ten_thousand_states() {
+    every_arm(10_000);
 }
 
 /// At the wrist's singularity, and with the arm stretched out: no manipulability, and no number that is none.

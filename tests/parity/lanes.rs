@@ -69,6 +69,7 @@ fn lanes_are_scalars_side_by_side() {
     check_all(&ur10::Robot);
     check_all(&iiwa14::Robot);
     check_all(&crate::by_joints::various::Robot);
+    check_all(&crate::by_joints::ur10::Robot);
     check_all(&stanford::Robot);
     check_all(&fixtures::oblique::Robot);
 }

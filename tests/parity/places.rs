@@ -7,6 +7,7 @@ use stiffarm::kernels::generic::Arm;
 use stiffarm::kernels::{Kernels, Output, Scalar, has};
 use stiffarm_codegen::derive::derive_at;
 use stiffarm_codegen::robot::{Asked, Robot};
+use stiffarm_robots::ARMS;
 
 use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
 use crate::tables::{Table, table};
@@ -50,6 +51,66 @@ fn with_joints_beyond(output: Output, found: &[f64], dof: usize, n: usize) -> Ve
     padded
 }
 
+/// The largest deviation of all that a placed robot is asked for from the textbook of the arms that end there, and of
+/// which output it is.
+fn agree(robot: &Robot, arm: &Arm, row: usize, (states, seed): (usize, u64)) -> (f64, String) {
+    let mut ending = arm.clone();
+    ending.joints.truncate(row + 1);
+    let [here, smr] =
+        [(ending, frame()), (arm.clone(), marker(arm))].map(|(arm, tool)| Arm { tool, ..arm });
+    let places = robot.places();
+    assert_eq!(places.len(), 2);
+    let mut worst = (0.0, String::new());
+    for (place, outputs) in places {
+        let ending = if place == "here" { &here } else { &smr };
+        assert!(outputs.len() >= 10);
+        for output in outputs {
+            let program = derive_at(robot, place, output).expect("the place is there");
+            let taken = output.state(arm.dof()) / arm.dof();
+            let mut draws = Draws::new(seed);
+            for _ in 0..states {
+                let (q, wrench) = (draws.state(arm), draws.wrench(arm));
+                let of_inner = q.chunks(arm.dof()).take(taken).flat_map(|of| &of[..ending.dof()]);
+                let state: Vec<f64> = of_inner.copied().collect();
+                let expected = ending.evaluate(output, &state, &wrench).ok();
+                let got = program.evaluate(&q[..taken * arm.dof()], &wrench, |_| f64::NAN).ok();
+                assert_eq!(expected.is_some(), got.is_some(), "{} at {place}", output.name());
+                let (Some(expected), Some(got)) = (expected, got) else { continue };
+                let expected = with_joints_beyond(output, &expected, ending.dof(), arm.dof());
+                let floor = CANCELLED * terms(ending, output, &state, &wrench);
+                let off = relative(&got.concat(), &expected, floor);
+                if off > worst.0 {
+                    worst = (off, format!("{} at {place}", output.name()));
+                }
+            }
+        }
+    }
+    worst
+}
+
+/// A frame on the link in the middle, a marker on the tool.
+fn every_arm(states: usize) {
+    for entry in ARMS {
+        let table = Table { text: entry.toml.to_owned(), values: Vec::new() };
+        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
+        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+        let row = arm.dof() / 2;
+        let worst = agree(&placed(&table, row), &arm, row, (states, 6));
+        assert!(worst.0 <= 1e-12, "{}: {worst:?}", entry.id);
+    }
+}
+
+#[test]
+fn places_of_every_arm_agree() {
+    every_arm(50);
+}
+
+#[test]
+#[ignore = "ten thousand states of every arm take minutes"]
+fn places_of_every_arm_agree_at_ten_thousand_states() {
+    every_arm(10_000);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
 
@@ -58,34 +119,8 @@ proptest! {
         table in table(1..=8), row in 0usize..8, seed in any::<u64>()
     ) {
         let row = row % table.robot().dof();
-        let robot = placed(&table, row);
-        let arm = table.arm();
-        let mut draws = Draws::new(seed);
-        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
-        let mut ending = arm.clone();
-        ending.joints.truncate(row + 1);
-        let [here, smr] = [(ending, frame()), (arm.clone(), marker(&arm))]
-            .map(|(arm, tool)| Arm { tool, ..arm });
-        let places = robot.places();
-        prop_assert_eq!(places.len(), 2);
-        for (place, outputs) in places {
-            let ending = if place == "here" { &here } else { &smr };
-            prop_assert!(outputs.len() >= 10);
-            for output in outputs {
-                let program = derive_at(&robot, place, output).expect("the place is there");
-                let taken = output.state(arm.dof()) / arm.dof();
-                let of_inner = q.chunks(arm.dof()).take(taken).flat_map(|of| &of[..ending.dof()]);
-                let state: Vec<f64> = of_inner.copied().collect();
-                let expected = ending.evaluate(output, &state, &wrench).ok();
-                let got = program.evaluate(&q[..taken * arm.dof()], &wrench, |_| f64::NAN).ok();
-                prop_assert_eq!(expected.is_some(), got.is_some());
-                let (Some(expected), Some(got)) = (expected, got) else { continue };
-                let expected = with_joints_beyond(output, &expected, ending.dof(), arm.dof());
-                let floor = CANCELLED * terms(ending, output, &state, &wrench);
-                let worst = relative(&got.concat(), &expected, floor);
-                prop_assert!(worst <= 1e-11, "{} at {place} {worst:e}\n{}", output.name(), table.text);
-            }
-        }
+        let worst = agree(&placed(&table, row), &table.arm(), row, (1, seed));
+        prop_assert!(worst.0 <= 1e-11, "{worst:?}\n{}", table.text);
     }
 
     /// From the frames of the whole arm alone: the pose, its differences by every joint, and what springs give of

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use statrs::distribution::{Binomial, DiscreteCDF};
+use stiffarm_gap::withhold::logs::LogReport;
 use stiffarm_gap::withhold::{Kind, Rate, Report};
 
 /// Rates over several reports, each with its goal.
@@ -19,10 +21,25 @@ struct Goal {
     wanted: [f64; 2],
 }
 
+impl Goal {
+    /// If so asked, by more than chance does in one of forty runs.
+    fn is_missed(&self, beyond_chance: bool) -> bool {
+        let Goal { rate, wanted: [from, to], .. } = *self;
+        if !beyond_chance {
+            return !rate.rate.is_some_and(|r| (from..=to).contains(&r));
+        }
+        let misses = rate.of - rate.hits;
+        at_most(rate.hits, rate.of, from) < CHANCE || at_most(misses, rate.of, 1.0 - to) < CHANCE
+    }
+}
+
+fn goal(what: &'static str, wanted: [f64; 2], rate: Rate) -> Goal {
+    Goal { what, rate, wanted }
+}
+
 impl Goals {
     pub fn of(reports: &[Report]) -> Goals {
         let pooled = |rate: fn(&Report) -> Rate| Rate::pooled(reports.iter().map(rate));
-        let goal = |what, wanted, rate| Goal { what, rate, wanted };
         let sizes = reports.iter().flat_map(|r| &r.cases).filter(|c| c.kind == Kind::Single);
         let sizes: Vec<f64> = sizes
             .filter_map(|c| c.verdict.as_ref()?.sets.first().map(|s| s.len() as f64))
@@ -48,22 +65,34 @@ impl Goals {
         }
     }
 
+    /// Of joint logs.
+    pub fn of_logs(reports: &[LogReport]) -> Goals {
+        let pooled = |rate: fn(&LogReport) -> Rate| Rate::pooled(reports.iter().map(rate));
+        Goals {
+            cases: reports.iter().map(|r| r.cases.len()).sum(),
+            goals: vec![
+                goal("false alarms", [0.0, 0.05], pooled(|r| r.false_alarms)),
+                goal("named first", [0.90, 1.0], pooled(|r| r.single.first_named)),
+                goal("in the set", [0.97, 1.0], pooled(|r| r.single.in_set)),
+                goal("unknown flagged", [0.90, 1.0], pooled(|r| r.removed_flagged)),
+            ],
+            mean_set_size: None,
+        }
+    }
+
     /// Goals that are missed.
     pub fn missed(&self) -> Vec<String> {
-        self.missed_by(|rate, [from, to]| rate.rate.is_some_and(|r| (from..=to).contains(&r)))
+        self.missed_by(false)
     }
 
     /// Goals that a rate misses by more than chance does in one of forty runs.
     pub fn missed_beyond_chance(&self) -> Vec<String> {
-        self.missed_by(|rate, [from, to]| {
-            let misses = rate.of - rate.hits;
-            at_most(rate.hits, rate.of, from) >= CHANCE
-                && at_most(misses, rate.of, 1.0 - to) >= CHANCE
-        })
+        self.missed_by(true)
     }
 
-    fn missed_by(&self, met: impl Fn(Rate, [f64; 2]) -> bool) -> Vec<String> {
-        let rates = self.goals.iter().filter(|g| !met(g.rate, g.wanted)).map(|g| g.what);
+    fn missed_by(&self, beyond_chance: bool) -> Vec<String> {
+        let missed = |goal: &&Goal| goal.is_missed(beyond_chance);
+        let rates = self.goals.iter().filter(missed).map(|g| g.what);
         let sets = self.mean_set_size.filter(|size| *size > 2.0).map(|_| "mean set size");
         rates.chain(sets).map(str::to_owned).collect()
     }
@@ -72,13 +101,9 @@ impl Goals {
 /// One of forty runs.
 const CHANCE: f64 = 1.0 / 40.0;
 
-/// The chance of no more than so many hits of `of`, each with chance `rate`: the binomial distribution.
+/// The chance of no more than so many hits of `of`, each with chance `rate`.
 fn at_most(hits: usize, of: usize, rate: f64) -> f64 {
-    let one = |k: usize| {
-        let ways = (0..k).fold(1.0, |ways, i| ways * (of - i) as f64 / (i + 1) as f64);
-        ways * rate.powi(k as i32) * (1.0 - rate).powi((of - k) as i32)
-    };
-    (0..=hits).map(one).sum()
+    Binomial::new(rate, of as u64).expect("a chance").cdf(hits as u64)
 }
 
 impl fmt::Display for Goals {

@@ -2,11 +2,12 @@
 //! diagnosis is not told, and what it finds is held against what was put in.
 //!
 //! `cargo test -p stiffarm --release --test withheld -- --ignored --nocapture full` runs the full
-//! form and prints its table; the quick one runs with all other tests. `realistic` has commands of
-//! its own.
+//! form and prints its table; the quick one runs with all other tests. `realistic` and `logs`
+//! have commands of their own.
 
 mod arms;
 mod goals;
+mod logs;
 mod realistic;
 mod stream;
 mod suite;

@@ -3,7 +3,7 @@
 stiffarm::robot! {
     pub mod arm;
     convetion: modified_dh;
-    payload: 3 kg;
+    effect: backlash;
     joint | theta
     a1    | q
 }

@@ -1,11 +1,15 @@
 //! One arm diagnosed as a user would, and held against the truth.
 
+use std::error::Error;
 use std::time::Instant;
 
 use nalgebra::Vector6;
 use serde::Serialize;
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::corrected::corrected;
 use stiffarm_gap::diagnose::{Diagnosed, Finding, Nuisance};
-use stiffarm_gap::gap::rms;
+use stiffarm_gap::effects::{Catalogue, Known};
+use stiffarm_gap::gap::{Statistics, rms};
 use stiffarm_gap::{Options, diagnose_with};
 
 use super::draw::{Drawn, lasts};
@@ -31,6 +35,8 @@ pub struct Truth {
     pub evidence: f64,
     /// Named at its place.
     pub named: bool,
+    /// Named as its twin: what moves the arm alike, whatever is measured.
+    pub as_twin: bool,
     /// Named, or in the set of what the data does not tell from a finding.
     pub in_set: bool,
     /// Of each of its values, if it is named: whether the interval covers it.
@@ -92,7 +98,10 @@ pub struct Case {
     /// `None` without findings, and where something happened in the first session alone.
     pub shrink: Option<Shrink>,
     pub seconds: f64,
-    /// Why there is no diagnosis.
+    /// Over the gap that the diagnosis says its model leaves on these rows: held out, by the model that
+    /// predicts, and by a diagnosis of the written arm, whose frames are fitted again.
+    pub again: Option<[f64; 3]>,
+    /// Why there is no diagnosis, or none of the written arm.
     pub error: Option<String>,
 }
 
@@ -109,12 +118,16 @@ impl Case {
     }
 }
 
+/// The frames are unknown.
+fn options() -> Options {
+    let nuisances = vec![Nuisance::BaseFrame, Nuisance::ToolFrame];
+    Options { version: "test".to_owned(), nuisances, ..Options::default() }
+}
+
 /// Diagnoses an arm whose frames and noise nobody knows.
 pub fn run(drawn: &Drawn) -> Case {
-    let nuisances = vec![Nuisance::BaseFrame, Nuisance::ToolFrame];
-    let options = Options { version: "test".to_owned(), nuisances, ..Options::default() };
     let start = Instant::now();
-    let outcome = diagnose_with(&drawn.arm, &drawn.data, &options, &|_| {});
+    let outcome = diagnose_with(&drawn.arm, &drawn.data, &options(), &|_| {});
     let seconds = start.elapsed().as_secs_f64();
     let floor = drawn.floor(&[]);
     let truths = drawn.planted.iter().map(|planted| Truth {
@@ -123,6 +136,7 @@ pub fn run(drawn: &Drawn) -> Case {
         ratio: planted.ratio,
         evidence: planted.evidence,
         named: false,
+        as_twin: false,
         in_set: false,
         covered: Vec::new(),
     });
@@ -147,6 +161,7 @@ pub fn run(drawn: &Drawn) -> Case {
         noise_from: "",
         unexplained: false,
         shrink: None,
+        again: None,
         seconds,
         error: None,
     };
@@ -157,21 +172,38 @@ pub fn run(drawn: &Drawn) -> Case {
     case
 }
 
+impl Found {
+    /// Whether it does what a truth does, whatever is measured: a counterbalance turns a joint that gives
+    /// in proportion to its torque as the first order of the joint's transmission does.
+    fn is_twin_of(&self, truth: &Named) -> bool {
+        let is_first = |(name, ..): &(String, f64, [f64; 2])| name.ends_with(" 1");
+        truth.effect == "counterbalance"
+            && self.what == Named::new("transmission_error", &truth.place)
+            && self.parameters.iter().all(is_first)
+    }
+}
+
 impl Case {
+    /// Whether a finding is a truth, or the twin of one.
+    pub fn is_true(&self, found: &Found) -> bool {
+        self.truths.iter().any(|t| t.what == found.what || found.is_twin_of(&t.what))
+    }
+
     fn hold(&mut self, drawn: &Drawn, diagnosed: &Diagnosed) {
         let found = &diagnosed.diagnosis;
         self.found = found.findings.iter().map(as_found).collect();
         for (truth, planted) in self.truths.iter_mut().zip(&drawn.planted) {
             let own = self.found.iter().find(|f| f.what == truth.what);
-            truth.named = own.is_some();
+            truth.as_twin = self.found.iter().any(|f| f.is_twin_of(&truth.what));
+            truth.named = own.is_some() || truth.as_twin;
             let in_set = |f: &Found| f.inseparable.contains(&truth.what);
             truth.in_set = truth.named || self.found.iter().any(in_set);
             truth.covered = own.map_or_else(Vec::new, |own| covered(&planted.truth, own));
         }
-        let is_true = |f: &&Found| self.truths.iter().any(|truth| truth.what == f.what);
-        let physical = || self.found.iter().filter(|f| f.physical);
-        self.first = self.first.map(|_| physical().next().is_some_and(|f| is_true(&f)));
-        self.spurious = physical().filter(|f| !is_true(f)).count();
+        let physical = self.found.iter().filter(|f| f.physical);
+        let true_ones: Vec<bool> = physical.map(|f| self.is_true(f)).collect();
+        self.first = self.first.map(|_| true_ones.first() == Some(&true));
+        self.spurious = true_ones.iter().filter(|is_true| !**is_true).count();
         let left_out: Vec<u64> = found.left_out.iter().map(|row| row.line).collect();
         let floor = drawn.floor(&left_out);
         (self.floor, self.floor_rotation) = (floor.position_rms, floor.rotation_rms);
@@ -183,6 +215,10 @@ impl Case {
         self.noise_rotation = found.gap.noise.rotation_rms;
         self.noise_from = found.gap.noise.from;
         self.unexplained = found.unexplained.present;
+        match again(drawn, diagnosed, &left_out) {
+            Ok(again) => self.again = Some(again),
+            Err(error) => self.error = Some(format!("the written arm: {error}")),
+        }
         let happened = drawn.planted.iter().any(|p| !lasts(p.truth.effect))
             || self.found.iter().any(|f| matches!(f.what.effect.as_str(), "slip" | "drift"));
         let is_promised = !found.findings.is_empty() && !happened;
@@ -215,6 +251,28 @@ fn covered(truth: &stiffarm_gap::plant::Truth, found: &Found) -> Vec<bool> {
         own.is_some_and(|(_, _, [low, high])| (*low..=*high).contains(value))
     };
     values.map(is_covered).collect()
+}
+
+/// What the same rows are left with, by other ways than that which the diagnosis announces.
+fn again(
+    drawn: &Drawn,
+    diagnosed: &Diagnosed,
+    left_out: &[u64],
+) -> Result<[f64; 3], Box<dyn Error>> {
+    let gap = &diagnosed.diagnosis.gap;
+    let rows = diagnosed.explanation.predict(&drawn.data)?.after.into_iter();
+    let kept = rows.zip(&drawn.data.rows).filter(|(_, row)| !left_out.contains(&row.line));
+    let predicted = Statistics::of(&kept.map(|(gap, _)| gap).collect::<Vec<_>>());
+    let written = corrected(&drawn.file, diagnosed).robot.to_toml();
+    let (robot, _) = Robot::from_toml(&written, "corrected.toml")?;
+    let arm = stiffarm_gap::robot::arm(&robot)?;
+    let effects = Some(Vec::new());
+    let known = Known::all(&robot, &arm, &Catalogue::default());
+    let known = known.map_err(|errors| format!("{errors:?}"))?;
+    let options = Options { known, effects, ..options() };
+    let begins = diagnose_with(&arm, &drawn.data, &options, &|_| {})?.diagnosis.gap.before;
+    let all = [gap.after, predicted, begins];
+    Ok(all.map(|of| of.position_rms / gap.fitted.position_rms))
 }
 
 /// How far it shrinks over all later sessions, where the instrument was not just wrong.

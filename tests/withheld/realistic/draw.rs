@@ -2,6 +2,7 @@
 //! the diagnosis.
 
 use nalgebra::{DVector, Vector6};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::effects::{Draw, Effect, Place, Quantity};
 use stiffarm_gap::measurement::{Layout, Measurements};
@@ -56,6 +57,7 @@ pub struct Drawn {
     pub loads: bool,
     /// As designed: what the diagnosis is told.
     pub arm: Arm,
+    pub file: Robot,
     pub frames: Frames,
     /// Offsets and rows.
     pub geometry: Vec<Truth>,
@@ -113,6 +115,7 @@ pub fn draw(seed: u64) -> Drawn {
         orientation,
         loads,
         fresh: fresh.collect(),
+        file: model.file(&arm),
         arm: arm.clone(),
         frames: frames.clone(),
         geometry,

@@ -1,9 +1,11 @@
 //! The kinds of arm: parallel axes, a large one, seven joints, a small one.
 
 use nalgebra::Vector3;
+use stiffarm_codegen::number::Number;
+use stiffarm_codegen::robot::{Robot, Value};
 use stiffarm_kernels::generic::Arm;
 
-use crate::arms::arm;
+use crate::arms::{arm, file};
 
 /// A kind of arm and what it carries.
 pub struct Model {
@@ -42,5 +44,17 @@ impl Model {
             }
         }
         arm
+    }
+
+    /// The file of that arm.
+    pub fn file(&self, arm: &Arm) -> Robot {
+        let value = |x: f64| Value::Number(Number::Rounded(x));
+        let mut robot = file(self.robot);
+        for (row, joint) in robot.joints.iter_mut().zip(&arm.joints) {
+            row.stiffness = Some(value(1.0 / joint.compliance));
+            row.mass = Some(value(joint.mass));
+            row.com = [0, 1, 2].map(|k| value(joint.com[k]));
+        }
+        robot
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use serde::Serialize;
+use stiffarm_gap::gap::percentile;
 
 use super::case::Case;
 
@@ -15,9 +16,13 @@ const ALARMS: [f64; 2] = [0.0, 0.05];
 const AT_FLOOR: [f64; 2] = [0.95, 1.0];
 const COVERED: [f64; 2] = [0.90, 0.98];
 const SHRINK: [f64; 2] = [0.90, 1.0];
+const AGAIN: [f64; 2] = [1.0, 1.0];
 
 /// A gap of this many times the noise's own counts as closed.
 pub const CLOSED: f64 = 1.2;
+
+/// The written arm leaves what was announced, to this part.
+const SAME: f64 = 0.05;
 
 /// One figure and its goal.
 #[derive(Clone, Debug, Serialize)]
@@ -35,6 +40,10 @@ pub struct Score {
     pub arms: usize,
     pub failed: usize,
     pub figures: Vec<Figure>,
+    /// Truths that are named as their twins.
+    pub twins: usize,
+    /// Of [`Case::again`] the least, the median and the largest.
+    pub again: [[f64; 3]; 3],
     /// Of the diagnoses, s: median and longest.
     pub seconds: [f64; 2],
 }
@@ -49,8 +58,15 @@ impl Score {
         let inside = shrinks().filter(|s| (s.ci95[0]..=s.ci95[1]).contains(&s.realised)).count();
         let yes = |list: &[bool]| list.iter().filter(|y| **y).count();
         let figure = |what, hits, of, wanted| Figure { what, hits, of, wanted };
-        let mut seconds: Vec<f64> = cases.iter().map(|c| c.seconds).collect();
-        seconds.sort_by(f64::total_cmp);
+        let again: Vec<[f64; 3]> = cases.iter().filter_map(|c| c.again).collect();
+        let same = |[_, checked, written]: &&[f64; 3]| {
+            [checked, written].iter().all(|ratio| (**ratio - 1.0).abs() <= SAME)
+        };
+        let quantiles = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            [0.0, 0.5, 1.0].map(|part| percentile(&values, part))
+        };
+        let [_, median, longest] = quantiles(cases.iter().map(|c| c.seconds).collect());
         let spurious = cases.iter().map(|c| c.spurious).sum();
         let alarms = plain().filter(|c| c.spurious > 0).count();
         let closed = cases.iter().filter(|c| c.over_floor() <= CLOSED).count();
@@ -71,11 +87,11 @@ impl Score {
                 figure("at the floor", closed, cases.len(), AT_FLOOR),
                 figure("intervals cover", yes(&covered), covered.len(), COVERED),
                 figure("shrink as predicted", inside, shrinks().count(), SHRINK),
+                figure("the same again", again.iter().filter(same).count(), cases.len(), AGAIN),
             ],
-            seconds: [
-                seconds.get(seconds.len() / 2).copied().unwrap_or(0.0),
-                seconds.last().copied().unwrap_or(0.0),
-            ],
+            twins: truths().filter(|t| t.as_twin).count(),
+            again: [0, 1, 2].map(|k| quantiles(again.iter().map(|ratios| ratios[k]).collect())),
+            seconds: [median, longest],
         }
     }
 
@@ -103,12 +119,18 @@ impl fmt::Display for Score {
             let (rate, met) = (figure.rate(), if figure.met() { "" } else { "   missed" });
             writeln!(f, "{what:>20} {rate:>7.3} {hits:>4} of {of:<4} wanted {from} to {to}{met}")?;
         }
+        writeln!(f, "{:>20} {} of the named", "as their twins", self.twins)?;
+        for (what, [least, median, most]) in
+            ["held out", "checked", "written"].iter().zip(self.again)
+        {
+            writeln!(f, "{what:>20} {least:.3} {median:.3} {most:.3} of what is announced")?;
+        }
         let [median, longest] = self.seconds;
         writeln!(f, "{:>20} {median:>7.1} s in the middle, {longest:.1} s at most", "time")
     }
 }
 
-/// One line: the truths (`+` named, `~` in the set, `-` neither), what else was found, the gap.
+/// One line: the truths (`+` named, `=` as its twin, `~` in the set, `-` neither), what else was found, the gap.
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sight = if self.orientation { "6D" } else { "3D" };
@@ -118,15 +140,18 @@ impl fmt::Display for Case {
         write!(f, " {over:>5.2} of the floor {out:>3} out {:>6.1} s ", self.seconds)?;
         for truth in &self.truths {
             let mark = match (truth.named, truth.in_set) {
+                (true, _) if truth.as_twin => '=',
                 (true, _) => '+',
                 (_, true) => '~',
                 _ => '-',
             };
             write!(f, " {mark}{}@{} {:.1}", truth.what.effect, truth.what.place, truth.ratio)?;
         }
-        let is_true = |what| self.truths.iter().any(|t| t.what == what);
-        for found in self.found.iter().filter(|f| f.physical && !is_true(f.what.clone())) {
+        for found in self.found.iter().filter(|f| f.physical && !self.is_true(f)) {
             write!(f, " !{}@{}", found.what.effect, found.what.place)?;
+        }
+        if let Some([_, checked, written]) = self.again {
+            write!(f, " again {checked:.3} {written:.3}")?;
         }
         if let Some(error) = &self.error {
             write!(f, " {error}")?;

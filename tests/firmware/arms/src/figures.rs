@@ -3,8 +3,11 @@
 use stiffarm::kernels::{Pose, Unstable};
 
 use crate::Real;
+use crate::computed_torque::{self, Gains, Target};
 use crate::impedance::{Impedance, step};
-use crate::robots::{iiwa14, kuka_kr240, kuka_kr240_lean, ur5_lean, ur5_springs, ur10_lean};
+use crate::robots::{
+    iiwa14, kuka_kr240, kuka_kr240_lean, panda, ur5_lean, ur5_springs, ur10_lean, ur10_moving,
+};
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
 /// A function of joint values and a wrench that writes its result.
@@ -113,4 +116,48 @@ kernels! {
     iiwa14_pose_and_jacobian(q: 7, _) -> PoseAndJacobian<S, 7> {
         pose_and_jacobian!(iiwa14, q)
     } from (iiwa14::pose(&[S::of(0); 7]), [[S::of(0); 6]; 7]);
+    /// Torques of the UR10's motors for a motion.
+    ur10_inverse_dynamics(state: 18, _) -> [S; 6] {
+        let ([q, qd, qdd], _) = state.as_chunks() else { return };
+        ur10_moving::inverse_dynamics(q, qd, qdd)
+    } from [S::of(0); 6];
+    /// The same where no joint accelerates.
+    ur10_bias(state: 12, _) -> [S; 6] {
+        let ([q, qd], _) = state.as_chunks() else { return };
+        ur10_moving::bias(q, qd)
+    } from [S::of(0); 6];
+    /// The same of the UR10's weights alone, with the opposite sign.
+    ur10_weight_torque(q: 6, _) -> [S; 6] {
+        ur10_moving::weight_torque(q)
+    } from [S::of(0); 6];
+    /// Mass matrix of the UR10.
+    ur10_mass_matrix(q: 6, _) -> [[S; 6]; 6] {
+        ur10_moving::mass_matrix(q)
+    } from [[S::of(0); 6]; 6];
+    /// Accelerations of the UR10 under its motors' torques.
+    ur10_forward_dynamics(state: 18, _) -> Result<[S; 6], Unstable> {
+        let ([q, qd, tau], _) = state.as_chunks() else { return };
+        ur10_moving::forward_dynamics(q, qd, tau)
+    } from Err(Unstable);
+    /// Regressor of the UR10's torques.
+    ur10_torque_regressor(state: 18, _) -> [[S; 6]; 60] {
+        let ([q, qd, qdd], _) = state.as_chunks() else { return };
+        ur10_moving::torque_regressor(q, qd, qdd)
+    } from [[S::of(0); 6]; 60];
+    /// One period of computed-torque control of the UR10, written against the trait.
+    computed_torque_period(state: 30, _) -> [S; 6] {
+        let ([q, qd, there, rates, accelerations], _) = state.as_chunks() else { return };
+        let target = Target { q: *there, qd: *rates, qdd: *accelerations };
+        let gains = Gains { stiffness: S::of(100), damping: S::of(20) };
+        computed_torque::step(&ur10_moving::Robot, (q, qd), &target, &gains)
+    } from [S::of(0); 6];
+    /// Torques of the Panda's motors for a motion.
+    panda_inverse_dynamics(state: 21, _) -> [S; 7] {
+        let ([q, qd, qdd], _) = state.as_chunks() else { return };
+        panda::inverse_dynamics(q, qd, qdd)
+    } from [S::of(0); 7];
+    /// Mass matrix of the Panda.
+    panda_mass_matrix(q: 7, _) -> [[S; 7]; 7] {
+        panda::mass_matrix(q)
+    } from [[S::of(0); 7]; 7];
 }

@@ -2,7 +2,7 @@
 
 use stiffarm::kernels::{Output, Unstable};
 
-use crate::robots::{iiwa14, kuka_kr240, ur5_springs, ur10, various};
+use crate::robots::{iiwa14, kuka_kr240, panda, ur5_springs, ur10, various};
 use crate::{Real, draw::draw};
 
 /// What the function `all` gives, after the outputs one by one.
@@ -24,11 +24,29 @@ pub const OUTPUTS: usize = EACH + OF_ALL.len();
 /// The arms, in the order in which [`visit`] calls them.
 pub const ARMS: [&str; 5] = ["ur10", "kuka_kr240", "iiwa14", "ur5_springs", "various"];
 
-/// The name of output number `index`.
-pub fn name(index: usize) -> &'static str {
-    match index.checked_sub(EACH) {
-        None => Output::EACH[index].name(),
-        Some(of_all) => OF_ALL[of_all],
+/// The arms that say how their mass is spread, in the order in which [`visit`] calls them after all others.
+pub const MOVING: [&str; 2] = ["ur10", "panda"];
+
+/// Their equations of motion.
+pub const OF_MOTION: [Output; 5] = [
+    Output::InverseDynamics,
+    Output::Bias,
+    Output::MassMatrix,
+    Output::ForwardDynamics,
+    Output::TorqueRegressor,
+];
+
+/// Results of one draw.
+pub const RESULTS: usize = ARMS.len() * OUTPUTS + MOVING.len() * OF_MOTION.len();
+
+/// The output and the arm of result number `index` of a draw.
+pub fn name(index: usize) -> (&'static str, &'static str) {
+    match index.checked_sub(ARMS.len() * OUTPUTS) {
+        Some(index) => (OF_MOTION[index % OF_MOTION.len()].name(), MOVING[index / OF_MOTION.len()]),
+        None => match index % OUTPUTS {
+            at @ ..EACH => (Output::EACH[at].name(), ARMS[index / OUTPUTS]),
+            at => (OF_ALL[at - EACH], ARMS[index / OUTPUTS]),
+        },
     }
 }
 
@@ -74,12 +92,35 @@ arm!(iiwa14);
 arm!(ur5_springs);
 arm!(various);
 
+macro_rules! moving {
+    ($name:ident: $arm:ident) => {
+        /// The equations of motion of this arm at draw `k`.
+        #[inline(never)]
+        fn $name<S: Real>(k: u32, mut see: impl FnMut(Result<&[S], Unstable>)) {
+            let (state, _) = draw::<S, { 3 * $arm::N }>(k);
+            // The last are accelerations or torques.
+            let ([q, qd, last], _) = state.as_chunks() else { return };
+            see(Ok(&$arm::inverse_dynamics(q, qd, last)));
+            see(Ok(&$arm::bias(q, qd)));
+            see(Ok($arm::mass_matrix(q).as_flattened()));
+            let accelerations = $arm::forward_dynamics(q, qd, last);
+            see(accelerations.as_ref().map(<[S; $arm::N]>::as_slice).map_err(|e| *e));
+            see(Ok($arm::torque_regressor(q, qd, last).as_flattened()));
+        }
+    };
+}
+
+moving!(ur10_moves: ur10);
+moving!(panda_moves: panda);
+
 /// Calls every output of every arm at draw `k` and shows the result, column by column, or that
-/// there is no stable equilibrium: arm by arm, [`OUTPUTS`] times each.
+/// there is none, [`RESULTS`] times: arm by arm, then the equations of motion arm by arm.
 pub fn visit<S: Real>(k: u32, mut see: impl FnMut(Result<&[S], Unstable>)) {
     ur10(k, &mut see);
     kuka_kr240(k, &mut see);
     iiwa14(k, &mut see);
     ur5_springs(k, &mut see);
     various(k, &mut see);
+    ur10_moves(k, &mut see);
+    panda_moves(k, &mut see);
 }

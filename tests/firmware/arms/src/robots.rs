@@ -34,6 +34,16 @@ robot! {
     outputs: pose, jacobian;
 }
 robot! {
+    /// The UR10 as a loop of torques needs it.
+    pub mod ur10_moving from "../../../robots/arms/ur10.toml";
+    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor, weight_torque;
+}
+robot! {
+    /// Franka Emika Panda: seven joints, ten full numbers for every link.
+    pub mod panda from "../../../robots/arms/panda.toml";
+    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor;
+}
+robot! {
     /// Something of everything: a joint that slides, beams, weights, oblique twists, a turned tool.
     pub mod various from "../../c/arm.toml";
 }

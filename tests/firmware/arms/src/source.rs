@@ -2,7 +2,8 @@
 //! that hold what they were told one period before, and three readings that are broken.
 
 use crate::Real;
-use crate::robots::ur5_springs::{self as arm, N};
+use crate::path::{self, N};
+use crate::robots::ur5_springs as arm;
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
 /// Periods of the run: one second at 1 kHz.
@@ -12,25 +13,14 @@ pub const PERIODS: u32 = 1_000;
 /// is finite and no angle.
 pub const BROKEN: [u32; 3] = [250, 500, 750];
 
-/// Postures at both ends, milliradian.
-const FROM: [i32; N] = [-900, -1300, 1700, -2000, -1400, 300];
-const TO: [i32; N] = [1100, -600, 900, -1200, 1500, -1800];
-
 /// Weight of the payload, N, and its centre in tool axes, mm.
 pub const WEIGHT: i32 = 50;
 /// See [`WEIGHT`].
 pub const CENTRE: [i32; 3] = [20, -10, 60];
 
-/// The target of a period: a smooth step from one posture to the other.
+/// The target of a period.
 pub fn target<S: Real>(period: u32) -> [S; N] {
-    let t = S::of(period.cast_signed()) * S::of(PERIODS.cast_signed()).recip();
-    let s = t * t * (S::of(3) - S::of(2) * t);
-    let milli = S::of(1_000).recip();
-    let mut q = [S::of(0); N];
-    for ((value, from), to) in q.iter_mut().zip(FROM).zip(TO) {
-        *value = milli * (S::of(from) + s * S::of(to - from));
-    }
-    q
+    path::at(S::of(period.cast_signed()) * S::of(PERIODS.cast_signed()).recip()).q
 }
 
 /// The wrench of the payload's weight in tool axes, for a tool with these axes.

@@ -2,9 +2,9 @@
 
 use stiffarm_firmware_arms::Real;
 use stiffarm_firmware_arms::draw::COUNT;
-use stiffarm_firmware_arms::outputs::{ARMS, OUTPUTS, name, visit};
-use stiffarm_firmware_arms::record::{self, NOT_FINITE, Sink, UNSTABLE};
-use stiffarm_firmware_arms::source::{PERIODS, run};
+use stiffarm_firmware_arms::outputs::{RESULTS, name};
+use stiffarm_firmware_arms::record::{NOT_FINITE, Sink, UNSTABLE};
+use stiffarm_firmware_arms::{everything, source, swing};
 
 use crate::Failure;
 
@@ -22,9 +22,10 @@ pub enum Given<S> {
 /// Every result of a run, in its order.
 pub struct Results<S>(pub Vec<Given<S>>);
 
-/// How many results the kernels have, and how many the loop.
-const KERNELS: usize = COUNT as usize * ARMS.len() * OUTPUTS;
-const LOOP: usize = PERIODS as usize;
+/// How many results the kernels have, and how many the loops.
+const KERNELS: usize = COUNT as usize * RESULTS;
+const SET_POINTS: usize = source::PERIODS as usize;
+const LOOPS: usize = SET_POINTS + swing::PERIODS as usize;
 
 impl<S: Real> Sink for Results<S> {
     fn word(&mut self, word: u32) {
@@ -45,11 +46,8 @@ impl<S: Real> Sink for Results<S> {
 impl<S: Real> Results<S> {
     /// What the host computes.
     pub fn of_the_host() -> Self {
-        let mut results = Results(Vec::with_capacity(KERNELS + LOOP));
-        for k in 0..COUNT {
-            visit::<S>(k, |result| record::output(&mut results, result));
-        }
-        run::<S>(|_, _, result| record::period(&mut results, result));
+        let mut results = Results(Vec::with_capacity(KERNELS + LOOPS));
+        everything::write::<S>(&mut results);
         results
     }
 
@@ -58,7 +56,7 @@ impl<S: Real> Results<S> {
     /// # Errors
     /// If the bytes end within a result.
     pub fn read(mut bytes: &[u8]) -> Result<Self, Failure> {
-        let mut results = Results(Vec::with_capacity(KERNELS + LOOP));
+        let mut results = Results(Vec::with_capacity(KERNELS + LOOPS));
         while let Some((word, rest)) = bytes.split_first_chunk() {
             bytes = rest;
             let word = u32::from_le_bytes(*word);
@@ -82,15 +80,15 @@ impl<S: Real> Results<S> {
     ///
     /// # Errors
     /// What is missing.
-    pub fn are_whole(&self, with_loop: bool) -> Result<(), Failure> {
-        let expected = if with_loop { KERNELS + LOOP } else { KERNELS };
+    pub fn are_whole(&self, with_loops: bool) -> Result<(), Failure> {
+        let expected = if with_loops { KERNELS + LOOPS } else { KERNELS };
         if self.0.len() != expected {
             return Err(format!("{} results, expected {expected}", self.0.len()));
         }
         if !self.0.contains(&Given::Unstable) {
             return Err("no load is refused as unstable: the draws do not try it".to_owned());
         }
-        if with_loop && !self.0[KERNELS..].contains(&Given::NotFinite) {
+        if with_loops && !self.0[KERNELS..].contains(&Given::NotFinite) {
             return Err("the loop refuses no reading: its source breaks none".to_owned());
         }
         Ok(())
@@ -105,7 +103,7 @@ impl<S: Real> Results<S> {
         self.0.iter().map(numbers).sum()
     }
 
-    /// Results alone of the kernels, without the loop's.
+    /// Results alone of the kernels, without the loops'.
     pub fn of_kernels(&self) -> Self {
         Results(self.0[..KERNELS].to_vec())
     }
@@ -167,9 +165,10 @@ fn same<S: Real>(a: &Given<S>, b: &Given<S>) -> bool {
 
 /// What a result is of.
 fn place(at: usize) -> String {
-    if at >= KERNELS {
-        return format!("period {} of the loop", at - KERNELS);
+    let (output, arm) = name(at % RESULTS);
+    match at.checked_sub(KERNELS) {
+        None => format!("draw {}, {output} of {arm}", at / RESULTS),
+        Some(period @ ..SET_POINTS) => format!("period {period} of the set-points"),
+        Some(period) => format!("period {} of the computed torques", period - SET_POINTS),
     }
-    let (draw, rest) = (at / (ARMS.len() * OUTPUTS), at % (ARMS.len() * OUTPUTS));
-    format!("draw {draw}, {} of {}", name(rest % OUTPUTS), ARMS[rest / OUTPUTS])
 }

@@ -1,12 +1,13 @@
 //! The kernels in C, compiled for the Cortex-M4F.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use stiffarm::kernels::Output;
+use stiffarm::kernels::{Input, Output};
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_firmware_arms::outputs::{ARMS, EACH};
+use stiffarm_firmware_arms::outputs::{ARMS, EACH, MOVING, OF_MOTION};
 
 use crate::Failure;
 use crate::tools::{Tools, succeed};
@@ -44,6 +45,7 @@ fn toml(arm: &str) -> Result<&'static str, Failure> {
         "kuka_kr240" => include_str!("../../../../robots/arms/kuka_kr240.toml"),
         "iiwa14" => include_str!("../../../../robots/arms/iiwa14.toml"),
         "ur5_springs" => include_str!("../../arms/ur5_springs.toml"),
+        "panda" => include_str!("../../../../robots/arms/panda.toml"),
         "various" => include_str!("../../../c/arm.toml"),
         _ => return Err(format!("no robot file for the arm {arm}")),
     })
@@ -61,8 +63,11 @@ pub fn objects(tools: &Tools, contraction: Contraction) -> Result<Vec<PathBuf>, 
     let folder = tools.target.join(folder);
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut names: Vec<String> = Vec::new();
-    let mut sizes = Vec::new();
-    for arm in ARMS {
+    let mut sizes = BTreeMap::new();
+    for arm in ARMS.into_iter().chain(MOVING) {
+        if sizes.contains_key(arm) {
+            continue;
+        }
         let robot = Robot::from_toml(toml(arm)?, arm).map_err(|e| format!("{arm}: {e:?}"))?.0;
         let name = arm.to_owned();
         let options = COptions { name, precision: Precision::F32, sines: Sines::Polynomial };
@@ -70,7 +75,7 @@ pub fn objects(tools: &Tools, contraction: Contraction) -> Result<Vec<PathBuf>, 
         write(&folder.join(format!("{arm}.h")), &files.header)?;
         write(&folder.join(format!("{arm}.c")), &files.source)?;
         names.push(arm.to_owned());
-        sizes.push((arm, robot.dof()));
+        sizes.insert(arm, robot.dof());
     }
     write(&folder.join("calls.c"), &calls(&sizes))?;
     names.push("calls".to_owned());
@@ -91,45 +96,24 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
     fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// C that calls an output by the numbers of the arm and the output.
-fn calls(arms: &[(&str, usize)]) -> String {
-    let (mut includes, mut cases) = (String::new(), String::new());
-    for (index, (arm, n)) in arms.iter().enumerate() {
-        includes.push_str(&format!("#include \"{arm}.h\"\n"));
-        for (k, output) in Output::EACH.into_iter().enumerate().take(EACH) {
-            let (rows, columns) = output.shape(*n);
-            let beside: String = output.beside().map(|i| format!("{}, ", i.name())).collect();
-            let call = format!("{arm}_{}(q, {beside}out)", output.name());
-            let call = match output.is_fallible() {
-                true => format!("count = ((int){call} == 0) ? {} : -1;", rows * columns),
-                false => format!("{call};\n        count = {};", rows * columns),
-            };
-            cases.push_str(&format!(
-                "    case {}:\n        {call}\n        break;\n",
-                32 * index + k
-            ));
-        }
-        for (k, output) in Output::ALL.into_iter().enumerate() {
-            let (rows, columns) = output.shape(*n);
-            cases.push_str(&format!(
-                "    case {}:
-        if ((int){arm}_all(q, wrench, &{arm}_everything) == 0)
-        {{
-            count = copy({arm}_everything.{}, {}, out);
-        }}
-        break;
-",
-                32 * index + EACH + k,
-                output.name(),
-                rows * columns
-            ));
-        }
-    }
+/// C that calls the results of a draw by their numbers, for arms of so many joints.
+fn calls(sizes: &BTreeMap<&str, usize>) -> String {
+    let includes: String = sizes.keys().map(|arm| format!("#include \"{arm}.h\"\n")).collect();
     let everything: String =
-        arms.iter().map(|(arm, _)| format!("static {arm}_all_t {arm}_everything;\n")).collect();
+        ARMS.iter().map(|arm| format!("static {arm}_all_t {arm}_everything;\n")).collect();
+    let mut each = Vec::new();
+    for arm in ARMS {
+        each.extend(Output::EACH.iter().take(EACH).map(|output| one(arm, *output, sizes[arm])));
+        each.extend(Output::ALL.map(|output| one_of_all(arm, output, sizes[arm])));
+    }
+    for arm in MOVING {
+        each.extend(OF_MOTION.map(|output| one(arm, output, sizes[arm])));
+    }
+    let case = |(k, call)| format!("    case {k}:\n{call}        break;\n");
+    let cases: String = each.into_iter().enumerate().map(case).collect();
     format!(
         "{includes}
-int stiffarm_c_output(int arm, int output, const float *q, const float *wrench, float *out);
+int stiffarm_c_result(int result, const float *q, const float *wrench, float *out);
 void stiffarm_c_pose_and_jacobian(const float *q, float *pose, float *jacobian);
 
 {everything}
@@ -144,11 +128,11 @@ static int copy(const float *from, int count, float *to)
     return count;
 }}
 
-int stiffarm_c_output(int arm, int output, const float *q, const float *wrench, float *out)
+int stiffarm_c_result(int result, const float *q, const float *wrench, float *out)
 {{
     int count = -1;
 
-    switch ((32 * arm) + output)
+    switch (result)
     {{
 {cases}    default:
         break;
@@ -165,5 +149,35 @@ void stiffarm_c_pose_and_jacobian(const float *q, float *pose, float *jacobian)
     ur5_springs_given_jacobian(&posture, jacobian);
 }}
 "
+    )
+}
+
+/// Calls an output of an arm of `n` joints, which finds what it takes of them behind `q`.
+fn one(arm: &str, output: Output, n: usize) -> String {
+    let (rows, columns) = output.shape(n);
+    let beside = output.beside().map(|input| match input {
+        Input::Rates => format!("q + {n}, "),
+        Input::Accelerations | Input::Torques => format!("q + {}, ", 2 * n),
+        _ => format!("{}, ", input.name()),
+    });
+    let call = format!("{arm}_{}(q, {}out)", output.name(), beside.collect::<String>());
+    let count = rows * columns;
+    match output.is_fallible() {
+        true => format!("        count = ((int){call} == 0) ? {count} : -1;\n"),
+        false => format!("        {call};\n        count = {count};\n"),
+    }
+}
+
+/// Calls the function that computes several, and takes one of them.
+fn one_of_all(arm: &str, output: Output, n: usize) -> String {
+    let (rows, columns) = output.shape(n);
+    format!(
+        "        if ((int){arm}_all(q, wrench, &{arm}_everything) == 0)
+        {{
+            count = copy({arm}_everything.{}, {}, out);
+        }}
+",
+        output.name(),
+        rows * columns
     )
 }

@@ -119,8 +119,8 @@ fn prove<S: Real>(
 }
 
 /// The same bits; and a reference with one bit turned over is found out.
-fn compare<S: Real>(sent: &[u8], expected: &Results<S>, with_loop: bool) -> Result<(), Failure> {
-    expected.are_whole(with_loop)?;
+fn compare<S: Real>(sent: &[u8], expected: &Results<S>, with_loops: bool) -> Result<(), Failure> {
+    expected.are_whole(with_loops)?;
     let found = Results::<S>::read(sent)?;
     if let Some(difference) = expected.difference(&found) {
         return Err(format!("host and board differ: {difference}"));

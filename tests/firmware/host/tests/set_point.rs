@@ -2,45 +2,18 @@
 //! solved by iteration with the textbook's pose and Jacobian, which share no code with the kernels.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
-use stiffarm::kernels::DhRow;
 use stiffarm_firmware_arms::Real;
 use stiffarm_firmware_arms::draw::draw;
-use stiffarm_firmware_arms::robots::ur5_springs::{DH, N};
+use stiffarm_firmware_arms::robots::ur5_springs::{DH, N, Robot};
 use stiffarm_firmware_arms::set_point::{Reading, Refusal, STIFFNESS, correct};
 use stiffarm_firmware_arms::source::{BROKEN, CENTRE, PERIODS, WEIGHT, run, target};
-use stiffarm_kernels::generic::{Arm, Convention, Joint};
+use stiffarm_kernels::generic::Arm;
+use textbook::textbook;
 
-/// The arm as the textbook has it: the rows of the table that the kernels were made of, as text.
+mod textbook;
+
 fn arm() -> Arm {
-    let number = |text: &str| match text {
-        "pi/2" => std::f64::consts::FRAC_PI_2,
-        "-pi/2" => -std::f64::consts::FRAC_PI_2,
-        other => other.parse().expect("a number"),
-    };
-    let joint = |row: &DhRow| Joint {
-        motion: row.motion,
-        theta: number(row.theta),
-        d: number(row.d),
-        a: number(row.a),
-        alpha: number(row.alpha),
-        beta: number(row.beta),
-        compliance: 1.0 / number(row.stiffness),
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: None,
-    };
-    Arm {
-        name: "UR5-like with springs".to_owned(),
-        convention: Convention::Standard,
-        joints: DH.iter().map(joint).collect(),
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity: Vector3::zeros(),
-    }
+    textbook(&Robot, include_str!("../../arms/ur5_springs.toml"))
 }
 
 /// Where the links rest when the motors hold `held` under a load that depends on the tool's pose.

@@ -1,4 +1,4 @@
-//! Every kernel and the control loop, for the host and without std: linked against nothing, it
+//! Every kernel and the control loops, for the host and without std: linked against nothing, it
 //! shows that no panic can be reached and that nothing allocates.
 #![no_std]
 #![allow(unsafe_code, reason = "C linkage: what is undefined must not link")]
@@ -10,12 +10,11 @@ use core::panic::PanicInfo;
 
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm_firmware_arms::Real;
-use stiffarm_firmware_arms::draw::{COUNT, draw};
+use stiffarm_firmware_arms::draw::draw;
+use stiffarm_firmware_arms::everything;
 use stiffarm_firmware_arms::figures::{Counter, Kernel, each};
-use stiffarm_firmware_arms::outputs::visit;
-use stiffarm_firmware_arms::record::{self, Sink};
+use stiffarm_firmware_arms::record::Sink;
 use stiffarm_firmware_arms::robots::kuka_kr240;
-use stiffarm_firmware_arms::source::run;
 
 unsafe extern "C" {
     // Nowhere defined: what can reach a panic does not link.
@@ -52,11 +51,8 @@ impl<S: Real> Counter<S> for Out {
     }
 }
 
-fn everything<S: Real>() {
-    for k in 0..COUNT {
-        visit::<S>(k, |result| record::output(&mut Out, result));
-    }
-    run::<S>(|_, _, result| record::period(&mut Out, result));
+fn all<S: Real>() {
+    everything::write::<S>(&mut Out);
     each::<S>(&mut Out);
     through_a_pointer::<S>(&kuka_kr240::Robot, core::hint::black_box(5));
 }
@@ -83,6 +79,6 @@ pub extern "C" fn stiffarm_probe() {
     Out.word([1, 2, 3][core::hint::black_box(4)]);
     #[cfg(feature = "control-alloc")]
     Out.word(alloc::vec![core::hint::black_box(1); 4].len() as u32);
-    everything::<f32>();
-    everything::<f64>();
+    all::<f32>();
+    all::<f64>();
 }

@@ -1,4 +1,4 @@
-//! Sends the bits of every output of every arm at every draw, then those of the control loop.
+//! Sends the bits of every output of every arm at every draw, then those of the control loops.
 #![no_std]
 #![no_main]
 
@@ -6,10 +6,7 @@
 extern crate alloc;
 
 use cortex_m_rt::entry;
-use stiffarm_firmware_arms::draw::COUNT;
-use stiffarm_firmware_arms::outputs::visit;
-use stiffarm_firmware_arms::record;
-use stiffarm_firmware_arms::source::run;
+use stiffarm_firmware_arms::everything;
 use stiffarm_firmware_image::Number;
 use stiffarm_firmware_image::port::Port;
 
@@ -18,9 +15,6 @@ fn main() -> ! {
     let mut port = Port::open();
     #[cfg(feature = "control-panic")]
     port.send(&[stiffarm_firmware_image::indexed(&[1, 2, 3])]);
-    for k in 0..COUNT {
-        visit::<Number>(k, |result| record::output(&mut port, result));
-    }
-    run::<Number>(|_, _, result| record::period(&mut port, result));
+    everything::write::<Number>(&mut port);
     port.close()
 }

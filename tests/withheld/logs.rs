@@ -1,0 +1,223 @@
+//! The withheld check of joint logs: effects are put into a plant that moves, and the diagnosis reads
+//! its log as a file.
+//!
+//! ```text
+//! cargo test -p stiffarm --release --test withheld -- --ignored --nocapture logs::tuning
+//! cargo test -p stiffarm --release --test withheld -- --ignored --nocapture logs::kept_apart
+//! ```
+//!
+//! Both move two arms in many ways, with noise of many sizes and colours, and print a line for each log
+//! in which something else was named; `LOGS_CASES=n` tries so many of each setting. The seeds of the
+//! second are those that nobody tunes by: it holds the goals, over 200 logs.
+
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::dice::{Dice, Stream};
+use stiffarm_gap::log::LogOptions;
+use stiffarm_gap::log::effects::CATALOGUE;
+use stiffarm_gap::motion::{Fourier, Limits};
+use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
+use stiffarm_gap::withhold::logs::{LogCase, LogPlan, LogReport, withhold};
+use stiffarm_gap::withhold::{Kind, Named};
+use stiffarm_kernels::generic::Arm;
+
+use crate::goals::Goals;
+
+/// One arm, moved and logged in one way.
+struct Setting {
+    name: &'static str,
+    robot: &'static str,
+    logged: Logged,
+    recording: Recording,
+    /// Runs, s each.
+    runs: usize,
+    period: f64,
+    /// Harmonics of the motion.
+    harmonics: usize,
+    /// Part of the quick form.
+    quick: bool,
+}
+
+const MOTOR: Logged = Logged::Torque(Side::Motor);
+
+fn settings() -> Vec<Setting> {
+    let usual = Recording::default();
+    let servo = Recording { rate: 50.0, encoder: 1.5e-3, reading: 5e-4, lost: 0.0, ..usual };
+    let setting = |name, robot, logged, recording| Setting {
+        name,
+        robot,
+        logged,
+        recording,
+        runs: 1,
+        period: 60.0,
+        harmonics: 40,
+        quick: false,
+    };
+    vec![
+        Setting { quick: true, ..setting("motor", "ur10", MOTOR, usual) },
+        Setting {
+            runs: 3,
+            period: 25.0,
+            harmonics: 15,
+            ..setting(
+                "motor, three runs, coloured noise",
+                "ur10",
+                MOTOR,
+                Recording { rate: 125.0, torque: 0.03, colour: 0.02, jitter: 5e-4, ..usual },
+            )
+        },
+        setting(
+            "motor, seven joints",
+            "panda",
+            MOTOR,
+            Recording { rate: 500.0, torque: 0.04, encoder: 2e-6, ..usual },
+        ),
+        Setting {
+            runs: 2,
+            period: 40.0,
+            harmonics: 25,
+            ..setting(
+                "motor, coarse and slow",
+                "ur5",
+                MOTOR,
+                Recording { rate: 100.0, torque: 0.01, encoder: 5e-5, lost: 0.01, ..usual },
+            )
+        },
+        Setting { quick: true, ..setting("servo", "ur5", Logged::Position, servo) },
+        Setting {
+            runs: 4,
+            period: 25.0,
+            harmonics: 15,
+            ..setting(
+                "servo, four runs",
+                "ur10",
+                Logged::Position,
+                Recording { rate: 100.0, encoder: 1e-4, reading: 2e-4, ..servo },
+            )
+        },
+    ]
+}
+
+/// A built-in arm with rotors and friction such as arms of its size have, which its file then knows.
+fn arm(id: &str) -> Arm {
+    let file = stiffarm_robots::arm(id).expect("a built-in robot");
+    let (robot, _) = Robot::from_toml(file.toml, id).expect("a right file");
+    let mut arm = stiffarm_gap::robot::arm(&robot).expect("numbers for everything");
+    let last = (arm.dof() - 1) as f64;
+    let weight = arm.joints.iter().map(|joint| joint.mass).sum::<f64>();
+    for (j, joint) in arm.joints.iter_mut().enumerate() {
+        // A tenth at the tip of what there is at the base.
+        let size = weight * 10_f64.powf(-(j as f64) / last);
+        joint.drive.gear = 100.0;
+        joint.drive.rotor_inertia = 0.05 * size / 1e4;
+        (joint.drive.coulomb, joint.drive.viscous) = (0.4 * size, 0.4 * size);
+    }
+    arm
+}
+
+/// Effects that the diagnosis knows; of others nothing can be asked.
+fn known() -> Vec<&'static Law> {
+    let known = |law: &&Law| CATALOGUE.iter().any(|effect| effect.identifier() == law.name);
+    LAWS.iter().filter(known).collect()
+}
+
+fn run(setting: &Setting, cases: usize, seed: u64) -> LogReport {
+    let arm = arm(setting.robot);
+    let limits = Limits::of(&arm, &[1.5], &[5.0]).expect("joints with limits");
+    let course = |k: usize| {
+        let mut dice = Dice::new(seed + k as u64, Stream::Poses);
+        Fourier::draw(&limits, setting.period, setting.harmonics, &mut dice)
+    };
+    let courses: Vec<Fourier> = (0..setting.runs).map(course).collect();
+    let stages: Vec<Stage<'_>> =
+        courses.iter().map(|course| Stage { course, payload: None }).collect();
+    let only = std::env::var("LOGS_EFFECTS").ok();
+    let asked = |law: &&'static Law| only.as_ref().is_none_or(|only| only.contains(law.name));
+    let effects: Vec<&'static Law> = known().into_iter().filter(asked).collect();
+    let plan = LogPlan {
+        arm: &arm,
+        stages: &stages,
+        logged: setting.logged,
+        recording: setting.recording,
+        effects: &effects,
+        cases,
+        multiple: [1.0, 3.0],
+        seed,
+        options: &LogOptions::default(),
+        threads: 2,
+    };
+    let report = withhold(&plan, &|_, _| {}).expect("a plan that can be carried out");
+    assert_eq!(report.failed, 0, "{:?}", report.cases.iter().find(|c| c.error.is_some()));
+    report
+}
+
+/// The cases in which what was put in is not what was named: one line each.
+fn strays(report: &LogReport) -> String {
+    let line = |case: &&LogCase| {
+        let set = |set: &Vec<Named>| {
+            let names: Vec<String> =
+                set.iter().map(|n| format!("{}@{}", n.effect, n.place)).collect();
+            names.join(" or ")
+        };
+        let named: Vec<String> = case.verdict.iter().flat_map(|v| &v.sets).map(set).collect();
+        let left = case.verdict.as_ref().map_or(f64::NAN, |v| 100.0 * v.left);
+        format!(
+            "  {:?} {} (×{:.1}) → {} [{left:.1} % left]\n",
+            case.asked.kind,
+            case.asked.truth.as_deref().unwrap_or("nothing"),
+            case.asked.multiple.unwrap_or_default(),
+            named.join(", ")
+        )
+    };
+    let is_stray = |case: &&LogCase| match case.asked.kind {
+        Kind::None => case.verdict.as_ref().is_some_and(|v| !v.sets.is_empty()),
+        _ => !case.is_right(),
+    };
+    report.cases.iter().filter(is_stray).map(|case| line(&case)).collect()
+}
+
+fn all(seed: u64, cases: usize) -> Goals {
+    let cases = std::env::var("LOGS_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(cases);
+    let only = std::env::var("LOGS_ONLY").ok();
+    let mut reports = Vec::new();
+    for (k, setting) in settings().iter().enumerate() {
+        if only.as_ref().is_some_and(|only| !setting.name.contains(only.as_str())) {
+            continue;
+        }
+        let started = std::time::Instant::now();
+        let report = run(setting, cases, seed + 100 * k as u64);
+        println!("{} ({}), {:.0} s", setting.name, setting.robot, started.elapsed().as_secs_f64());
+        print!("{}{}", Goals::of_logs(core::slice::from_ref(&report)), strays(&report));
+        if !report.cannot_plant.is_empty() {
+            println!("  does not show: {}", report.cannot_plant.join(", "));
+        }
+        reports.push(report);
+    }
+    let goals = Goals::of_logs(&reports);
+    println!("all\n{goals}");
+    goals
+}
+
+#[test]
+#[ignore = "takes minutes: see the head of this file"]
+fn tuning() {
+    all(1, 34);
+}
+
+#[test]
+#[ignore = "takes minutes: see the head of this file"]
+fn kept_apart() {
+    let goals = all(10_001, 34);
+    assert!(goals.cases >= 200);
+    assert_eq!(goals.missed(), Vec::<String>::new(), "{goals}");
+}
+
+/// Ten logs of each of two settings: a rate must not be worse than its goal beyond chance.
+#[test]
+#[ignore = "the diagnosis does not reach the goals yet: see docs/logs.md"]
+fn quick() {
+    let quick = settings().into_iter().filter(|setting| setting.quick).enumerate();
+    let reports: Vec<_> = quick.map(|(k, s)| run(&s, 10, 5_001 + 100 * k as u64)).collect();
+    let goals = Goals::of_logs(&reports);
+    let strays: String = reports.iter().map(strays).collect();
+    assert_eq!(goals.missed_beyond_chance(), Vec::<String>::new(), "{goals}{strays}");
+}
