@@ -10,15 +10,13 @@ The arms are those of robots/arms. Of links whose moments of inertia nobody publ
 rotors. What was drawn stands in the file beside the numbers.
 """
 
-import json
 import tomllib
-from pathlib import Path
 
 import numpy
 import pinocchio
+from fixture import ROOT, write
 from pinocchio import SE3, Inertia
 
-ROOT = Path(__file__).resolve().parent.parent
 SAMPLES = 20
 ARMS = ["panda", "ur10", "kuka_kr240", "iiwa14", "stanford", "puma560"]
 
@@ -102,6 +100,8 @@ def sample(model, data, generator, regressor):
     q, v, a = (generator.uniform(-2.0, 2.0, model.nv) for _ in range(3))
     tau = generator.uniform(-50.0, 50.0, model.nv)
     torque = pinocchio.rnea(model, data, q, v, a)
+    by_joints, by_rates, _ = pinocchio.computeRNEADerivatives(model, data, q, v, a)
+    by_joints, by_rates = by_joints.copy(), by_rates.copy()
     mass = pinocchio.crba(model, data, q)
     mass = numpy.triu(mass) + numpy.triu(mass, 1).T
     found = {
@@ -112,6 +112,8 @@ def sample(model, data, generator, regressor):
         "inverse_dynamics": torque.tolist(),
         "bias": pinocchio.nonLinearEffects(model, data, q, v).tolist(),
         "mass_matrix": mass.T.flatten().tolist(),
+        "inverse_dynamics_by_joints": by_joints.T.flatten().tolist(),
+        "inverse_dynamics_by_rates": by_rates.T.flatten().tolist(),
         "forward_dynamics": pinocchio.aba(model, data, q, v, tau).tolist(),
     }
     if regressor:
@@ -121,8 +123,6 @@ def sample(model, data, generator, regressor):
 
 
 def main():
-    folder = ROOT / "tests/data/pinocchio/dynamics"
-    folder.mkdir(exist_ok=True)
     generator = numpy.random.default_rng(21)
     for arm in ARMS:
         robot = tomllib.loads((ROOT / f"robots/arms/{arm}.toml").read_text())
@@ -132,15 +132,7 @@ def main():
         # A row's frame is its joint's in the modified convention alone; two regressors are enough to read.
         modified = robot["convention"] == "modified"
         samples = [sample(model, data, generator, modified and k < 2) for k in range(SAMPLES)]
-        head = {
-            "made_by": f"tools/pinocchio_dynamics.py with Pinocchio {pinocchio.__version__}",
-            "arm": arm,
-            "links": links,
-        }
-        lines = ",\n".join(json.dumps(each, separators=(",", ":")) for each in samples)
-        text = json.dumps(head)[:-1] + f',\n"samples": [\n{lines}\n]}}\n'
-        json.loads(text)
-        (folder / f"{arm}.json").write_text(text)
+        write(f"dynamics/{arm}", __file__, {"arm": arm, "links": links}, samples)
 
 
 if __name__ == "__main__":

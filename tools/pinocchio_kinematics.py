@@ -7,13 +7,10 @@ with stiffarm. The tests compare our kernels with these numbers.
     venv/bin/python tools/pinocchio_kinematics.py
 """
 
-import json
-from pathlib import Path
-
 import numpy
 import pinocchio
+from fixture import ROOT, write
 
-ROOT = Path(__file__).resolve().parent.parent
 SAMPLES = 50
 # Robot, link at the foot, link at the end.
 CHAINS = [
@@ -78,16 +75,8 @@ def main():
         data = model.createData()
         draws = generator.uniform(-1.5, 1.5, (SAMPLES, len(joints)))
         samples = [sample(model, data, base, tip, joints, values) for values in draws]
-        head = {
-            "made_by": f"tools/pinocchio_kinematics.py with Pinocchio {pinocchio.__version__}",
-            "urdf": f"tests/data/urdf/{robot}.urdf",
-            "base": base,
-            "tip": tip,
-        }
-        lines = ",\n".join(json.dumps(each, separators=(",", ":")) for each in samples)
-        text = json.dumps(head)[:-1] + f',\n"samples": [\n{lines}\n]}}\n'
-        json.loads(text)
-        (ROOT / f"tests/data/pinocchio/{robot}.json").write_text(text)
+        head = {"urdf": f"tests/data/urdf/{robot}.urdf", "base": base, "tip": tip}
+        write(robot, __file__, head, samples)
 
 
 if __name__ == "__main__":

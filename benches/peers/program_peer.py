@@ -1,13 +1,15 @@
-"""The two functions of examples/program, a hand-eye residual and a distance to a plane, by CasADi and SymForce.
+"""The two functions of examples/program, a hand-eye residual and a distance to a plane, by CasADi, SymForce and wrenfold.
 
-Both are given the same formulas on the KUKA KR 240-2: exact quarter turns, the camera's coordinates of the marker,
+All are given the same formulas on the KUKA KR 240-2: exact quarter turns, the camera's coordinates of the marker,
 Jacobians by their own derivatives, each library's own elimination of common subexpressions. What each takes is counted
-in its own result: additions and multiplications, divisions, sine-cosine pairs. CasADi's C is written to the folder that
-is named, if one is.
+in its own result: additions and multiplications, divisions, sine-cosine pairs. The three texts are written to the folder
+that is named, if one is: CasADi's C, wrenfold's C++, and SymForce's expressions as C, a line for each.
 
     python3 benches/peers/program_peer.py [DIRECTORY]
 """
 
+import inspect
+import re
 import sys
 from collections import Counter
 
@@ -124,6 +126,69 @@ def symforce():
         temporaries, simplified = sf.cse(results)
         trees = [e for _, e in temporaries] + list(simplified)
         print("SymForce", symforce.__version__, name, counted(sf, trees))
+        if len(sys.argv) > 1:
+            lines = [f"const double {key}_{k} = *x++;" for key, size in inputs.items() for k in range(size)]
+            lines += [f"const double {symbol} = {printed(sf, tree)};" for symbol, tree in temporaries]
+            lines += [f"*y++ = {printed(sf, tree)};" for tree in simplified]
+            body = "\n    ".join(lines)
+            with open(f"{sys.argv[1]}/program_symforce_{name}.c", "w") as file:
+                head = f"void {name}_symforce(const double *x, double *y)"
+                file.write(f"#include <math.h>\n{head};\n{head} {{\n    {body}\n}}\n")
+
+
+def printed(sf, tree):
+    """C of an expression after the elimination; small powers as products."""
+    e = sf.S(tree)
+    kind, parts = type(e).__name__, [printed(sf, a) for a in e.args]
+    if kind == "Add":
+        return "(" + " + ".join(parts) + ")"
+    if kind == "Mul":
+        return "(" + " * ".join(parts) + ")"
+    if kind == "Pow":
+        power = int(e.args[1])
+        product = "(" + " * ".join([parts[0]] * abs(power)) + ")"
+        return product if power > 0 else f"(1.0 / {product})"
+    if kind in ("Sin", "sin", "Cos", "cos"):
+        return f"{kind.lower()}({parts[0]})"
+    return str(e) if "Symbol" in kind else repr(float(e))
+
+
+def wrenfold():
+    import importlib.metadata
+
+    from wrenfold import code_generation, sym
+    from wrenfold.type_annotations import FloatScalar
+
+    for name, inputs in INPUTS.items():
+        arguments = [f"{key}_{k}" for key, size in inputs.items() for k in range(size)]
+
+        def results(**values):
+            symbols = [[values[f"{key}_{k}"] for k in range(size)] for key, size in inputs.items()]
+            if name == "hand_eye":
+                tangent = sym.make_symbols(*(f"tangent_{k}" for k in range(6)))
+                residual = hand_eye(sym.sin, sym.cos, tangent[:3], tangent[3:], *symbols)
+                slopes = [r.diff(t) for t in tangent for r in residual]
+                pairs = [(t, sym.integer(0)) for t in tangent]
+                found = [sym.subs(e, pairs) for e in residual + slopes]
+            else:
+                distance = clearance(sym.sin, sym.cos, *symbols)
+                found = [distance] + [distance.diff(q) for q in symbols[0]]
+            return [code_generation.OutputArg(e, f"y{k}") for k, e in enumerate(found)]
+
+        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        parameters = [inspect.Parameter(a, kind, annotation=FloatScalar) for a in arguments]
+        results.__signature__ = inspect.Signature(parameters)
+        results.__annotations__ = dict.fromkeys(arguments, FloatScalar)
+        text = code_generation.generate_function(results, code_generation.CppGenerator(), name=f"{name}_of")
+        counts = dict(re.findall(r"// (\w+): (\d+)", text))
+        print("wrenfold", importlib.metadata.version("wrenfold"), name, counts)
+        if len(sys.argv) > 1:
+            outputs = text.split(")")[0].count("Scalar& ")
+            given = [f"x[{k}]" for k in range(len(arguments))] + [f"y[{k}]" for k in range(outputs)]
+            with open(f"{sys.argv[1]}/program_wrenfold_{name}.cpp", "w") as file:
+                call = f"{name}_of<double>({', '.join(given)});"
+                head = f'extern "C" void {name}_wrenfold(const double *x, double *y)'
+                file.write(f"#include <cmath>\n#include <cstdint>\n{text}\n{head} {{ {call} }}\n")
 
 
 def counted(sf, trees):
@@ -155,7 +220,7 @@ def counted(sf, trees):
     return dict(found)
 
 
-for library in (casadi, symforce):
+for library in (casadi, symforce, wrenfold):
     try:
         library()
     except ImportError as missing:

@@ -6,9 +6,12 @@
 # pose, Jacobian, K_C, joint torques, compliance, and the deflection with its 6x6 solve.
 #
 #   benches/peers/run.sh                 # what is installed
-#   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (CasADi, Pinocchio, SymForce)
+#   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (the others)
 #
-# A peer that is not installed is skipped with a sentence. FLAGS and RUSTFLAGS choose the target; the
+# Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's and Pinocchio by turns, and
+# stiffarm's Rust beside the crates dynibo and featherstone.
+#
+# A peer that is not installed is skipped with a sentence. EIGEN is the folder of Eigen's headers. FLAGS and RUSTFLAGS choose the target; the
 # default is the machine's own processor for all. Plain x86-64 instead:
 #
 #   FLAGS=-O3 RUSTFLAGS=-Ctarget-cpu=x86-64 FEATURES= benches/peers/run.sh
@@ -20,10 +23,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 features=${FEATURES-fma}
 python=${PYTHON:-python3}
+eigen=${EIGEN:-/usr/include/eigen3}
 
 if [ "${1:-}" = --install ]; then
     apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
-    "$python" -m pip install --quiet casadi pin symforce
+    "$python" -m pip install --quiet casadi pin symforce wrenfold
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -36,28 +40,41 @@ if "$python" -c 'import casadi' 2>/dev/null; then
     gcc "${flags[@]}" -c "$work/kernels.c" -o "$work/kernels.o"
     g++ -std=c++17 "${flags[@]}" -I. casadi_peer.cpp "$work/kernels.o" -o "$work/casadi"
     "$work/casadi" "$work" >> "$work/times"
-    # Functions of one's own (examples/program), in C on both sides.
-    "$python" program_peer.py "$work"
-    cargo run --quiet --release -p stiffarm-program --example c -- "$work"
-    (cd "$work" && gcc "${flags[@]}" -I. "$OLDPWD/program_drive.c" kr240.c program_casadi.c -lm -o program)
-    "$work/program"
 else
     say "CasADi is skipped: the Python package casadi is not installed"
 fi
 
+# Functions of one's own (examples/program), as C.
+"$python" program_peer.py "$work"
+cargo run --quiet --release -p stiffarm-program --example c -- "$work"
+(
+    cd "$work"
+    with=()
+    [ ! -e program_casadi.c ] || with+=(-DCASADI program_casadi.c)
+    [ ! -e program_symforce_clearance.c ] || with+=(-DSYMFORCE program_symforce_*.c)
+    if [ -e program_wrenfold_clearance.cpp ]; then
+        g++ -std=c++17 "${flags[@]}" -c program_wrenfold_*.cpp
+        with+=(-DWRENFOLD program_wrenfold_*.o)
+    fi
+    gcc "${flags[@]}" -I. "$OLDPWD/program_drive.c" kr240.c "${with[@]}" -lm -o program
+)
+"$work/program"
+
 if [ -e /usr/include/kdl/chain.hpp ]; then
-    g++ -std=c++17 "${flags[@]}" -I. -I/usr/include/eigen3 kdl_peer.cpp -lorocos-kdl -o "$work/kdl"
+    g++ -std=c++17 "${flags[@]}" -I. -I"$eigen" kdl_peer.cpp -lorocos-kdl -o "$work/kdl"
     "$work/kdl" "$work" >> "$work/times"
 else
     say "Orocos KDL is skipped: liborocos-kdl-dev is not installed"
 fi
 
+pinocchio=()
 prefix=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib") + "/cmeel.prefix")')
-if [ -e "$prefix/include/pinocchio/multibody.hpp" ] && [ -e /usr/include/eigen3 ]; then
-    g++ -w -std=c++17 "${flags[@]}" -DNDEBUG -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
-        -DBOOST_MPL_LIMIT_LIST_SIZE=30 -I. -I"$prefix/include" -I/usr/include/eigen3 \
-        pinocchio_peer.cpp -L"$prefix/lib" -Wl,-rpath,"$prefix/lib" -lpinocchio_default \
-        -o "$work/pinocchio"
+if [ -e "$prefix/include/pinocchio/multibody.hpp" ] && [ -e "$eigen" ]; then
+    # shellcheck disable=SC2054 # the linker's options have commas of their own
+    pinocchio=(-w -DPINOCCHIO -DNDEBUG -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS -DBOOST_MPL_LIMIT_LIST_SIZE=30
+        -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 -DBOOST_FUSION_INVOKE_MAX_ARITY=12
+        -I"$prefix/include" -I"$eigen" -L"$prefix/lib" -Wl,-rpath,"$prefix/lib" -lpinocchio_default)
+    g++ -std=c++17 "${flags[@]}" -I. pinocchio_peer.cpp "${pinocchio[@]}" -o "$work/pinocchio"
     "$work/pinocchio" "$work" >> "$work/times"
 else
     say "Pinocchio is skipped: the Python package pin or libeigen3-dev is not installed"
@@ -85,3 +102,22 @@ awk '{ times[$1, $2, $3] = $4; if (!seen[$1]++) peers[++count] = $1 }
              print ""
          }
      }' "$work/times"
+
+# The equations of motion. Medians, and of the peers the least, the median and the most over the rounds of how many
+# times stiffarm's they are.
+cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin dynamics --features "$features" -- "$work"
+(cd "$work" && gcc "${flags[@]}" -c ur10.c panda.c)
+with=()
+if "$python" -c 'import casadi' 2>/dev/null; then
+    "$python" dynamics_peer.py "$work"
+    gcc "${flags[@]}" -c "$work/dynamics_casadi.c" -o "$work/dynamics_casadi.o"
+    with+=(-DCASADI "$work/dynamics_casadi.o")
+fi
+g++ -std=c++17 "${flags[@]}" -I. -I"$work" dynamics_drive.cpp "$work/ur10.o" "$work/panda.o" "${with[@]}" \
+    "${pinocchio[@]}" -o "$work/dynamics"
+"$work/dynamics" "$work"
+if cargo build --quiet --release --manifest-path crates/Cargo.toml --target-dir "$work/crates" 2> "$work/crates.log"; then
+    "$work/crates/release/crates-peer" "$work"
+else
+    say "dynibo and featherstone are skipped: they could not be built; $(tail -n 1 "$work/crates.log")"
+fi

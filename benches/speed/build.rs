@@ -8,11 +8,12 @@ use stiffarm_codegen::emit::{RustOptions, rust};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Robot, Value};
 
-const ARMS: [&str; 4] = [
+const ARMS: [&str; 5] = [
     "planar_2r.toml",
     "../../robots/arms/ur10.toml",
     "../../robots/arms/kuka_kr240.toml",
     "../../robots/arms/iiwa14.toml",
+    "../../robots/arms/panda.toml",
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

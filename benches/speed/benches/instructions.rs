@@ -46,6 +46,38 @@ macro_rules! work {
     )+};
 }
 
+/// The same of the equations of motion, whose states are values, rates and accelerations or torques in a row.
+macro_rules! motion {
+    ($works:ident $arm:ident $($function:ident |$q:pat_param, $qd:pat_param, $last:pat_param| $args:tt),+) => {$(
+        motion!($works $arm "" [Vec::as_slice] $function |$q, $qd, $last| $args);
+        motion!($works $arm " x4" [by_four] $function |$q, $qd, $last| $args);
+    )+};
+    ($works:ident $arm:ident $lanes:literal [$packed:expr]
+        $function:ident |$q:pat_param, $qd:pat_param, $last:pat_param| $args:tt) => {
+        $works.push((concat!(stringify!($arm), " ", stringify!($function), $lanes), Box::new(|calls| {
+            let states = Draws::new(1).postures::<{ 3 * arms::$arm::plain::N }>(4 * CALLS);
+            for state in $packed(&states).iter().take(calls) {
+                let ([$q, $qd, $last], _) = state.as_chunks::<{ arms::$arm::plain::N }>() else {
+                    unreachable!("three of each joint");
+                };
+                let _ = black_box(arms::$arm::plain::$function $args);
+            }
+        })));
+    };
+}
+
+macro_rules! motions {
+    ($works:ident $($arm:ident),+) => {$(
+        motion!($works $arm
+            inverse_dynamics |q, qd, qdd| (q, qd, qdd),
+            bias |q, qd, _| (q, qd),
+            mass_matrix |q, _, _| (q),
+            forward_dynamics |q, qd, tau| (q, qd, tau),
+            torque_regressor |q, qd, qdd| (q, qd, qdd)
+        );
+    )+};
+}
+
 macro_rules! works {
     ($works:ident $($arm:ident),+) => {$(
         work!($works $arm
@@ -62,6 +94,7 @@ macro_rules! works {
 fn works() -> Vec<Work> {
     let mut works: Vec<Work> = Vec::new();
     works!(works planar_2r, ur10, kuka_kr240, iiwa14);
+    motions!(works ur10, panda);
     works
 }
 

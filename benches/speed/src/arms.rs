@@ -26,13 +26,15 @@ arm!(planar_2r);
 arm!(ur10);
 arm!(kuka_kr240);
 arm!(iiwa14);
+arm!(panda);
 
 /// The robot files, in the order of the benches.
-pub const FILES: [(&str, &str); 4] = [
+pub const FILES: [(&str, &str); 5] = [
     ("planar_2r", include_str!("../planar_2r.toml")),
     ("ur10", include_str!("../../../robots/arms/ur10.toml")),
     ("kuka_kr240", include_str!("../../../robots/arms/kuka_kr240.toml")),
     ("iiwa14", include_str!("../../../robots/arms/iiwa14.toml")),
+    ("panda", include_str!("../../../robots/arms/panda.toml")),
 ];
 
 /// The textbook's arm, every joint with a spring, as the generated ones have it. Their tables have
@@ -112,5 +114,6 @@ mod tests {
         check("ur10", [&ur10::plain::Robot, &ur10::fused::Robot]);
         check("kuka_kr240", [&kuka_kr240::plain::Robot, &kuka_kr240::fused::Robot]);
         check("iiwa14", [&iiwa14::plain::Robot, &iiwa14::fused::Robot]);
+        check("panda", [&panda::plain::Robot, &panda::fused::Robot]);
     }
 }

@@ -6,7 +6,7 @@ use core::fmt::Write as _;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use num_dual::Dual64;
 use stiffarm_codegen::emit::{COptions, Precision, Sines};
-use stiffarm_codegen::program::{Function, Module};
+use stiffarm_codegen::program::Function;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_draws::Draws;
 use stiffarm_kernels::{Convention, Numeric, Scalar};
@@ -15,8 +15,11 @@ use wide::f64x4;
 #[allow(dead_code, unused_macros, unused_imports)]
 #[path = "../../../tests/c/compiler.rs"]
 mod compiler;
-#[path = "../formulas.rs"]
-mod formulas;
+#[path = "../module.rs"]
+mod module;
+
+use module::formulas;
+
 #[allow(dead_code, clippy::all)]
 mod kr240 {
     include!(concat!(env!("OUT_DIR"), "/kr240.rs"));
@@ -280,13 +283,9 @@ int main(void)
 #[cfg_attr(not(unix), ignore = "needs cc")]
 fn c_has_the_bits_of_rust() {
     let robot = robot();
-    let module = Module::new(&robot)
-        .function("hand_eye", "Reprojection error", formulas::hand_eye)
-        .and_then(|module| module.function("clearance", "Distance", formulas::clearance))
-        .and_then(|module| module.function("height", "Height", formulas::height));
     let options =
         COptions { name: "kr240".into(), precision: Precision::F64, sines: Sines::Polynomial };
-    let files = module.expect("no mistakes").c(&options).expect("numbers only");
+    let files = module::of(&robot).expect("no mistakes").c(&options).expect("numbers only");
     let folder = compiler::Folder::new("program");
     folder.write("kr240.h", &files.header);
     folder.write("kr240.c", &files.source);

@@ -1,0 +1,262 @@
+// The equations of motion of a UR10 and a Panda by stiffarm's C, CasADi's C and Pinocchio: each result compared with
+// the textbook's, then timed by turns, all of them in each of 41 rounds. Prints the median nanoseconds a call and, of
+// the peers, how many times stiffarm's that is: the least, the median and the most over the rounds.
+//
+//   dynamics DIRECTORY
+#include <ctime>
+#include <functional>
+#include <iterator>
+#include <sstream>
+
+#include "drive.hpp"
+
+extern "C" {
+#include "panda.h"
+#include "ur10.h"
+#ifdef CASADI
+#define CASADI_FUNCTION(name) int name(const double **, double **, long long *, double *, int);
+#define CASADI_ARM(arm)                                                                                        \
+    CASADI_FUNCTION(arm##_inverse_dynamics_casadi)                                                             \
+    CASADI_FUNCTION(arm##_bias_casadi)                                                                         \
+    CASADI_FUNCTION(arm##_mass_matrix_casadi)                                                                  \
+    CASADI_FUNCTION(arm##_torque_regressor_casadi)
+CASADI_ARM(ur10)
+CASADI_ARM(panda)
+#endif
+}
+
+#ifdef PINOCCHIO
+#include <pinocchio/algorithm/aba.hpp>
+#include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/regressor.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
+#include <pinocchio/multibody.hpp>
+namespace pin = pinocchio;
+#endif
+
+namespace {
+
+constexpr int ROUNDS = 41;
+
+// One way to an output: works through all states, and its time in each round.
+struct Way {
+    std::string peer;
+    std::function<void()> run;
+    std::vector<double> times;
+};
+
+struct Arm {
+    std::string name;
+    int n;
+    std::string directory;
+    std::vector<double> states;
+    std::vector<std::vector<double>> links;
+
+    Arm(const std::string &directory, const std::string &name, int n)
+        : name(name), n(n), directory(directory), states(read(directory + "/" + name + ".states")) {
+        std::ifstream file(directory + "/" + name + ".links");
+        for (std::string line; std::getline(file, line);) {
+            std::istringstream words(line);
+            links.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
+        }
+    }
+    size_t calls() const { return states.size() / (3 * n); }
+    std::vector<double> expected(const std::string &output) const { return read(directory + "/" + name + "." + output); }
+};
+
+// `call(state, out)` writes one result of `size` numbers. What is compared with the textbook's `expected` is what
+// `shown` makes of it.
+template <class Call, class Shown>
+Way way(const Arm &arm, const char *output, const char *peer, size_t size, const std::vector<double> &expected,
+        Call call, Shown shown) {
+    double scale = 0;
+    for (double x : expected) scale = std::max(scale, std::fabs(x));
+    std::vector<double> one(size);
+    const size_t entries = expected.size() / arm.calls();
+    for (size_t i = 0; i < arm.calls(); ++i) {
+        call(&arm.states[3 * arm.n * i], one.data());
+        const std::vector<double> found = shown(one);
+        for (size_t k = 0; k < entries; ++k) {
+            const double wanted = expected[entries * i + k];
+            // The condition of a mass matrix, some 10^3, times rounding.
+            if (!(std::fabs(found[k] - wanted) <= 1e-11 * scale)) {
+                std::fprintf(stderr, "%s %s %s: entry %zu of call %zu is %.17g, not %.17g\n", peer, arm.name.c_str(),
+                             output, k, i, found[k], wanted);
+                std::exit(1);
+            }
+        }
+    }
+    // The results of 64 states are written over and over, so that they stay in the first cache.
+    auto run = [&arm, size, call, out = std::vector<double>(64 * size)]() mutable {
+        for (size_t i = 0; i < arm.calls(); ++i) {
+            call(&arm.states[3 * arm.n * i], &out[size * (i % 64)]);
+            if (i % 64 == 63) asm volatile("" : : "r"(out.data()) : "memory");
+        }
+    };
+    return {peer, run, {}};
+}
+
+const auto as_it_is = [](const std::vector<double> &found) { return found; };
+
+// Nanoseconds of this process on a processor: other programs do not disturb them as much as the clock's.
+double processor_time() {
+    timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
+
+void compete(const Arm &arm, const char *output, std::vector<Way> ways) {
+    for (int round = 0; round <= ROUNDS; ++round) {
+        for (Way &way : ways) {
+            const double start = processor_time();
+            way.run();
+            const double time = processor_time() - start;
+            // The first round warms up.
+            if (round > 0) way.times.push_back(time / static_cast<double>(arm.calls()));
+        }
+    }
+    std::printf("%s %s: %s %.1f", arm.name.c_str(), output, ways[0].peer.c_str(), median(ways[0].times));
+    for (size_t k = 1; k < ways.size(); ++k) {
+        std::vector<double> ratios;
+        for (int round = 0; round < ROUNDS; ++round) ratios.push_back(ways[k].times[round] / ways[0].times[round]);
+        const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+        std::printf(", %s %.1f (%.2f %.2f %.2f)", ways[k].peer.c_str(), median(ways[k].times), *least,
+                    median(ratios), *most);
+    }
+    std::printf("\n");
+}
+
+#ifdef PINOCCHIO
+pin::Model model_of(const Arm &arm) {
+    pin::Model model;
+    const auto about_x = [](double angle) {
+        return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    };
+    model.gravity.linear() << arm.links[0][0], arm.links[0][1], arm.links[0][2];
+    pin::JointIndex parent = 0;
+    for (int i = 1; i <= arm.n; ++i) {
+        const double *x = arm.links[i].data();
+        const pin::SE3 place(about_x(x[3]), Eigen::Vector3d(x[0], x[1], x[2]));
+        parent = model.addJoint(parent, pin::JointModelRZ(), place, "joint" + std::to_string(i));
+        Eigen::Matrix3d tensor;
+        tensor << x[8], x[9], x[10], x[9], x[11], x[12], x[10], x[12], x[13];
+        model.appendBodyToJoint(parent, pin::Inertia(x[4], Eigen::Vector3d(x[5], x[6], x[7]), tensor),
+                                pin::SE3::Identity());
+    }
+    return model;
+}
+#endif
+
+template <int N, class Kernels>
+void all(const Arm &arm, const Kernels &kernels) {
+    const char *const names[] = {"inverse_dynamics", "bias", "mass_matrix", "forward_dynamics", "torque_regressor"};
+    const size_t sizes[] = {N, N, N * N, N, 10 * N * N};
+    std::vector<Way> ways[5];
+    std::vector<double> expected[5];
+    for (int k = 0; k < 5; ++k) expected[k] = arm.expected(names[k]);
+    const auto ours = [&](int k, auto call) {
+        ways[k].push_back(way(arm, names[k], "stiffarm", sizes[k], expected[k], call, as_it_is));
+    };
+    ours(0, [=](const double *x, double *out) { kernels.inverse_dynamics(x, x + N, x + 2 * N, out); });
+    ours(1, [=](const double *x, double *out) { kernels.bias(x, x + N, out); });
+    ours(2, [=](const double *x, double *out) { kernels.mass_matrix(x, out); });
+    ours(3, [=](const double *x, double *out) { (void)kernels.forward_dynamics(x, x + N, x + 2 * N, out); });
+    ours(4, [=](const double *x, double *out) { kernels.torque_regressor(x, x + N, x + 2 * N, out); });
+
+    // A peer's joint frames need not be the rows': its regressor is right if its product with the moments is.
+    std::vector<double> moments;
+    for (int i = 1; i <= N; ++i) {
+        const double *x = arm.links[i].data(), m = x[4], cx = x[5], cy = x[6], cz = x[7];
+        moments.insert(moments.end(),
+                       {m, m * cx, m * cy, m * cz, x[8] + m * (cy * cy + cz * cz), x[9] - m * cx * cy,
+                        x[11] + m * (cx * cx + cz * cz), x[10] - m * cx * cz, x[12] - m * cy * cz,
+                        x[13] + m * (cx * cx + cy * cy)});
+    }
+    const auto product = [=](const std::vector<double> &regressor) {
+        std::vector<double> torque(N, 0.0);
+        for (size_t k = 0; k < regressor.size(); ++k) torque[k % N] += regressor[k] * moments[k / N];
+        return torque;
+    };
+#ifdef CASADI
+    const auto casadi = [&](int k, auto function) {
+        const auto call = [function](const double *x, double *out) {
+            static double work[65536];
+            static long long integers[256];
+            const double *arg[] = {x};
+            double *res[] = {out};
+            function(arg, res, integers, work, 0);
+        };
+        if (k == 4) {
+            ways[k].push_back(way(arm, names[k], "casadi", sizes[k], expected[0], call, product));
+        } else {
+            ways[k].push_back(way(arm, names[k], "casadi", sizes[k], expected[k], call, as_it_is));
+        }
+    };
+    casadi(0, kernels.casadi_inverse_dynamics);
+    casadi(1, kernels.casadi_bias);
+    casadi(2, kernels.casadi_mass_matrix);
+    casadi(4, kernels.casadi_torque_regressor);
+#endif
+#ifdef PINOCCHIO
+    const pin::Model model = model_of(arm);
+    pin::Data data(model);
+    const auto vector = [](const double *x) { return Eigen::Map<const Eigen::VectorXd>(x, N); };
+    const auto at = [](double *out, int columns = 1) { return Eigen::Map<Eigen::MatrixXd>(out, N, columns); };
+    const auto pinocchio = [&](int k, auto call, auto shown) {
+        const std::vector<double> &textbook = expected[k == 4 ? 0 : k];
+        ways[k].push_back(way(arm, names[k], "pinocchio", sizes[k], textbook, call, shown));
+    };
+    pinocchio(0, [&](const double *x, double *out) {
+        at(out) = pin::rnea(model, data, vector(x), vector(x + N), vector(x + 2 * N));
+    }, as_it_is);
+    pinocchio(1, [&](const double *x, double *out) {
+        at(out) = pin::nonLinearEffects(model, data, vector(x), vector(x + N));
+    }, as_it_is);
+    // Only its upper triangle is the mass matrix.
+    pinocchio(2, [&](const double *x, double *out) {
+        at(out, N) = pin::crba(model, data, vector(x));
+    }, [](const std::vector<double> &found) {
+        std::vector<double> whole(found);
+        for (int i = 0; i < N; ++i)
+            for (int j = 0; j < i; ++j) whole[N * j + i] = found[N * i + j];
+        return whole;
+    });
+    pinocchio(3, [&](const double *x, double *out) {
+        at(out) = pin::aba(model, data, vector(x), vector(x + N), vector(x + 2 * N));
+    }, as_it_is);
+    pinocchio(4, [&](const double *x, double *out) {
+        at(out, 10 * N) =
+            pin::computeJointTorqueRegressor(model, data, vector(x), vector(x + N), vector(x + 2 * N));
+    }, product);
+#endif
+    for (int k = 0; k < 5; ++k) compete(arm, names[k], std::move(ways[k]));
+}
+
+#ifdef CASADI
+#define CASADI_KERNELS(arm)                                                                                     \
+    decltype(&arm##_inverse_dynamics_casadi) casadi_inverse_dynamics = arm##_inverse_dynamics_casadi;           \
+    decltype(&arm##_bias_casadi) casadi_bias = arm##_bias_casadi;                                               \
+    decltype(&arm##_mass_matrix_casadi) casadi_mass_matrix = arm##_mass_matrix_casadi;                          \
+    decltype(&arm##_torque_regressor_casadi) casadi_torque_regressor = arm##_torque_regressor_casadi;
+#else
+#define CASADI_KERNELS(arm)
+#endif
+#define KERNELS(arm)                                                                                            \
+    struct {                                                                                                    \
+        decltype(&arm##_inverse_dynamics) inverse_dynamics = arm##_inverse_dynamics;                            \
+        decltype(&arm##_bias) bias = arm##_bias;                                                                \
+        decltype(&arm##_mass_matrix) mass_matrix = arm##_mass_matrix;                                           \
+        decltype(&arm##_forward_dynamics) forward_dynamics = arm##_forward_dynamics;                            \
+        decltype(&arm##_torque_regressor) torque_regressor = arm##_torque_regressor;                            \
+        CASADI_KERNELS(arm)                                                                                     \
+    } arm##_kernels;
+
+}  // namespace
+
+int main(int, char **argv) {
+    KERNELS(ur10)
+    KERNELS(panda)
+    all<6>(Arm(argv[1], "ur10", 6), ur10_kernels);
+    all<7>(Arm(argv[1], "panda", 7), panda_kernels);
+    return 0;
+}
