@@ -38,12 +38,26 @@ pub struct Args {
     /// Check every built-in robot, a line for each
     #[arg(long, conflicts_with = "robot", required_unless_present = "robot")]
     all: bool,
-    /// Postures and wrenches per robot
-    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
-    count: u32,
+    /// Postures and wrenches per robot [default: 10000, and of more than 8 joints as many as take no
+    /// longer]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    count: Option<u32>,
     /// Seed of the postures and wrenches
     #[arg(long, default_value_t = 0)]
     seed: u64,
+}
+
+/// Postures of an arm of up to so many joints.
+const USUAL: (usize, usize) = (10_000, 8);
+
+/// Postures of any arm, at least.
+const LEAST: usize = 10;
+
+/// As many postures as are usual. Derivatives by two joints each, through all the links: what a posture
+/// takes grows with the cube of the joints.
+fn usual(joints: usize) -> usize {
+    let (postures, most) = USUAL;
+    (postures * most.pow(3) / joints.max(most).pow(3)).max(LEAST)
 }
 
 /// Runs the command.
@@ -69,6 +83,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 /// A robot and how well its implementations agree.
 struct Checked {
     source: Source,
+    postures: usize,
     agreement: Agreement,
 }
 
@@ -91,7 +106,7 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let single: Option<&Evaluate<'_>> = if source.built_in { Some(&single) } else { None };
     let outputs = &outputs;
     let subject = Subject { outputs, arm: &arm, beyond, generated: &generated, single };
-    let count = args.count as usize;
+    let count = args.count.map_or_else(|| usual(arm.dof()), |count| count as usize);
     let progress = Progress::new(&source.given, count, quiet);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
     if agreement.too_large > 0 {
@@ -101,7 +116,7 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
             "check the table's numbers",
         ));
     }
-    Ok(Checked { source, agreement })
+    Ok(Checked { source, postures: count, agreement })
 }
 
 /// A posture and a load, and sides and a warming that go with them in no way: each sample has its own.
@@ -138,7 +153,7 @@ impl Checked {
                 "{}, {}, derived graph: {} postures and wrenches, seed {}",
                 robots::motions(robot),
                 robots::convention(robot.convention),
-                thousands(args.count as usize),
+                thousands(self.postures),
                 args.seed
             ))
         );
@@ -206,7 +221,8 @@ fn summary(checked: &[Checked], args: &Args) -> String {
         rows.push(cells);
     }
     rows.push(limits());
-    let count = thousands(args.count as usize);
+    let least = checked.iter().map(|robot| robot.postures).min();
+    let count = thousands(least.unwrap_or(0));
     let mut text = format!(
         "{}  {}\n\n{}\n",
         bold("Built-in robots"),

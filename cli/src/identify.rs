@@ -111,7 +111,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         target.write(&json::text(&result)?)?;
     }
     if let Some(target) = &args.write_robot {
-        target.write(&written::robot(&source, &answer, &data.file))?;
+        target.write(&written::robot(&source, &answer, &data.file)?)?;
     }
     let (said, units) = (words::said(&source, &answer), page::units(&answer));
     let positions = data.kind.components()[..3].contains(&true);

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use nalgebra::Vector6;
 use serde::Serialize;
-use stiffarm_gap::Measurements;
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::{Statistics, row_gap};
 use stiffarm_gap::plant::csv;
 use stiffarm_gap::predicted::predicted;
 use stiffarm_gap::simulate::Reading;
 use stiffarm_gap::whole::Whole;
+use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
 use crate::input::data;
@@ -28,8 +29,8 @@ Examples:
 
 DATA is a measurement file, or a plan whose measured cells are empty. Nothing is fitted: base, tool and
 markers stand where the robot file has them. Of a diagnosis (JSON) the rows beyond the joint ranges and
-loads of its data are told and not judged; `stiffarm diagnose … --check` also leaves out those at which
-what was fitted is known less well.";
+loads of its data, and those at which what was fitted is known less well than at any of these (their
+leverage is larger), are counted and not judged.";
 
 /// What the arm reads at other postures and loads, and its gap where they were measured
 #[derive(clap::Args)]
@@ -54,7 +55,7 @@ struct Written<'a> {
     robot: &'a str,
     file: &'a str,
     rows: usize,
-    /// Those within the joint ranges and loads of the diagnosis; only they are judged.
+    /// Those within the joint ranges, loads and largest leverage of the diagnosis; only they are judged.
     inside: usize,
     /// `None` where nothing is measured, or no row is inside.
     gap: Option<Statistics>,
@@ -78,13 +79,20 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         return Err(Failure::with_help(message, "--csv OUT writes what is predicted"));
     }
     data::doubted(&arm, &data, &[], quiet);
-    let found = predicted(Whole { arm: &arm, known: &source.known }, &data);
-    let found = found.map_err(|error| Failure::new(error.to_string()))?;
-    let covers = |row| source.covers.as_ref().is_none_or(|covers| covers.holds(row));
-    let rows = || data.rows.iter().zip(&found.rows).filter(|(row, _)| covers(row));
-    let gaps: Vec<Vector6<f64>> = rows()
-        .map(|(row, found)| row_gap(&data, row, &Reading::from_vector(&found.measured)))
-        .collect();
+    let whole = Whole { arm: &arm, known: &source.known };
+    let refused = |error: DiagnoseError| Failure::new(error.to_string());
+    let found = predicted(whole, &data).map_err(refused)?;
+    let trusted = source.trust.as_ref().map(|t| t.holds(whole, &Catalogue::default(), &data));
+    let trusted = trusted.transpose().map_err(refused)?;
+    let covers = |number: &usize| {
+        source.covers.as_ref().is_none_or(|covers| covers.holds(&data.rows[*number]))
+            && trusted.as_ref().is_none_or(|trusted| trusted[*number])
+    };
+    let gap = |number: usize| {
+        let found = Reading::from_vector(&found.rows[number].measured);
+        row_gap(&data, &data.rows[number], &found)
+    };
+    let gaps: Vec<Vector6<f64>> = (0..data.rows.len()).filter(covers).map(gap).collect();
     let written = Written {
         stiffarm: env!("CARGO_PKG_VERSION"),
         robot: &source.robot.name,

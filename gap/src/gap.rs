@@ -40,15 +40,10 @@ pub struct Statistics {
 
 impl Statistics {
     /// Of one gap per row.
-    pub fn of(gaps: &[Vector6<f64>]) -> Statistics {
-        let norm = |from: usize| {
-            move |g: &Vector6<f64>| {
-                let part = g.fixed_rows::<3>(from);
-                part.norm()
-            }
-        };
-        let mut positions: Vec<f64> = gaps.iter().map(norm(0)).collect();
-        let rotations: Vec<f64> = gaps.iter().map(norm(3)).collect();
+    pub fn of<'g>(gaps: impl IntoIterator<Item = &'g Vector6<f64>>) -> Statistics {
+        let norm = |g: &Vector6<f64>, from: usize| g.fixed_rows::<3>(from).norm();
+        let norms = gaps.into_iter().map(|g| (norm(g, 0), norm(g, 3)));
+        let (mut positions, rotations): (Vec<f64>, Vec<f64>) = norms.unzip();
         positions.sort_by(f64::total_cmp);
         Statistics {
             position_rms: rms(&positions),

@@ -97,7 +97,7 @@ fn the_gap_shrinks_to_a_quarter_and_holds_on_rows_that_were_not_used() {
     let predicted = found.explanation.predict(&rest).expect("a prediction");
     let inside = |gaps: &[nalgebra::Vector6<f64>]| {
         let kept = gaps.iter().zip(&predicted.inside).filter(|(_, inside)| **inside);
-        Statistics::of(&kept.map(|(g, _)| *g).collect::<Vec<_>>()).position_rms / MM
+        Statistics::of(kept.map(|(g, _)| g)).position_rms / MM
     };
     let (before, after) = (inside(&predicted.before), inside(&predicted.after));
     println!("rows not used: {before:.3} mm before, {after:.3} mm after");

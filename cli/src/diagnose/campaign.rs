@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use stiffarm_gap::diagnose::{Diagnosed, Prediction};
+use stiffarm_gap::diagnose::{Diagnosed, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::{Dimension, Layout};
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
@@ -48,6 +48,8 @@ struct Written<'a> {
     compared: Option<&'a Compared>,
     #[serde(flatten)]
     hashes: &'a Hashes,
+    /// How well the numbers are known at other rows.
+    trust: Trust,
     /// The robot file with what was found: the whole is a robot to every command.
     corrected: String,
 }
@@ -122,6 +124,7 @@ impl Campaign {
             accept: self.accepted.as_ref(),
             compared: self.compared.as_ref(),
             hashes: &self.made.hashes,
+            trust: self.diagnosed.explanation.trust(),
             corrected: self.corrections().text(),
         })
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Isometry3;
 use serde::Deserialize as _;
 use stiffarm_codegen::robot::{Dimension as Cell, Effect, Motion, Robot, Symbol};
-use stiffarm_gap::diagnose::Cover;
+use stiffarm_gap::diagnose::{Cover, Trust};
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
@@ -45,6 +45,8 @@ pub struct Source {
     pub built_in: bool,
     /// Of a diagnosis, where its data have been.
     pub covers: Option<Cover>,
+    /// Of a diagnosis, how well its numbers are known elsewhere.
+    pub trust: Option<Trust>,
 }
 
 impl RobotArgs {
@@ -108,6 +110,7 @@ impl Source {
             text,
             built_in,
             covers: None,
+            trust: None,
         }
     }
 
@@ -158,14 +161,15 @@ fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
         }
     }
     let text = text(Path::new(given))?;
-    let (text, covers) =
-        if given.ends_with(".json") { diagnosis(given, &text)? } else { (text, None) };
+    if given.ends_with(".json") {
+        return diagnosis(given, &text, quiet);
+    }
     let robot = parse(&text, given, quiet)?;
-    Ok(Source { covers, ..Source::new(given, robot, text, false) })
+    Ok(Source::new(given, robot, text, false))
 }
 
-/// The robot file that a diagnosis in JSON holds, and where its data have been.
-fn diagnosis(given: &str, json: &str) -> Result<(String, Option<Cover>), Failure> {
+/// The robot file that a diagnosis in JSON holds, and what is known of its data.
+fn diagnosis(given: &str, json: &str, quiet: bool) -> Result<Source, Failure> {
     let read: Result<serde_json::Value, _> = serde_json::from_str(json);
     let read = read.map_err(|error| Failure::new(format!("{given}: this is no JSON: {error}")))?;
     let corrected = read["corrected"].as_str().ok_or_else(|| {
@@ -174,7 +178,12 @@ fn diagnosis(given: &str, json: &str) -> Result<(String, Option<Cover>), Failure
             "`stiffarm diagnose ROBOT DATA --json OUT.json` writes one",
         )
     })?;
-    Ok((corrected.to_owned(), Cover::deserialize(&read["covers"]).ok()))
+    let robot = parse(corrected, given, quiet)?;
+    Ok(Source {
+        covers: Cover::deserialize(&read["covers"]).ok(),
+        trust: Trust::deserialize(&read["trust"]).ok(),
+        ..Source::new(given, robot, corrected.to_owned(), false)
+    })
 }
 
 fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {

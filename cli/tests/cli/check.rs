@@ -41,6 +41,17 @@ fn all_robots_have_a_line_each() {
     assert!(out.contains("✓ all agree\n"), "{out}");
 }
 
+/// What a posture takes grows with the cube of the joints: 10,000 · (8/40)³.
+#[test]
+fn of_many_joints_fewer_postures_are_checked() {
+    let folder = Folder::new();
+    let joint = "[[joint]]\ntype = \"revolute\"\na = 0.1\nalpha = \"pi/2\"\nstiffness = 1e5\n";
+    let head = "name = \"snake\"\nconvention = \"standard\"\noutputs = [\"jacobian\"]\n";
+    let file = folder.file("snake.toml", head.to_owned() + &joint.repeat(40));
+    let out = stiffarm(&["check", &file]).good();
+    assert!(out.contains("derived graph: 80 postures"), "{out}");
+}
+
 #[test]
 fn quiet_says_nothing_of_what_is_well() {
     assert_eq!(stiffarm(&["check", "bicchi_3r", "--count", "4", "--quiet"]).good(), "");

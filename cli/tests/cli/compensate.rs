@@ -114,6 +114,11 @@ fn targets_that_cannot_be_used_are_refused() {
     refused("x,y\n1,0\n", &[], "found x, y, expected poses: x, y, z");
     refused("dx,dy,dz\n1,0,0\n", &[], "found dx, dy, dz, expected poses: x, y, z");
     refused("q1,x,y,z\n0,1,0,0\n", &[], "found no column q2");
+    refused(
+        "x,y,z\n1,0,0\n0,1e308,0\n",
+        &[],
+        "path.csv: line 3: a coordinate of the target is not a number below 1e50: check its unit",
+    );
     refused("x,y,z\n1,0,0\n", &["--tolerance", "3"], "expected a positive number and its unit");
     refused("x,y,z\n1,0,0\n", &["--wrench", "3"], "--wrench: found 1 value");
     let err = stiffarm(&["compensate", "ur5", "--targets", "no.csv", "--out", "-"]).refused();

@@ -134,6 +134,27 @@ fn the_base_can_be_asked_for() {
     assert!(screen.contains("shows only together with joint 1"), "{screen}");
 }
 
+/// The written robot leaves nothing of what its foundation did.
+#[test]
+fn the_foundation_is_written() {
+    let folder = Folder::new();
+    let (robot, plan) = run(&folder, 12, &LOADS);
+    let founded = text(&folder.path("founded.csv"));
+    let gives = "base_compliance@base:rock_x=2e-8,rock_y=3e-8,give=4e-9";
+    stiffarm(&["simulate", &robot, &plan, "--effect", gives, "--csv", &founded, "--quiet"]).good();
+    let out = text(&folder.path("founded.toml"));
+    stiffarm(&["identify", &robot, &founded, "--base", "--write-robot", &out, "--quiet"]).good();
+    let toml = read(&out);
+    assert!(toml.contains("id = \"base_compliance\"") && toml.contains("give = "), "{toml}");
+    let gap = |robot: &str| -> f64 {
+        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).good();
+        let said: Value = serde_json::from_str(&said).expect("JSON");
+        said["gap"]["position_max"].as_f64().expect("a number")
+    };
+    // The file's six digits, of a foundation that is a part of what gives.
+    assert!(gap(&out) < 1e-4 * gap(&robot), "{} {}", gap(&out), gap(&robot));
+}
+
 #[test]
 fn what_cannot_be_identified_is_refused() {
     let folder = Folder::new();

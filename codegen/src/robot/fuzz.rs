@@ -12,8 +12,12 @@ use super::{Robot, parse_tokens};
 const FILE: &str = r#"name = "arm"
 convention = "modified"
 gravity = [0.0, 0.0, -9.80665]
+torque_side = "motor"
+outputs = ["pose", "jacobian at elbow"]
+carries = "5kg"
 [[joint]]
 type = "revolute"
+name = "shoulder"
 theta = "t1 "
 d = "350 mm"
 a = 1e-3
@@ -21,6 +25,11 @@ alpha = "-pi/2"
 stiffness = "3.8e6 N·m/rad"
 mass = 12
 com = [0.3, "c", 0.1]
+inertia = [0.2, 0, 0.01, 0.3, 0, 0.1]
+gear = 120
+rotor_inertia = 3e-4
+coulomb = "6 N*m"
+viscous = "9 N*m*s/rad"
 limits = ["-90°", 2.6]
 [joint.beam]
 youngs_modulus = "10e6 psi"
@@ -31,17 +40,37 @@ density = 2700.0
 type = "prismatic"
 d = "q0"
 alpha = 1.5708
+beta = "1e-3"
 beam = { youngs_modulus = 1, shear_modulus = 1, section = { shape = "tube", outer_diameter = 1 } }
 [tool]
 translation = [0.0, 0.0, 0.1]
 rotation = [0.0, 0.0, "pi/2"]
+[base]
+translation = [2.4, "-1.1 m", 0.35]
+rotation = [0, 0, "120 deg"]
 [[marker]]
 name = "smr1"
+[[frame]]
+name = "elbow"
+joint = "shoulder"
+rotation = ["pi/2", 0, 0]
+[[effect]]
+id = "transmission_error"
+place = "joint 2"
+order = 2
+cos = "0.10 mrad"
+[[payload]]
+name = "5kg"
+mass = 5
+com = [0, 0, "60 mm"]
+inertia = [0.02, 0, 0, 0.02, 0, 0.01]
 "#;
 
 const TABLE: &str = r#"/// An arm.
 pub mod arm;
 name: "arm"; convention: modified_dh; gravity: [0, 0, -9.81]; marker: m [0, 1 mm, 0];
+base: translation [0, 1 m, 0]; payload: load mass 1.2 kg, com [0, 0, 60 mm]; carries: load;
+outputs: pose, jacobian at m;
 tool: translation [0, 0, 100 mm] rotation [0, 0, pi/2]; products: fused; crate: ::kernels;
 joint | theta    | d       | a    | alpha   | stiffness     | mass | com       | limits  | beam
 a1    | q + pi/2 | 350 mm  | 0    | -90 deg | 3.8e6 N*m/rad | 12   | [c, 0, 0] | [-1, 1] | -

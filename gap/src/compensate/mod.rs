@@ -8,6 +8,8 @@
 
 pub mod reach;
 
+use crate::diagnose::data::LARGEST;
+
 /// Why no compensation could be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompensateError {
@@ -19,8 +21,8 @@ pub enum CompensateError {
         /// Values given.
         found: usize,
     },
-    /// A number that is infinite or not a number.
-    #[error("{what} is not a finite number")]
+    /// A number that is not a number, infinite, or so large that its square is.
+    #[error("{what} is not a number below {LARGEST:e}: check its unit")]
     NotFinite {
         /// Which number.
         what: &'static str,
@@ -52,12 +54,12 @@ pub enum CompensateError {
     Unstable,
 }
 
-/// Refuses a vector of which an element is infinite or not a number.
+/// Refuses a vector with which nothing can be worked out.
 fn finite<'a>(
     what: &'static str,
     values: impl IntoIterator<Item = &'a f64>,
 ) -> Result<(), CompensateError> {
-    if values.into_iter().all(|value| value.is_finite()) {
+    if values.into_iter().all(|value| value.abs() < LARGEST) {
         Ok(())
     } else {
         Err(CompensateError::NotFinite { what })

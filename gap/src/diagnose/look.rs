@@ -39,7 +39,7 @@ impl Search<'_, '_> {
     ) -> Result<Looked, DiagnoseError> {
         let begun = self.begin(model.clone())?;
         let mut before = begun.fit.predicted.gaps.clone();
-        let size = Statistics::of(&self.problem.kept(&before));
+        let size = Statistics::of(self.problem.kept(&before));
         let is_there = size.position_max > ROUNDING * (1.0 + self.problem.reach)
             || size.rotation_rms > ROUNDING;
         let seen = self.first(&begun);

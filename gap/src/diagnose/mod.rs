@@ -41,7 +41,7 @@ use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use prior::Prior;
 pub use progress::{Stage, Stop};
-pub use promise::{Expected, Explanation, Prediction};
+pub use promise::{Expected, Explanation, Prediction, Trust};
 pub use report::{
     Alternative, Autocorrelation, CannotSee, Correlation, CorrelationMatrix, Cover, Diagnosis,
     Finding, GapReport, Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport,
@@ -135,8 +135,8 @@ pub fn diagnose_with(
         search.judged(&looked.start, looked.explained, &before, looked.is_there)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
     let nested = options.nested.then(|| search.nested(&model)).transpose()?;
-    let nested = nested.map(|gaps| Statistics::of(&problem.kept(&gaps)));
-    let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(&problem.kept(gaps)));
+    let nested = nested.map(|gaps| Statistics::of(problem.kept(&gaps)));
+    let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(problem.kept(gaps)));
     let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
     let compared = compared.iter().map(compare).collect();
     let diagnosis = Diagnosis {
@@ -148,7 +148,7 @@ pub fn diagnose_with(
             before: size,
             after: statistics,
             shrink: judged.shrink,
-            fitted: Statistics::of(&problem.kept(&explained.fit.predicted.gaps)),
+            fitted: Statistics::of(problem.kept(&explained.fit.predicted.gaps)),
             nested,
             noise: explained.noise.report(),
         },

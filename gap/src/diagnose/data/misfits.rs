@@ -19,9 +19,8 @@ const MOST: f64 = 0.1;
 /// that is given and larger.
 pub(crate) fn fitting(problem: &Problem<'_>, noise: &Noise, gaps: &[Vector6<f64>]) -> Vec<bool> {
     let mut fits = vec![true; gaps.len()];
-    let gaps = problem.standard(gaps);
     for level in noise.kinds() {
-        let sizes: Vec<f64> = gaps.iter().map(|gap| level.square(gap)).collect();
+        let sizes: Vec<f64> = problem.standard(gaps).map(|gap| level.square(&gap)).collect();
         let limit = limit(level, &sizes, problem.data.rows.len());
         fits.iter_mut().zip(&sizes).for_each(|(fits, size)| *fits &= *size <= limit);
     }

@@ -75,11 +75,11 @@ impl Noise {
         residual: &[Vector6<f64>],
         parameters: usize,
     ) -> Noise {
-        let standard = problem.standard(residual);
-        let residual = &problem.kept(&standard);
+        let gap = |row: usize| residual[row].component_mul(&problem.precision.of_row(row));
+        let kept: Vec<usize> = (0..residual.len()).filter(|row| problem.fits[*row]).collect();
         let level = |first: usize, given: Option<f64>| {
             let components = (first..first + 3).filter(|&k| problem.mask[k] > 0.0).count();
-            let repeats = Repeats::of(problem, &standard, first, components);
+            let repeats = Repeats::of(problem, kept.clone(), &gap, first, components);
             let visits = repeats.as_ref().and_then(Repeats::visits);
             let with = |sd, source| Level { sd, visits, source, components, first };
             if let Some(sd) = given {
@@ -96,7 +96,7 @@ impl Noise {
             // Each kind pays for the parameters by its part of the numbers measured.
             let left = total.saturating_sub(parameters).max(1) as f64 / total.max(1) as f64;
             let freedom = left * (problem.free_rows() * components) as f64;
-            let squares = squares(residual, first);
+            let squares: f64 = kept.iter().map(|row| square(&gap(*row), first)).sum();
             with(if freedom > 0.0 { (squares / freedom).sqrt() } else { 0.0 }, Source::Residual)
         };
         Noise {
@@ -146,17 +146,26 @@ impl Noise {
 
     /// Whether `residual`, with `parameters` fitted to it, is more than this noise: surely, and by
     /// more than noise is ever known. A noise taken from the residual itself cannot tell.
-    pub(crate) fn exceeded(&self, residual: &[Vector6<f64>], parameters: usize) -> bool {
+    pub(crate) fn exceeded(
+        &self,
+        residual: impl Iterator<Item = Vector6<f64>>,
+        parameters: usize,
+    ) -> bool {
+        let (mut rows, mut sums) = (0, [0.0; 2]);
+        for gap in residual {
+            rows += 1;
+            let parts = [&self.position, &self.rotation].map(|level| level.square(&gap));
+            sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+        }
         let kinds = [&self.position, &self.rotation];
         let measured: usize = kinds.iter().map(|l| l.components).sum();
         let judged = kinds
             .iter()
             .filter(|l| l.components > 0 && l.sd > 0.0 && l.source != Source::Residual)
             .count();
-        kinds.iter().any(|level| {
+        kinds.iter().zip(sums).any(|(level, squares)| {
             let share = level.components as f64 / measured.max(1) as f64;
-            let freedom = (residual.len() * level.components) as f64 - share * parameters as f64;
-            let squares = squares(residual, level.first);
+            let freedom = (rows * level.components) as f64 - share * parameters as f64;
             let more = squares > freedom * (EXCESS * level.sd).powi(2);
             let chance = level.chance(squares, freedom);
             more && chance.is_some_and(|p| p * (judged as f64) < LEVEL)
@@ -191,8 +200,9 @@ impl Level {
     }
 }
 
-fn squares(gaps: &[Vector6<f64>], first: usize) -> f64 {
-    gaps.iter().map(|g| g.fixed_rows::<3>(first).norm_squared()).sum()
+/// Of the three components of a kind.
+fn square(gap: &Vector6<f64>, first: usize) -> f64 {
+    gap.fixed_rows::<3>(first).norm_squared()
 }
 
 /// What repeats say of one kind: rows of one pose with the same load, marker and direction of approach,
@@ -215,21 +225,21 @@ struct Apart {
 }
 
 impl Repeats {
-    /// Of gaps to a model, one for each row: an analysis of variance of readings within visits, and of
+    /// Of the gaps of some rows to a model: an analysis of variance of readings within visits, and of
     /// visits of what they repeat. `None` where that is too little.
     fn of(
         problem: &Problem<'_>,
-        gaps: &[Vector6<f64>],
+        mut rows: Vec<usize>,
+        gap: &dyn Fn(usize) -> Vector6<f64>,
         first: usize,
         components: usize,
     ) -> Option<Self> {
         let visits = &problem.visits;
-        let mut rows: Vec<usize> = (0..gaps.len()).filter(|row| problem.fits[*row]).collect();
         rows.sort_by_key(|row| (visits.repeats[*row], visits.of_row[*row]));
         let mean = |rows: &[usize]| {
-            rows.iter().map(|row| gaps[*row]).sum::<Vector6<f64>>() / rows.len() as f64
+            rows.iter().map(|row| gap(*row)).sum::<Vector6<f64>>() / rows.len() as f64
         };
-        let square = |apart: Vector6<f64>| squares(&[apart], first);
+        let square = |apart: Vector6<f64>| square(&apart, first);
         let (mut within, mut between) = (Apart::default(), Apart::default());
         // How often the variance of a visit is in the squares between them.
         let mut times = 0.0;
@@ -240,7 +250,7 @@ impl Repeats {
                 set.chunk_by(|a, b| visits.of_row[*a] == visits.of_row[*b]).enumerate()
             {
                 let (count, own) = (visit.len() as f64, mean(visit));
-                within.squares += visit.iter().map(|row| square(gaps[*row] - own)).sum::<f64>();
+                within.squares += visit.iter().map(|row| square(gap(*row) - own)).sum::<f64>();
                 within.beyond += visit.len() - 1;
                 between.squares += count * square(own - whole);
                 between.beyond += usize::from(number > 0);
@@ -401,7 +411,7 @@ mod tests {
         let noise = Noise::of(&problem, &Options::default(), &gaps(&problem), 1);
         assert!(!noise.is_known());
         assert_eq!(noise.position.source, Source::Residual);
-        assert!(!noise.exceeded(&vec![Vector6::repeat(1.0); 6], 0));
+        assert!(!noise.exceeded([Vector6::repeat(1.0); 6].into_iter(), 0));
     }
 
     #[test]
@@ -411,8 +421,8 @@ mod tests {
         let problem = Problem::new(&arm, &data, &given).unwrap();
         let noise = Noise::of(&problem, &given, &gaps(&problem), 0);
         assert!(noise.is_known());
-        let gap = |x| vec![Vector6::new(x, x, x, 0.0, 0.0, 0.0); 6];
-        assert!(!noise.exceeded(&gap(1e-3), 1));
-        assert!(noise.exceeded(&gap(2e-3), 1));
+        let gap = |x| [Vector6::new(x, x, x, 0.0, 0.0, 0.0); 6].into_iter();
+        assert!(!noise.exceeded(gap(1e-3), 1));
+        assert!(noise.exceeded(gap(2e-3), 1));
     }
 }

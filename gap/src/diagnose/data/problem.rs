@@ -17,6 +17,9 @@ use crate::simulate::{Actual, Moments, Reading, Sim, origin};
 /// added up, are then finite.
 pub(crate) const LARGEST: f64 = 1e50;
 
+/// Rows that are worked on at once: what is found of each is more than what is kept of it.
+const AT_ONCE: usize = 1 << 14;
+
 /// An arm and its measurements.
 #[derive(Clone)]
 pub(crate) struct Problem<'a> {
@@ -121,13 +124,19 @@ impl<'a> Problem<'a> {
             }
             Ok((sim.reading(), tool.norm()))
         };
-        // The first row's error is told, however many rows are worked on at once.
-        let all: Vec<Result<(Reading, f64), DiagnoseError>> =
-            (0..data.rows.len()).into_par_iter().map(seen).collect();
-        let (readings, reaches): (Vec<Reading>, Vec<f64>) =
-            all.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-        let reach = reaches.into_iter().fold(0.0, f64::max);
         let own = data.sim_given.contains(&true);
+        let (mut readings, mut reach) = (Vec::new(), 0.0_f64);
+        // The first row's error is told, however many rows are worked on at once.
+        for first in (0..data.rows.len()).step_by(AT_ONCE) {
+            let some = first..(first + AT_ONCE).min(data.rows.len());
+            let each: Vec<Result<(Reading, f64), DiagnoseError>> =
+                some.into_par_iter().map(seen).collect();
+            for one in each {
+                let (reading, far) = one?;
+                reach = reach.max(far);
+                readings.extend(own.then_some(reading));
+            }
+        }
         Ok(Problem {
             arm,
             data,
@@ -161,9 +170,8 @@ impl<'a> Problem<'a> {
     }
 
     /// What there is one of for each row, of the rows that are counted.
-    pub(crate) fn kept<T: Clone>(&self, of_rows: &[T]) -> Vec<T> {
-        let each = of_rows.iter().zip(&self.fits).filter(|(_, fits)| **fits);
-        each.map(|(one, _)| one.clone()).collect()
+    pub(crate) fn kept<'r, T>(&'r self, of_rows: &'r [T]) -> impl Iterator<Item = &'r T> + Clone {
+        of_rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(one, _)| one)
     }
 
     /// The rows that are counted.
@@ -177,9 +185,9 @@ impl<'a> Problem<'a> {
     }
 
     /// The gaps of all rows as they would be if all were equally precise.
-    pub(crate) fn standard(&self, gaps: &[Vector6<f64>]) -> Vec<Vector6<f64>> {
+    pub(crate) fn standard(&self, gaps: &[Vector6<f64>]) -> impl Iterator<Item = Vector6<f64>> {
         let each = gaps.iter().enumerate();
-        each.map(|(row, gap)| gap.component_mul(&self.precision.of_row(row))).collect()
+        each.map(|(row, gap)| gap.component_mul(&self.precision.of_row(row)))
     }
 
     /// Rows that are counted, beyond one for each constant.

@@ -4,11 +4,11 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use super::spread::{Spread, columns};
+use super::spread::Spread;
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Fitted, Model, Predicted};
+use crate::diagnose::fit::{Fitted, Model};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
-use crate::diagnose::report::{Cover, EDGE};
+use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known, file_name};
 use crate::measurement::{Kind, Measurements};
 
@@ -16,7 +16,7 @@ use crate::measurement::{Kind, Measurements};
 pub struct Explanation {
     pub(super) nominal: Arm,
     arm: Arm,
-    file: String,
+    pub(super) file: String,
     pub(super) kind: Kind,
     pub(super) before: Model,
     pub(super) after: Model,
@@ -167,25 +167,9 @@ impl Explanation {
         let each = data.rows.iter().enumerate();
         let inside = each.map(|(number, row)| {
             self.covers.holds(row)
-                && self.leverage(&problem, &model, &after, number, &numbers)
-                    <= self.spread.leverage * (1.0 + EDGE)
+                && self.spread.covers(&problem, &model, &after, number, &numbers)
         });
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
-    }
-
-    /// Of a row, by those `numbers` of what was fitted that `model` has; infinite where it has no state.
-    fn leverage(
-        &self,
-        problem: &Problem<'_>,
-        model: &Model,
-        predicted: &Predicted,
-        row: usize,
-        numbers: &[usize],
-    ) -> f64 {
-        model.state(problem, predicted, row).map_or(f64::INFINITY, |sim| {
-            let block = model.change(problem, &sim, row, |s| model.block(problem, row, s));
-            self.spread.leverage(&block.select_columns(&columns(problem, model, row)), numbers)
-        })
     }
 
     /// Which of the diagnosed sessions a session of other data is measured in.

@@ -8,6 +8,8 @@
 mod expected;
 mod explanation;
 mod spread;
+mod trust;
 
 pub use expected::Expected;
 pub use explanation::{Explanation, Prediction};
+pub use trust::Trust;

@@ -4,9 +4,13 @@ use nalgebra::{DMatrix, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Basis, Model, block, squares};
+use crate::diagnose::fit::{Basis, Model, Predicted, block, squares};
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::search::{Explained, Search};
+
+/// Part by which a leverage changes with the arm that it is worked out for: the corrections themselves are
+/// some thousandths of what they correct.
+const SECOND: f64 = 0.01;
 
 /// How well the numbers that were fitted are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +25,26 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
+    /// Whether a row's leverage is no larger than that of a row that was fitted, by those `numbers` of what was
+    /// fitted that `model` has; where it has no state it is infinite.
+    pub(super) fn covers(
+        &self,
+        problem: &Problem<'_>,
+        model: &Model,
+        predicted: &Predicted,
+        row: usize,
+        numbers: &[usize],
+    ) -> bool {
+        let leverage = model.state(problem, predicted, row).map_or(f64::INFINITY, |sim| {
+            let block = model.change(problem, &sim, row, |s| model.block(problem, row, s));
+            self.leverage(&block.select_columns(&columns(problem, model, row)), numbers)
+        });
+        leverage <= self.leverage * (1.0 + SECOND)
+    }
+
     /// Leverage of a row, whose `block` has these of the numbers that were fitted: the variance of its
     /// prediction over that of a measurement, summed over what is measured.
-    pub(super) fn leverage(&self, block: &Matrix6xX<f64>, numbers: &[usize]) -> f64 {
+    fn leverage(&self, block: &Matrix6xX<f64>, numbers: &[usize]) -> f64 {
         let mut doubt = block * self.root.select_rows(numbers);
         for mut column in doubt.column_iter_mut() {
             let white = |x: f64, left: f64| if left > 0.0 { x / left.sqrt() } else { 0.0 };
@@ -34,7 +55,7 @@ impl Spread {
 }
 
 /// The columns of a row's block that a [`Spread`] knows of: the frames of its own session, and effects.
-pub(super) fn columns(problem: &Problem<'_>, model: &Model, row: usize) -> Vec<usize> {
+fn columns(problem: &Problem<'_>, model: &Model, row: usize) -> Vec<usize> {
     let is_own =
         |frame, session| frame == Nuisance::ToolFrame || session == problem.session_of[row];
     let frames = problem.frames().enumerate().filter(|(_, (f, s))| is_own(*f, *s));

@@ -54,8 +54,8 @@ impl Search<'_, '_> {
     /// time.
     pub(crate) fn slices(&self, before: &[Vector6<f64>], after: &[Vector6<f64>]) -> Vec<Slice> {
         let [before, after] = [before, after].map(|gaps| {
-            let sizes: Vec<f64> = gaps.iter().map(|gap| self.problem.size(gap)).collect();
-            self.problem.kept(&sizes)
+            let sizes = self.problem.kept(gaps).map(|gap| self.problem.size(gap));
+            sizes.collect::<Vec<f64>>()
         });
         let rows: Vec<&Row> = self.problem.kept_rows().collect();
         let mut slices = Vec::new();
@@ -77,7 +77,7 @@ impl Search<'_, '_> {
         let moments = &self.problem.moments;
         let clocks: Vec<f64> =
             (0..self.problem.fits.len()).map(|row| moments.at(row).clock).collect();
-        add("time".to_owned(), self.problem.kept(&clocks));
+        add("time".to_owned(), self.problem.kept(&clocks).copied().collect());
         slices
     }
 }

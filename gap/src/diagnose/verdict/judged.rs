@@ -44,7 +44,7 @@ impl Search<'_, '_> {
             let groups = &shrinking.groups;
             (self.progress)(Stage::Judge(groups.len()));
             let after = if groups.is_empty() { before } else { &shrinking.after };
-            let size = Statistics::of(&self.problem.kept(after));
+            let size = Statistics::of(self.problem.kept(after));
             let positions = self.problem.measures_position();
             let main = if positions { size.position_rms } else { size.rotation_rms };
             let unexplained =

@@ -61,7 +61,8 @@ impl Search<'_, '_> {
             largest(places.entry(probe.place).or_insert(0.0));
             largest(about.entry(probe.about).or_insert(0.0));
         }
-        let gaps = &self.problem.kept(&self.problem.standard(&now.fit.predicted.gaps));
+        let gaps = self.problem.standard(&now.fit.predicted.gaps);
+        let gaps = gaps.zip(&self.problem.fits).filter(|(_, fits)| **fits).map(|(gap, _)| gap);
         let parameters = now.fit.model.parameters(self.problem);
         let present = now.noise.exceeded(gaps, parameters) || significant;
         if !present {

@@ -25,9 +25,8 @@ impl Search<'_, '_> {
         after: &[Vector6<f64>],
     ) -> Residual {
         let problem = self.problem;
-        let gaps: Vec<Vector6<f64>> = (problem.standard(&now.fit.predicted.gaps).iter())
-            .map(|gap| gap.component_mul(&now.weights))
-            .collect();
+        let gaps = problem.standard(&now.fit.predicted.gaps);
+        let gaps: Vec<Vector6<f64>> = gaps.map(|gap| gap.component_mul(&now.weights)).collect();
         Residual {
             normality: normality(problem, &gaps),
             autocorrelation: autocorrelation(problem, &gaps),
@@ -56,11 +55,11 @@ impl Search<'_, '_> {
 /// variance estimated (Stephens 1974; its chance by D'Agostino & Stephens 1986, table 4.9).
 fn normality(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Normality> {
     let kept = problem.kept(gaps);
-    let mut values = Vec::with_capacity(problem.measured.len() * kept.len());
+    let mut values = Vec::new();
     // Positions and rotations each by their own size.
     for kind in [0..3, 3..6] {
         let mut own: Vec<f64> = (problem.measured.iter().filter(|k| kind.contains(*k)))
-            .flat_map(|k| kept.iter().map(|gap| gap[*k]))
+            .flat_map(|k| kept.clone().map(|gap| gap[*k]))
             .collect();
         let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
         let variance = own.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / own.len() as f64;

@@ -105,7 +105,7 @@ impl Search<'_, '_> {
     /// Weighted squares that are left in each block of poses.
     fn per_block(&self, now: &Explained) -> Vec<f64> {
         let gaps = self.problem.standard(&now.fit.predicted.gaps);
-        let sizes: Vec<f64> = gaps.iter().map(|g| g.component_mul(&now.weights).norm()).collect();
+        let sizes: Vec<f64> = gaps.map(|g| g.component_mul(&now.weights).norm()).collect();
         self.folds.per_block(&sizes)
     }
 

@@ -50,7 +50,7 @@ impl Search<'_, '_> {
 
     /// From sizes of gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.
     pub(super) fn shrink(&self, before: &[f64], after: &[f64], spread: f64) -> Shrink {
-        let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes));
+        let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes).copied().collect::<Vec<_>>());
         let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
         let shrink = shrink(sum(before), sum(after));
         Shrink {

@@ -1,8 +1,4 @@
-//! Whatever the input, the readers of measurements answer: no panic, no number that is not finite, no
-//! mistake without a place. The repository's own files are mutated.
-//!
-//! A million inputs each, in minutes:
-//! `cargo test --release -p stiffarm-gap --test fuzz -- --ignored a_million`
+//! Measurement files, and the tables of others from which they are made.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
@@ -24,11 +20,11 @@ const VALID: &str = "# a file\r\n\
 /// Files of the repository, and tables that once were trouble.
 const CORPUS: [&str; 9] = [
     VALID,
-    include_str!("../../docs/workbench/run.csv"),
-    include_str!("../../docs/workbench/plan.csv"),
-    include_str!("../../docs/workbench/check.csv"),
-    include_str!("../../docs/workbench/raw.txt"),
-    include_str!("../../robots/data/lin1991_table3.csv"),
+    include_str!("../../../docs/workbench/run.csv"),
+    include_str!("../../../docs/workbench/plan.csv"),
+    include_str!("../../../docs/workbench/check.csv"),
+    include_str!("../../../docs/workbench/raw.txt"),
+    include_str!("../../../robots/data/lin1991_table3.csv"),
     "q1,q2,x,y,z,rx,ry,rz,marker,pose,s1,time,temperature\n1,2,3,4,5,6,7,8,smr1,a,-1,0,20\n",
     "Actual_q0 | Actual_q1 | qw | qx | qy | qz | X | Y | Z | kg\n1|2|1|0|0|0|1|2|3|4\n",
     "\u{feff}A1;X;Y;Z;W;P;R\n1,5;2;3;4;5;6;7\n",
@@ -36,7 +32,7 @@ const CORPUS: [&str; 9] = [
 
 const MAPS: [&str; 5] = [
     "",
-    include_str!("../../docs/workbench/map.toml"),
+    include_str!("../../../docs/workbench/map.toml"),
     "decimal = \",\"\nseparator = \";\"\norientation = \"zyz\"\n",
     "header = 3\n[columns]\nq1 = { column = \"A1\", unit = \"deg\", factor = -1, offset = 90 }\n",
     "orientation = \"quaternion\"\ngravity = [0, 0, 1e300]\n",
