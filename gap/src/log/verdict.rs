@@ -21,6 +21,7 @@ use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, Term};
 use super::search::judge::{Judged, Unseen, Verdict, judged};
 use super::search::rest::rests;
+use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
 use super::search::{self, Round, effective};
 use super::signal::Signals;
@@ -140,6 +141,7 @@ pub fn diagnosed(
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
+        springs: Springs::of(&stock, &verdict),
     };
     let diagnosis = LogDiagnosis {
         stiffarm: options.version.clone(),

@@ -13,6 +13,7 @@ pub mod grains;
 pub mod judge;
 pub mod rest;
 mod ripples;
+pub mod springs;
 pub mod stock;
 pub mod sums;
 
