@@ -328,7 +328,6 @@ impl Args {
             (self.noise_rotation.is_some(), "--noise-rotation"),
             (self.keep_all, "--keep-all"),
             (self.folds.is_some(), "--folds"),
-            (self.nested, "--nested"),
             (!self.rivals.is_empty(), "--rival"),
             (self.accept.is_some(), "--accept"),
             (self.compare.is_some(), "--compare"),

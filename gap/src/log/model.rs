@@ -137,6 +137,7 @@ impl Explained {
             size: joint.size(rows),
             before: joint.rms(|k| joint.without(k)),
             after: joint.rms(|k| joint.left(k)),
+            nested: None,
         };
         self.joints.iter().zip(units).map(of).collect()
     }

@@ -86,6 +86,7 @@ impl Motion {
             known: source.motion.clone(),
             payloads: layout(&source)?.payloads.map_or_else(Vec::new, |known| known.bodies),
             known_links: args.log.known_masses,
+            nested: args.nested,
             seed: args.seed,
         };
         let (found, model) = diagnosed(&arm, &log, &options).map_err(plain)?;

@@ -11,6 +11,7 @@ pub mod case;
 pub mod fit;
 pub mod grains;
 pub mod judge;
+pub mod nested;
 pub mod rest;
 mod ripples;
 pub mod springs;
