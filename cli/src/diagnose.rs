@@ -7,12 +7,14 @@ mod compared;
 mod corrected;
 mod log;
 mod provenance;
+mod together;
 
 use std::path::PathBuf;
 
 use stiffarm_gap::diagnose::{Prior, Stage};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{DiagnoseError, Options};
 use stiffarm_kernels::generic::Arm;
 
@@ -20,10 +22,10 @@ pub use accepted::Accepted;
 pub use campaign::Campaign;
 pub use check::Check;
 pub use compared::{Compared, Reached};
-use corrected::Corrections;
 pub use corrected::Format;
 pub use log::{Check as LogCheck, Motion};
 pub use provenance::{Hashes, Provenance};
+pub use together::{Said, Together};
 
 use super::Verdict;
 use crate::input::quantity::{self, counted};
@@ -40,6 +42,7 @@ Examples:
   stiffarm diagnose arm.toml run1.csv --write-robot better.toml --check run2.csv --json run1.json
   stiffarm diagnose arm.toml run2.csv --compare run1.json --accept 0.2mm --report run2.html
   stiffarm diagnose arm.toml log.csv --torque-side motor
+  stiffarm diagnose arm.toml run1.csv log.csv --write-robot better.toml
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
 DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
@@ -47,19 +50,20 @@ mz, or a payload by name; what was measured, x y z [rx ry rz] or dx dy dz [drx d
 [from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, the instrument's
 standard deviations sigma (of all positions) or sigma_x …, and your own simulator's sim_x … or sim_dx ….
 
-A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more.";
+A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more. With both
+every joint's spring is told by both.";
 
 /// Why the real arm is not where the model says, at rest or in motion
 ///
 /// The gap between robot file and measurements, or a log of joint values with torques, currents or
 /// commands; which unmodelled effects cause it and how far it shrinks with them, judged on poses, or
 /// on time, that no fit has seen.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The measurement file (CSV), or a joint log of one or several files
+    /// The measurement file (CSV), or a joint log of one or several files, or both
     #[arg(required = true)]
     data: Vec<PathBuf>,
     /// What is known to be unknown, fitted along and never a finding: base_frame, tool_frame,
@@ -132,6 +136,8 @@ pub enum Found {
     Campaign(Box<Campaign>),
     /// A log of the arm in motion.
     Motion(Box<Motion>),
+    /// Both, of one arm.
+    Together(Box<Together>),
 }
 
 /// Runs the command.
@@ -139,14 +145,11 @@ pub enum Found {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let found = match find(args, Catalogue::default(), quiet)? {
-        Found::Motion(found) => return found.write(args, quiet),
-        Found::Campaign(found) => found,
-    };
+    let found = find(args, Catalogue::default(), quiet)?;
     if let Some(target) = &args.json {
         target.write(&found.json()?)?;
     }
-    args.write_arm(&found.corrections(), quiet)?;
+    args.write_arm(&found, quiet)?;
     if let Some(target) = &args.report {
         target.write(&found.page()?)?;
     }
@@ -169,8 +172,92 @@ pub fn find(args: &Args, catalogue: Catalogue, quiet: bool) -> Result<Found, Fai
         log::Files::Log(parts) => {
             Motion::new(args, source, parts, quiet).map(|found| Found::Motion(Box::new(found)))
         }
-        log::Files::Measurements(bytes) => Campaign::new(args, source, bytes, catalogue, quiet)
-            .map(|found| Found::Campaign(Box::new(found))),
+        log::Files::Measurements(bytes) => {
+            Campaign::new(args, source, bytes, &[], catalogue, quiet)
+                .map(|found| Found::Campaign(Box::new(found)))
+        }
+        log::Files::Both(path, bytes, parts) => {
+            let both = args.both(path, &catalogue)?;
+            Together::new(&both, source, bytes, parts, catalogue, quiet)
+                .map(|found| Found::Together(Box::new(found)))
+        }
+    }
+}
+
+impl Found {
+    /// Whether the corrected arm is within the tolerance that was asked for; none is always kept.
+    fn is_accepted(&self) -> bool {
+        match self {
+            Found::Campaign(found) => found.is_accepted(),
+            Found::Motion(_) => true,
+            Found::Together(found) => found.campaign.is_accepted(),
+        }
+    }
+
+    /// The diagnosis in JSON.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be written so.
+    pub fn json(&self) -> Result<String, Failure> {
+        match self {
+            Found::Campaign(found) => found.json(),
+            Found::Motion(found) => found.json(),
+            Found::Together(found) => found.json(),
+        }
+    }
+
+    /// The diagnosis as it stands on a screen.
+    pub fn text(&self) -> String {
+        match self {
+            Found::Campaign(found) => found.text(),
+            Found::Motion(found) => found.text(),
+            Found::Together(found) => found.text(),
+        }
+    }
+
+    /// The page in HTML.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be made.
+    pub fn page(&self) -> Result<String, Failure> {
+        match self {
+            Found::Campaign(found) => found.page(),
+            Found::Motion(found) => found.page(),
+            Found::Together(found) => found.page(),
+        }
+    }
+
+    /// The robot file with all that was found.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log of currents, which tell no newton-metres.
+    pub fn corrected(&self) -> Result<String, Failure> {
+        match self {
+            Found::Campaign(found) => Ok(found.corrected()),
+            Found::Motion(found) => found.corrected(),
+            Found::Together(found) => found.corrected(),
+        }
+    }
+
+    /// The same arm as other programs read it, and a sentence on what they have no place for.
+    ///
+    /// # Errors
+    /// [`Failure`]: as above, or the table has cells that are no numbers.
+    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        match self {
+            Found::Campaign(found) => found.exported(format),
+            Found::Motion(found) => found.exported(format),
+            Found::Together(found) => found.exported(format),
+        }
+    }
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    fn caveats(&self) -> Vec<String> {
+        match self {
+            Found::Campaign(found) => found.corrections().caveats(),
+            Found::Motion(_) => Vec::new(),
+            Found::Together(found) => found.campaign.corrections().caveats(),
+        }
     }
 }
 
@@ -198,22 +285,38 @@ impl Args {
         [&self.write_robot, &self.write_urdf, &self.write_mjcf]
     }
 
-    fn write_arm(&self, corrected: &Corrections<'_>, quiet: bool) -> Result<(), Failure> {
+    fn write_arm(&self, found: &Found, quiet: bool) -> Result<(), Failure> {
         if let Some(target) = &self.write_robot {
-            target.write(&corrected.text())?;
+            target.write(&found.corrected()?)?;
         }
         for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
         {
             if let Some(target) = target {
-                let (text, lost) = corrected.exported(format)?;
+                let (text, lost) = found.exported(format)?;
                 target.write(&text)?;
                 lost.iter().for_each(|lost| note(lost, quiet));
             }
         }
         if self.arms().iter().any(|target| target.is_some()) {
-            corrected.caveats().iter().for_each(|caveat| note(caveat, quiet));
+            found.caveats().iter().for_each(|caveat| note(caveat, quiet));
         }
         Ok(())
+    }
+
+    /// Without the options that speak of measurement files alone.
+    fn without_measurements(self) -> Args {
+        Args {
+            nuisance: Vec::new(),
+            tolerance: None,
+            noise_position: None,
+            noise_rotation: None,
+            keep_all: false,
+            folds: None,
+            rivals: Vec::new(),
+            accept: None,
+            compare: None,
+            ..self
+        }
     }
 
     /// The first option that is given and speaks of measurement files alone.
@@ -225,7 +328,6 @@ impl Args {
             (self.noise_rotation.is_some(), "--noise-rotation"),
             (self.keep_all, "--keep-all"),
             (self.folds.is_some(), "--folds"),
-            (self.nested, "--nested"),
             (!self.rivals.is_empty(), "--rival"),
             (self.accept.is_some(), "--accept"),
             (self.compare.is_some(), "--compare"),
@@ -238,6 +340,7 @@ impl Args {
         &self,
         source: &Source,
         arm: &Arm,
+        springs: &[Spring],
         catalogue: Catalogue,
     ) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
@@ -263,6 +366,7 @@ impl Args {
             tolerance: tolerance.transpose()?,
             rivals: self.rivals.clone(),
             known: source.known.clone(),
+            springs: springs.to_vec(),
             stop: interrupt::stop(),
             catalogue,
             ..Options::default()

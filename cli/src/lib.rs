@@ -39,7 +39,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use stiffarm_gap::effects::Catalogue;
 use terminal::output;
 
-pub use diagnose::{Campaign, Format, Found, Motion};
+pub use diagnose::{Campaign, Format, Found, Motion, Together};
 pub use input::source::{RobotArgs, Source};
 use inside::{Ended, Host};
 pub use terminal::failure::{Failure, Remark};

@@ -180,14 +180,25 @@ fn screen(report: &Report) -> String {
     );
     let mut text = format!("{}\n{}\n\n{}\n", bold(&report.robot), dim(facts), bold("Found"));
     text.push_str(&indented(&rates(report), 2));
-    text.push_str(&confusions(&report.confusion));
-    if !report.cannot_plant.is_empty() {
-        let names = report.cannot_plant.join(", ");
+    let error = report.cases.iter().find_map(|case| case.error.as_deref());
+    text + &rest(&report.confusion, &report.cannot_plant, report.failed, error)
+}
+
+/// Behind the rates: what was taken for what, what could not be put in, and what failed.
+fn rest(
+    confusion: &[Confusion],
+    cannot_plant: &[&'static str],
+    failed: usize,
+    error: Option<&str>,
+) -> String {
+    let mut text = confusions(confusion);
+    if !cannot_plant.is_empty() {
+        let names = cannot_plant.join(", ");
         text.push_str(&format!("\n{}  {names}\n", bold("Does not show here")));
     }
-    if report.failed > 0 {
-        let error = report.cases.iter().find_map(|case| case.error.as_deref()).unwrap_or_default();
-        let failed = counted(report.failed, "diagnosis without result");
+    if failed > 0 {
+        let (failed, error) =
+            (counted(failed, "diagnosis without result"), error.unwrap_or_default());
         text.push_str(&format!("\n{}  {failed}, the first: {error}\n", bold("Failed")));
     }
     text

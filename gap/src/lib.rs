@@ -34,6 +34,7 @@ pub mod random;
 pub mod readings;
 pub mod robot;
 pub mod simulate;
+pub mod spring;
 pub mod whole;
 pub mod withhold;
 

@@ -24,45 +24,30 @@ type Predicted<'py> =
 impl Found {
     /// The diagnosis in JSON, as the command line writes it.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let text = py.detach(|| match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => found.json(),
-            stiffarm_cli::Found::Motion(found) => found.json(),
-        });
+        let text = py.detach(|| self.0.json());
         text.map_err(|failure| error(py, &failure))
     }
 
     /// The page in HTML.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        let page = py.detach(|| match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => found.page(),
-            stiffarm_cli::Found::Motion(found) => found.page(),
-        });
+        let page = py.detach(|| self.0.page());
         page.map_err(|failure| error(py, &failure))
     }
 
     /// As it stands on a screen.
     fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => found.text(),
-            stiffarm_cli::Found::Motion(found) => found.text(),
-        })
+        py.detach(|| self.0.text())
     }
 
     /// The robot file with what was found; None of a log of currents.
     fn corrected(&self, py: Python<'_>) -> Option<String> {
-        py.detach(|| match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => Some(found.corrected()),
-            stiffarm_cli::Found::Motion(found) => found.corrected(),
-        })
+        py.detach(|| self.0.corrected().ok())
     }
 
     /// The corrected arm as a URDF or an MJCF, and a sentence on what it has no place for.
     fn exported(&self, py: Python<'_>, mjcf: bool) -> PyResult<(String, Option<String>)> {
         let format = if mjcf { Format::Mjcf } else { Format::Urdf };
-        let text = py.detach(|| match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => found.exported(format),
-            stiffarm_cli::Found::Motion(found) => found.exported(format),
-        });
+        let text = py.detach(|| self.0.exported(format));
         text.map_err(|failure| error(py, &failure))
     }
 
@@ -90,7 +75,7 @@ impl Found {
     fn campaign(&self) -> Option<&Campaign> {
         match &self.0 {
             stiffarm_cli::Found::Campaign(found) => Some(found),
-            stiffarm_cli::Found::Motion(_) => None,
+            stiffarm_cli::Found::Motion(_) | stiffarm_cli::Found::Together(_) => None,
         }
     }
 }

@@ -2,13 +2,15 @@
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use stiffarm_gap::diagnose::{Diagnosed, Prediction, Trust};
+use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{Dimension, Layout};
+use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
-use super::corrected::{Corrections, Format};
+use super::corrected::{Corrections, Format, made_from};
 use super::{Accepted, Args, Check, Compared, Hashes, Provenance, in_words, plain};
 use crate::input::source::Source;
 use crate::input::{data, quantity};
@@ -35,7 +37,7 @@ pub struct Campaign {
 
 /// The diagnosis as it is written.
 #[derive(Serialize)]
-struct Written<'a> {
+pub(super) struct Told<'a> {
     #[serde(flatten)]
     diagnosis: &'a Diagnosis,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,7 +57,8 @@ struct Written<'a> {
 }
 
 impl Campaign {
-    /// Reads and diagnoses the measurements in `bytes`, with the effects of `catalogue`.
+    /// Reads and diagnoses the measurements in `bytes`, with the effects of `catalogue` and the springs
+    /// that a log tells.
     ///
     /// # Errors
     /// [`Failure`]: the data or the options.
@@ -63,13 +66,14 @@ impl Campaign {
         args: &Args,
         source: Source,
         bytes: Vec<u8>,
+        springs: &[Spring],
         catalogue: Catalogue,
         quiet: bool,
     ) -> Result<Campaign, Failure> {
         let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
         let tolerance = args.accept.as_ref().map(length).transpose()?;
         let arm = source.arm()?;
-        let options = args.options(&source, &arm, catalogue)?;
+        let options = args.options(&source, &arm, springs, catalogue)?;
         let layout = data::layout(&source)?;
         let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
         let hash = Sha256::new_with_prefix(&bytes);
@@ -117,7 +121,11 @@ impl Campaign {
     /// # Errors
     /// [`Failure`] if it cannot be written so.
     pub fn json(&self) -> Result<String, Failure> {
-        json::text(&Written {
+        json::text(&self.told())
+    }
+
+    pub(super) fn told(&self) -> Told<'_> {
+        Told {
             diagnosis: &self.diagnosed.diagnosis,
             doubts: &self.doubts,
             check: self.check.as_ref(),
@@ -126,7 +134,7 @@ impl Campaign {
             hashes: &self.made.hashes,
             trust: self.diagnosed.explanation.trust(),
             corrected: self.corrections().text(),
-        })
+        }
     }
 
     /// The robot file with all that was found.
@@ -140,6 +148,30 @@ impl Campaign {
     /// [`Failure`] if the table has cells that are no numbers.
     pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
         self.corrections().exported(format)
+    }
+
+    /// What is said together with a log.
+    pub(super) fn beside_log(&self) -> Option<&BesideLog> {
+        self.diagnosed.beside_log.as_ref()
+    }
+
+    /// Position error that two models leave, root mean squares, m (of the rotation, rad, where no
+    /// position is measured): that of these rows alone, and that beside what a log tells.
+    pub(super) fn left(&self) -> Result<(&'static str, [f64; 2]), Failure> {
+        let alone = &self.diagnosed.explanation;
+        let both = self.beside_log().map_or(alone, |both| &both.explanation);
+        let positions = self.data.kind.components()[..3].contains(&true);
+        let left = |model: &Explanation| {
+            let gaps = model.predict(&self.data).map_err(plain)?.after;
+            let left = Statistics::of(&gaps);
+            Ok(if positions { left.position_rms } else { left.rotation_rms })
+        };
+        Ok((if positions { "m" } else { "rad" }, [left(alone)?, left(both)?]))
+    }
+
+    /// The first line of a robot file that these rows and some files of logs have corrected.
+    pub(super) fn made_with(&self, logs: &str) -> String {
+        made_from(&self.source, &format!("{} and {logs}", self.data.file))
     }
 
     pub(super) fn corrections(&self) -> Corrections<'_> {

@@ -69,23 +69,41 @@ impl<'a> Corrections<'a> {
 
     /// The robot file.
     pub fn text(&self) -> String {
-        let (diagnosis, found) = (&self.diagnosed.diagnosis, self.found());
-        let version = &diagnosis.stiffarm;
-        let mut lines = vec![format!(
-            "Corrected by stiffarm {version} from {}, diagnosed with {}.",
-            self.source.given, self.data.file
-        )];
+        let mut lines = vec![made_from(self.source, &self.data.file)];
         lines.extend(self.caveats().iter().map(|caveat| capital(caveat) + "."));
         lines.push(String::new());
-        lines.push("Put in, with 95 % intervals:".to_owned());
+        lines.extend(self.lines());
+        file(lines, self.robot())
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.found().robot
+    }
+
+    /// What was put in, line by line.
+    pub fn lines(&self) -> Vec<String> {
+        let (diagnosis, found) = (&self.diagnosed.diagnosis, self.found());
+        let mut lines = vec!["Put in, with 95 % intervals:".to_owned()];
         lines.extend(found.outcomes.iter().map(line));
         lines.extend(diagnosis.nuisances.iter().map(frame));
-        if found.outcomes.is_empty() && diagnosis.nuisances.is_empty() {
+        if lines.len() == 1 {
             lines.push("  nothing".to_owned());
         }
-        let head: String = lines.iter().map(|line| comment(line)).collect();
-        format!("{head}\n{}", found.robot.to_toml())
+        lines
     }
+}
+
+/// The first line of a corrected robot file.
+pub fn made_from(source: &Source, data: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    format!("Corrected by stiffarm {version} from {}, diagnosed with {data}.", source.given)
+}
+
+/// A robot file with comments at its head.
+pub fn file(lines: Vec<String>, robot: &Robot) -> String {
+    let head: String = lines.iter().map(|line| comment(line)).collect();
+    format!("{head}\n{}", robot.to_toml())
 }
 
 /// A corrected arm as another program reads it, and a sentence on what it has no place for.
@@ -124,7 +142,7 @@ fn frame(n: &NuisanceReport) -> String {
 }
 
 /// A line of comment, whatever the names in it hold.
-pub fn comment(line: &str) -> String {
+fn comment(line: &str) -> String {
     let plain: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     format!("# {plain}").trim_end().to_owned() + "\n"
 }

@@ -16,7 +16,7 @@ use crate::inside::{bytes, owner};
 use crate::terminal::failure::{Failure, Remark};
 
 /// Which robot.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub struct RobotArgs {
     /// A robot file (TOML), the id of a built-in robot, or a diagnosis (JSON): the robot with what it
     /// found
@@ -27,6 +27,7 @@ pub struct RobotArgs {
 }
 
 /// A robot that was read.
+#[derive(Clone)]
 pub struct Source {
     /// As it was named on the command line.
     pub given: String,

@@ -6,6 +6,7 @@
 //! embedded as JSON ([`embedded`]), and so are the tables that it offers as CSV ([`table`]). Nothing in the
 //! page refers to anything outside of it.
 
+pub mod both;
 mod corrections;
 mod curves;
 mod embedded;

@@ -90,6 +90,13 @@ pub fn left(gap: &[JointGap]) -> [f64; 2] {
     [mean(|g| g.before), mean(|g| g.after)]
 }
 
+/// What a search leaves that has not seen the time, as parts of the joints' sizes, mean; where it was run.
+fn nested(found: &LogDiagnosis) -> Option<f64> {
+    let parts: Option<Vec<f64>> =
+        found.gap.iter().map(|g| g.nested.map(|nested| nested / g.size)).collect();
+    parts.map(|parts| parts.iter().sum::<f64>() / parts.len() as f64)
+}
+
 /// What the model lacks, and what that leaves.
 pub fn sentence(found: &LogDiagnosis) -> String {
     let [before, after] = left(&found.gap).map(|part| format!("{} %", fixed(100.0 * part, 1)));
@@ -111,6 +118,12 @@ pub fn sentence(found: &LogDiagnosis) -> String {
         "The model lacks {told}: with them {after} {what} is left on time that no fit has seen, without \
          them {before}."
     );
+    if let Some(nested) = nested(found) {
+        text.push_str(&format!(
+            " Where the search has not seen the time either, {} % is left.",
+            fixed(100.0 * nested, 1)
+        ));
+    }
     let open = found.findings.iter().filter(|f| !f.alternatives.is_empty()).count();
     if open > 0 {
         text.push_str(&format!(
@@ -162,7 +175,14 @@ fn gap(found: &LogDiagnosis) -> String {
         rows.push(vec![format!("  {joint}"), size, before, after, left]);
     }
     use Align::{Left, Right};
-    table(&rows, &[Left, Right, Right, Right, Left])
+    let mut align = vec![Left, Right, Right, Right, Left];
+    if found.gap.iter().all(|gap| gap.nested.is_some()) {
+        let each = found.gap.iter().filter_map(|g| Some(short(shown(g.unit).1 * g.nested?)));
+        let cells = [dim("searched anew")].into_iter().chain(each);
+        rows.iter_mut().zip(cells).for_each(|(row, cell)| row.insert(4, cell));
+        align.insert(4, Right);
+    }
+    table(&rows, &align)
 }
 
 fn findings(found: &LogDiagnosis) -> String {

@@ -8,6 +8,7 @@ pub mod log;
 mod notes;
 mod sentence;
 mod size;
+pub mod together;
 mod unit;
 mod words;
 

@@ -1,6 +1,6 @@
 //! The joint log of an arm that moves.
 
-use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv};
+use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
 use super::{Args, plain};
 use crate::Verdict;
@@ -25,7 +25,8 @@ pub(super) fn run(args: &Args, source: &Source, target: &Target) -> Result<Verdi
     let truths = args.effects.iter().map(|text| MotionTruth::parse(text, &arm, stages.len()));
     let truths: Vec<MotionTruth> = truths.collect::<Result<_, _>>().map_err(plain)?;
     let (logged, recording) = (args.record.logged(), args.record.recording()?);
-    let plant = MovingPlant::new(&arm, &truths, logged, recording);
+    let known = known(&source.motion, &arm, stages.len(), logged).map_err(plain)?;
+    let plant = MovingPlant::new(&arm, &[&known[..], &truths].concat(), logged, recording);
     let runs = plant.record(&stages, seed).map_err(plain)?;
     let what = match &args.data {
         Some(path) => format!("along the commands of {}", path.display()),

@@ -2,10 +2,10 @@
 
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::log::effects::CATALOGUE;
-use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Rows};
+use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
 use stiffarm_gap::withhold::logs::{LogPlan, LogReport, withhold};
 
-use super::{Args, FULL, THREADS, confusions, rates_of};
+use super::{Args, FULL, THREADS, rates_of, rest};
 use crate::Verdict;
 use crate::input::quantity::counted;
 use crate::motion::{self, Courses};
@@ -38,6 +38,7 @@ pub(super) fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         seed,
         options: &LogOptions {
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            known: source.motion.clone(),
             ..LogOptions::default()
         },
         threads: THREADS,
@@ -56,10 +57,9 @@ pub(super) fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 
 /// What is put in: those of such a log that the diagnosis knows, or those that are named.
 fn effects(names: Option<&[String]>, logged: Logged) -> Result<Vec<&'static Law>, Failure> {
-    let rows = if logged == Logged::Position { Rows::Position } else { Rows::Torque };
     let is_known = |law: &&Law| CATALOGUE.iter().any(|effect| effect.identifier() == law.name);
     let known: Vec<&'static Law> =
-        LAWS.iter().filter(|law| law.rows.contains(&rows)).filter(is_known).collect();
+        LAWS.iter().filter(|law| law.rows.contains(&logged.rows())).filter(is_known).collect();
     let Some(names) = names else { return Ok(known) };
     let named = |name: &String| {
         known.iter().find(|law| law.name == name).copied().ok_or_else(|| {
@@ -100,15 +100,6 @@ fn screen(report: &LogReport, logged: Logged) -> String {
     ]);
     let mut text = format!("{}\n{}\n\n{}\n", bold(&report.robot), dim(facts), bold("Found"));
     text.push_str(&indented(&rates, 2));
-    text.push_str(&confusions(&report.confusion));
-    if !report.cannot_plant.is_empty() {
-        let names = report.cannot_plant.join(", ");
-        text.push_str(&format!("\n{}  {names}\n", bold("Does not show here")));
-    }
-    if report.failed > 0 {
-        let error = report.cases.iter().find_map(|case| case.error.as_deref()).unwrap_or_default();
-        let failed = counted(report.failed, "diagnosis without result");
-        text.push_str(&format!("\n{}  {failed}, the first: {error}\n", bold("Failed")));
-    }
-    text
+    let error = report.cases.iter().find_map(|case| case.error.as_deref());
+    text + &rest(&report.confusion, &report.cannot_plant, report.failed, error)
 }

@@ -26,5 +26,6 @@ mod readme;
 mod report;
 mod simulate;
 mod support;
+mod together;
 mod withhold;
 mod workbench;

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::support::{Folder, stiffarm, text};
 
 /// An elbow above an upright axis, with rotors and friction.
-const ELBOW: &str = "\
+pub const ELBOW: &str = "\
 name = \"elbow\"
 convention = \"standard\"
 

@@ -33,6 +33,7 @@ mod sums;
 mod tests;
 mod verdict;
 
+use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 pub use crate::effects::ParameterReport;
@@ -50,9 +51,10 @@ pub use report::{
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
+use crate::spring::Joined;
 use data::{Folds, Precision, Problem};
 use fit::Model;
-use search::Search;
+use search::{Explained, Search};
 use sums::Candidate;
 
 /// Rounds of explaining and of leaving out what does not fit: after two of them hardly a row changes.
@@ -66,6 +68,16 @@ pub struct Diagnosed {
     /// What was found.
     pub diagnosis: Diagnosis,
     /// The same as models that predict.
+    pub explanation: Explanation,
+    /// The same beside the springs that a log tells too; where [`Options::springs`] has any.
+    pub beside_log: Option<BesideLog>,
+}
+
+/// What a campaign says together with a log.
+pub struct BesideLog {
+    /// The springs of which both tell, and one has found something.
+    pub springs: Vec<Joined>,
+    /// The model with the springs that both tell, and everything else fitted beside them.
     pub explanation: Explanation,
 }
 
@@ -167,15 +179,21 @@ pub fn diagnose_with(
         rivals: (!options.rivals.is_empty()).then_some(compared),
         stopped: options.stop.is_asked(),
     };
-    let spread = search.spread(&explained);
-    let explanation = Explanation::new(
-        &problem,
-        [nominal, explained.fit.model],
-        spread,
-        &diagnosis.covers,
-        options,
-    );
-    Ok(Diagnosed { diagnosis, explanation })
+    let told = |now: Explained| {
+        let models = [nominal.clone(), now.fit.model.clone()];
+        Explanation::new(&problem, models, search.spread(&now), &diagnosis.covers, options)
+    };
+    let beside_log = match &options.springs[..] {
+        [] => None,
+        of_log => {
+            let slides = |joint: usize| arm.joints[joint].motion == Motion::Prismatic;
+            let springs = Joined::all(&search.springs(&explained)?, of_log, slides);
+            let explanation = told(search.beside_springs(&explained, &springs)?);
+            Some(BesideLog { springs, explanation })
+        }
+    };
+    let explanation = told(explained);
+    Ok(Diagnosed { diagnosis, explanation, beside_log })
 }
 
 /// Every fold must leave poses by which the base of each session is told.

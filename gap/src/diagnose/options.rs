@@ -3,6 +3,7 @@
 use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, ToolFrame};
+use crate::spring::Spring;
 use crate::measurement::nearest;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
@@ -85,6 +86,8 @@ pub struct Options {
     /// Whether the search is run again for each fold on the others, and the gap told that it leaves:
     /// as many times the work.
     pub nested: bool,
+    /// What a log tells of the joints' springs, to be told together with what the rows do.
+    pub springs: Vec<Spring>,
     /// Whether rows that do not fit are fitted and counted all the same.
     pub keep_all: bool,
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:

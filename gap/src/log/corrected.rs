@@ -16,6 +16,7 @@ use super::rigid::Base;
 use super::scene::Domain;
 use super::signal::Signals;
 use crate::effects::{RobotFile, significant};
+use crate::robot::{self, RobotError};
 
 /// Samples of a log by which the links' numbers are weighed.
 const SAMPLES: usize = 3000;
@@ -33,8 +34,11 @@ pub struct Corrected {
 }
 
 /// Why nothing can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unwritable {
+    /// The table has cells that are no numbers.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
     /// A log of currents.
     #[error(
         "found currents alone, expected torques: a robot file is in newton-metres, and a log of currents tells \
@@ -43,7 +47,8 @@ pub enum Unwritable {
     Currents,
 }
 
-/// The robot that a log was diagnosed with, with what was found put into it.
+/// The robot that a log was diagnosed with, or the same as a campaign has corrected it, with what was found put
+/// into it.
 ///
 /// # Errors
 /// [`Unwritable`]: the log tells no newton-metres.
@@ -79,13 +84,21 @@ pub fn corrected(
         None => robot.torque_side,
         side => TorqueSide::ALL.iter().find(|(_, s)| Some(*s) == side).map(|(name, _)| *name),
     };
-    let bodies =
-        (model.rows == Domain::Torque).then(|| put_bodies(&mut robot, arm, log, found, model));
+    let bodies = match model.rows {
+        Domain::Torque => Some(put_bodies(&mut robot, arm, log, found, model)?),
+        Domain::Position => None,
+    };
     Ok(Corrected { robot, entries, bodies })
 }
 
 /// Puts bodies into the rows that ask for the torques that were fitted; how much these differ.
-fn put_bodies(robot: &mut Robot, arm: &Arm, log: &Log, found: &LogDiagnosis, model: &Model) -> f64 {
+fn put_bodies(
+    robot: &mut Robot,
+    arm: &Arm,
+    log: &Log,
+    found: &LogDiagnosis,
+    model: &Model,
+) -> Result<f64, Unwritable> {
     let signals = Signals::of(log, model.drive, Some(model.band));
     let n = arm.dof();
     let count = signals.t.len();
@@ -109,7 +122,8 @@ fn put_bodies(robot: &mut Robot, arm: &Arm, log: &Log, found: &LogDiagnosis, mod
         weight.gemm_tr(share, &told, &told, 1.0);
     }
     let wanted = links(arm, model);
-    let bodies = bodies(arm, &wanted, &weight);
+    // What the log does not tell stays near to the file that it is put into.
+    let bodies = bodies(&robot::arm(robot)?, &wanted, &weight);
     let off = DVector::from_vec(moments(&bodies)) - DVector::from_column_slice(&wanted);
     let mut differ = vec![0.0; n];
     for sample in &rows {
@@ -122,7 +136,7 @@ fn put_bodies(robot: &mut Robot, arm: &Arm, log: &Log, found: &LogDiagnosis, mod
         joint.inertia = Some(body.inertia.map(significant));
     }
     let parts = differ.iter().zip(&found.gap);
-    parts.map(|(sum, gap)| (sum / rows.len() as f64).sqrt() / gap.size).sum::<f64>() / n as f64
+    Ok(parts.map(|(sum, gap)| (sum / rows.len() as f64).sqrt() / gap.size).sum::<f64>() / n as f64)
 }
 
 /// Numbers of all links that ask what the model's do, with what was found of links.

@@ -9,6 +9,7 @@ use super::report::JointGap;
 use super::rigid::Base;
 use super::scene::{Column, Domain, Scene};
 use super::search::case::{Case, Simple, Wanted};
+pub use super::search::springs::Springs;
 use super::signal::Signals;
 use super::verdict::loaded;
 use crate::measurement::Body;
@@ -66,6 +67,8 @@ pub struct Model {
     pub alone: Vec<f64>,
     /// The simple model that says how the drives are loaded.
     pub simple: Simple,
+    /// What the log tells of the joints' springs.
+    pub springs: Springs,
 }
 
 /// The rows of a log as a model has them.
@@ -134,6 +137,7 @@ impl Explained {
             size: joint.size(rows),
             before: joint.rms(|k| joint.without(k)),
             after: joint.rms(|k| joint.left(k)),
+            nested: None,
         };
         self.joints.iter().zip(units).map(of).collect()
     }

@@ -28,6 +28,9 @@ pub struct LogOptions {
     pub payloads: Vec<Body>,
     /// Whether masses and inertias of the robot file are the links'; else these are fitted along.
     pub known_links: bool,
+    /// Whether the search is run again for each fold on the others, and the gap told that it leaves: as
+    /// many times the work.
+    pub nested: bool,
     /// Of random signs.
     pub seed: u64,
 }

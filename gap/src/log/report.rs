@@ -88,6 +88,9 @@ pub struct JointGap {
     pub before: f64,
     /// The same with the findings.
     pub after: f64,
+    /// The same with what a search finds that has not seen that time either, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nested: Option<f64>,
 }
 
 /// An effect at a place.

@@ -20,7 +20,9 @@ use super::search::blocks::LEAST;
 use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, Term};
 use super::search::judge::{Judged, Unseen, Verdict, judged};
+use super::search::nested::nested;
 use super::search::rest::rests;
+use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
 use super::search::{self, Round, effective};
 use super::signal::Signals;
@@ -115,6 +117,7 @@ pub fn diagnosed(
     let History { before, left, hidden: unseen, alone } = history.into_inner();
     let after = Unseen::of(&stock, &verdict.fit, &verdict.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
+    let nested = options.nested.then(|| nested(&stock, blocks, &links, options.seed));
     let rests = rests(&stock, &verdict, options.seed).into_iter().map(|rest| Dependence {
         place: Spot::Joint(rest.joint).to_string(),
         of: rest.of,
@@ -140,6 +143,7 @@ pub fn diagnosed(
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
+        springs: Springs::of(&stock, &verdict),
     };
     let diagnosis = LogDiagnosis {
         stiffarm: options.version.clone(),
@@ -167,7 +171,7 @@ pub fn diagnosed(
             folds: blocks.folds,
         },
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
-        gap: told.gap(&before, &after.sizes),
+        gap: told.gap(&before, &after.sizes, nested.as_deref()),
         findings: told.findings(&left, &verdict, &after),
         cannot_see: hidden(&case, &simple, &loaded, unseen),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
@@ -310,13 +314,14 @@ impl Told<'_> {
         }
     }
 
-    fn gap(&self, before: &[f64], after: &[f64]) -> Vec<JointGap> {
+    fn gap(&self, before: &[f64], after: &[f64], nested: Option<&[f64]>) -> Vec<JointGap> {
         let pairs = before.iter().zip(after).zip(&self.sizes);
         let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), &f64))| JointGap {
             unit: self.gap_unit(joint),
             size: *size,
             before: *before,
             after: *after,
+            nested: nested.map(|nested| nested[joint]),
         };
         pairs.enumerate().map(told).collect()
     }

@@ -152,14 +152,7 @@ impl Course for Fourier {
 
     fn at(&self, time: f64) -> State {
         let time = time.clamp(0.0, self.duration());
-        let mut state = State::default();
-        for series in &self.joints {
-            let [q, qd, qdd] = series.at(TAU / self.period, time);
-            state.q.push(q);
-            state.qd.push(qd);
-            state.qdd.push(qdd);
-        }
-        state
+        self.joints.iter().map(|series| series.at(TAU / self.period, time)).collect()
     }
 }
 

@@ -24,6 +24,19 @@ pub struct State {
     pub qdd: Vec<f64>,
 }
 
+impl FromIterator<[f64; 3]> for State {
+    /// Of each joint its value, rate and acceleration.
+    fn from_iter<I: IntoIterator<Item = [f64; 3]>>(joints: I) -> State {
+        let mut state = State::default();
+        for [q, qd, qdd] in joints {
+            state.q.push(q);
+            state.qd.push(qd);
+            state.qdd.push(qdd);
+        }
+        state
+    }
+}
+
 /// A motion of all joints.
 pub trait Course: Sync {
     /// How long it takes, s.

@@ -92,14 +92,7 @@ impl Course for Sampled {
         let time = time.clamp(self.times[0], self.duration());
         let behind = self.times.partition_point(|knot| *knot <= time);
         let k = behind.clamp(1, self.times.len() - 1) - 1;
-        let mut state = State::default();
-        for joint in &self.joints {
-            let [q, qd, qdd] = joint.at(&self.times, k, time);
-            state.q.push(q);
-            state.qd.push(qd);
-            state.qdd.push(qdd);
-        }
-        state
+        self.joints.iter().map(|joint| joint.at(&self.times, k, time)).collect()
     }
 }
 

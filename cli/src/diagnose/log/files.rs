@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use stiffarm_gap::log::{Format, Log, LogError, Names, Opened, is_log};
+use stiffarm_gap::log::{self, Format, Log, LogError, Names, Opened};
 use stiffarm_kernels::Motion;
 
 use super::super::Args;
@@ -15,6 +15,8 @@ pub enum Files {
     Log(Vec<Part>),
     /// The bytes of a measurement file.
     Measurements(Vec<u8>),
+    /// A measurement file and the log of the same arm.
+    Both(PathBuf, Vec<u8>, Vec<Part>),
 }
 
 /// A file of a log.
@@ -33,6 +35,14 @@ impl Part {
         Ok(Part { opened: opened.map_err(wrong)?, path })
     }
 
+    /// All of it.
+    fn bytes(&self) -> Result<Vec<u8>, Failure> {
+        match self.path.is_file() {
+            true => bytes(&self.path).map_err(|error| Failure::io("read", &self.path, &error)),
+            false => Ok(self.opened.head().to_vec()),
+        }
+    }
+
     /// Whether its columns are those of a log, as far as its kind does not say it.
     fn is_log(&self) -> bool {
         if Format::of(self.opened.head()) != Format::Text {
@@ -42,7 +52,7 @@ impl Part {
         let header = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
         let header = header.unwrap_or_default();
         let names: Vec<&str> = header.trim().split([',', ';', '\t', ' ']).map(str::trim).collect();
-        is_log(&names)
+        log::is_log(&names)
     }
 }
 
@@ -86,8 +96,21 @@ fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// none.
 pub fn files(args: &Args) -> Result<Files, Failure> {
     let parts = parts(&args.data)?;
-    if args.log.map.is_some() || parts.iter().any(Part::is_log) {
-        return Ok(Files::Log(parts));
+    let is_log = |part: &Part| args.log.map.is_some() || part.is_log();
+    let (of_log, others): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(is_log);
+    let several = "measurements are diagnosed file by file";
+    if !of_log.is_empty() {
+        return match <[Part; 1]>::try_from(others) {
+            Ok([part]) => Ok(Files::Both(part.path.clone(), part.bytes()?, of_log)),
+            Err(others) if others.is_empty() => Ok(Files::Log(of_log)),
+            Err(others) => {
+                let message = format!(
+                    "found {} files beside a joint log, expected one of measurements",
+                    others.len()
+                );
+                Err(Failure::with_help(message, several))
+            }
+        };
     }
     let refused = |what: String, help| {
         let first = &args.data[0].display();
@@ -98,16 +121,18 @@ pub fn files(args: &Args) -> Result<Files, Failure> {
             "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
         return refused(format!("{option} is for joint logs"), help);
     }
-    match <[Part; 1]>::try_from(parts) {
-        Ok([part]) if part.path.is_file() => bytes(&part.path)
-            .map(Files::Measurements)
-            .map_err(|error| Failure::io("read", &part.path, &error)),
-        Ok([part]) => Ok(Files::Measurements(part.opened.head().to_vec())),
-        Err(parts) => refused(
-            format!("found {} files", parts.len()),
-            "measurements are diagnosed file by file",
-        ),
+    match <[Part; 1]>::try_from(others) {
+        Ok([part]) => part.bytes().map(Files::Measurements),
+        Err(parts) => refused(format!("found {} files", parts.len()), several),
     }
+}
+
+/// Whether a file is a log by its columns, or a folder of one.
+///
+/// # Errors
+/// [`Failure`]: it cannot be read.
+pub fn is_log(path: &Path) -> Result<bool, Failure> {
+    Ok(parts(&[path.to_owned()])?.iter().any(Part::is_log))
 }
 
 /// The log in another file, or in the files of a folder.

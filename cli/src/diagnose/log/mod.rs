@@ -12,14 +12,14 @@ use stiffarm_gap::log::{Names, TorqueSide};
 use stiffarm_gap::readings::Map;
 
 pub use check::Check;
-pub use files::{Files, files};
-pub use motion::Motion;
+pub use files::{Files, Part, files, is_log};
+pub use motion::{Motion, Told};
 
 use crate::input::source::{Source, text};
 use crate::terminal::failure::Failure;
 
 /// What may be said of a log.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(next_help_heading = "Of a joint log")]
 pub struct LogArgs {
     /// Where its torques are measured: motor (joint side of the gear), link (a sensor behind it),

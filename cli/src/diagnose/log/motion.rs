@@ -1,16 +1,19 @@
 //! A log that was diagnosed, and everything that is made of it.
 
 use serde::Serialize;
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::log::model::Springs;
 use stiffarm_gap::log::{
     Domain, Log, LogDiagnosis, LogOptions, Model, Refused, TorqueSide, diagnosed,
 };
+use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
+use super::super::corrected::{exported, file, made_from};
 use super::super::{Args, Format};
 use super::files::{self, Part};
 use super::written::Written;
 use super::{Check, Rows};
-use crate::Verdict;
 use crate::input::data::layout;
 use crate::input::source::Source;
 use crate::report::logged::Logged;
@@ -18,7 +21,6 @@ use crate::screen::log as screen;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
 
 /// A log, diagnosed.
 pub struct Motion {
@@ -32,7 +34,7 @@ pub struct Motion {
 
 /// The diagnosis as it is written.
 #[derive(Serialize)]
-struct Told<'a> {
+pub struct Told<'a> {
     #[serde(flatten)]
     diagnosis: &'a LogDiagnosis,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,6 +86,7 @@ impl Motion {
             known: source.motion.clone(),
             payloads: layout(&source)?.payloads.map_or_else(Vec::new, |known| known.bodies),
             known_links: args.log.known_masses,
+            nested: args.nested,
             seed: args.seed,
         };
         let (found, model) = diagnosed(&arm, &log, &options).map_err(plain)?;
@@ -97,11 +100,25 @@ impl Motion {
     /// # Errors
     /// [`Failure`] if it cannot be written so.
     pub fn json(&self) -> Result<String, Failure> {
-        json::text(&Told {
+        json::text(&self.told())
+    }
+
+    pub(in super::super) fn told(&self) -> Told<'_> {
+        Told {
             diagnosis: &self.found,
             check: self.check.as_ref(),
-            corrected: self.corrected(),
-        })
+            corrected: self.corrected().ok(),
+        }
+    }
+
+    /// The name of the robot.
+    pub(in super::super) fn robot(&self) -> &str {
+        &self.found.robot
+    }
+
+    /// The files of the log.
+    pub(in super::super) fn files(&self) -> String {
+        self.found.files.join(", ")
     }
 
     /// The diagnosis as it stands on a screen.
@@ -123,9 +140,14 @@ impl Motion {
         page.html().map_err(|e| Failure::new(format!("cannot make the report: {e}")))
     }
 
-    /// The robot file with all that was found; `None` of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Option<String> {
-        self.written().ok().map(|written| written.text)
+    /// The robot file with all that was found.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log of currents, which tell no newton-metres.
+    pub fn corrected(&self) -> Result<String, Failure> {
+        let written = self.written()?;
+        let head = vec![made_from(&self.source, &self.found.files.join(", ")), String::new()];
+        Ok(file([head, written.lines].concat(), &written.robot))
     }
 
     /// The corrected arm as other programs read it, and a sentence on what they have no place for.
@@ -133,33 +155,36 @@ impl Motion {
     /// # Errors
     /// [`Failure`]: the log is one of currents, or the table has cells that are no numbers.
     pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        self.written()?.exported(format)
+        exported(&self.written()?.robot, format)
     }
 
     fn written(&self) -> Result<Written, Failure> {
-        Written::of(&self.source, &self.arm, &self.log, &self.found, &self.model)
+        let mut robot = self.source.robot.clone();
+        robot.effects.extend(self.source.motion.iter().cloned());
+        self.put_into(&robot, &self.model)
     }
 
-    /// Writes what was found.
-    ///
-    /// # Errors
-    /// [`Failure`]: an output that cannot be written.
-    pub(in super::super) fn write(&self, args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-        if let Some(target) = &args.json {
-            target.write(&self.json()?)?;
-        }
-        if args.arms().iter().any(|target| target.is_some()) {
-            self.written()?.write(args, quiet)?;
-        }
-        if let Some(target) = &args.report {
-            target.write(&self.page()?)?;
-        }
-        let written: Vec<&Target> =
-            [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
-        let enough = quiet && !written.is_empty();
-        if !enough && !written.contains(&&Target::Stdout) {
-            print(&self.text())?;
-        }
-        Ok(Verdict::Good)
+    /// What was found, put into a robot; `model` may be the log's own beside what else is known.
+    pub(in super::super) fn put_into(
+        &self,
+        robot: &Robot,
+        model: &Model,
+    ) -> Result<Written, Failure> {
+        Written::of(robot, &self.arm, &self.log, &self.found, model)
+    }
+
+    /// What the log tells of the joints' springs.
+    pub(in super::super) fn springs(&self) -> &Springs {
+        &self.model.springs
+    }
+
+    /// What was found with other springs, and what it leaves of the log's joints, each as a part of
+    /// its size, mean.
+    pub(in super::super) fn beside(&self, springs: &[Spring]) -> Result<(Model, f64), Failure> {
+        let model = self.model.beside(springs);
+        let units: Vec<&'static str> = self.found.gap.iter().map(|gap| gap.unit).collect();
+        let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
+        let [_, left] = screen::left(&explained.gap(model.rows, &units));
+        Ok((model, left))
     }
 }

@@ -1,22 +1,19 @@
 //! The arm with what a log has shown, as a robot file and as simulators read it.
 
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::log::corrected::{Corrected, corrected};
+use stiffarm_gap::log::corrected::corrected;
 use stiffarm_gap::log::report::{Finding, Parameter};
 use stiffarm_gap::log::{Log, LogDiagnosis, Model};
 use stiffarm_kernels::generic::Arm;
 
-use super::super::Args;
-use super::super::corrected::{Format, comment, exported};
-use crate::input::source::Source;
 use crate::terminal::failure::Failure;
-use crate::terminal::note::note;
 
-/// A robot with what was found in it, and the robot file's text.
+/// A robot with what was found in it, and what that is.
 pub struct Written {
-    corrected: Corrected,
-    /// The robot file.
-    pub text: String,
+    /// The robot.
+    pub robot: Robot,
+    /// What was put in, line by line.
+    pub lines: Vec<String>,
 }
 
 impl Written {
@@ -25,26 +22,15 @@ impl Written {
     /// # Errors
     /// [`Failure`]: the log tells no newton-metres.
     pub fn of(
-        source: &Source,
+        robot: &Robot,
         arm: &Arm,
         log: &Log,
         found: &LogDiagnosis,
         model: &Model,
     ) -> Result<Written, Failure> {
-        let mut robot: Robot = source.robot.clone();
-        robot.effects.extend(source.motion.iter().cloned());
-        let corrected = corrected(&robot, arm, log, found, model)
+        let corrected = corrected(robot, arm, log, found, model)
             .map_err(|error| Failure::new(format!("{}: {error}", found.files.join(", "))))?;
-        let mut lines = vec![
-            format!(
-                "Corrected by stiffarm {} from {}, diagnosed with {}.",
-                found.stiffarm,
-                source.given,
-                found.files.join(", ")
-            ),
-            String::new(),
-            "Put in, with 95 % intervals:".to_owned(),
-        ];
+        let mut lines = vec!["Put in, with 95 % intervals:".to_owned()];
         let pairs = found.findings.iter().zip(&corrected.entries);
         lines.extend(pairs.flat_map(|(finding, entry)| told(finding, entry)));
         if found.findings.is_empty() {
@@ -57,36 +43,7 @@ impl Written {
                 100.0 * part
             ));
         }
-        let head: String = lines.iter().map(|line| comment(line)).collect();
-        let text = format!("{head}\n{}", corrected.robot.to_toml());
-        Ok(Written { corrected, text })
-    }
-
-    /// As another program reads it, and a sentence on what it has no place for.
-    ///
-    /// # Errors
-    /// [`Failure`] if the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.corrected.robot, format)
-    }
-
-    /// Writes what is asked for, and says what another program's file has no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: a file that cannot be written.
-    pub fn write(&self, args: &Args, quiet: bool) -> Result<(), Failure> {
-        if let Some(target) = &args.write_robot {
-            target.write(&self.text)?;
-        }
-        for (target, format) in [(&args.write_urdf, Format::Urdf), (&args.write_mjcf, Format::Mjcf)]
-        {
-            if let Some(target) = target {
-                let (text, lost) = self.exported(format)?;
-                target.write(&text)?;
-                lost.iter().for_each(|lost| note(lost, quiet));
-            }
-        }
-        Ok(())
+        Ok(Written { robot: corrected.robot, lines })
     }
 }
 

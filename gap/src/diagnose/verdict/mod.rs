@@ -6,7 +6,7 @@
 //! `searched`, `bootstrap`, `refitted`), the explanations that could stand in its place (`rivals`), the chance of noise and
 //! how often half of the poses find it again (`stability`), and the measurement that would separate
 //! it (`separate`); and what is left (`remainder`). What is not significant beside all the
-//! others is taken out again. `nested` runs the search itself again without each fold. [`Rival`] is another model, which the file's columns predict with.
+//! others is taken out again. `nested` runs the search itself again without each fold, `springs` asks for those of the joints that a log tells too. [`Rival`] is another model, which the file's columns predict with.
 
 mod bootstrap;
 mod certainty;
@@ -21,6 +21,7 @@ mod residual;
 mod rivals;
 mod searched;
 mod separate;
+mod springs;
 mod stability;
 mod summary;
 

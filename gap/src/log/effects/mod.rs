@@ -217,6 +217,10 @@ pub(super) const COULOMB: &dyn LogEffect = &coulomb_friction::CoulombFriction;
 pub(super) const VISCOUS: &dyn LogEffect = &viscous_friction::ViscousFriction;
 pub(super) const OFFSET: &dyn LogEffect = &torque_offset::TorqueOffset;
 
+/// What a log has a joint's spring as: in rows of commands, and of torques.
+pub(super) const DROOP: &dyn LogEffect = &servo_droop::ServoDroop;
+pub(super) const ELASTICITY: &dyn LogEffect = &joint_elasticity::JointElasticity;
+
 /// What the robot file tells of its links.
 pub(super) const LINKS: &dyn LogEffect = &link_inertia::LinkInertia;
 

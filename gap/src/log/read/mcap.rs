@@ -1,6 +1,7 @@
 //! Logs in MCAP files, read message by message: a file with pictures in it may be larger than memory.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::io::Read;
 
 use mcap::parse_record;
@@ -24,25 +25,22 @@ pub(super) fn read(
     motions: &[Motion],
     names: &Names,
 ) -> Result<Log, LogError> {
-    let broken = |error: String| LogError::Unreadable {
-        file: file.to_owned(),
-        message: format!("as an MCAP file it cannot be read: {error}"),
-    };
+    let broken = |error: &dyn Display| LogError::unreadable(file, "an MCAP file", error);
     let options = LinearReaderOptions::default().with_record_length_limit(LONGEST);
     let mut reader = LinearReader::new_with_options(options);
     let mut schemas: BTreeMap<u16, Kind> = BTreeMap::new();
     let mut channels: BTreeMap<u16, (String, Kind, Encoding)> = BTreeMap::new();
     let mut heard = Heard::default();
     while let Some(event) = reader.next_event() {
-        match event.map_err(|e| broken(e.to_string()))? {
+        match event.map_err(|e| broken(&e))? {
             LinearReadEvent::ReadRequest(count) => {
                 // A broken file asks for more than there is.
                 let part = reader.insert(count.min(MOST));
-                let read = source.read(part).map_err(|e| broken(e.to_string()))?;
+                let read = source.read(part).map_err(|e| broken(&e))?;
                 reader.notify_read(read);
             }
             LinearReadEvent::Record { data, opcode } => {
-                match parse_record(opcode, data).map_err(|e| broken(e.to_string()))? {
+                match parse_record(opcode, data).map_err(|e| broken(&e))? {
                     Record::Schema { header, .. } => {
                         schemas.extend(Kind::of(&header.name).map(|kind| (header.id, kind)));
                     }

@@ -196,6 +196,15 @@ pub enum LogError {
     NoColumn { map: String, file: String, column: String, ours: String },
 }
 
+#[cfg(any(feature = "mcap", feature = "parquet", feature = "rosbag2"))]
+impl LogError {
+    /// A file that is none of its kind.
+    fn unreadable(file: &str, kind: &str, error: impl std::fmt::Display) -> LogError {
+        let message = format!("as {kind} it cannot be read: {error}");
+        LogError::Unreadable { file: file.to_owned(), message }
+    }
+}
+
 impl Log {
     /// Reads one file: its name for messages, its bytes; `motions` are those of the arm's joints.
     ///

@@ -40,10 +40,7 @@ pub(super) fn read(
     motions: &[Motion],
     names: &Names,
 ) -> Result<Log, LogError> {
-    let broken = |error: ParquetError| LogError::Unreadable {
-        file: file.to_owned(),
-        message: format!("as a Parquet file it cannot be read: {error}"),
-    };
+    let broken = |error: ParquetError| LogError::unreadable(file, "a Parquet file", error);
     let source = File::open(path).map_err(|e| broken(e.into()))?;
     let reader = SerializedFileReader::new(source).map_err(broken)?;
     let side = side(file, reader.metadata().file_metadata())?;

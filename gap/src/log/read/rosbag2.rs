@@ -20,10 +20,7 @@ pub(super) fn read(
     motions: &[Motion],
     names: &Names,
 ) -> Result<Log, LogError> {
-    let heard = heard(path).map_err(|error| LogError::Unreadable {
-        file: file.to_owned(),
-        message: format!("as a bag of ROS 2 it cannot be read: {error}"),
-    })?;
+    let heard = heard(path).map_err(|e| LogError::unreadable(file, "a bag of ROS 2", e))?;
     heard.log(file, motions, names)
 }
 

@@ -169,7 +169,7 @@ impl Unseen {
 
 /// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
 /// Student's t of as many.
-fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
+pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
     let n = values.len();
     let count = products.len() as f64;
     let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };

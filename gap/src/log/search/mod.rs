@@ -11,8 +11,10 @@ pub mod case;
 pub mod fit;
 pub mod grains;
 pub mod judge;
+pub mod nested;
 pub mod rest;
 mod ripples;
+pub mod springs;
 pub mod stock;
 pub mod sums;
 

@@ -6,6 +6,7 @@
 //! left remembers, and what it depends on.
 
 use core::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -51,6 +52,7 @@ pub struct Entry {
 }
 
 /// An effect at a place that may be asked for.
+#[derive(Clone)]
 pub struct Offer {
     /// The effect.
     pub effect: &'static dyn LogEffect,
@@ -90,7 +92,9 @@ pub struct Stock<'a> {
     pub target: usize,
     /// Rows of the sample.
     pub rows: Vec<usize>,
-    joints: Vec<Own>,
+    joints: Arc<Vec<Own>>,
+    /// Of each grain, whether its head and what is behind it count.
+    kept: Vec<[bool; 2]>,
     whole: Sums,
 }
 
@@ -131,9 +135,36 @@ impl<'a> Stock<'a> {
         for (stretch, brought) in went.iter().zip(brought) {
             joints.iter_mut().zip(brought).for_each(|(own, more)| own.take(stretch, more));
         }
-        let whole = Sums::default();
+        let (kept, whole) = (vec![[true; 2]; grains.len()], Sums::default());
+        let joints = Arc::new(joints);
         let mut stock =
-            Stock { case, counts, used, grains, offers, base, target, rows, joints, whole };
+            Stock { case, counts, used, grains, offers, base, target, rows, joints, kept, whole };
+        stock.whole = stock.sums(&Blocks::whole(&stock.grains));
+        stock
+    }
+
+    /// The same without the rows of a fold, nor those behind them that the filter still reaches from there.
+    #[must_use]
+    pub fn without(&self, blocks: &Blocks, fold: usize) -> Stock<'a> {
+        let (mut kept, mut counts) = (self.kept.clone(), self.counts.clone());
+        let mut leave = |rows: Range<usize>| {
+            counts.iter_mut().for_each(|counts| counts[rows.clone()].fill(false));
+        };
+        for (block, _) in blocks.all.iter().zip(&blocks.fold).filter(|(_, of)| **of == fold) {
+            kept[block.grains.clone()].fill([false; 2]);
+            let (first, last) = (block.grains.start, block.grains.end - 1);
+            leave(self.grains[first].rows.start..self.grains[last].rows.end);
+            let next = self.grains.get(last + 1);
+            if let Some(next) = next.filter(|next| next.run == block.run) {
+                kept[last + 1][0] = false;
+                leave(next.head.clone());
+            }
+        }
+        let used = counts.iter().map(|c| c.iter().filter(|c| **c).count() as f64).collect();
+        let (grains, offers, rows) = (self.grains.clone(), self.offers.clone(), self.rows.clone());
+        let joints = Arc::clone(&self.joints);
+        let whole = Sums::default();
+        let mut stock = Stock { counts, used, grains, offers, rows, joints, kept, whole, ..*self };
         stock.whole = stock.sums(&Blocks::whole(&stock.grains));
         stock
     }
@@ -150,11 +181,13 @@ impl<'a> Stock<'a> {
                 let n = own.columns.len();
                 let mut sum = DMatrix::zeros(n, n);
                 for grain in block.grains.clone() {
-                    let [head, body] = &own.parts[grain];
-                    if !(block.purged && grain == block.grains.start) {
+                    let ([head, body], kept) = (&own.parts[grain], self.kept[grain]);
+                    if kept[0] && !(block.purged && grain == block.grains.start) {
                         add(&mut sum, head);
                     }
-                    add(&mut sum, body);
+                    if kept[1] {
+                        add(&mut sum, body);
+                    }
                 }
                 sum
             };

@@ -9,6 +9,7 @@
 mod body;
 mod control;
 mod drive;
+mod known;
 mod laws;
 pub mod links;
 mod machine;
@@ -23,6 +24,7 @@ mod tests;
 use nalgebra::Vector3;
 use stiffarm_kernels::generic::Arm;
 
+pub use known::known;
 pub use laws::{LAWS, Law, Rows, Spot};
 pub use record::{Recorded, Recording, Side};
 pub use text::csv;
@@ -43,6 +45,16 @@ pub enum Logged {
     Torque(Side),
     /// Commands alone: the arm is driven by position.
     Position,
+}
+
+impl Logged {
+    /// The rows that such a log has.
+    pub fn rows(self) -> Rows {
+        match self {
+            Logged::Torque(_) => Rows::Torque,
+            Logged::Position => Rows::Position,
+        }
+    }
 }
 
 /// One motion, and what the arm holds in it.

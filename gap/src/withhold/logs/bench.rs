@@ -5,10 +5,11 @@ use std::cmp::Ordering;
 use nalgebra::{Matrix3, Vector3};
 
 use super::rigid::Rigid;
+use super::run::plant;
 use super::{LogPlan, LogWithholdError};
 use crate::dice::Dice;
 use crate::motion::Course;
-use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot};
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, Spot};
 
 /// An effect of which other masses can do all but this part does not show.
 const APART: f64 = 0.1;
@@ -194,7 +195,7 @@ fn is_form(law: &Law, name: &str) -> bool {
 }
 
 fn exact(plan: &LogPlan<'_>, truths: &[MotionTruth]) -> Result<Vec<Vec<Vec<f64>>>, MotionError> {
-    let plant = MovingPlant::new(plan.arm, truths, plan.logged, plan.recording);
+    let plant = plant(plan, truths)?;
     plan.stages.iter().enumerate().map(|(k, stage)| plant.exact(k, stage)).collect()
 }
 
@@ -207,9 +208,5 @@ fn fastest(courses: &[&dyn Course], joint: usize) -> f64 {
 
 /// Whether such a log can show an effect at all.
 pub(super) fn may_show(law: &Law, logged: Logged) -> bool {
-    let rows = match logged {
-        Logged::Torque(_) => crate::plant::motion::Rows::Torque,
-        Logged::Position => crate::plant::motion::Rows::Position,
-    };
-    law.rows.contains(&rows)
+    law.rows.contains(&logged.rows())
 }

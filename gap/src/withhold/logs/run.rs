@@ -10,7 +10,7 @@ use super::{LogPlan, LogWithholdError};
 use crate::dice::{Dice, Stream, seed_of};
 use crate::log::effects::CATALOGUE;
 use crate::log::{Log, LogOptions, Names, diagnose};
-use crate::plant::motion::{Law, Logged, MotionError, MovingPlant, csv};
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, csv, known};
 use crate::withhold::Kind;
 use crate::withhold::report::Named;
 
@@ -101,10 +101,24 @@ fn one(bench: &Bench<'_>, effects: &[&'static Law], k: usize) -> Result<LogCase,
     })
 }
 
+/// The arm with some truths and those that the robot file knows.
+pub(super) fn plant<'p>(
+    plan: &LogPlan<'p>,
+    truths: &[MotionTruth],
+) -> Result<MovingPlant<'p>, MotionError> {
+    let known = known(&plan.options.known, plan.arm, plan.stages.len(), plan.logged);
+    let known = known.map_err(|error| MotionError {
+        arm: plan.arm.name.clone(),
+        fault: error.to_string(),
+    })?;
+    let all = [&known, truths].concat();
+    Ok(MovingPlant::new(plan.arm, &all, plan.logged, plan.recording))
+}
+
 /// The log as a file.
 fn text(plan: &LogPlan<'_>, planted: Option<&Planted>, seed: u64) -> Result<String, MotionError> {
     let truths: Vec<_> = planted.iter().map(|p| p.truth.clone()).collect();
-    let plant = MovingPlant::new(plan.arm, &truths, plan.logged, plan.recording);
+    let plant = plant(plan, &truths)?;
     Ok(csv(plan.arm, plan.logged, &plant.record(plan.stages, seed)?, &[]))
 }
 

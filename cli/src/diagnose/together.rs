@@ -1,0 +1,180 @@
+//! A campaign and a log of one arm, diagnosed together: each by itself, and the joints' springs, which
+//! both see, by both.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::log::Model;
+use stiffarm_gap::log::effects::CATALOGUE;
+use stiffarm_gap::spring::{Joined, Spring};
+
+use super::corrected::{exported, file};
+use super::log::{Part, is_log};
+use super::campaign::Told as CampaignTold;
+use super::log::Told as LogTold;
+use super::{Args, Campaign, Format, Motion};
+use crate::input::source::Source;
+use crate::report::both::Both;
+use crate::screen::together as screen;
+use crate::terminal::failure::Failure;
+use crate::terminal::json;
+
+/// A campaign and a log of one arm.
+pub struct Together {
+    /// What was measured at rest.
+    pub campaign: Campaign,
+    motion: Motion,
+    /// The log's model beside the springs of both.
+    model: Model,
+    said: Said,
+}
+
+/// What both say of what both see.
+#[derive(Clone, Debug, Serialize)]
+pub struct Said {
+    /// What a log has a joint's spring as.
+    pub effect: &'static str,
+    /// Joints of which both tell something and one has found something.
+    pub springs: Vec<Joined>,
+    /// What the campaign measures: `m` or `rad`.
+    pub measured_in: &'static str,
+    /// What is left of the campaign, root mean square: with its own springs, with those of both.
+    pub campaign: [f64; 2],
+    /// What is left of the log, as a part of the joints' sizes: the same.
+    pub log: [f64; 2],
+}
+
+/// The diagnosis as it is written.
+#[derive(Serialize)]
+struct Written<'a> {
+    together: &'a Said,
+    campaign: CampaignTold<'a>,
+    log: LogTold<'a>,
+    /// The robot file with what both found: the whole is a robot to every command. Of currents there is
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    corrected: Option<String>,
+}
+
+impl Args {
+    /// What is said of the campaign at `path`, and of the log.
+    ///
+    /// # Errors
+    /// [`Failure`]: --check with a file that cannot be read.
+    pub(super) fn both(&self, path: PathBuf, catalogue: &Catalogue) -> Result<[Args; 2], Failure> {
+        let of_log = self.check.as_deref().map_or(Ok(false), is_log)?;
+        let is_of_log = |name: &str| CATALOGUE.iter().any(|e| e.identifier() == name);
+        let is_at_rest = |name: &str| catalogue.named(name).is_some();
+        // A name that neither knows is the campaign's to refuse.
+        let named = |keep: &dyn Fn(&str) -> bool| {
+            let names = self.effects.as_ref()?.iter().filter(|name| keep(name));
+            Some(names.cloned().collect())
+        };
+        let logs = self.data.iter().filter(|given| **given != path).cloned().collect();
+        let campaign = Args {
+            data: vec![path],
+            effects: named(&|name| is_at_rest(name) || !is_of_log(name)),
+            check: self.check.clone().filter(|_| !of_log),
+            ..self.clone()
+        };
+        let motion = Args {
+            data: logs,
+            effects: named(&is_of_log),
+            check: self.check.clone().filter(|_| of_log),
+            ..self.clone()
+        };
+        Ok([campaign, motion.without_measurements()])
+    }
+}
+
+impl Together {
+    /// Reads and diagnoses both: the log first, so that the campaign knows what it tells of springs.
+    ///
+    /// # Errors
+    /// [`Failure`]: the data or the options.
+    pub(super) fn new(
+        [of_campaign, of_log]: &[Args; 2],
+        source: Source,
+        bytes: Vec<u8>,
+        parts: Vec<Part>,
+        catalogue: Catalogue,
+        quiet: bool,
+    ) -> Result<Together, Failure> {
+        let motion = Motion::new(of_log, source.clone(), parts, quiet)?;
+        let told = motion.springs();
+        let effect = told.effect.identifier();
+        let campaign = Campaign::new(of_campaign, source, bytes, &told.told, catalogue, quiet)?;
+        let springs = campaign.beside_log().map_or_else(Vec::new, |both| both.springs.clone());
+        let known: Vec<Spring> = springs.iter().filter_map(|joined| joined.together).collect();
+        let ((_, alone), (model, both)) = (motion.beside(&[])?, motion.beside(&known)?);
+        let (measured_in, left) = campaign.left()?;
+        let said = Said { effect, springs, measured_in, campaign: left, log: [alone, both] };
+        Ok(Together { campaign, motion, model, said })
+    }
+
+    /// Both diagnoses in JSON, and what they say together.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be written so.
+    pub fn json(&self) -> Result<String, Failure> {
+        json::text(&Written {
+            together: &self.said,
+            campaign: self.campaign.told(),
+            log: self.motion.told(),
+            corrected: self.corrected().ok(),
+        })
+    }
+
+    /// Both diagnoses as they stand on a screen, and what they say together.
+    pub fn text(&self) -> String {
+        let parts = [self.campaign.text(), self.motion.text(), screen::text(&self.said)];
+        parts.join("\n")
+    }
+
+    /// The page in HTML.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be made.
+    pub fn page(&self) -> Result<String, Failure> {
+        Both {
+            robot: self.motion.robot(),
+            said: &self.said,
+            campaign: self.campaign.page()?,
+            log: self.motion.page()?,
+        }
+        .html()
+        .map_err(|e| Failure::new(format!("cannot make the report: {e}")))
+    }
+
+    /// The robot file with what both found.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log of currents, which tell no newton-metres.
+    pub fn corrected(&self) -> Result<String, Failure> {
+        let (mut lines, robot) = self.robot()?;
+        lines.insert(1, screen::sentences(&self.said).join(" "));
+        Ok(file(lines, &robot))
+    }
+
+    /// The same arm as other programs read it, and a sentence on what they have no place for.
+    ///
+    /// # Errors
+    /// [`Failure`]: as above, or the table has cells that are no numbers.
+    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        exported(&self.robot()?.1, format)
+    }
+
+    /// The robot with the campaign's findings, then the log's, and what was put in.
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
+        let at_rest = self.campaign.corrections();
+        let in_motion = self.motion.put_into(at_rest.robot(), &self.model)?;
+        let mut lines = vec![self.campaign.made_with(&self.motion.files())];
+        lines.extend([String::new(), "At rest:".to_owned()]);
+        lines.extend(at_rest.lines());
+        lines.extend([String::new(), "In motion:".to_owned()]);
+        lines.extend(in_motion.lines);
+        Ok((lines, in_motion.robot))
+    }
+}

@@ -1,0 +1,103 @@
+//! A campaign and a log of one arm, diagnosed together.
+
+use serde_json::Value;
+use stiffarm_codegen::robot::{Quantity, Robot};
+
+use crate::motion::ELBOW;
+use crate::support::{Folder, read, stiffarm, text};
+
+/// What an elbow's servos give, rad/(N·m).
+const GIVES: f64 = 2e-4;
+
+/// Measurements of an elbow whose joint 2 gives, and a log of its servos that give so much.
+fn data(folder: &Folder, droop: f64) -> [String; 3] {
+    let robot = folder.file("elbow.toml", ELBOW);
+    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| text(&folder.path(name)));
+    let spring = format!("joint_compliance@joint 2={GIVES}");
+    let noise = ["--payload", "5kg", "--noise-position", "0.5mm", "--effect", &spring];
+    stiffarm(&[&["simulate", &robot, "--csv", &campaign][..], &noise].concat()).good();
+    let droop = format!("servo_droop@joint 2={droop}");
+    let servo = ["--logged", "position", "--effect", &droop];
+    stiffarm(&[&["simulate", &robot, "--log", &log][..], &servo].concat()).good();
+    [robot, campaign, log]
+}
+
+fn numbers(spring: &Value) -> [f64; 3] {
+    [&spring["value"], &spring["ci95"][0], &spring["ci95"][1]]
+        .map(|x| x.as_f64().expect("a number"))
+}
+
+#[test]
+fn one_spring_is_told_by_both_better_than_by_either() {
+    let folder = Folder::new();
+    let [robot, campaign, log] = data(&folder, GIVES);
+    let [better, json, page] =
+        ["better.toml", "both.json", "both.html"].map(|name| text(&folder.path(name)));
+    // In whatever order they are given.
+    let run = ["diagnose", &robot, &log, &campaign, "--write-robot", &better, "--json", &json];
+    let out = stiffarm(&[&run[..], &["--report", &page]].concat()).good();
+    assert!(out.contains("The spring of joint 2 is one at rest and in motion"), "{out}");
+    assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
+    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let springs = found["together"]["springs"].as_array().expect("a list");
+    let [spring] = &springs[..] else { panic!("{springs:#?}") };
+    assert_eq!((&spring["place"], &spring["unit"]), (&"joint 2".into(), &"rad/(N·m)".into()));
+    let [rest, motion, both] =
+        ["at_rest", "in_motion", "together"].map(|name| numbers(&spring[name]));
+    for [value, low, high] in [rest, motion] {
+        assert!(both[2] - both[1] < high - low, "{spring:#}");
+        // Twice the interval: two of three in a hundred draws of 95 % are beyond once.
+        assert!((value - GIVES).abs() < high - low, "{spring:#}");
+    }
+    assert!((both[0] - GIVES).abs() < both[2] - both[1], "{spring:#}");
+    // What each finds by itself is there as it was.
+    let effect = |of: &str| found[of]["findings"][0]["effect"].clone();
+    assert_eq!(effect("campaign"), "joint_compliance");
+    let found_in_log = found["log"]["findings"].as_array().expect("a list");
+    assert!(found_in_log.iter().any(|f| f["effect"] == "servo_droop"), "{found_in_log:#?}");
+    // One file has both, each kind of data as it sees it.
+    let (written, _) = Robot::from_toml(&read(&better), "better.toml").expect("a robot");
+    let arm = stiffarm_gap::robot::arm(&written).expect("numbers");
+    assert!((arm.joints[1].compliance / both[0] - 1.0).abs() < 1e-8);
+    let droop = written.effects.iter().find(|e| e.id.value == "servo_droop").expect("written");
+    let Quantity::Si(value) = droop.numbers[0].value else { panic!("{droop:?}") };
+    assert!((value / both[0] - 1.0).abs() < 1e-8, "{value}");
+    // And is known to both: neither finds it again.
+    let again = stiffarm(&["diagnose", &better, &campaign, &log, "--json", "-"]).good();
+    let again: Value = serde_json::from_str(&again).expect("JSON");
+    assert_eq!(again["together"]["springs"], Value::Array(Vec::new()), "{again:#}");
+    let page = read(&page);
+    assert!(page.matches("<iframe").count() == 2 && page.contains("The joints’ springs"));
+}
+
+#[test]
+fn springs_that_differ_are_said_to() {
+    let folder = Folder::new();
+    let [robot, campaign, log] = data(&folder, 2.0 * GIVES);
+    let better = text(&folder.path("better.toml"));
+    let run = ["diagnose", &robot, &campaign, &log, "--write-robot", &better];
+    let out = stiffarm(&run).good();
+    assert!(out.contains("they differ"), "{out}");
+    assert!(out.contains("At joint 2 the log shows more give than the campaign"), "{out}");
+    let (written, _) = Robot::from_toml(&read(&better), "better.toml").expect("a robot");
+    let arm = stiffarm_gap::robot::arm(&written).expect("numbers");
+    assert!((arm.joints[1].compliance / GIVES - 1.0).abs() < 0.1);
+    let droop = written.effects.iter().find(|e| e.id.value == "servo_droop").expect("written");
+    let Quantity::Si(value) = droop.numbers[0].value else { panic!("{droop:?}") };
+    assert!((value / (2.0 * GIVES) - 1.0).abs() < 0.1, "{value}");
+}
+
+#[test]
+fn options_go_to_the_data_that_they_are_about() {
+    let folder = Folder::new();
+    let [robot, campaign, log] = data(&folder, GIVES);
+    let both = ["diagnose", &robot, &campaign, &log];
+    let only = ["--effects", "joint_compliance,servo_droop,latency", "--nuisance", "base_frame"];
+    let checked = ["--band", "5Hz", "--check", &log];
+    let out = stiffarm(&[&both[..], &only, &checked].concat()).good();
+    assert!(out.contains("nothing is fitted to it") && out.contains("below 5 Hz"), "{out}");
+    let wrong = stiffarm(&[&both[..], &["--effects", "gremlins"]].concat()).refused();
+    assert!(wrong.contains("unknown effect `gremlins`"), "{wrong}");
+    let more = stiffarm(&[&both[..], &[campaign.as_str()]].concat()).refused();
+    assert!(more.contains("found 2 files beside a joint log"), "{more}");
+}

@@ -1,0 +1,38 @@
+//! The search itself, held out: run again on all blocks but one fold's, for each.
+
+use rayon::prelude::*;
+
+use super::blocks::Blocks;
+use super::fit::Links;
+use super::judge::judged;
+use super::search;
+use super::stock::Stock;
+use super::sums::quadratic;
+
+/// Root mean square that is left of each joint by what a search finds that has not seen a fold, over all
+/// folds; 0 of a joint that has no rows.
+pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> Vec<f64> {
+    let joints = stock.case.signals.joints();
+    let offers: Vec<usize> = (0..stock.offers.len()).collect();
+    let sums = stock.sums(blocks);
+    let of_fold = |fold: usize| -> Vec<f64> {
+        let seen = stock.without(blocks, fold);
+        let last = search(&seen, &[], links, &offers, seed, &mut |_| {});
+        let (columns, values) = judged(&seen, &last, &offers, seed).fit.bordered();
+        let values = nalgebra::DVector::from_vec(values);
+        let left = |joint: usize| {
+            let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
+            let products = sums.products(&columns, &columns, &alone);
+            let own = products.iter().zip(&blocks.fold).filter(|(_, of)| **of == fold);
+            own.map(|(product, _)| quadratic(product, &values)).sum()
+        };
+        (0..joints).map(left).collect()
+    };
+    let squares: Vec<Vec<f64>> = (0..blocks.folds).into_par_iter().map(of_fold).collect();
+    let size = |joint: usize| {
+        let rows = stock.rows_of(blocks, joint);
+        let sum: f64 = squares.iter().map(|fold| fold[joint]).sum();
+        if rows > 0.0 { (sum / rows).sqrt() } else { 0.0 }
+    };
+    (0..joints).map(size).collect()
+}
