@@ -72,6 +72,17 @@ class Table(Mapping[str, Any]):
         return polars.DataFrame(dict(self))
 
 
+class Map(Table):
+    """A quantity over two joints: a row for each cell, NaN where there is none; ``svg`` is the picture."""
+
+    def __init__(self, text: str, svg: str) -> None:
+        super().__init__(text)
+        self.svg = svg
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
 def _column(cells: list[str]) -> Any:
     import numpy
 
