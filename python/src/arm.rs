@@ -264,8 +264,8 @@ impl Arm {
                 Err(wrong) => Err(wrong),
             };
             match if count > FEW { py.detach(work) } else { work() } {
-                Ok(Ok(())) => Ok(()),
-                Ok(Err(unstable)) => Err(refused(py, output, &unstable)),
+                Ok(Ok(())) => Ok(None),
+                Ok(Err(unstable)) => Ok(Some(refused(py, output, &unstable))),
                 Err((at, what, length)) => Err(PyValueError::new_err(format!(
                     "{what}: found a value that is not finite, at pose {} (from 0), expected numbers",
                     at / (length / count.max(1)).max(1)

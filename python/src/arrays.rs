@@ -87,33 +87,34 @@ impl Shape {
     /// The array that a user sees, made of what `fill` writes: the blocks of all poses, one after the other. Single
     /// precision, asked for or that of `out`, is what doubles are rounded to.
     ///
-    /// `place` are the dimensions of the batch and the numbers of a block.
+    /// `place` are the dimensions of the batch and the numbers of a block. What `fill` returns is raised when what it
+    /// wrote is in place.
     ///
     /// # Errors
-    /// `TypeError` and `ValueError` of an `out` that does not fit, and those of `fill`.
+    /// `TypeError` and `ValueError` of an `out` that does not fit, and those of `fill`, of which nothing is written.
     pub fn fill<'py>(
         &self,
         py: Python<'py>,
         place: (&[usize], usize),
         out: Option<&Bound<'py, PyAny>>,
         single: bool,
-        fill: impl FnOnce(&mut [f64]) -> PyResult<()>,
+        fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        match out.map(|out| (out, out.cast::<PyArrayDyn<f32>>())) {
-            Some((out, Ok(array))) => {
-                fits(array.shape(), &self.seen(place.0))?;
-                let doubles = self.doubles(py, place, None, fill)?;
-                let numpy = py.import(intern!(py, "numpy"))?;
-                numpy.call_method1(intern!(py, "copyto"), (out, doubles, "same_kind"))?;
-                Ok(out.clone())
-            }
-            Some((out, Err(_))) => Ok(self.doubles(py, place, Some(out), fill)?.into_any()),
-            None if single => {
-                let doubles = self.doubles(py, place, None, fill)?;
-                doubles.call_method1(intern!(py, "astype"), ("f4",))
-            }
-            None => Ok(self.doubles(py, place, None, fill)?.into_any()),
+        let rounded = out.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
+        if let Some(array) = rounded {
+            fits(array.shape(), &self.seen(place.0))?;
         }
+        let (doubles, raised) = self.doubles(py, place, out.filter(|_| rounded.is_none()), fill)?;
+        let found = match (out, rounded) {
+            (Some(out), Some(_)) => {
+                let numpy = py.import(intern!(py, "numpy"))?;
+                numpy.call_method1(intern!(py, "copyto"), (out, doubles))?;
+                out.clone()
+            }
+            (None, _) if single => doubles.call_method1(intern!(py, "astype"), ("f4",))?,
+            _ => doubles.into_any(),
+        };
+        raised.map_or(Ok(found), Err)
     }
 
     /// The dimensions that a user sees.
@@ -130,8 +131,8 @@ impl Shape {
         py: Python<'py>,
         (lead, size): (&[usize], usize),
         out: Option<&Bound<'py, PyAny>>,
-        fill: impl FnOnce(&mut [f64]) -> PyResult<()>,
-    ) -> PyResult<Numbers<'py>> {
+        fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
+    ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
         let written = [lead, &self.written].concat();
         let mut axes: Vec<usize> = (0..written.len()).collect();
         if self.swapped {
@@ -144,28 +145,28 @@ impl Shape {
             }
             Some(out) => ours(out, &self.seen(lead))?,
         };
-        let as_written =
-            if self.swapped { array.permute(Some(axes))? } else { array.clone() };
+        let as_written = if self.swapped { array.permute(Some(axes))? } else { array.clone() };
         let mut target = as_written.try_readwrite().map_err(|_| {
             PyValueError::new_err("out: found an array that cannot be written to, or is being read")
         })?;
         // A slice lies in Fortran's order, too.
-        match target.as_slice_mut() {
+        let raised = match target.as_slice_mut() {
             Ok(slice) if !self.homogeneous && as_written.is_c_contiguous() => fill(slice)?,
             _ => {
                 let poses: usize = lead.iter().product();
                 let mut blocks = vec![0.0; poses * size];
-                fill(&mut blocks)?;
+                let raised = fill(&mut blocks)?;
                 if self.homogeneous {
                     blocks = homogeneous(&blocks);
                 }
                 let view = ArrayViewD::from_shape(IxDyn(as_written.shape()), &blocks);
                 let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
                 target.as_array_mut().assign(&view);
+                raised
             }
-        }
+        };
         drop(target);
-        Ok(array)
+        Ok((array, raised))
     }
 }
 

@@ -10,8 +10,8 @@ use libloading::{Library as Loaded, Symbol};
 use stiffarm_codegen::derive::Given;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::{Asked, Robot};
-use stiffarm_kernels::batch::{self, Wrenches};
 use stiffarm_kernels::Input;
+use stiffarm_kernels::batch::{self, Wrenches};
 
 use crate::engine::{Engine, Engines, Poses, Unstable};
 

@@ -127,7 +127,8 @@ impl Engines {
     /// [`Refused`]: a frame or marker that there is not, or an output that cannot be told there.
     pub fn asked(&self, output: Output, at: Option<String>) -> Result<Asked, Refused> {
         let asked = Asked { output, at };
-        if let Some(at) = asked.at.as_deref().filter(|_| !self.graphs().contains_key(&key(&asked))) {
+        if let Some(at) = asked.at.as_deref().filter(|_| !self.graphs().contains_key(&key(&asked)))
+        {
             self.robot.clone().ask(&asked)?;
             let program = derive_at(&self.robot, at, output).ok_or_else(|| Refused {
                 message: format!("nothing can be told of `{at}`: its place is no number"),

@@ -120,7 +120,12 @@ def _columns(frame: Any) -> dict[str, list[Any]]:
     if hasattr(frame, "__arrow_c_stream__"):
         from . import arrow
 
-        return arrow.columns(frame)
+        try:
+            return arrow.columns(frame)
+        except ImportError:
+            # pandas has the interface, but not without pyarrow; its columns can be asked for one by one.
+            if not hasattr(frame, "columns"):
+                raise
     if hasattr(frame, "columns") and hasattr(frame, "__getitem__"):
         return {str(name): _list(frame[name]) for name in frame.columns}
     kind = type(frame).__name__

@@ -202,6 +202,13 @@ def test_an_unstable_arm():
     with pytest.raises(stiffarm.Unstable) as caught:
         arm.deflection([[0.0]] * 3, [[1.0, 0, 0, 0, 0, 0], [-20.0, 0, 0, 0, 0, 0], [-30.0, 0, 0, 0, 0, 0]])
     assert (caught.value.first, caught.value.count) == (1, 2)
+    # What stands is in `out`, however that lies.
+    loads = [[1.0, 0, 0, 0, 0, 0], [-20.0, 0, 0, 0, 0, 0]]
+    want = arm.deflection([0.0], loads[0])
+    for out in (numpy.empty((2, 6)), numpy.empty((4, 6))[::2], numpy.empty((2, 6), "f4")):
+        with pytest.raises(stiffarm.Unstable):
+            arm.deflection([[0.0]] * 2, loads, out=out)
+        assert (out[0] == want.astype(out.dtype)).all()
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")

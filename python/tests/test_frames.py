@@ -1,6 +1,7 @@
 """Measurements from whatever holds columns."""
 
 import decimal
+import sys
 
 import numpy
 import pytest
@@ -45,6 +46,13 @@ def test_pandas_and_polars_and_arrow(campaign, want):
     for frame in frames:
         assert told(stiffarm.diagnose("kuka_kr240", frame)) == want
     assert isinstance(frames[0], pandas.DataFrame)
+
+
+def test_pandas_without_pyarrow(campaign, want, monkeypatch):
+    pytest.importorskip("pandas")
+    frame = campaign.to_pandas()
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    assert told(stiffarm.diagnose("kuka_kr240", frame)) == want
 
 
 def test_duckdb(campaign, want):

@@ -19,13 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         line?;
         let begun = Instant::now();
         let wrenches = Wrenches::One(&[0.0; 6]);
-        arm.batched.evaluate_batch(
-            Output::Jacobian,
-            Layout::Poses,
-            &states,
-            wrenches,
-            &mut out,
-        )?;
+        arm.batched.evaluate_batch(Output::Jacobian, Layout::Poses, &states, wrenches, &mut out)?;
         println!("{}", 1e3 * begun.elapsed().as_secs_f64());
     }
     Ok(())
