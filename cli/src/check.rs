@@ -1,6 +1,9 @@
 //! `stiffarm check`: whether what is generated from a table is right.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use serde::Serialize;
 use stiffarm_codegen::derive::Given;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
@@ -10,7 +13,8 @@ use crate::input::model::Model;
 use crate::input::source;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::output::print;
+use crate::terminal::json;
+use crate::terminal::output::{Target, print};
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
 use stiffarm_kernels::parity::{Agreement, Beyond, Comparison, Evaluate, Line, Subject, agreement};
@@ -19,7 +23,7 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm check kuka_kr240
   stiffarm check arm.toml --count 1000
-  stiffarm check --all
+  stiffarm check --all --json -
 
 What is checked is the graph that is derived from the table, of which every kernel is a print. It is
 compared with the textbook (the same quantity by matrices at run time), of a built-in robot in single
@@ -45,6 +49,29 @@ pub struct Args {
     /// Seed of the postures and wrenches
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Write the deviations as JSON (`-`: to standard output, in place of the screen)
+    #[arg(long, value_name = "OUT")]
+    json: Option<Target>,
+}
+
+/// The result as it is written. Deviations are relative to the output's scale, by what they are from.
+#[derive(Serialize)]
+struct Written<'a> {
+    stiffarm: &'static str,
+    count: u32,
+    seed: u64,
+    agrees: bool,
+    limits: BTreeMap<&'static str, f64>,
+    robots: Vec<WrittenRobot<'a>>,
+}
+
+#[derive(Serialize)]
+struct WrittenRobot<'a> {
+    robot: &'a str,
+    agrees: bool,
+    /// Evaluations that are left out: the arm is not stable under its load.
+    unstable: usize,
+    outputs: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
 }
 
 /// Postures of an arm of up to so many joints.
@@ -63,7 +90,7 @@ fn usual(joints: usize) -> usize {
 /// Runs the command.
 ///
 /// # Errors
-/// [`Failure`]: the robot.
+/// [`Failure`]: the robot, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let checked = match &args.robot {
         Some(robot) => vec![check(robot.load(quiet)?, args, quiet)?],
@@ -73,9 +100,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         }
     };
     let failed = checked.iter().any(|c| !c.agrees());
-    let text = if args.all { summary(&checked, args) } else { checked[0].report(args) };
-    if failed || !quiet {
-        print(&text)?;
+    if let Some(target) = &args.json {
+        target.write(&json::text(&written(&checked, args))?)?;
+    }
+    if (failed || !quiet) && args.json != Some(Target::Stdout) {
+        print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
     }
     Ok(if failed { Verdict::Failed } else { Verdict::Good })
 }
@@ -134,6 +163,32 @@ fn drawn(q: &[f64], (base, w): (UnitQuaternion<f64>, &[f64; 6])) -> Situation {
 fn given(at: &Situation) -> Given {
     let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
     Given { sides, warming: at.warming.unwrap_or_default() }
+}
+
+fn written<'a>(checked: &'a [Checked], args: &Args) -> Written<'a> {
+    let by_name = |value: &dyn Fn(usize) -> Option<f64>| {
+        let each = HEADS.iter().enumerate();
+        each.filter_map(|(k, head)| value(k).map(|value| (*head, value))).collect()
+    };
+    let robots = checked.iter().map(|one| WrittenRobot {
+        robot: &one.source.given,
+        agrees: one.agrees(),
+        unstable: one.agreement.unstable,
+        outputs: one
+            .agreement
+            .lines
+            .iter()
+            .map(|line| (line.output.name(), by_name(&|k| line.worst[k])))
+            .collect(),
+    });
+    Written {
+        stiffarm: env!("CARGO_PKG_VERSION"),
+        count: args.count,
+        seed: args.seed,
+        agrees: checked.iter().all(Checked::agrees),
+        limits: by_name(&|k| Some(Comparison::EACH[k].limit())),
+        robots: robots.collect(),
+    }
 }
 
 const HEADS: [&str; 4] = ["textbook", "f32", "differences", "dual numbers"];

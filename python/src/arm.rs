@@ -10,9 +10,10 @@ use pyo3::prelude::*;
 use stiffarm_cli::inside::Host;
 use stiffarm_cli::{RobotArgs, Source};
 use stiffarm_codegen::derive::Given;
-use stiffarm_codegen::robot::Motion;
+use stiffarm_codegen::robot::{Asked, Motion, Refused};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::batch::{self, Wrenches};
+use stiffarm_kernels::generic::Joint;
 use stiffarm_kernels::{Input, Output, Side};
 
 use crate::arrays::{self, Numbers, Shape, lead, numbers, shape};
@@ -22,6 +23,40 @@ use crate::work::{self, Unstable};
 
 /// Fewer poses than this take less time than it takes to hand over the interpreter.
 const FEW: usize = 4;
+
+/// A joint and the link that it moves, as numbers of the table.
+#[pyclass(frozen, get_all, module = "stiffarm._native")]
+pub struct Row {
+    /// Of its spring, N·m/rad (N/m); None of a rigid one.
+    stiffness: Option<f64>,
+    /// Mass of the link, kg.
+    mass: f64,
+    /// Its centre of mass in the row's frame, m.
+    com: [f64; 3],
+    /// Its tensor of inertia about that centre in the row's axes, kg·m².
+    inertia: [[f64; 3]; 3],
+    /// What turns with the motor, as the joint feels it, kg·m² (kg).
+    armature: f64,
+    /// Dry friction, N·m (N).
+    coulomb: f64,
+    /// Friction in proportion to the rate, N·m·s/rad (N·s/m).
+    viscous: f64,
+}
+
+impl Row {
+    fn of(joint: &Joint) -> Row {
+        let drive = &joint.drive;
+        Row {
+            stiffness: (joint.compliance > 0.0).then(|| 1.0 / joint.compliance),
+            mass: joint.mass,
+            com: joint.com.into(),
+            inertia: joint.inertia.into(),
+            armature: drive.gear.powi(2) * drive.rotor_inertia,
+            coulomb: drive.coulomb,
+            viscous: drive.viscous,
+        }
+    }
+}
 
 /// An arm: its robot file, and what computes its outputs.
 #[pyclass(frozen, subclass, module = "stiffarm._native")]
@@ -105,6 +140,12 @@ impl Arm {
         self.source.robot.joints.iter().map(|joint| of(joint.motion)).collect()
     }
 
+    /// What the table says of each joint and its link beyond geometry.
+    #[getter]
+    fn rows(&self) -> Vec<Row> {
+        self.engines.table().joints.iter().map(Row::of).collect()
+    }
+
     /// The joints' limits, rad (m); None where the file has none.
     #[getter]
     fn limits(&self) -> Vec<Option<[f64; 2]>> {
@@ -118,9 +159,18 @@ impl Arm {
         known.map(|known| (known.effect.identifier(), known.spot.place.to_string())).collect()
     }
 
-    /// What computes an output: kernels, c, textbook or graph.
-    fn engine(&self, output: &str) -> PyResult<&'static str> {
-        Ok(self.engines.of(named(output)?).name())
+    /// The names of the file's frames and markers, at which outputs can be told.
+    #[getter]
+    fn places(&self) -> Vec<&str> {
+        let robot = &self.source.robot;
+        let frames = robot.frames.iter().map(|frame| frame.name.as_str());
+        frames.chain(robot.markers.iter().map(|marker| marker.name.as_str())).collect()
+    }
+
+    /// What computes an output, of the tool or at a frame or marker: kernels, c, textbook or graph.
+    #[pyo3(signature = (output, at=None))]
+    fn engine(&self, output: &str, at: Option<String>) -> PyResult<&'static str> {
+        Ok(self.engines.of(&self.asked(output, at)?).name())
     }
 
     /// The C that `load_c` takes when it is compiled to a shared library.
@@ -140,8 +190,9 @@ impl Arm {
     /// An output at one pose or many.
     ///
     /// `inputs` are the arrays that it takes of the joints, `wrench` and `out` what they are called; `sides` (n,) and
-    /// `warming` what a corrected arm may depend on.
-    #[pyo3(signature = (output, inputs, wrench=None, out=None, sides=None, warming=None))]
+    /// `warming` what a corrected arm may depend on; `at` the frame or marker that it is told of in the tool's place.
+    #[pyo3(signature = (output, inputs, wrench=None, out=None, sides=None, warming=None, at=None))]
+    #[allow(clippy::too_many_arguments, reason = "they are those of the methods in Python")]
     fn evaluate<'py>(
         &self,
         py: Python<'py>,
@@ -151,13 +202,17 @@ impl Arm {
         out: Option<&Bound<'py, PyAny>>,
         sides: Option<&Bound<'py, PyAny>>,
         warming: Option<f64>,
-    ) -> PyResult<Numbers<'py>> {
-        let (output, n) = (named(output)?, self.dof());
+        at: Option<String>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (asked, n) = (self.asked(output, at)?, self.dof());
+        let output = asked.output;
         let given = self.given_beside(py, sides, warming)?;
         let joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
         let mut all: Vec<(Vec<usize>, Numbers<'py>)> = Vec::with_capacity(4);
+        let mut single = true;
         for (input, array) in joints.zip(&inputs) {
-            let array = numbers(input.name(), array)?;
+            let (array, of_single) = numbers(input.name(), array)?;
+            single &= of_single;
             all.push((lead(input.name(), &array, n)?, array));
         }
         if all.len() * n != output.state(n) || inputs.len() != all.len() {
@@ -170,7 +225,7 @@ impl Arm {
         }
         let wrench = match (wrench, output.takes(Input::Wrench)) {
             (Some(wrench), true) => {
-                let wrench = numbers("wrench", wrench)?;
+                let (wrench, _) = numbers("wrench", wrench)?;
                 Some((lead("wrench", &wrench, 6)?, wrench))
             }
             (None, true) => return Err(PyTypeError::new_err("wrench: found none, expected (6,)")),
@@ -202,14 +257,15 @@ impl Arm {
             let loads = loads.unwrap_or_default();
             all_finite(loads).map_err(|at| (at, "wrench", loads.len()))
         };
-        Shape::of(output, n).fill(py, &dimensions, rows * columns, out, |blocks| {
+        let place = (&dimensions[..], rows * columns);
+        Shape::of(output, n).fill(py, place, out, single, |blocks| {
             let mut work = || match finite() {
-                Ok(()) => Ok(self.engines.evaluate(output, poses, blocks)),
+                Ok(()) => Ok(self.engines.evaluate(&asked, poses, blocks)),
                 Err(wrong) => Err(wrong),
             };
             match if count > FEW { py.detach(work) } else { work() } {
-                Ok(Ok(())) => Ok(()),
-                Ok(Err(unstable)) => Err(refused(py, output, &unstable)),
+                Ok(Ok(())) => Ok(None),
+                Ok(Err(unstable)) => Ok(Some(refused(py, output, &unstable))),
                 Err((at, what, length)) => Err(PyValueError::new_err(format!(
                     "{what}: found a value that is not finite, at pose {} (from 0), expected numbers",
                     at / (length / count.max(1)).max(1)
@@ -220,6 +276,11 @@ impl Arm {
 }
 
 impl Arm {
+    fn asked(&self, output: &str, at: Option<String>) -> PyResult<Asked> {
+        let refused = |no: Refused| PyValueError::new_err(format!("{}: {}", no.message, no.help));
+        self.engines.asked(named(output)?, at).map_err(refused)
+    }
+
     /// What is said beside posture and load: all that the arm's effects depend on.
     fn given_beside(
         &self,
@@ -233,7 +294,7 @@ impl Arm {
         let sides = match sides {
             None => Vec::new(),
             Some(sides) => {
-                let array = numbers("sides", sides)?;
+                let (array, _) = numbers("sides", sides)?;
                 if array.shape() != [self.dof()] {
                     let (found, n) = (shape(array.shape()), self.dof());
                     let text = format!("sides: found the shape {found}, expected ({n},)");

@@ -12,26 +12,28 @@ use stiffarm_kernels::{Form, Output, Side};
 /// Doubles in a row, whatever array-like they come from.
 pub type Numbers<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// The numbers of an argument; an array of doubles that lies pose after pose is not copied.
+/// The numbers of an argument, and whether they are an array of numpy.float32; an array of doubles that lies pose
+/// after pose is not copied.
 ///
 /// # Errors
 /// `TypeError` where they are no real numbers.
-pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Numbers<'py>> {
+pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<(Numbers<'py>, bool)> {
     if let Ok(array) = given.cast::<PyArrayDyn<f64>>()
         && array.is_c_contiguous()
     {
-        return Ok(array.clone());
+        return Ok((array.clone(), false));
     }
     let py = given.py();
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1(intern!(py, "asarray"), (given,))?;
-    let kind = array.cast::<PyUntypedArray>()?.dtype().kind();
+    let found = array.cast::<PyUntypedArray>()?.dtype();
+    let (kind, single) = (found.kind(), found.kind() == b'f' && found.itemsize() == 4);
     if !b"iuf".contains(&kind) {
         let dtype = array.getattr(intern!(py, "dtype"))?;
         return Err(PyTypeError::new_err(format!("{name}: found {dtype}, expected real numbers")));
     }
     let doubles = numpy.call_method1(intern!(py, "ascontiguousarray"), (array, "f8"))?;
-    Ok(doubles.cast_into::<PyArrayDyn<f64>>()?)
+    Ok((doubles.cast_into::<PyArrayDyn<f64>>()?, single))
 }
 
 /// The dimensions before the last, which is to be `size`.
@@ -82,53 +84,89 @@ impl Shape {
         }
     }
 
-    /// The array that a user sees, made of what `fill` writes: the blocks of all poses, one after the other.
+    /// The array that a user sees, made of what `fill` writes: the blocks of all poses, one after the other. Single
+    /// precision, asked for or that of `out`, is what doubles are rounded to.
+    ///
+    /// `place` are the dimensions of the batch and the numbers of a block. What `fill` returns is raised when what it
+    /// wrote is in place.
     ///
     /// # Errors
-    /// `TypeError` and `ValueError` of an `out` that does not fit, and those of `fill`.
+    /// `TypeError` and `ValueError` of an `out` that does not fit, and those of `fill`, of which nothing is written.
     pub fn fill<'py>(
         &self,
         py: Python<'py>,
-        lead: &[usize],
-        size: usize,
+        place: (&[usize], usize),
         out: Option<&Bound<'py, PyAny>>,
-        fill: impl FnOnce(&mut [f64]) -> PyResult<()>,
-    ) -> PyResult<Numbers<'py>> {
-        let written = [lead, &self.written].concat();
-        let mut seen: Vec<usize> = (0..written.len()).collect();
-        if self.swapped {
-            seen.swap(lead.len() + self.written.len() - 1, lead.len() + self.written.len() - 2);
+        single: bool,
+        fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let rounded = out.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
+        if let Some(array) = rounded {
+            fits(array.shape(), &self.seen(place.0))?;
         }
-        let expected: Vec<usize> = seen.iter().map(|axis| written[*axis]).collect();
+        let (doubles, raised) = self.doubles(py, place, out.filter(|_| rounded.is_none()), fill)?;
+        let found = match (out, rounded) {
+            (Some(out), Some(_)) => {
+                let numpy = py.import(intern!(py, "numpy"))?;
+                numpy.call_method1(intern!(py, "copyto"), (out, doubles))?;
+                out.clone()
+            }
+            (None, _) if single => doubles.call_method1(intern!(py, "astype"), ("f4",))?,
+            _ => doubles.into_any(),
+        };
+        raised.map_or(Ok(found), Err)
+    }
+
+    /// The dimensions that a user sees.
+    fn seen(&self, lead: &[usize]) -> Vec<usize> {
+        let mut seen = [lead, &self.written].concat();
+        if let (true, [.., a, b]) = (self.swapped, &mut seen[..]) {
+            std::mem::swap(a, b);
+        }
+        seen
+    }
+
+    fn doubles<'py>(
+        &self,
+        py: Python<'py>,
+        (lead, size): (&[usize], usize),
+        out: Option<&Bound<'py, PyAny>>,
+        fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
+    ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
+        let written = [lead, &self.written].concat();
+        let mut axes: Vec<usize> = (0..written.len()).collect();
+        if self.swapped {
+            axes.swap(written.len() - 1, written.len() - 2);
+        }
         let array = match out {
             None => {
                 let array = PyArrayDyn::<f64>::zeros(py, written, false);
-                if self.swapped { array.permute(Some(seen.clone()))? } else { array }
+                if self.swapped { array.permute(Some(axes.clone()))? } else { array }
             }
-            Some(out) => ours(out, &expected)?,
+            Some(out) => ours(out, &self.seen(lead))?,
         };
-        let as_written =
-            if self.swapped { array.permute(Some(seen.clone()))? } else { array.clone() };
+        let as_written = if self.swapped { array.permute(Some(axes))? } else { array.clone() };
         let mut target = as_written.try_readwrite().map_err(|_| {
             PyValueError::new_err("out: found an array that cannot be written to, or is being read")
         })?;
         // A slice lies in Fortran's order, too.
-        match target.as_slice_mut() {
+        let raised = match target.as_slice_mut() {
             Ok(slice) if !self.homogeneous && as_written.is_c_contiguous() => fill(slice)?,
             _ => {
                 let poses: usize = lead.iter().product();
                 let mut blocks = vec![0.0; poses * size];
-                fill(&mut blocks)?;
+                let raised = fill(&mut blocks)?;
                 if self.homogeneous {
                     blocks = homogeneous(&blocks);
                 }
                 let view = ArrayViewD::from_shape(IxDyn(as_written.shape()), &blocks);
                 let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
                 target.as_array_mut().assign(&view);
+                raised
             }
-        }
+        };
         drop(target);
-        Ok(array)
+        Ok((array, raised))
     }
 }
 
@@ -136,15 +174,17 @@ impl Shape {
 fn ours<'py>(out: &Bound<'py, PyAny>, expected: &[usize]) -> PyResult<Numbers<'py>> {
     let array = out
         .cast::<PyArrayDyn<f64>>()
-        .map_err(|_| PyTypeError::new_err("out: expected an array of numpy.float64"))?;
-    if array.shape() != expected {
-        return Err(PyValueError::new_err(format!(
-            "out: found the shape {}, expected {}",
-            shape(array.shape()),
-            shape(expected)
-        )));
-    }
+        .map_err(|_| PyTypeError::new_err("out: expected an array of numpy.float64 or float32"))?;
+    fits(array.shape(), expected)?;
     Ok(array.clone())
+}
+
+fn fits(found: &[usize], expected: &[usize]) -> PyResult<()> {
+    if found == expected {
+        return Ok(());
+    }
+    let (found, expected) = (shape(found), shape(expected));
+    Err(PyValueError::new_err(format!("out: found the shape {found}, expected {expected}")))
 }
 
 /// Columns x, y, z, origin of three numbers each as matrices of four rows, row by row.

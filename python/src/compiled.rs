@@ -9,9 +9,9 @@ use std::path::Path;
 use libloading::{Library as Loaded, Symbol};
 use stiffarm_codegen::derive::Given;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
-use stiffarm_codegen::robot::Robot;
+use stiffarm_codegen::robot::{Asked, Robot};
+use stiffarm_kernels::Input;
 use stiffarm_kernels::batch::{self, Wrenches};
-use stiffarm_kernels::{Input, Output};
 
 use crate::engine::{Engine, Engines, Poses, Unstable};
 
@@ -33,9 +33,24 @@ type Function = unsafe extern "C" fn(
 /// C that was loaded.
 pub struct Library {
     // Dropped after the functions, which it holds.
-    functions: Vec<(Output, Function)>,
+    functions: Vec<(Asked, Function)>,
     dof: usize,
     _loaded: Loaded,
+}
+
+/// What there is C of: every output of the tool, and what the robot file asks for at its frames and markers.
+fn compiled(robot: &Robot) -> Vec<Asked> {
+    let tool = robot.generated().into_iter().map(|output| Asked { output, at: None });
+    let places = robot.places().into_iter().flat_map(|(place, outputs)| {
+        outputs.into_iter().map(move |output| Asked { output, at: Some(place.to_owned()) })
+    });
+    tool.chain(places).collect()
+}
+
+/// What its function is called behind the arm's name: `jacobian`, `at_elbow_jacobian`.
+fn called(asked: &Asked) -> String {
+    let at = asked.at.as_ref().map_or_else(String::new, |at| format!("at_{at}_"));
+    format!("{at}{}", asked.output.name())
 }
 
 /// The text: the kernels as one source, and for each output a loop over poses.
@@ -51,7 +66,8 @@ pub fn source(robot: &Robot) -> Result<String, String> {
     let takes = |argument: &str| files.header.contains(argument);
     let n = robot.dof();
     text.push_str("\n#include <stddef.h>\n#ifdef _WIN32\n#define LOOP __declspec(dllexport) size_t\n#else\n#define LOOP size_t\n#endif\n");
-    for output in robot.generated() {
+    for asked in compiled(robot) {
+        let output = asked.output;
         let mut arguments = vec!["q".to_owned()];
         if takes("double sides[") {
             arguments.push("given".to_owned());
@@ -66,7 +82,7 @@ pub fn source(robot: &Robot) -> Result<String, String> {
             });
         }
         arguments.push("out".to_owned());
-        let (name, (rows, columns)) = (output.name(), output.shape(n));
+        let (name, (rows, columns)) = (called(&asked), output.shape(n));
         let call = format!("{NAME}_{name}({})", arguments.join(", "));
         let step = match output.is_fallible() {
             true => format!("if ({call} != ARM_OK && failed++ == 0) {{ *first = k; }}"),
@@ -100,25 +116,26 @@ impl Library {
         // SAFETY: the library was compiled of the text of `source`: it initialises nothing.
         let loaded = unsafe { Loaded::new(path) }.map_err(|error| error.to_string())?;
         let mut functions = Vec::new();
-        for output in robot.generated() {
-            let name = format!("loop_{}", output.name());
+        for asked in compiled(robot) {
+            let name = format!("loop_{}", called(&asked));
             // SAFETY: `source` writes every function of this type.
             let function: Symbol<'_, Function> =
                 unsafe { loaded.get(name.as_bytes()) }.map_err(|error| error.to_string())?;
-            functions.push((output, *function));
+            functions.push((asked, *function));
         }
         Ok(Library { functions, dof: robot.dof(), _loaded: loaded })
     }
 
     /// Whether it computes an output.
-    pub fn has(&self, output: Output) -> bool {
-        self.functions.iter().any(|(known, _)| *known == output)
+    pub fn has(&self, asked: &Asked) -> bool {
+        self.functions.iter().any(|(known, _)| known == asked)
     }
 
     /// Writes the blocks of all poses.
     #[allow(unsafe_code, reason = "a call to what was loaded")]
-    pub fn evaluate(&self, output: Output, poses: Poses<'_>, out: &mut [f64]) -> Unstable {
-        let (_, function) = self.functions.iter().find(|(known, _)| *known == output)?;
+    pub fn evaluate(&self, asked: &Asked, poses: Poses<'_>, out: &mut [f64]) -> Unstable {
+        let (_, function) = self.functions.iter().find(|(known, _)| known == asked)?;
+        let output = asked.output;
         let (rows, columns) = output.shape(self.dof);
         let (wrench, stride): (&[f64], usize) = match poses.wrenches {
             Wrenches::One(wrench) => (wrench, 0),
@@ -158,8 +175,11 @@ impl Library {
         const HALF: f64 = 1.5e-8;
         let wrench = [3.0, -2.0, 5.0, 0.3, 0.2, -0.1];
         let given = Given::default();
-        let plain = if arm.robot().effects.is_empty() { Engine::Textbook } else { Engine::Graph };
-        for (output, _) in &self.functions {
+        let nominal = arm.robot().effects.is_empty();
+        for (asked, _) in &self.functions {
+            let output = asked.output;
+            let textbook = nominal && asked.at.is_none();
+            let plain = if textbook { Engine::Textbook } else { Engine::Graph };
             let (size, (rows, columns)) = (output.state(self.dof), output.shape(self.dof));
             // Fractions of the golden ratio, spread evenly over half a turn either way.
             let spread = |k: usize| 3.0 * ((0.3 + 0.618_034 * k as f64).fract() - 0.5);
@@ -168,19 +188,16 @@ impl Library {
             let poses = Poses { count: POSES, states: &states, wrenches, given: &given };
             let mut blocks = [vec![0.0; POSES * rows * columns], vec![0.0; POSES * rows * columns]];
             let [ours, theirs] = &mut blocks;
-            let here = self.evaluate(*output, poses, ours);
-            let there = match arm.by(plain, *output, poses, theirs) {
+            let here = self.evaluate(asked, poses, ours);
+            let there = match arm.by(plain, asked, poses, theirs) {
                 Err(batch::Error::Unstable { first, count }) => Some((first, count)),
                 _ => None,
             };
             let largest = theirs.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
             let near = |(a, b): (&f64, &f64)| (a - b).abs() <= HALF * largest;
             if here != there || !ours.iter().zip(theirs.iter()).all(near) {
-                let name = output.name();
-                return Err(format!(
-                    "{name} as it was compiled is not what the {} gives",
-                    plain.name()
-                ));
+                let (name, engine) = (called(asked), plain.name());
+                return Err(format!("{name} as it was compiled is not what the {engine} gives"));
             }
         }
         Ok(())

@@ -2,11 +2,11 @@
 //! corrected arm, the graph that kernels are printed from. All write the same blocks.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rayon::prelude::*;
-use stiffarm_codegen::derive::{Given, Program, derive};
-use stiffarm_codegen::robot::Robot;
+use stiffarm_codegen::derive::{Given, Program, derive, derive_at};
+use stiffarm_codegen::robot::{Asked, Refused, Robot};
 use stiffarm_kernels::Output;
 use stiffarm_kernels::batch::{self, Layout, Wrenches};
 use stiffarm_kernels::generic;
@@ -22,8 +22,11 @@ pub struct Engines {
     table: generic::Arm,
     built_in: Option<&'static stiffarm_robots::Arm>,
     library: OnceLock<Library>,
-    graphs: Mutex<HashMap<Output, Arc<Program>>>,
+    graphs: Mutex<HashMap<Key, Arc<Program>>>,
 }
+
+/// An output and the frame or marker that it is told of, if it is not the tool.
+type Key = (Output, Option<String>);
 
 /// Which of them does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,14 +110,33 @@ impl Engines {
     }
 
     /// What computes an output.
-    pub fn of(&self, output: Output) -> Engine {
-        let has = |known: &[Output]| known.contains(&output);
+    pub fn of(&self, asked: &Asked) -> Engine {
+        let tool = asked.at.is_none();
+        let has = |known: &[Output]| known.contains(&asked.output);
         match (&self.library.get(), self.built_in) {
-            (Some(library), _) if library.has(output) => Engine::Compiled,
-            (_, Some(arm)) if has(arm.kernels.outputs()) => Engine::Kernels,
-            _ if self.robot.effects.is_empty() => Engine::Textbook,
+            (Some(library), _) if library.has(asked) => Engine::Compiled,
+            (_, Some(arm)) if tool && has(arm.kernels.outputs()) => Engine::Kernels,
+            _ if tool && self.robot.effects.is_empty() => Engine::Textbook,
             _ => Engine::Graph,
         }
+    }
+
+    /// What is asked for, if the arm has it.
+    ///
+    /// # Errors
+    /// [`Refused`]: a frame or marker that there is not, or an output that cannot be told there.
+    pub fn asked(&self, output: Output, at: Option<String>) -> Result<Asked, Refused> {
+        let asked = Asked { output, at };
+        if let Some(at) = asked.at.as_deref().filter(|_| !self.graphs().contains_key(&key(&asked)))
+        {
+            self.robot.clone().ask(&asked)?;
+            let program = derive_at(&self.robot, at, output).ok_or_else(|| Refused {
+                message: format!("nothing can be told of `{at}`: its place is no number"),
+                help: "give it numbers".to_owned(),
+            })?;
+            self.graphs().insert(key(&asked), Arc::new(program));
+        }
+        Ok(asked)
     }
 
     /// Takes C that was compiled of this robot, once it gives what is given without it.
@@ -134,21 +156,22 @@ impl Engines {
     /// [`batch::Error::Unstable`]; the others' blocks are written.
     pub fn evaluate(
         &self,
-        output: Output,
+        asked: &Asked,
         poses: Poses<'_>,
         out: &mut [f64],
     ) -> Result<(), batch::Error> {
-        self.by(self.of(output), output, poses, out)
+        self.by(self.of(asked), asked, poses, out)
     }
 
     /// The same by one of the engines.
     pub(crate) fn by(
         &self,
         engine: Engine,
-        output: Output,
+        asked: &Asked,
         poses: Poses<'_>,
         out: &mut [f64],
     ) -> Result<(), batch::Error> {
+        let output = asked.output;
         match (engine, self.built_in, self.library.get()) {
             (Engine::Kernels, Some(arm), _) => {
                 let (states, wrenches) = (poses.states, poses.wrenches);
@@ -159,10 +182,10 @@ impl Engines {
                 arm.batched.evaluate_batch(output, Layout::Poses, states, wrenches, out)
             }
             (Engine::Compiled, _, Some(library)) => {
-                in_runs(poses, out, |poses, out| library.evaluate(output, poses, out))
+                in_runs(poses, out, |poses, out| library.evaluate(asked, poses, out))
             }
             (Engine::Graph, ..) => {
-                let program = self.graph(output);
+                let program = self.graph(asked);
                 in_runs(poses, out, |poses, out| {
                     one_by_one(poses, out, |state, wrench| {
                         let known = |_: &str| f64::NAN;
@@ -179,11 +202,19 @@ impl Engines {
         }
     }
 
-    fn graph(&self, output: Output) -> Arc<Program> {
-        let mut graphs = self.graphs.lock().unwrap_or_else(PoisonError::into_inner);
-        let made = || Arc::new(derive(&self.robot, &[output]));
-        Arc::clone(graphs.entry(output).or_insert_with(made))
+    fn graph(&self, asked: &Asked) -> Arc<Program> {
+        // What is told of a place was derived when it was asked for.
+        let made = || Arc::new(derive(&self.robot, &[asked.output]));
+        Arc::clone(self.graphs().entry(key(asked)).or_insert_with(made))
     }
+
+    fn graphs(&self) -> MutexGuard<'_, HashMap<Key, Arc<Program>>> {
+        self.graphs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn key(asked: &Asked) -> Key {
+    (asked.output, asked.at.clone())
 }
 
 /// Poses without a stable equilibrium: the first, and how many.

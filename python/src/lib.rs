@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::arm::{Arm, outputs, robots};
+    use super::arm::{Arm, Row, outputs, robots};
     #[pymodule_export]
     use super::diagnosis::{Found, diagnose};
     #[pymodule_export]

@@ -10,45 +10,47 @@ at the tool's origin in base axes. Remarks go to the logger ``stiffarm``, progre
 """
 
 from ._native import VERSION as __version__
-from ._native import Effect, Error, Reading, Unstable, robots
+from ._native import Effect, Error, Reading, Row, Unstable, robots
 from .arm import Arm
-from .commands import (
-    compensate,
-    generate,
-    identify,
-    import_urdf,
-    measurements,
-    papers,
-    poses,
-    simulate,
-    withhold,
-)
+from .commands import check, compensate, effects, generate, identify, import_urdf, measurements, papers, predict
+from .commands import eval as eval
+from .commands import map as map
 from .diagnosis import Diagnosis, Prediction, diagnose
+from .experiments import Log, Motion, poses, simulate, withhold
 from .record import Record
-from .result import Identification, Result
-from .table import Table
+from .result import Identification, Predicted, Result
+from .table import Map, Table
 
+# Without eval and map, which `from stiffarm import *` would hide Python's own by.
 __all__ = [
     "Arm",
     "Diagnosis",
     "Effect",
     "Error",
     "Identification",
+    "Log",
+    "Map",
+    "Motion",
+    "Predicted",
     "Prediction",
     "Reading",
     "Record",
     "Result",
+    "Row",
     "Table",
     "Unstable",
     "__version__",
+    "check",
     "compensate",
     "diagnose",
+    "effects",
     "generate",
     "identify",
     "import_urdf",
     "measurements",
     "papers",
     "poses",
+    "predict",
     "robots",
     "simulate",
     "withhold",

@@ -24,7 +24,7 @@ class Arm(_native.Arm, Outputs):
     ``q`` is (n,) or (batch, n), rad (m of a prismatic joint); results have the batch in front. An array of doubles that
     lies pose after pose is not copied, `out` is filled where it is given, and the interpreter is free while many poses are
     worked on, on all cores. ``engine("jacobian")`` says what computes: the compiled ``kernels`` of a built-in arm,
-    ``c`` after :meth:`compile`, the ``textbook``, or the ``graph`` of a corrected arm.
+    ``c`` after :meth:`compile`, the ``textbook``, or the ``graph`` of a corrected arm and of frames and markers.
     """
 
     @classmethod
@@ -57,12 +57,15 @@ class Arm(_native.Arm, Outputs):
         gravity: Optional[Sequence[float]] = None,
         base: Optional[Mapping[str, Any]] = None,
         tool: Optional[Mapping[str, Any]] = None,
+        frames: Sequence[Mapping[str, Any]] = (),
+        markers: Sequence[Mapping[str, Any]] = (),
     ) -> Arm:
         """The arm of a Denavit-Hartenberg table.
 
         A row has any of ``theta d a alpha beta stiffness mass com inertia limits type …``, as in a robot file; angles in
         rad or as ``"pi/2"``, ``"90 deg"``, lengths in m or as ``"350 mm"``. `convention` is ``standard`` or ``modified``
-        (Khalil, Craig), `base` and `tool` have a ``translation`` (m) and a ``rotation`` (rotation vector, rad).
+        (Khalil, Craig), `base` and `tool` have a ``translation`` (m) and a ``rotation`` (rotation vector, rad); `frames` a ``name``
+        and the ``joint`` (from 1) on whose link they are, too, `markers` a ``name`` and a ``translation``, in the tool's frame.
         """
         lines = [f"name = {_value(name)}", f"convention = {_value(convention)}"]
         if gravity is not None:
@@ -72,6 +75,9 @@ class Arm(_native.Arm, Outputs):
         for head, frame in (("base", base), ("tool", tool)):
             if frame:
                 lines += ["", f"[{head}]", *_entries(frame)]
+        for head, each in (("frame", frames), ("marker", markers)):
+            for one in each:
+                lines += ["", f"[[{head}]]", *_entries(one)]
         return cls.from_toml("\n".join(lines) + "\n", f"<{name}>")
 
     @classmethod
@@ -115,7 +121,8 @@ class Arm(_native.Arm, Outputs):
 
     def to_mujoco(self, spec: mujoco.MjSpec, nominal: Arm, *, tip: Optional[str] = None) -> list[str]:
         """Puts into a model of MuJoCo's what this arm has corrected of `nominal`, the arm of that model: places and turns of the
-        bodies and of the site `tip`, and the joints' springs. Tells what the model has no place for.
+        bodies and of the site `tip`; masses, centres and moments of inertia; the joints' springs, friction and armature. Tells what
+        the model has no place for.
         """
         from .bridges import to_mujoco
 
@@ -151,4 +158,5 @@ def _value(value: Any) -> str:
         value = value.tolist()
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_value, value)) + "]"
-    return repr(float(value))
+    # An index of a joint is a whole number, and a number in SI is none.
+    return repr(value if isinstance(value, int) else float(value))

@@ -1,7 +1,7 @@
 """Tables that come through the Arrow C stream interface, without a library of Arrow's.
 
 The three structures are those of https://arrow.apache.org/docs/format/CDataInterface.html and CStreamInterface.html; what is read
-are numbers, truth values and texts, which is what measurements have.
+are numbers (decimals as doubles), truth values and texts, which is what measurements have.
 """
 
 from __future__ import annotations
@@ -129,6 +129,12 @@ def _cells(name: str, field: Any, array: Any, skipped: int, length: int) -> list
         cells = buffer(1, _NUMBERS[kind], offset + length)[offset:].tolist()
     elif kind == "b":
         cells = bits(1).tolist()
+    elif kind.startswith("d:"):
+        _, scale, size = (int(word) for word in f"{kind[2:]},128".split(",")[:3])
+        packed, size = buffer(1, "u1", size // 8 * (offset + length)).tobytes(), size // 8
+        whole = [int.from_bytes(packed[at : at + size], "little", signed=True) for at in range(offset * size, len(packed), size)]
+        # Whole numbers are divided exactly, and rounded once.
+        cells = [number / 10**scale for number in whole]
     elif kind in ("u", "U"):
         ends = buffer(1, "i4" if kind == "u" else "i8", offset + length + 1)[offset:].tolist()
         data = buffer(2, "u1", ends[-1] if ends else 0).tobytes()

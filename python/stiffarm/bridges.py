@@ -8,6 +8,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy
 
+from . import _native
 from .arm import Arm
 from .commands import import_urdf
 from .words import log
@@ -191,18 +192,14 @@ def from_mujoco(spec: mujoco.MjSpec, tip: Optional[str]) -> Arm:
     model = chain.model
     # A joint turns about its anchor, which need not be its body's origin: frames are put there, and what is on the body moved back.
     steps, before = [], numpy.eye(4)
-    springs: list[float] = []
+    beside: list[dict[str, float]] = []
     for body, joint in zip(chain.bodies, chain.joints):
         placed = before @ _matrix(_quaternion(model.body_quat[body]), model.body_pos[body])
         anchor = numpy.zeros(3) if joint is None else model.jnt_pos[joint]
         placed = placed @ _matrix(numpy.eye(3), anchor)
         before = _matrix(numpy.eye(3), -anchor)
-        turned = _quaternion(model.body_iquat[body])
-        link = (
-            float(model.body_mass[body]),
-            model.body_ipos[body] - anchor,
-            turned @ numpy.diag(model.body_inertia[body]) @ turned.T,
-        )
+        mass, com, inertia = _of_body(model, body)
+        link = (mass, com - anchor, inertia)
         if joint is None:
             steps.append(_Step(f"fixed {body}", "fixed", placed, None, None, *link))
             continue
@@ -212,14 +209,27 @@ def from_mujoco(spec: mujoco.MjSpec, tip: Optional[str]) -> Arm:
             # A URDF's joint that slides has limits: as far as any arm reaches.
             limits = (-1e3, 1e3)
         kind = "prismatic" if slides else "continuous" if limits is None else "revolute"
-        springs.append(float(numpy.ravel(model.jnt_stiffness[joint])[0]))
+        dof = int(model.jnt_dofadr[joint])
+        beside.append(
+            {
+                "stiffness": _first(model.jnt_stiffness[joint]),
+                "coulomb": _first(model.dof_frictionloss[dof]),
+                "viscous": _first(model.dof_damping[dof]),
+                "rotor_inertia": _first(model.dof_armature[dof]),
+            }
+        )
         steps.append(_Step(model.joint(joint).name or f"joint {joint}", kind, placed, model.jnt_axis[joint], limits, *link))
     steps.append(_Step("tip", "fixed", before @ chain.tip, None))
-    return _arm(spec.modelname or "mujoco", steps, model.opt.gravity, springs)
+    return _arm(spec.modelname or "mujoco", steps, model.opt.gravity, beside)
 
 
-def _arm(name: str, steps: list[_Step], gravity: Any, springs: Sequence[float] = ()) -> Arm:
-    """The arm of a chain, where the model has it, under its gravity (world axes, m/s²), with springs in its joints."""
+def _first(value: Any) -> float:
+    """Of a number, which newer versions have as the coefficients of a polynomial."""
+    return float(numpy.ravel(value)[0])
+
+
+def _arm(name: str, steps: list[_Step], gravity: Any, beside: Sequence[dict[str, float]] = ()) -> Arm:
+    """The arm of a chain, where the model has it, under its gravity (world axes, m/s²), with what stands `beside` its joints."""
     arm = import_urdf(_urdf(name, steps))
     # A table may have its base turned about the first link's z, and moved along it.
     at_zero = numpy.eye(4)
@@ -236,8 +246,7 @@ def _arm(name: str, steps: list[_Step], gravity: Any, springs: Sequence[float] =
             lines.append(f"gravity = {down.tolist()}")
         if line.strip() == "[[joint]]":
             row += 1
-            if row < len(springs) and springs[row] > 0.0:
-                lines.append(f"stiffness = {springs[row]!r}")
+            lines += [f"{key} = {value!r}" for key, value in (beside[row] if row < len(beside) else {}).items() if value]
     # What a dozen products of matrices round is no place.
     if numpy.abs(base - numpy.eye(4)).max() > 1e-13:
         at, turned = base[:3, 3].tolist(), _rotation_vector(base[:3, :3])
@@ -250,52 +259,90 @@ def to_mujoco(arm: Arm, spec: mujoco.MjSpec, nominal: Arm, tip: Optional[str]) -
     chain = _chain(spec, tip)
     model = chain.model
     zero = numpy.zeros(arm.dof)
-    moved = [_change(nominal.frames(zero), arm.frames(zero)), _change(nominal.pose(zero), arm.pose(zero))]
-    # Bodies and the tip at zero, as they are and as they are to be: each moves with the row of its joint.
-    place, places, row = numpy.eye(4), [numpy.eye(4)], 0
-    wanted, parent = [], numpy.eye(4)
+    frames = nominal.frames(zero)
+    moved = [_change(frames, arm.frames(zero)), _change(nominal.pose(zero), arm.pose(zero))]
+    # Bodies at zero, as they are and as they are to be: each moves with the row of its joint, from 1; 0 is the base.
+    place, parent = numpy.eye(4), numpy.eye(4)
+    places: list[Any] = []
+    rows: list[int] = []
     for body, joint in zip(chain.bodies, chain.joints):
         place = place @ _matrix(_quaternion(model.body_quat[body]), model.body_pos[body])
-        row += joint is not None
-        target = (moved[0][row - 1] if row else numpy.eye(4)) @ place
-        wanted.append((body, numpy.linalg.inv(parent) @ target))
+        rows.append((rows[-1] if rows else 0) + (joint is not None))
+        target = (moved[0][rows[-1] - 1] if rows[-1] else numpy.eye(4)) @ place
+        one = _body(spec, model, body)
+        placed = numpy.linalg.inv(parent) @ target
+        one.pos, one.quat = placed[:3, 3], _turned(placed[:3, :3])
         parent = target
         places.append(place)
-    for body, placed in wanted:
-        one = spec.body(model.body(body).name)
-        if one is None:
-            raise ValueError(f"body {body}: found no name, expected one by which it can be found")
-        one.pos, one.quat = placed[:3, 3], _turned(placed[:3, :3])
     if chain.site is not None:
         site = spec.site(model.site(chain.site).name)
         placed = numpy.linalg.inv(parent) @ moved[1] @ place @ chain.tip
         site.pos, site.quat = placed[:3, 3], _turned(placed[:3, :3])
-    stiffness = [_stiffness(one) for one in (nominal, arm)]
-    for joint, before, after in zip((j for j in chain.joints if j is not None), *stiffness):
-        if after != before and after:
-            one = spec.joint(model.joint(joint).name)
-            # Newer ones have the coefficients of a polynomial.
-            several = numpy.ndim(one.stiffness) > 0
-            one.stiffness = [after, *numpy.ravel(one.stiffness)[1:]] if several else after
-    return [f"{effect} at {place}" for effect, place in arm.effects]
+    lost = []
+    for row, (before, after) in enumerate(zip(nominal.rows, arm.rows)):
+        there = [k for k, number in enumerate(rows) if number == row + 1]
+        _drive(spec.joint(model.joint(chain.joints[there[0]]).name), before, after)
+        if (before.mass, before.com, before.inertia) != (after.mass, after.com, after.inertia):
+            # A body that is corrected goes along with its row: the row's frame stays where it was in it.
+            inside = [numpy.linalg.inv(places[there[0]]) @ placed for placed in (frames[row], *(places[k] for k in there[1:]))]
+            fixed = [_of_body(model, chain.bodies[k]) for k in there[1:]]
+            if not _weigh(_body(spec, model, chain.bodies[there[0]]), after, inside, fixed):
+                lost.append(f"mass and inertia at link {row + 1}: no body has them")
+    return [f"{effect} at {place}" for effect, place in arm.effects] + lost
+
+
+def _body(spec: mujoco.MjSpec, model: Any, body: int) -> Any:
+    one = spec.body(model.body(body).name)
+    if one is None:
+        raise ValueError(f"body {body}: found no name, expected one by which it can be found")
+    return one
 
 
 def _change(before: Any, after: Any) -> Any:
     return after @ numpy.linalg.inv(before)
 
 
-def _stiffness(arm: Arm) -> list[float]:
-    """Of each joint, N·m/rad (N/m); 0 of a rigid one."""
-    found: list[float] = []
-    inside = False
-    for line in arm.toml.splitlines():
-        if line.startswith("["):
-            inside = line.strip() == "[[joint]]"
-            if inside:
-                found.append(0.0)
-        elif inside and line.split("=")[0].strip() == "stiffness":
-            found[-1] = float(line.split("=")[1].split("#")[0])
-    return found
+def _drive(joint: Any, before: _native.Row, after: _native.Row) -> None:
+    """Spring and drive of a joint, where they are others."""
+    names = {"stiffness": "stiffness", "damping": "viscous", "frictionloss": "coulomb", "armature": "armature"}
+    for theirs, ours in names.items():
+        value = getattr(after, ours)
+        if value is None or value == getattr(before, ours):
+            continue
+        known = getattr(joint, theirs)
+        setattr(joint, theirs, [value, *numpy.ravel(known)[1:]] if numpy.ndim(known) > 0 else value)
+
+
+def _of_body(model: Any, body: int) -> tuple[float, Any, Any]:
+    """Mass, centre and tensor of a body in its frame."""
+    turned = _quaternion(model.body_iquat[body])
+    return float(model.body_mass[body]), numpy.asarray(model.body_ipos[body]), turned @ numpy.diag(model.body_inertia[body]) @ turned.T
+
+
+def _moments(mass: float, com: Any, inertia: Any, placed: Any) -> Any:
+    """What adds up of bodies: mass, first moments, and the tensor about the origin of the frame that they are placed in."""
+    turn, centre = placed[:3, :3], placed[:3, :3] @ numpy.asarray(com) + placed[:3, 3]
+    tensor = turn @ numpy.asarray(inertia) @ turn.T + mass * (centre @ centre * numpy.eye(3) - numpy.outer(centre, centre))
+    return numpy.concatenate([[mass], mass * centre, tensor.ravel()])
+
+
+def _weigh(body: Any, row: _native.Row, inside: list[Any], fixed: list[tuple[float, Any, Any]]) -> bool:
+    """Gives a body what its row weighs beyond the bodies that are fixed to it; whether any body does."""
+    total = _moments(row.mass, row.com, row.inertia, inside[0])
+    for one, placed in zip(fixed, inside[1:]):
+        total = total - _moments(*one, placed)
+    mass, tensor = float(total[0]), total[4:].reshape(3, 3)
+    if mass <= 0.0:
+        return False
+    com = total[1:4] / mass
+    moments, axes = numpy.linalg.eigh(tensor - mass * (com @ com * numpy.eye(3) - numpy.outer(com, com)))
+    if moments[0] <= 0.0 or moments[2] > moments[0] + moments[1]:
+        return False
+    axes[:, 2] *= numpy.linalg.det(axes)
+    body.mass, body.ipos, body.inertia, body.iquat = mass, com, moments, _turned(axes)
+    body.fullinertia = [float("nan")] * 6
+    body.explicitinertial = True
+    return True
 
 
 def from_roboticstoolbox(robot: Any) -> Arm:

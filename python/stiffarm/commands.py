@@ -3,17 +3,94 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Optional, Union
 
 from .arm import Arm
-from .result import Identification, Result
-from .run import AnyArm, robot, run
-from .table import Frame, Table, held
-from .words import Path, Quantity, each, numbers, option
+from .record import Record, read_all
+from .result import Identification, Predicted, Result
+from .run import AnyArm, robot, run, tabled
+from .table import Frame, Map, Table, held
+from .words import Path, Quantity, Wrench, numbers, option
 
-#: A load: fx, fy, fz, mx, my, mz (N, N·m; base axes, at the tool's origin), or a text with units.
-Wrench = Union[str, Sequence[float]]
+
+def eval(
+    arm: AnyArm,
+    q: Union[str, Sequence[float]],
+    wrench: Optional[Wrench] = None,
+    *,
+    sides: Optional[Sequence[int]] = None,
+    warming: Optional[float] = None,
+    gravity: bool = False,
+) -> Result:
+    """One posture under one load: ``position``, ``rotation``, ``jacobian``, ``k_c``, ``compliance``, ``deflection`` and
+    ``joint_torque``, lists of rows. The methods of an :class:`Arm` give arrays, of many postures.
+
+    q: joint values, rad (m), or a text with units: ``"30deg,45deg"``. sides, warming: what a corrected arm may depend on.
+    gravity: let the links' weights count, in deflection, joint torque and K_C.
+    """
+    files: dict[str, bytes] = {}
+    words = [
+        "eval",
+        robot(arm, files),
+        *numbers("q", q),
+        *numbers("wrench", wrench),
+        *option("sides", None if sides is None else list(sides)),
+        *numbers("warming", None if warming is None else [warming]),
+        *option("gravity", gravity),
+    ]
+    text = run(words, files)[1]["-"]
+    return Result(run([*words, "--json=<json>"], files)[1]["<json>"], text)
+
+
+def check(arm: Optional[AnyArm] = None, *, count: int = 10_000, seed: int = 0, progress: bool = True) -> Result:
+    """Whether what is generated of an arm, or of every built-in one, is right: against the textbook, central differences and
+    dual numbers, at `count` random postures and loads. ``agrees`` of the result says so, ``robots`` how well each output does.
+    """
+    files: dict[str, bytes] = {}
+    words = ["check", "--all" if arm is None else robot(arm, files), *option("count", count), *option("seed", seed), "--json=<json>"]
+    _, written = run(words, files, progress)
+    return Result(written["<json>"], written["-"])
+
+
+def map(
+    arm: AnyArm,
+    over: tuple[str, str],
+    of: str,
+    *,
+    at: Optional[Mapping[str, Quantity]] = None,
+    wrench: Optional[Wrench] = None,
+    length: Optional[Quantity] = None,
+    data: Optional[Frame] = None,
+    nuisance: Sequence[str] = (),
+    noise_position: Optional[Quantity] = None,
+    steps: Optional[int] = None,
+    progress: bool = True,
+) -> Map:
+    """A quantity over two joints: numbers, and a picture (``svg``), which a notebook shows.
+
+    over: ``("q2", "q3")``. of: ``condition``, ``nu_p``, ``nu_r``, ``deflection``, ``stiffness``, or ``shrink``, of a diagnosis of
+        `data` (with `nuisance` and `noise_position`). at: where the other joints stand, ``{"q4": 0.8, "q5": "45deg"}``.
+    length: m, what makes translations and rotations comparable in ``condition``. steps: values of each joint [default: 100].
+    """
+    files: dict[str, bytes] = {}
+    words = [
+        "map",
+        robot(arm, files),
+        *option("over", list(over)),
+        *option("of", of),
+        *option("at", [f"{joint}={value}" for joint, value in (at or {}).items()]),
+        *numbers("wrench", wrench),
+        *option("length", length, "m"),
+        *option("data", None if data is None else held(data, files)),
+        *option("nuisance", list(nuisance)),
+        *option("noise_position", noise_position, "m"),
+        *option("steps", steps),
+        "--csv=<csv>",
+        "--svg=<svg>",
+    ]
+    _, written = run(words, files, progress)
+    return Map(written["<csv>"], written["<svg>"])
 
 
 def identify(
@@ -53,132 +130,21 @@ def identify(
     return Identification(written["<json>"], written["-"], written["<page>"], corrected)
 
 
-def poses(
-    arm: AnyArm,
-    count: int,
-    *,
-    purpose: str = "identify",
-    effects: Sequence[str] = (),
-    nuisance: Sequence[str] = (),
-    loads: Sequence[Wrench] = (),
-    rotations: bool = False,
-    noise_position: Quantity = "30um",
-    noise_rotation: Quantity = "0.1mrad",
-    seed: int = 0,
-    progress: bool = True,
-) -> Table:
-    """Test postures and loads that say most, as a measurement file to fill in.
-
-    purpose: ``identify``, ``diagnose``, or ``separate``, which two `effects` are to be told apart: ``effect@place`` each.
-    loads: those to choose from [default: pulls of 100 N along ±x, ±y and −z].
+def predict(arm: AnyArm, data: Frame) -> Predicted:
+    """What an arm with all its effects does on the rows of a campaign or a plan: ``table``, the same rows with what is predicted
+    in the place of what is measured; and where something is, how large the ``gap`` is that is left, m and rad.
     """
     files: dict[str, bytes] = {}
-    words = [
-        "poses",
-        robot(arm, files),
-        *effects,
-        *option("count", count),
-        *option("for", purpose),
-        *option("nuisance", list(nuisance)),
-        *(word for load in loads for word in numbers("load", load)),
-        *option("rotations", rotations),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("seed", seed),
-        "--csv=<csv>",
-    ]
-    return Table(run(words, files, progress)[1]["<csv>"])
+    words = ["predict", robot(arm, files), held(data, files), "--csv=<csv>", "--json=<json>"]
+    _, written = run(words, files)
+    return Predicted(written["<json>"], written["-"], Table(written["<csv>"]))
 
 
-def simulate(
-    arm: AnyArm,
-    plan: Optional[Frame] = None,
-    *,
-    effects: Sequence[str] = (),
-    design: Optional[str] = None,
-    poses: Optional[int] = None,
-    payload: Union[None, float, str] = None,
-    repeats: Optional[int] = None,
-    measure: Optional[str] = None,
-    noise_position: Quantity = "30um",
-    noise_rotation: Quantity = "0.005deg",
-    seed: int = 0,
-    frames: Optional[str] = None,
-    first_order_sim: bool = False,
-    withhold: bool = False,
-) -> Table:
-    """Measurements of an arm with chosen effects, exact at static equilibrium, with noise.
-
-    plan: poses and loads as of a measurement file; without one they are drawn by `design` (``payload``, ``force``,
-        ``narrow``, ``one-sided``), `poses`, `payload` (kg, or ``"500N"``), `repeats` and `measure` (``pose``,
-        ``position``, ``displacement``, ``distance``).
-    effects: ``"backlash@joint 2=0.3 mrad"`` each.
+def effects(*names: str) -> list[Record]:
+    """The catalogue, or some of it: of each effect what it is, its places and numbers, how it shows, what it is confused with and
+    which measurement separates them.
     """
-    files: dict[str, bytes] = {}
-    words = [
-        "simulate",
-        robot(arm, files),
-        *([] if plan is None else [held(plan, files)]),
-        *each("effect", effects),
-        *option("design", design),
-        *option("poses", poses),
-        *option("payload", payload, "kg"),
-        *option("repeats", repeats),
-        *option("measure", measure),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("seed", seed),
-        *option("frames", frames),
-        *option("first_order_sim", first_order_sim),
-        *option("withhold", withhold),
-        "--csv=<csv>",
-    ]
-    return Table(run(words, files)[1]["<csv>"])
-
-
-def withhold(
-    arm: AnyArm,
-    plan: Optional[Frame] = None,
-    *,
-    effects: Optional[Sequence[str]] = None,
-    cases: int = 100,
-    sizes: tuple[float, float] = (8.0, 20.0),
-    design: Optional[str] = None,
-    poses: Optional[int] = None,
-    payload: Union[None, float, str] = None,
-    repeats: Optional[int] = None,
-    measure: Optional[str] = None,
-    noise_position: Quantity = "30um",
-    noise_rotation: Quantity = "0.005deg",
-    seed: int = 0,
-    progress: bool = True,
-) -> Result:
-    """What an experiment can find, before anyone runs it: effects are put into a plant, and the diagnosis is not told.
-
-    cases: how many; sizes: the smallest and the largest gap of an effect, in multiples of the noise. The rest is that of
-    :func:`simulate`.
-    """
-    files: dict[str, bytes] = {}
-    words = [
-        "withhold",
-        robot(arm, files),
-        *([] if plan is None else [held(plan, files)]),
-        *option("effects", None if effects is None else list(effects)),
-        *option("cases", cases),
-        *numbers("sizes", sizes),
-        *option("design", design),
-        *option("poses", poses),
-        *option("payload", payload, "kg"),
-        *option("repeats", repeats),
-        *option("measure", measure),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("seed", seed),
-        "--json=<json>",
-        "--report=<page>",
-    ]
-    _, written = run(words, files, progress)
-    return Result(written["<json>"], written["-"], written["<page>"])
+    return read_all(run(["effects", *names, "--json=<json>"], {})[1]["<json>"])
 
 
 def compensate(
@@ -186,16 +152,17 @@ def compensate(
     targets: Frame,
     *,
     wrench: Optional[Wrench] = None,
-    tolerance: Quantity = "1um",
-    tolerance_rotation: Quantity = "0.001mrad",
-    starts: int = 24,
+    tolerance: Optional[Quantity] = None,
+    tolerance_rotation: Optional[Quantity] = None,
+    starts: Optional[int] = None,
     seed: int = 0,
     progress: bool = True,
 ) -> Table:
     """Joint set-points at which the loaded arm stands at the targets.
 
     targets: ``x y z``, perhaps ``rx ry rz``, where the tool should be; perhaps ``q1 … qn``, from where to start, and loads.
-    wrench: the load at all targets. The column ``status`` of the result says ``reached``, ``nearest`` or ``unstable``.
+    wrench: the load at all targets. tolerance, tolerance_rotation: how far from a target it may stand, m and rad [default: 1 µm and
+    1 µrad]. starts: postures to start from where the first does not lead there [default: 24]. The column ``status`` of the result says ``reached``, ``nearest`` or ``unstable``.
     """
     files: dict[str, bytes] = {}
     words = [
@@ -207,9 +174,8 @@ def compensate(
         *option("tolerance_rotation", tolerance_rotation, "rad"),
         *option("starts", starts),
         *option("seed", seed),
-        "--out=<csv>",
     ]
-    return Table(run(words, files, progress)[1]["<csv>"])
+    return tabled(words, files, progress, out="out")
 
 
 def generate(
@@ -290,6 +256,5 @@ def measurements(
         *option("map", map),
         *option("sheet", sheet),
         *option("robot", None if arm is None else robot(arm, files)),
-        "--csv=<csv>",
     ]
-    return Table(run(words, files)[1]["<csv>"])
+    return tabled(words, files)

@@ -10,7 +10,7 @@ from .arm import Arm
 from .record import Record, read
 from .result import framed
 from .run import AnyArm, robot
-from .table import Frame, held
+from .table import NAME, Frame, held
 from .words import Path, Progress, Quantity, each, log, numbers, option
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ class Diagnosis:
 
 def diagnose(
     arm: AnyArm,
-    data: Union[Frame, Sequence[Path]],
+    data: Union[Frame, Sequence[Frame]],
     *,
     nuisance: Sequence[str] = (),
     tolerance: Union[None, str, tuple[Quantity, Quantity]] = None,
@@ -161,14 +161,16 @@ def diagnose(
     rows: Optional[str] = None,
     band: Optional[Quantity] = None,
     standstill: Optional[float] = None,
+    known_masses: bool = False,
     map: Optional[str] = None,
+    topic: Optional[str] = None,
     set: Sequence[str] = (),
     progress: bool = True,
 ) -> Diagnosis:
     """Why the real arm is not where the model says, at rest or in motion.
 
-    data: measurements or a joint log: a path, several paths of one log, a dictionary of arrays, or a table of pandas, polars
-        or pyarrow. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
+    data: measurements or a joint log: a path, a dictionary of arrays, or a table of pandas, polars or pyarrow; or a
+        list of these, the runs of one log. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
         (or ``wrench``, (m, 6)), and what was measured, ``x y z rx ry rz`` or ``dx …``; units in brackets, ``x[mm]``.
     nuisance: what is known to be unknown, fitted along and never a finding: ``base_frame``, ``tool_frame``, ``geometry``.
     tolerance: how well the maker holds lengths and angles, standard deviations, m and rad [default: 0.3 mm, 0.5 mrad].
@@ -176,7 +178,7 @@ def diagnose(
     effects: try only these; own: effects of one's own, tried beside them.
     rivals: prefixes of columns with other models' predictions; check: another campaign to predict; compare: an earlier
         diagnosis; accept: the position error, m, that is accepted in 95 % of the rows.
-    torque_side, rows, band (Hz), standstill (rad/s), map: of joint logs, as in ``stiffarm diagnose --help``.
+    torque_side, rows, band (Hz), standstill (rad/s), known_masses, map, topic: of joint logs, as in ``stiffarm diagnose --help``.
 
     Ctrl-C ends it. Raises Error, with the place, of what cannot be used.
     """
@@ -188,7 +190,7 @@ def diagnose(
     words = [
         "diagnose",
         robot(arm, files),
-        *(held(frame, files) for frame in frames),
+        *(held(frame, files, f"<data {k + 1}>" if len(frames) > 1 else NAME) for k, frame in enumerate(frames)),
         *option("nuisance", list(nuisance)),
         *option("tolerance", tolerance),
         *each("usual", usual),
@@ -207,7 +209,9 @@ def diagnose(
         *option("rows", rows),
         *option("band", band, "Hz"),
         *numbers("standstill", None if standstill is None else [standstill]),
+        *option("known_masses", known_masses),
         *option("map", map),
+        *option("topic", topic),
         *each("set", set),
     ]
     with Progress(progress) as hear:

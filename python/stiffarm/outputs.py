@@ -9,15 +9,16 @@ if TYPE_CHECKING:
     import numpy
     from numpy.typing import ArrayLike, NDArray
 
-    Doubles = NDArray[numpy.float64]
+    Reals = NDArray[numpy.floating[Any]]
 
 
 class Outputs:
     """What an arm computes.
 
     Joint values and what else is said of joints are (n,) or (batch, n), wrenches (6,) or (batch, 6), results as each method says,
-    with the batch in front. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm
-    that depends on them.
+    with the batch in front: float64, or float32 (worked out in double, and rounded) of joint values that are. What is told of the
+    tool is told of a ``[[frame]]`` or a ``[[marker]]`` of the robot file `at` its name, wrenches and all: ``arm.places`` lists
+    them. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm that depends on them.
     """
 
     def evaluate(
@@ -25,16 +26,18 @@ class Outputs:
         output: str,
         inputs: Sequence[ArrayLike],
         wrench: Optional[ArrayLike] = None,
-        out: Optional[Doubles] = None,
+        out: Optional[Reals] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
-    ) -> Doubles:
+        at: Optional[str] = None,
+    ) -> Reals:
         """An output by its name."""
         raise NotImplementedError
 
     def pose(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Pose of the tool in base axes.
 
         T = A_1 A_2 … A_n T_tool
@@ -42,11 +45,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (4, 4), in m (axes: 1).
         """
-        return self.evaluate("pose", [q], None, out, sides, warming)
+        return self.evaluate("pose", [q], None, out, sides, warming, at)
 
     def frames(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Poses of frames 1 to n in base axes.
 
         T_i = A_1 A_2 … A_i
@@ -54,11 +58,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 4, 4), in m (axes: 1).
         """
-        return self.evaluate("frames", [q], None, out, sides, warming)
+        return self.evaluate("frames", [q], None, out, sides, warming, at)
 
     def jacobian(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Geometric Jacobian, base axes, at the tool origin.
 
         J_j = [z_j × (p − p_j); z_j] of a revolute joint, [z_j; 0] of a prismatic one
@@ -66,11 +71,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian", [q], None, out, sides, warming)
+        return self.evaluate("jacobian", [q], None, out, sides, warming, at)
 
     def jacobian_tool(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Geometric Jacobian, tool axes, at the tool origin: Paul's differential Jacobian.
 
         blockdiag(Rᵀ, Rᵀ) J with R the tool's rotation
@@ -78,11 +84,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian_tool", [q], None, out, sides, warming)
+        return self.evaluate("jacobian_tool", [q], None, out, sides, warming, at)
 
     def jacobian_spatial(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Geometric Jacobian, base axes, at the base's origin (of the world, in which the base stands): the spatial Jacobian.
 
         [p_j × z_j; z_j] of a revolute joint, [z_j; 0] of a prismatic one
@@ -90,11 +97,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian_spatial", [q], None, out, sides, warming)
+        return self.evaluate("jacobian_spatial", [q], None, out, sides, warming, at)
 
     def complementary_stiffness(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """K_C: how the joint torques of a wrench that is constant in base axes change with the posture.
 
         (K_C)_ji = ∂(J_j)ᵀ/∂q_i · w; unsymmetric under a moment
@@ -103,11 +111,12 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("complementary_stiffness", [q], wrench, out, sides, warming)
+        return self.evaluate("complementary_stiffness", [q], wrench, out, sides, warming, at)
 
     def joint_torque(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Joint torques of the wrench.
 
         τ = Jᵀ w
@@ -116,11 +125,12 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("joint_torque", [q], wrench, out, sides, warming)
+        return self.evaluate("joint_torque", [q], wrench, out, sides, warming, at)
 
     def weight_torque(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Joint torques of the links' weights, positive like Jᵀ w: what the weights do to the joints, −g(q) of the equations of motion. The motors hold the opposite, g(q).
 
         τ_g,j = Σ_k m_k g · (z_j × (c_k − p_j)) over the masses beyond joint j
@@ -128,11 +138,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("weight_torque", [q], None, out, sides, warming)
+        return self.evaluate("weight_torque", [q], None, out, sides, warming, at)
 
     def weight_stiffness(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """K_G: how the torques of the links' weights change with the posture, the weights' part of K_C.
 
         (K_G)_ji = ∂τ_g,j/∂q_i
@@ -140,11 +151,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("weight_stiffness", [q], None, out, sides, warming)
+        return self.evaluate("weight_stiffness", [q], None, out, sides, warming, at)
 
     def compliance(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Compliance of the tool, base axes, at the tool origin; links as Euler-Bernoulli beams.
 
         C = Σ_j J_j J_jᵀ/k_j + Σ links
@@ -152,11 +164,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, 6), in m/N and m/(N·m), rad/N and rad/(N·m).
         """
-        return self.evaluate("compliance", [q], None, out, sides, warming)
+        return self.evaluate("compliance", [q], None, out, sides, warming, at)
 
     def deflection_first_order(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Displacement of the tool under the wrench, base axes, at the tool origin, to first order in the load.
 
         δd = J K_θ⁻¹ Jᵀ w + the links as beams
@@ -165,11 +178,12 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (6,), in m, rad.
         """
-        return self.evaluate("deflection_first_order", [q], wrench, out, sides, warming)
+        return self.evaluate("deflection_first_order", [q], wrench, out, sides, warming, at)
 
     def deflection(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Displacement of the tool under the wrench, base axes, at the tool origin, with the stiffness of the loaded geometry.
 
         δd = J (K_θ − K_C)⁻¹ Jᵀ w + the links as beams
@@ -180,11 +194,12 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection", [q], wrench, out, sides, warming)
+        return self.evaluate("deflection", [q], wrench, out, sides, warming, at)
 
     def deflection_with_gravity(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Displacement of the tool under the wrench and the links' weights, base axes, at the tool origin.
 
         δd = J (K_θ − K_C − K_G)⁻¹ (Jᵀ w + τ_g) + the links under tip load and own weight
@@ -195,11 +210,12 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection_with_gravity", [q], wrench, out, sides, warming)
+        return self.evaluate("deflection_with_gravity", [q], wrench, out, sides, warming, at)
 
     def parameter_jacobian(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Twist of the tool per unit of each entry of the table, base axes, at the tool origin.
 
         J_p,k = ∂T/∂(entry k), as a twist
@@ -207,11 +223,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, 4 n + 6), in m/rad (length: 1), rad/rad (length: 0).
         """
-        return self.evaluate("parameter_jacobian", [q], None, out, sides, warming)
+        return self.evaluate("parameter_jacobian", [q], None, out, sides, warming, at)
 
     def compliance_regressor(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Displacement of the tool per unit of each joint's compliance under the wrench, base axes, at the tool origin: the regressor of joint springs.
 
         B_j = ∂δd/∂(1/k_j) = J_j J_jᵀ w
@@ -220,11 +237,12 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (6, n), in N·m²/rad (prismatic joint: N), N·m (prismatic joint: 0).
         """
-        return self.evaluate("compliance_regressor", [q], wrench, out, sides, warming)
+        return self.evaluate("compliance_regressor", [q], wrench, out, sides, warming, at)
 
     def inverse_dynamics(
-        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Torques of the joints' motors for a motion, at the joints.
 
         τ = M(q) q̈ + b(q, q̇), b with the weights, with centrifugal and Coriolis forces and with friction; sign(0) = 0 of a joint at rest
@@ -234,11 +252,12 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("inverse_dynamics", [q, qd, qdd], None, out, sides, warming)
+        return self.evaluate("inverse_dynamics", [q, qd, qdd], None, out, sides, warming, at)
 
     def bias(
-        self, q: ArrayLike, qd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Torques of the joints' motors where no joint accelerates: weights, centrifugal and Coriolis forces, friction; at rest g(q), the opposite of the weight torque.
 
         b(q, q̇) = τ(q, q̇, 0)
@@ -247,11 +266,12 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("bias", [q, qd], None, out, sides, warming)
+        return self.evaluate("bias", [q, qd], None, out, sides, warming, at)
 
     def mass_matrix(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Mass matrix: torques of the joints' motors per unit of each joint's acceleration.
 
         M_ji = ∂τ_j/∂q̈_i; twice the kinetic energy is q̇ᵀ M q̇
@@ -259,11 +279,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, n), in kg·m² (prismatic joint: kg·m, two of them: kg).
         """
-        return self.evaluate("mass_matrix", [q], None, out, sides, warming)
+        return self.evaluate("mass_matrix", [q], None, out, sides, warming, at)
 
     def hessian(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Kinematic Hessian: how the geometric Jacobian, base axes, at the tool origin, changes by each joint.
 
         H_i = ∂J/∂q_i
@@ -271,11 +292,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 6, n), in m/rad² (a prismatic joint: m/rad), rad/rad².
         """
-        return self.evaluate("hessian", [q], None, out, sides, warming)
+        return self.evaluate("hessian", [q], None, out, sides, warming, at)
 
     def jacobian_rate(
-        self, q: ArrayLike, qd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Rate of the geometric Jacobian, base axes, at the tool origin: the tool accelerates by J q̈ + J̇ q̇.
 
         J̇ = Σ_i ∂J/∂q_i q̇_i
@@ -284,11 +306,12 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (6, n), in m/(rad s) (prismatic joint: 1/s), 1/s.
         """
-        return self.evaluate("jacobian_rate", [q, qd], None, out, sides, warming)
+        return self.evaluate("jacobian_rate", [q, qd], None, out, sides, warming, at)
 
     def compliance_by_joints(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """How the compliance of the tool, base axes, at the tool origin, changes by each joint.
 
         ∂C/∂q_i
@@ -296,11 +319,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 6, 6), in m/N and m/(N·m), per rad (prismatic joint: m), rad/N and rad/(N·m), per rad (m).
         """
-        return self.evaluate("compliance_by_joints", [q], None, out, sides, warming)
+        return self.evaluate("compliance_by_joints", [q], None, out, sides, warming, at)
 
     def deflection_by_joints(
-        self, q: ArrayLike, wrench: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, wrench: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """How the displacement of the tool under the wrench, base axes, at the tool origin, changes by each joint, with the stiffness of the loaded geometry.
 
         ∂δd/∂q_i, of J x with (K_θ − K_C) ∂x/∂q_i = ∂τ/∂q_i + ∂K_C/∂q_i x
@@ -311,11 +335,12 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection_by_joints", [q], wrench, out, sides, warming)
+        return self.evaluate("deflection_by_joints", [q], wrench, out, sides, warming, at)
 
     def manipulability(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Manipulability at the tool origin: the product of the Jacobian's singular values, zero where the tool cannot move in some direction.
 
         w = √det(J Jᵀ); of fewer than six joints √det(Jᵀ J)
@@ -323,11 +348,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (), in m per rad for each singular value of a translation.
         """
-        return self.evaluate("manipulability", [q], None, out, sides, warming)
+        return self.evaluate("manipulability", [q], None, out, sides, warming, at)
 
     def manipulability_by_joints(
-        self, q: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Gradient of the manipulability by the joints; zero at a singular posture, where there is none.
 
         ∂w/∂q_i = w tr(J⁺ ∂J/∂q_i)
@@ -335,11 +361,12 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n,), in that of the manipulability, per rad (prismatic joint: m).
         """
-        return self.evaluate("manipulability_by_joints", [q], None, out, sides, warming)
+        return self.evaluate("manipulability_by_joints", [q], None, out, sides, warming, at)
 
     def inverse_dynamics_by_joints(
-        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """How the torques of the joints' motors for a motion change by each joint value.
 
         ∂τ_j/∂q_i of τ(q, q̇, q̈)
@@ -349,11 +376,12 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("inverse_dynamics_by_joints", [q, qd, qdd], None, out, sides, warming)
+        return self.evaluate("inverse_dynamics_by_joints", [q, qd, qdd], None, out, sides, warming, at)
 
     def inverse_dynamics_by_rates(
-        self, q: ArrayLike, qd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """How the torques of the joints' motors for a motion change by each joint's rate, whatever the accelerations; dry friction's step at rest apart.
 
         ∂τ_j/∂q̇_i of τ(q, q̇, q̈); that by q̈_i is the mass matrix
@@ -362,11 +390,12 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (n, n), in N·m·s/rad (prismatic joint: N·s, two of them: N·s/m).
         """
-        return self.evaluate("inverse_dynamics_by_rates", [q, qd], None, out, sides, warming)
+        return self.evaluate("inverse_dynamics_by_rates", [q, qd], None, out, sides, warming, at)
 
     def forward_dynamics(
-        self, q: ArrayLike, qd: ArrayLike, tau: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, tau: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Accelerations of the joints under their motors' torques.
 
         q̈ = M(q)⁻¹ (τ − b(q, q̇)); none where a joint moves no mass and M is not positive definite
@@ -378,11 +407,12 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("forward_dynamics", [q, qd, tau], None, out, sides, warming)
+        return self.evaluate("forward_dynamics", [q, qd, tau], None, out, sides, warming, at)
 
     def torque_regressor(
-        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *, out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None
-    ) -> Doubles:
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
         """Torques of the joints' motors for a motion per unit of each link's moments of mass; rotors and friction apart.
 
         Y_k = ∂τ/∂π_k and τ = Y π; π of a link: m, m c_x, m c_y, m c_z, and xx, xy, yy, xz, yz, zz of its tensor of inertia about the row's origin, all in the row's axes
@@ -392,4 +422,4 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n, 10 n), in m/s² (first moments: m/s²·m, tensor: 1/s²; times m of a revolute joint).
         """
-        return self.evaluate("torque_regressor", [q, qd, qdd], None, out, sides, warming)
+        return self.evaluate("torque_regressor", [q, qd, qdd], None, out, sides, warming, at)

@@ -25,3 +25,10 @@ def read(text: str) -> Record:
     found = json.loads(text, object_pairs_hook=Record)
     assert isinstance(found, Record)
     return found
+
+
+def read_all(text: str) -> list[Record]:
+    """The records of a JSON list."""
+    found = json.loads(text, object_pairs_hook=Record)
+    assert isinstance(found, list)
+    return found

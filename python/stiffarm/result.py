@@ -7,6 +7,7 @@ from typing import Any, Optional
 
 from .arm import Arm
 from .record import Record, read
+from .table import Table
 from .words import Path
 
 
@@ -57,6 +58,14 @@ class Identification(Result):
     def __init__(self, json: str, text: str, page: Optional[str], corrected: Arm) -> None:
         super().__init__(json, text, page)
         self.corrected = corrected
+
+
+class Predicted(Result):
+    """What an arm does on given rows; ``table`` are these rows."""
+
+    def __init__(self, json: str, text: str, table: Table) -> None:
+        super().__init__(json, text)
+        self.table = table
 
 
 def framed(page: Optional[str], text: str) -> str:

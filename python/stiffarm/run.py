@@ -7,6 +7,7 @@ from typing import Union
 
 from . import _native
 from .arm import Arm
+from .table import Table
 from .words import Path, Progress
 
 #: An arm: itself, the id of a built-in one, or the path of a robot file, a URDF or a diagnosis.
@@ -31,3 +32,6 @@ def run(words: list[str], files: dict[str, bytes], progress: bool = False) -> tu
         return _native.run(words, files, hear)
 
 
+def tabled(words: list[str], files: dict[str, bytes], progress: bool = False, *, out: str = "csv") -> Table:
+    """The table that a command writes."""
+    return Table(run([*words, f"--{out}=<{out}>"], files, progress)[1][f"<{out}>"])

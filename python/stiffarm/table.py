@@ -72,6 +72,17 @@ class Table(Mapping[str, Any]):
         return polars.DataFrame(dict(self))
 
 
+class Map(Table):
+    """A quantity over two joints: a row for each cell, NaN where there is none; ``svg`` is the picture."""
+
+    def __init__(self, text: str, svg: str) -> None:
+        super().__init__(text)
+        self.svg = svg
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
 def _column(cells: list[str]) -> Any:
     import numpy
 
@@ -109,7 +120,12 @@ def _columns(frame: Any) -> dict[str, list[Any]]:
     if hasattr(frame, "__arrow_c_stream__"):
         from . import arrow
 
-        return arrow.columns(frame)
+        try:
+            return arrow.columns(frame)
+        except ImportError:
+            # pandas has the interface, but not without pyarrow; its columns can be asked for one by one.
+            if not hasattr(frame, "columns"):
+                raise
     if hasattr(frame, "columns") and hasattr(frame, "__getitem__"):
         return {str(name): _list(frame[name]) for name in frame.columns}
     kind = type(frame).__name__

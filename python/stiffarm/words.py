@@ -11,6 +11,8 @@ log = logging.getLogger("stiffarm")
 
 #: A quantity: a number in SI, or a text with a unit: ``3e-5``, ``"30 um"``.
 Quantity = Union[float, str]
+#: A load: fx, fy, fz, mx, my, mz (N, N·m; base axes, at the tool's origin), or a text with units.
+Wrench = Union[str, Sequence[float]]
 #: A path on disk.
 Path = Union[str, "os.PathLike[str]"]
 #: Remarks, and what is being done with the part that is done.

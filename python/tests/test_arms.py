@@ -74,11 +74,96 @@ def test_an_output_array_is_filled():
     with pytest.raises(ValueError, match="out: found the shape"):
         arm.jacobian(q, out=numpy.empty((6, 6)))
     with pytest.raises(TypeError, match="float64"):
-        arm.jacobian(q, out=numpy.empty((1500, 6, 6), numpy.float32))
+        arm.jacobian(q, out=numpy.empty((1500, 6, 6), int))
     frozen = numpy.empty((1500, 6, 6))
     frozen.flags.writeable = False
     with pytest.raises(ValueError, match="cannot be written"):
         arm.jacobian(q, out=frozen)
+
+
+def test_single_precision():
+    arm, q = stiffarm.Arm.load("kuka_kr240"), RANDOM.uniform(-1.0, 1.0, (40, 6)).astype("f4")
+    want = arm.deflection(q.astype("f8"), WRENCH)
+    # Of single precision, what was worked out in double is rounded: the nearest there is.
+    found = arm.deflection(q, WRENCH)
+    assert found.dtype == numpy.float32 and (found == want.astype("f4")).all()
+    out = numpy.empty((40, 6))
+    assert arm.deflection(q, WRENCH, out=out) is out and (out == want).all()
+    strided = numpy.empty((80, 6), "f4")[::2]
+    assert arm.deflection(q, WRENCH, out=strided) is strided and (strided == found).all()
+    assert arm.pose(q[0]).dtype == numpy.float32
+    assert stiffarm.Arm.load("ur10").inverse_dynamics(q, q.astype("f8"), q).dtype == numpy.float64
+    with pytest.raises(ValueError, match="out: found the shape"):
+        arm.pose(q, out=numpy.empty((4, 4), "f4"))
+    frozen = numpy.empty((40, 6), "f4")
+    frozen.flags.writeable = False
+    with pytest.raises(ValueError):
+        arm.deflection(q, WRENCH, out=frozen)
+
+
+ROWS = [
+    {"d": 0.4, "alpha": "pi/2", "stiffness": 2e5},
+    {"a": 0.5, "stiffness": 1e5},
+    {"a": 0.3, "alpha": "-pi/2", "stiffness": 6e4},
+    {"type": "prismatic", "d": 0.1, "stiffness": 1e6},
+]
+ELBOW = {"translation": [0.05, -0.02, 0.1], "rotation": [0.3, -0.2, 0.5]}
+PLACED = {
+    "tool": {"translation": [0.0, 0.1, 0.2], "rotation": [0.0, "pi/2", 0.0]},
+    "frames": [{"name": "elbow", "joint": 2, **ELBOW}],
+    "markers": [{"name": "smr", "translation": [0.01, 0.02, -0.03]}],
+}
+
+
+def test_frames_and_markers():
+    arm = stiffarm.Arm.from_dh(ROWS, **PLACED)
+    assert arm.places == ["elbow", "smr"]
+    # The arm that ends where the elbow is.
+    ending = stiffarm.Arm.from_dh(ROWS[:2], tool=ELBOW)
+    q = RANDOM.uniform(-1.0, 1.0, (300, 4))
+    assert (arm.engine("pose", at="elbow"), ending.engine("pose")) == ("graph", "textbook")
+    # What some dozens of products and sums of numbers of about one round.
+    near = 100 * 2.3e-16
+    assert numpy.abs(arm.pose(q, at="elbow") - ending.pose(q[:, :2])).max() < near
+    jacobian = arm.jacobian(q, at="elbow")
+    assert jacobian.shape == (300, 6, 4) and not jacobian[..., 2:].any()
+    assert numpy.abs(jacobian[..., :2] - ending.jacobian(q[:, :2])).max() < near
+    for name in ("deflection", "complementary_stiffness", "joint_torque"):
+        found, want = getattr(arm, name)(q, WRENCH, at="elbow"), getattr(ending, name)(q[:, :2], WRENCH)
+        found = found[:, :2, :2] if found.ndim == 3 else found[:, : want.shape[1]]
+        assert numpy.abs(found - want).max() < 1e3 * near * numpy.abs(want).max()
+    tool = arm.pose(q)
+    assert numpy.abs(arm.pose(q, at="smr")[..., :3, 3] - (tool @ [0.01, 0.02, -0.03, 1.0])[..., :3]).max() < near
+    with pytest.raises(ValueError, match="`wrist` is no frame of this robot"):
+        arm.pose(q, at="wrist")
+    with pytest.raises(ValueError, match="is not told of a frame"):
+        arm.frames(q, at="elbow")
+    with pytest.raises(ValueError, match="is no frame"):
+        stiffarm.Arm.load("ur5").pose([0.0] * 6, at="elbow")
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
+def test_frames_are_compiled(tmp_path):
+    text = stiffarm.Arm.from_dh(ROWS, **PLACED).toml
+    asked = 'outputs = ["pose", "deflection at elbow", "jacobian at smr"]\nconvention'
+    arm = stiffarm.Arm.from_toml(text.replace("convention", asked, 1))
+    q = RANDOM.uniform(-1.0, 1.0, (700, 4))
+    before = [arm.deflection(q, WRENCH, at="elbow"), arm.jacobian(q, at="smr")]
+    arm.compile(cache=tmp_path)
+    assert [arm.engine("deflection", "elbow"), arm.engine("jacobian", "smr"), arm.engine("jacobian", "elbow")] == ["c", "c", "graph"]
+    for was, found in zip(before, [arm.deflection(q, WRENCH, at="elbow"), arm.jacobian(q, at="smr")]):
+        # The graph and its text are one: the same operations in the same order.
+        assert numpy.abs(found - was).max() <= 1e-14 * numpy.abs(was).max()
+
+
+def test_rows_of_the_table():
+    arm = stiffarm.Arm.from_dh([{"a": 1.0, "stiffness": 10.0, "mass": 2.0, "com": [-0.5, 0.0, 0.1], "inertia": [0.1, 0, 0, 0.2, 0.01, 0.2],
+        "gear": 100.0, "rotor_inertia": 3e-4, "coulomb": "6 N*m", "viscous": 9.0}, {"a": 0.5}])  # fmt: skip
+    first, second = arm.rows
+    assert (first.mass, first.com, first.coulomb, first.viscous) == (2.0, [-0.5, 0.0, 0.1], 6.0, 9.0)
+    assert abs(first.stiffness - 10.0) < 1e-14 and abs(first.armature - 3.0) < 1e-14
+    assert first.inertia[1][2] == first.inertia[2][1] == 0.01
+    assert second.stiffness is None and second.mass == 0.0
 
 
 def test_what_is_not_copied():
@@ -117,6 +202,13 @@ def test_an_unstable_arm():
     with pytest.raises(stiffarm.Unstable) as caught:
         arm.deflection([[0.0]] * 3, [[1.0, 0, 0, 0, 0, 0], [-20.0, 0, 0, 0, 0, 0], [-30.0, 0, 0, 0, 0, 0]])
     assert (caught.value.first, caught.value.count) == (1, 2)
+    # What stands is in `out`, however that lies.
+    loads = [[1.0, 0, 0, 0, 0, 0], [-20.0, 0, 0, 0, 0, 0]]
+    want = arm.deflection([0.0], loads[0])
+    for out in (numpy.empty((2, 6)), numpy.empty((4, 6))[::2], numpy.empty((2, 6), "f4")):
+        with pytest.raises(stiffarm.Unstable):
+            arm.deflection([[0.0]] * 2, loads, out=out)
+        assert (out[0] == want.astype(out.dtype)).all()
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")

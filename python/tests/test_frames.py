@@ -1,5 +1,8 @@
 """Measurements from whatever holds columns."""
 
+import decimal
+import sys
+
 import numpy
 import pytest
 import stiffarm
@@ -45,6 +48,25 @@ def test_pandas_and_polars_and_arrow(campaign, want):
     assert isinstance(frames[0], pandas.DataFrame)
 
 
+def test_pandas_without_pyarrow(campaign, want, monkeypatch):
+    pytest.importorskip("pandas")
+    frame = campaign.to_pandas()
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    assert told(stiffarm.diagnose("kuka_kr240", frame)) == want
+
+
+def test_duckdb(campaign, want):
+    duckdb = pytest.importorskip("duckdb")
+    pytest.importorskip("pyarrow")
+    frame = campaign.to_pandas()
+    assert len(frame) == campaign.rows
+    assert told(stiffarm.diagnose("kuka_kr240", duckdb.sql("select * from frame"))) == want
+    # What it has typed as decimals are numbers too.
+    from stiffarm import arrow
+
+    assert arrow.columns(duckdb.sql("select * from (values (1.25, 3), (null, 4), (-0.1, 5)) t(x, k)")) == {"x": [1.25, None, -0.1], "k": [3, 4, 5]}
+
+
 def test_arrow_types():
     pyarrow = pytest.importorskip("pyarrow")
     polars = pytest.importorskip("polars")
@@ -58,8 +80,10 @@ def test_arrow_types():
         "large": pyarrow.array(["x", "yy", None, "z"], pyarrow.large_string()),
         "chosen": pyarrow.array(["p", "q", "p", None]).dictionary_encode(),
         "nothing": pyarrow.nulls(4),
+        "exact": pyarrow.array([decimal.Decimal("-1.50"), None, decimal.Decimal("0.25"), decimal.Decimal(7)], pyarrow.decimal128(9, 2)),
     }
     table = pyarrow.table(columns)
+    # A decimal is equal to the double that is as large.
     want = table.to_pydict()
     assert arrow.columns(table) == want
     assert arrow.columns(table.slice(1, 2)) == table.slice(1, 2).to_pydict()
@@ -95,3 +119,34 @@ def test_mistakes_are_at_their_cells(campaign):
         stiffarm.diagnose("kuka_kr240", columns)
     _, _, file, line, _ = caught.value.mistakes[0]
     assert (file, line) == ("<data>", 2)
+
+
+@pytest.fixture(scope="module")
+def motion():
+    """A log of a UR10 whose second joint is braked."""
+    return stiffarm.simulate("ur10", effects=["coulomb_friction@joint 2=9"], log=stiffarm.Log(runs=1, rate=100, period=12.0), seed=2)
+
+
+def test_logs_from_frames(motion, tmp_path):
+    pandas, polars, pyarrow = (pytest.importorskip(name) for name in ("pandas", "polars", "pyarrow"))
+    path = tmp_path / "log.csv"
+    # What its comments say is said beside.
+    path.write_text("".join(line for line in motion.csv.splitlines(keepends=True) if not line.startswith("#")), encoding="utf-8")
+    effects = {"effects": ["coulomb_friction", "viscous_friction"], "torque_side": "motor"}
+    first = stiffarm.diagnose("ur10", path, **effects)
+    assert [(one.effect, one.place) for one in first.findings] == [("coulomb_friction", "joint 2")]
+    low, high = first.findings[0].parameters[0].ci95
+    assert low < 9.0 < high
+    want = told(first)
+    joints = {name: numpy.column_stack([motion[f"{name}{k}"] for k in range(1, 7)]) for name in ("q", "tau")}
+    rest = {name: column for name, column in motion.items() if name.split("[")[0].rstrip("123456") not in joints}
+    frames = [dict(motion), {**rest, **joints}, motion.to_pandas(), motion.to_polars(), pyarrow.table(dict(motion))]
+    assert isinstance(frames[2], pandas.DataFrame) and isinstance(frames[3], polars.DataFrame)
+    for frame in frames:
+        assert told(stiffarm.diagnose("ur10", frame, **effects)) == want
+
+
+def test_runs_of_one_log(motion):
+    again = stiffarm.simulate("ur10", effects=["coulomb_friction@joint 2=9"], log=stiffarm.Log(runs=1, rate=100, period=12.0), seed=5)
+    found = stiffarm.diagnose("ur10", [dict(motion), again], effects=["coulomb_friction"], torque_side="motor")
+    assert found.findings[0].place == "joint 2"

@@ -31,6 +31,13 @@ def test_what_import_takes_along(tmp_path):
     assert done.stdout.split() == []
 
 
+def test_a_typed_program():
+    """Which type checkers read, too."""
+    from typed import main
+
+    main()
+
+
 def memory():
     """Kilobytes that the process holds now."""
     gc.collect()

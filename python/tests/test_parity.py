@@ -85,6 +85,59 @@ def test_simulate(cli):
     assert found["x"].shape == (found.rows,) and found.comments
 
 
+def test_logs(cli, tmp_path):
+    words = ["--effect", "coulomb_friction@joint 2=9", "--runs", "1", "--rate", "100Hz", "--period", "5s", "--max-rate", "1.2"]
+    log = stiffarm.Log(runs=1, rate=100, period=5.0, max_rate=1.2)
+    found = stiffarm.simulate("ur10", effects=["coulomb_friction@joint 2=9"], log=log)
+    assert found.csv == cli("simulate", "ur10", *words, "--log", "-")
+    assert found["tau2"].shape == (found.rows,)
+    motion = ["--for", "motion", "--period", "4s", "--harmonics", "3", "--csv", "-"]
+    assert stiffarm.poses("ur10", motion=stiffarm.Motion(period=4.0, harmonics=3)).csv == cli("poses", "ur10", *motion)
+    words = ["ur10", "--motion", "--cases", "2", "--effects", "coulomb_friction", "--runs", "2", "--rate", "50Hz", "--period", "5s"]
+    found = stiffarm.withhold("ur10", cases=2, effects=["coulomb_friction"], log=stiffarm.Log(runs=2, rate=50, period=5.0))
+    assert found.to_dict() == json.loads(cli("withhold", *words, "--json", "-"))
+
+
+def test_eval(cli):
+    q, load = [0.3, -1.1, 1.4, -0.2, 0.7, 0.5], [30.0, -20.0, -200.0, 3.0, 1.0, -2.0]
+    words = ["kuka_kr240", "--q", ",".join(map(str, q)), "--wrench", ",".join(map(str, load)), "--gravity"]
+    found = stiffarm.eval("kuka_kr240", q, load, gravity=True)
+    assert found.to_dict() == json.loads(cli("eval", *words, "--json", "-"))
+    assert str(found) == cli("eval", *words)
+    assert stiffarm.eval("ur5", "30deg,-90deg,90deg,0,0,0").position == stiffarm.eval("ur5", "30deg,-90deg,90deg,0deg,0,0rad").position
+
+
+def test_check(cli):
+    found = stiffarm.check("ur5", count=30, seed=4)
+    assert found.agrees is True
+    assert found.to_dict() == json.loads(cli("check", "ur5", "--count", "30", "--seed", "4", "--json", "-"))
+    assert str(found) == cli("check", "ur5", "--count", "30", "--seed", "4")
+    assert {robot.robot for robot in stiffarm.check(count=1).robots} == set(stiffarm.robots())
+
+
+def test_map(cli, tmp_path):
+    words = ["kuka_kr240", "--over", "q2,q3", "--of", "deflection", "--at", "q4=0.5,q5=45deg", "--wrench", "0,0,-500,0,0,0", "--steps", "9"]
+    found = stiffarm.map("kuka_kr240", ("q2", "q3"), "deflection", at={"q4": 0.5, "q5": "45deg"}, wrench=[0, 0, -500, 0, 0, 0], steps=9)
+    assert found.csv == cli("map", *words, "--csv", "-")
+    assert found._repr_svg_() == cli("map", *words, "--svg", "-")
+    assert found.rows == 81
+
+
+def test_predict(cli, at_root, tmp_path):
+    words = [WORKBENCH[0].replace("arm.toml", "arm_identified.toml"), WORKBENCH[1]]
+    found = stiffarm.predict(*words)
+    assert found.to_dict() == json.loads(cli("predict", *words, "--json", "-"))
+    assert found.table.csv == cli("predict", *words, "--csv", "-")
+    assert str(found) == cli("predict", *words)
+    assert found.table.rows == found.rows
+
+
+def test_effects(cli):
+    assert stiffarm.effects() == json.loads(cli("effects", "--json"))
+    (one,) = stiffarm.effects("backlash")
+    assert one.effect == "backlash" and one.numbers
+
+
 def test_withhold(cli):
     words = ["ur5", "--cases", "4", "--effects", "joint_compliance", "--poses", "10"]
     found = stiffarm.withhold("ur5", cases=4, effects=["joint_compliance"], poses=10)

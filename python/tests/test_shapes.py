@@ -26,11 +26,14 @@ def test_any_layout_gives_the_same(data):
     every_other = numpy.repeat(q, 2, axis=-1)[..., ::2]
     for layout in (q, numpy.asfortranarray(q) if q.ndim else q, reversed_twice, every_other, q.tolist() if q.size else q):
         found = ARM.jacobian(layout)
-        assert found.shape == (*lead, 6, N) and found.dtype == numpy.float64
-        assert (found == want).all()
-    out = numpy.full((*lead, 6, N), numpy.nan)
-    assert ARM.jacobian(q, out=out) is out
-    assert (out == want).all()
+        of_single = isinstance(layout, numpy.ndarray) and layout.dtype == numpy.float32
+        kind = numpy.float32 if of_single else numpy.float64
+        assert found.shape == (*lead, 6, N) and found.dtype == kind
+        assert (found == want.astype(kind)).all()
+    for kind in (numpy.float64, numpy.float32):
+        out = numpy.full((*lead, 6, N), numpy.nan, kind)
+        assert ARM.jacobian(q, out=out) is out
+        assert (out == want.astype(kind)).all()
 
 
 @settings(max_examples=60, deadline=None)

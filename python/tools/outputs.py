@@ -20,15 +20,16 @@ if TYPE_CHECKING:
     import numpy
     from numpy.typing import ArrayLike, NDArray
 
-    Doubles = NDArray[numpy.float64]
+    Reals = NDArray[numpy.floating[Any]]
 
 
 class Outputs:
     """What an arm computes.
 
     Joint values and what else is said of joints are (n,) or (batch, n), wrenches (6,) or (batch, 6), results as each method says,
-    with the batch in front. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm
-    that depends on them.
+    with the batch in front: float64, or float32 (worked out in double, and rounded) of joint values that are. What is told of the
+    tool is told of a ``[[frame]]`` or a ``[[marker]]`` of the robot file `at` its name, wrenches and all: ``arm.places`` lists
+    them. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm that depends on them.
     """
 
     def evaluate(
@@ -36,15 +37,16 @@ class Outputs:
         output: str,
         inputs: Sequence[ArrayLike],
         wrench: Optional[ArrayLike] = None,
-        out: Optional[Doubles] = None,
+        out: Optional[Reals] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
-    ) -> Doubles:
+        at: Optional[str] = None,
+    ) -> Reals:
         """An output by its name."""
         raise NotImplementedError
 '''
 
-BESIDE = "out: Optional[Doubles] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None"
+BESIDE = "out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None"
 
 
 def method(name, sentence, formula, joints, takes_wrench, result):
@@ -59,8 +61,9 @@ def method(name, sentence, formula, joints, takes_wrench, result):
     lines = [
         "",
         f"    def {name}(",
-        f"        self, {', '.join(given)}, *, {BESIDE}",
-        "    ) -> Doubles:",
+        f"        self, {', '.join(given)}, *,",
+        f"        {BESIDE},",
+        "    ) -> Reals:",
         f'        """{sentence}',
         "",
         f"        {formula}",
@@ -68,7 +71,7 @@ def method(name, sentence, formula, joints, takes_wrench, result):
         *about,
         f"        Result: {shape}, in {units}.{raises}",
         '        """',
-        f'        return self.evaluate("{name}", [{values}], {wrench}, out, sides, warming)',
+        f'        return self.evaluate("{name}", [{values}], {wrench}, out, sides, warming, at)',
     ]
     return "\n".join(lines) + "\n"
 

@@ -1,11 +1,12 @@
-"""How fast arms are in Python, in one run: a million Jacobians, and the call of one pose beside Pinocchio's and CasADi's.
+"""How fast arms are in Python, in one run: a million Jacobians beside Rust's batch, round by round; the call of one pose
+beside Pinocchio's and CasADi's; and the import.
 
-    python tools/speed.py [RUST]
-
-RUST is what Rust's own batch takes for the million, ms, to compare with: `cargo bench` of the batches says it.
+    cargo build --release --example batch
+    python tools/speed.py target/release/examples/batch
 """
 
 import statistics
+import subprocess
 import sys
 import time
 
@@ -27,14 +28,34 @@ def median(work, repeat=1):
     return statistics.median(rounds)
 
 
-def batches():
+def batches(program):
     arm = stiffarm.Arm.load("kuka_kr240")
     q = numpy.random.default_rng(0).uniform(-1.0, 1.0, (1_000_000, 6))
     out = numpy.empty((1_000_000, 6, 6)).transpose(0, 2, 1)
-    seconds = median(lambda: arm.jacobian(q, out=out))
-    print(f"10^6 Jacobians of the KR 240-2 by {arm.engine('jacobian')}: {1e3 * seconds:.1f} ms")
-    if len(sys.argv) > 1:
-        print(f"  {1e3 * seconds / float(sys.argv[1]):.2f} times Rust's batch")
+    with subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as rust:
+        ours, theirs = [], []
+        # The first round of each touches its memory.
+        for _ in range(1 + ROUNDS):
+            begun = time.perf_counter()
+            arm.jacobian(q, out=out)
+            ours.append(1e3 * (time.perf_counter() - begun))
+            rust.stdin.write("\n")
+            rust.stdin.flush()
+            theirs.append(float(rust.stdout.readline()))
+    ours, theirs = ours[1:], theirs[1:]
+    print(f"10^6 Jacobians of the KR 240-2 by {arm.engine('jacobian')}, ms: median (least)")
+    for name, rounds in (("Python", ours), ("Rust", theirs)):
+        print(f"  {name:<18} {statistics.median(rounds):.1f} ({min(rounds):.1f})")
+    print(f"  {'ratio':<18} {statistics.median(a / b for a, b in zip(ours, theirs)):.2f} ({min(ours) / min(theirs):.2f})")
+
+
+def imports():
+    """Of a new interpreter, and of one that has NumPy already."""
+    for what, before in (("import stiffarm", "pass"), ("the same behind NumPy", "import numpy")):
+        code = f"import time\n{before}\nt = time.perf_counter()\nimport stiffarm\nprint(time.perf_counter() - t)"
+        run = [sys.executable, "-c", code]
+        rounds = [float(subprocess.run(run, capture_output=True, text=True, check=True, cwd="/").stdout) for _ in range(ROUNDS)]
+        print(f"{what}, ms: {1e3 * statistics.median(rounds):.1f} ({1e3 * min(rounds):.1f})")
 
 
 def calls():
@@ -92,5 +113,8 @@ def by_casadi(casadi, arm):
 
 
 if __name__ == "__main__":
-    batches()
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    batches(sys.argv[1])
     calls()
+    imports()

@@ -29,6 +29,19 @@ fn a_file_is_checked_by_its_graph() {
 }
 
 #[test]
+fn deviations_are_json() {
+    let out = stiffarm(&["check", "ur10", "--count", "20", "--json", "-"]).good();
+    let told: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+    assert_eq!((&told["count"], &told["seed"]), (&20.into(), &0.into()));
+    let robot = &told["robots"][0];
+    assert_eq!((&robot["robot"], &robot["agrees"]), (&"ur10".into(), &true.into()));
+    for (comparison, limit) in told["limits"].as_object().expect("limits") {
+        let deviation = robot["outputs"]["jacobian"][comparison].as_f64().expect("a number");
+        assert!(deviation > 0.0 && deviation <= limit.as_f64().expect("a number"), "{out}");
+    }
+}
+
+#[test]
 fn all_robots_have_a_line_each() {
     let out = stiffarm(&["check", "--all", "--count", "4"]).good();
     for arm in stiffarm_robots::ARMS {
