@@ -60,7 +60,8 @@ impl Arm {
             };
         }
         if self.robot.effects.is_empty() {
-            let one = |state: &[f64], load: &[f64; 6]| self.table.evaluate(output, state, load).ok();
+            let one =
+                |state: &[f64], load: &[f64; 6]| self.table.evaluate(output, state, load).ok();
             each(q, wrench, out, one);
         } else {
             let (program, given) = (self.graph(output), Given::default());

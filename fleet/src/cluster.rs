@@ -13,7 +13,7 @@ use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_
 use ballista_scheduler::cluster::BallistaCluster;
 use ballista_scheduler::config::SchedulerConfig;
 use ballista_scheduler::scheduler_process::start_server;
-use datafusion::prelude::SessionContext;
+use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::arms::Arms;
 use crate::session::register;
@@ -46,7 +46,7 @@ pub async fn scheduler(address: SocketAddr, arms: Arc<Arms>) -> Result<()> {
         no_executors_grace_period_seconds: 4 * DEAD_AFTER,
         ..SchedulerConfig::default()
     };
-    let config = config.with_override_session_builder(Arc::new(move |config| {
+    let config = config.with_override_session_builder(Arc::new(move |config: SessionConfig| {
         let session = SessionContext::new_with_state(default_session_builder(config)?);
         register(&session, &arms);
         Ok(session.state())

@@ -191,7 +191,9 @@ impl Report {
     async fn run(self) -> Result<(), String> {
         let [table] = &self.on.tables[..] else {
             let found = self.on.tables.len();
-            return Err(format!("--table: found {found} tables, expected the one of the campaigns"));
+            return Err(format!(
+                "--table: found {found} tables, expected the one of the campaigns"
+            ));
         };
         let columns = Columns {
             arm: self.arm,
@@ -224,10 +226,17 @@ impl Listen {
 impl Work {
     async fn run(self) -> Result<(), String> {
         let scheduler = self.scheduler.rsplit_once(':');
-        let scheduler = scheduler.and_then(|(host, port)| Some((host.to_owned(), port.parse().ok()?)));
+        let scheduler =
+            scheduler.and_then(|(host, port)| Some((host.to_owned(), port.parse().ok()?)));
         let scheduler = scheduler.ok_or_else(|| {
             format!("--scheduler: found `{}`, expected host:port", self.scheduler)
         })?;
+        if self.bind.is_unspecified() && self.host.is_none() {
+            return Err(format!(
+                "--bind {}: found no --host, expected the name by which the others reach this executor",
+                self.bind
+            ));
+        }
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let address = SocketAddr::new(self.bind, self.port);
         listening("executor", address);

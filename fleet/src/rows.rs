@@ -63,7 +63,9 @@ pub fn rows(fields: &[FieldRef], values: &[ArrayRef]) -> Result<Vec<Row>> {
         if column.name == ORDER {
             let order = cast(&column.cells, &DataType::Float64)?;
             let order = order.as_primitive::<Float64Type>();
-            rows.iter_mut().zip(order).for_each(|(row, at)| row.order = at.unwrap_or(f64::INFINITY));
+            rows.iter_mut()
+                .zip(order)
+                .for_each(|(row, at)| row.order = at.unwrap_or(f64::INFINITY));
             continue;
         }
         for (row, cell) in rows.iter_mut().zip(cells(&column)?) {
@@ -89,7 +91,10 @@ fn cells(column: &Column) -> Result<Vec<String>> {
         if *kind == DataType::Float32 {
             let array = cast(array, &DataType::Float32)?;
             let numbers = array.as_primitive::<arrow::datatypes::Float32Type>();
-            return Ok(numbers.iter().map(|x| x.map_or_else(String::new, |x| x.to_string())).collect());
+            return Ok(numbers
+                .iter()
+                .map(|x| x.map_or_else(String::new, |x| x.to_string()))
+                .collect());
         }
         let array = cast(array, &DataType::Float64)?;
         let numbers = array.as_primitive::<Float64Type>();

@@ -115,7 +115,11 @@ impl Table {
             plan_datafusion_err!("table {}: cannot read {}: {error}", self.name, self.location)
         })?;
         let found = first.ok_or_else(|| {
-            plan_datafusion_err!("table {}: found no file in {}, {wanted}", self.name, self.location)
+            plan_datafusion_err!(
+                "table {}: found no file in {}, {wanted}",
+                self.name,
+                self.location
+            )
         })?;
         Format::of(&found).ok_or_else(|| {
             plan_datafusion_err!("table {}: found {}, {wanted}", self.name, found.display())

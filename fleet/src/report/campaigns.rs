@@ -86,7 +86,10 @@ async fn query(session: &SessionContext, table: &str, columns: &Columns) -> Resu
     });
     let measured: Vec<String> = measured.map(|name| quoted(name)).collect();
     if measured.is_empty() {
-        return plan_err!("table {table}: found no columns of measurements beside {}", names.join(", "));
+        return plan_err!(
+            "table {table}: found no columns of measurements beside {}",
+            names.join(", ")
+        );
     }
     let robot = match &columns.one_robot {
         Some(robot) => text(robot),
@@ -96,7 +99,8 @@ async fn query(session: &SessionContext, table: &str, columns: &Columns) -> Resu
         "" => robot.clone(),
         options => format!("{robot} || ' ' || {}", text(options)),
     };
-    let by = [&columns.arm, &columns.campaign].map(|name| format!("CAST({} AS VARCHAR)", quoted(name)));
+    let by =
+        [&columns.arm, &columns.campaign].map(|name| format!("CAST({} AS VARCHAR)", quoted(name)));
     let [arm, campaign] = by;
     Ok(format!(
         "SELECT arm, campaign, robot, found['error'], found['json'] FROM (SELECT {arm} AS arm, {campaign} AS campaign, \

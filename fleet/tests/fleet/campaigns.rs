@@ -24,8 +24,21 @@ pub fn campaigns(robots: &[&'static str], arms: usize, poses: usize) -> Vec<Camp
         let effect = format!("joint_compliance@joint 2={}e-7", 1.0 + 0.2 * arm as f64);
         let (poses, seed) = (poses.to_string(), arm.to_string());
         let words = [
-            "simulate", robot, "--effect", &effect, "--poses", &poses, "--payload", "10kg",
-            "--noise-position", "30um", "--seed", &seed, "--withhold", "--csv", "-",
+            "simulate",
+            robot,
+            "--effect",
+            &effect,
+            "--poses",
+            &poses,
+            "--payload",
+            "10kg",
+            "--noise-position",
+            "30um",
+            "--seed",
+            &seed,
+            "--withhold",
+            "--csv",
+            "-",
         ];
         Campaign {
             arm: format!("{robot}_{arm:03}"),

@@ -21,7 +21,8 @@ struct Cluster {
 
 fn start(words: &[&str]) -> Child {
     let fleet = env!("CARGO_BIN_EXE_stiffarm-fleet");
-    let started = Command::new(fleet).args(words).stdin(Stdio::null()).stderr(Stdio::null()).spawn();
+    let started =
+        Command::new(fleet).args(words).stdin(Stdio::null()).stderr(Stdio::null()).spawn();
     started.unwrap()
 }
 
@@ -46,7 +47,14 @@ impl Cluster {
             let (scheduler, own) = (format!("127.0.0.1:{port}"), ports().to_string());
             let work = work.to_str().unwrap();
             let mut words = vec![
-                "executor", "--scheduler", &scheduler, "--port", &own, "--cores", "1", "--work-dir",
+                "executor",
+                "--scheduler",
+                &scheduler,
+                "--port",
+                &own,
+                "--cores",
+                "1",
+                "--work-dir",
                 work,
             ];
             if let Some(robots) = robots {

@@ -84,7 +84,8 @@ fn a_file_that_is_damaged_is_named() {
     let file = fs::read_dir(&parquet).unwrap().next().unwrap().unwrap().path();
     let whole = fs::read(&file).unwrap();
     let name = file.file_name().unwrap().to_str().unwrap().to_owned();
-    let ask = || fleet(&["sql", "SELECT * FROM runs", "--table", &runs(&parquet), "--format", "json"]);
+    let ask =
+        || fleet(&["sql", "SELECT * FROM runs", "--table", &runs(&parquet), "--format", "json"]);
     assert!(ask().status.success());
     // Cut short, its foot is gone; with other bytes within, a page is.
     fs::write(&file, &whole[..whole.len() - 8]).unwrap();
@@ -107,7 +108,8 @@ fn what_cannot_be_read_or_written_is_named() {
     let said = refused(&fleet(&["sql", "SELECT 1", "--table", &none]));
     assert!(said.contains("cannot read") && said.contains("none"), "{said}");
     fs::create_dir(folder.path().join("empty")).unwrap();
-    let said = refused(&fleet(&["sql", "SELECT 1", "--table", &runs(&folder.path().join("empty"))]));
+    let said =
+        refused(&fleet(&["sql", "SELECT 1", "--table", &runs(&folder.path().join("empty"))]));
     assert!(said.contains("found no file"), "{said}");
     let said = refused(&fleet(&["sql", "SELECT nothing FROM runs", "--table", &table]));
     assert!(said.contains("nothing"), "{said}");
