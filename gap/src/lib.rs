@@ -29,6 +29,7 @@ pub mod measurement;
 pub mod motion;
 pub mod performance;
 pub mod plant;
+pub mod pool;
 pub mod predicted;
 pub mod random;
 pub mod readings;

@@ -1,6 +1,8 @@
 //! Batches give what the kernels give pose by pose, to the bit, in either layout and on all cores.
 
-use stiffarm::kernels::batch::{Error, Layout, Number, Wrenches, evaluate, evaluate_parallel};
+use stiffarm::kernels::batch::{
+    Error, Layout, Number, Wrenches, evaluate, evaluate_columns, evaluate_parallel,
+};
 use stiffarm::kernels::{Kernels, Output};
 
 use crate::compare::Draws;
@@ -42,6 +44,10 @@ fn one_by_one<T: Number>(
     out
 }
 
+fn slices<T>(columns: &[Vec<T>]) -> Vec<&[T]> {
+    columns.iter().map(Vec::as_slice).collect()
+}
+
 fn check<T, R>(robot: &R, outputs: &[Output])
 where
     T: Number + PartialEq + core::fmt::Debug,
@@ -56,6 +62,16 @@ where
             let wrench_rows = by_quantity(&case.wrenches, poses);
             let each = one_by_one(robot, output, &case, wrench);
             let same = one_by_one(robot, output, &case, |_| wrench(0));
+            let columns = |rows: &'_ [T]| -> Vec<Vec<T>> {
+                rows.chunks(poses.max(1)).map(<[T]>::to_vec).collect()
+            };
+            let (q, loads) = (columns(&q_rows), columns(&wrench_rows));
+            if poses > 0 {
+                let mut out = vec![T::lit(f64::NAN); each.len()];
+                evaluate_columns(robot, output, &slices(&q), &slices(&loads), &mut out)
+                    .expect("the arm is stable");
+                assert_eq!(out, each, "{} columns {poses}", output.name());
+            }
             let layouts = [
                 (Layout::Poses, &case.q, &case.wrenches),
                 (Layout::Quantities, &q_rows, &wrench_rows),
@@ -126,6 +142,30 @@ fn poses_that_buckle_are_named_and_left_single() {
             assert!(out.iter().all(|x| x.is_nan() == expected), "pose {pose}: {out:?}");
         }
     }
+}
+
+#[test]
+fn columns_that_do_not_fit_are_refused() {
+    let robot = &stiffarm_robots::kuka_kr240::Robot;
+    let run = |q: &[usize], wrench: &[usize], out: usize| {
+        let columns = |lengths: &[usize]| -> Vec<Vec<f64>> {
+            lengths.iter().map(|length| vec![0.0; *length]).collect()
+        };
+        let (q, wrench, mut out) = (columns(q), columns(wrench), vec![7.0; out]);
+        let (q, wrench) = (slices(&q), slices(&wrench));
+        let done = evaluate_columns(robot, Output::JointTorque, &q, &wrench, &mut out);
+        assert!(done.is_ok() || out.iter().all(|x| *x == 7.0), "something was written");
+        done.map_err(|e| e.to_string())
+    };
+    assert_eq!(run(&[2; 6], &[2; 6], 12), Ok(()));
+    assert_eq!(run(&[0; 6], &[0; 6], 0), Ok(()));
+    assert_eq!(
+        run(&[2; 5], &[2; 6], 12).unwrap_err(),
+        "q holds 10 numbers, which is no multiple of a pose's 6"
+    );
+    assert!(run(&[2, 2, 2, 2, 2, 1], &[2; 6], 12).unwrap_err().starts_with("q holds 11 numbers"));
+    assert_eq!(run(&[2; 6], &[], 12).unwrap_err(), "wrench holds 0 numbers where 12 are needed");
+    assert_eq!(run(&[2; 6], &[2; 6], 11).unwrap_err(), "out holds 11 numbers where 12 are needed");
 }
 
 #[test]

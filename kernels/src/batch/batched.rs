@@ -18,6 +18,18 @@ pub trait Batched<T: Number>: Sync {
         wrenches: Wrenches<'_, T>,
         out: &mut [T],
     ) -> Result<(), Error>;
+
+    /// As [`evaluate_columns`](super::evaluate_columns), on the caller's core.
+    ///
+    /// # Errors
+    /// As [`evaluate_columns`](super::evaluate_columns).
+    fn evaluate_columns(
+        &self,
+        output: Output,
+        q: &[&[T]],
+        wrench: &[&[T]],
+        out: &mut [T],
+    ) -> Result<(), Error>;
 }
 
 impl<T, R> Batched<T> for R
@@ -37,5 +49,14 @@ where
         return super::evaluate_parallel(self, output, layout, q, wrenches, out);
         #[cfg(not(feature = "rayon"))]
         super::evaluate(self, output, layout, q, wrenches, out)
+    }
+    fn evaluate_columns(
+        &self,
+        output: Output,
+        q: &[&[T]],
+        wrench: &[&[T]],
+        out: &mut [T],
+    ) -> Result<(), Error> {
+        super::evaluate_columns(self, output, q, wrench, out)
     }
 }

@@ -11,6 +11,7 @@
 //! ```
 
 mod batched;
+mod columns;
 mod group;
 mod number;
 #[cfg(feature = "rayon")]
@@ -20,6 +21,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 pub use batched::Batched;
+pub use columns::evaluate_columns;
 pub use number::Number;
 #[cfg(feature = "rayon")]
 pub use parallel::evaluate_parallel;

@@ -1,0 +1,92 @@
+//! A campaign put to a command of the command line: `diagnose`, `identify`.
+
+use std::collections::HashMap;
+
+use stiffarm_cli::inside::Host;
+
+use crate::arms::Arms;
+use crate::sentence::sentence;
+
+/// What a campaign's file is called in answers; the command that reads a file of this name answers the same.
+pub const FILE: &str = "<campaign>";
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Question {
+    /// `stiffarm diagnose`.
+    Diagnose,
+    /// `stiffarm identify`.
+    Identify,
+}
+
+/// Options that read or write no file, and whether a value stands behind them.
+const OPTIONS: [(&str, bool); 14] = [
+    ("--nuisance", true),
+    ("--tolerance", true),
+    ("--usual", true),
+    ("--noise-position", true),
+    ("--noise-rotation", true),
+    ("--keep-all", false),
+    ("--effects", true),
+    ("--folds", true),
+    ("--nested", false),
+    ("--seed", true),
+    ("--rival", true),
+    ("--set", true),
+    ("--links", false),
+    ("--base", false),
+];
+
+impl Question {
+    /// The subcommand.
+    pub fn name(self) -> &'static str {
+        match self {
+            Question::Diagnose => "diagnose",
+            Question::Identify => "identify",
+        }
+    }
+
+    /// The JSON that the command writes for `robot`, which is a robot and options behind it, and the measurement
+    /// file `text`.
+    ///
+    /// # Errors
+    /// A sentence: the robot, an option, or why the campaign has no answer.
+    pub fn ask(self, arms: &Arms, robot: &str, text: String) -> Result<String, String> {
+        let mut given = robot.split_whitespace();
+        let named = arms.named(given.next().unwrap_or_default())?;
+        let options = checked(given)?;
+        let begin = [self.name(), &named.given, FILE, "--json", "-", "--quiet"];
+        let words = begin.into_iter().chain(options).map(str::to_owned).collect();
+        let mut files: HashMap<String, Vec<u8>> = named.files();
+        files.insert(FILE.to_owned(), text.into_bytes());
+        let host = Host::new(words, files);
+        match stiffarm_cli::run(&host) {
+            Ok(Ok(_)) => {
+                let told = host.take().written.into_iter().filter(|(name, _)| name == "-");
+                Ok(told.map(|(_, text)| text).collect())
+            }
+            Ok(Err(failure)) => Err(sentence(&failure)),
+            Err(_) => Err("the work was left".to_owned()),
+        }
+    }
+}
+
+/// The options, each of which is one that a campaign far from here may be asked with.
+fn checked<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec<&'a str>, String> {
+    let words: Vec<&str> = words.collect();
+    let mut rest = words.iter();
+    while let Some(word) = rest.next() {
+        let (name, value) = word.split_once('=').map_or((*word, None), |(n, v)| (n, Some(v)));
+        let Some((_, takes)) = OPTIONS.iter().find(|(option, _)| *option == name) else {
+            let known: Vec<&str> = OPTIONS.iter().map(|(option, _)| *option).collect();
+            return Err(format!(
+                "found `{word}` behind the robot, expected an option: {}",
+                known.join(", ")
+            ));
+        };
+        if *takes && value.is_none() && rest.next().is_none() {
+            return Err(format!("found {name} without a value, expected one"));
+        }
+    }
+    Ok(words)
+}

@@ -1,0 +1,193 @@
+//! A scheduler and executors, each a process of its own.
+
+use std::fs;
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use stiffarm_fleet::session::Engine;
+
+use crate::campaigns::{Campaign, campaigns, write};
+use crate::diagnoses::{answers, query, same, table};
+use crate::failures::{fleet, refused};
+
+/// Ends its processes with itself.
+struct Cluster {
+    port: u16,
+    parts: Vec<Child>,
+}
+
+fn start(words: &[&str]) -> Child {
+    let fleet = env!("CARGO_BIN_EXE_stiffarm-fleet");
+    let started =
+        Command::new(fleet).args(words).stdin(Stdio::null()).stderr(Stdio::null()).spawn();
+    started.unwrap()
+}
+
+/// Two ports side by side that nobody has.
+fn ports() -> u16 {
+    loop {
+        let first = TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = first.local_addr().unwrap().port();
+        if port < u16::MAX && TcpListener::bind(("127.0.0.1", port + 1)).is_ok() {
+            return port;
+        }
+    }
+}
+
+impl Cluster {
+    /// A scheduler, and an executor that works in each of these folders.
+    fn new(work: &[&Path], robots: &[Option<&Path>]) -> Cluster {
+        let port = ports();
+        let mut cluster = Cluster { port, parts: vec![start_scheduler(port)] };
+        for (work, robots) in work.iter().zip(robots) {
+            fs::create_dir_all(work).unwrap();
+            let (scheduler, own) = (format!("127.0.0.1:{port}"), ports().to_string());
+            let work = work.to_str().unwrap();
+            let mut words = vec![
+                "executor",
+                "--scheduler",
+                &scheduler,
+                "--port",
+                &own,
+                "--cores",
+                "1",
+                "--work-dir",
+                work,
+            ];
+            if let Some(robots) = robots {
+                words.extend(["--robots", robots.to_str().unwrap()]);
+            }
+            cluster.parts.push(start(&words));
+        }
+        cluster
+    }
+
+    fn engine(&self) -> Engine {
+        let cluster = Some(format!("df://127.0.0.1:{}", self.port));
+        Engine { cluster, partitions: Some(4) }
+    }
+
+    fn end(&mut self, part: usize) {
+        self.parts[part].kill().unwrap();
+        self.parts[part].wait().unwrap();
+    }
+}
+
+fn start_scheduler(port: u16) -> Child {
+    let scheduler = start(&["scheduler", "--port", &port.to_string()]);
+    let began = Instant::now();
+    while std::net::TcpStream::connect(("127.0.0.1", port)).is_err() {
+        assert!(began.elapsed() < Duration::from_secs(60), "the scheduler does not answer");
+        thread::sleep(Duration::from_millis(50));
+    }
+    scheduler
+}
+
+impl Drop for Cluster {
+    fn drop(&mut self) {
+        for part in &mut self.parts {
+            // One that has ended already is as it should be.
+            let _ = part.kill();
+            let _ = part.wait();
+        }
+    }
+}
+
+fn data(folder: &Path) -> Vec<Campaign> {
+    let all = campaigns(&["kuka_kr240", "ur10"], 3, 12);
+    write(&folder.join("runs"), &all);
+    all
+}
+
+/// Two executors: the bytes of the command; and again after one was ended in the middle.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_cluster_answers_as_the_command_whatever_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = data(folder.path());
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    let mut cluster = Cluster::new(&[&first, &second], &[None, None]);
+    let tables = [table(&folder.path().join("runs"))];
+    let sql = query(&all[0].columns());
+    same(&all, &answers(&cluster.engine(), &tables, &sql).await);
+    // The second has written parts of this job that the others need, and ends.
+    let known = jobs(&second);
+    let engine = cluster.engine();
+    let asked = tokio::spawn({
+        let (tables, sql) = (tables.clone(), sql.clone());
+        async move { answers(&engine, &tables, &sql).await }
+    });
+    let began = Instant::now();
+    while jobs(&second) == known {
+        assert!(began.elapsed() < Duration::from_secs(120), "the second executor has no work");
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
+    assert!(!asked.is_finished());
+    cluster.end(2);
+    same(&all, &asked.await.unwrap());
+}
+
+/// The jobs that an executor has parts of.
+fn jobs(work: &Path) -> usize {
+    fs::read_dir(work).unwrap().count()
+}
+
+/// The robot's file is in the folder of one executor alone: where it is not, a row says so.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_file_that_an_executor_lacks_is_said_in_its_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut all = data(folder.path());
+    let robots = folder.path().join("robots");
+    fs::create_dir(&robots).unwrap();
+    all.iter_mut().for_each(|campaign| campaign.robot = "welder");
+    write(&folder.path().join("runs"), &all);
+    let cluster = Cluster::new(&[&folder.path().join("work")], &[Some(&robots)]);
+    let tables = [table(&folder.path().join("runs"))];
+    let sql = query(&all[0].columns());
+    let got = answers(&cluster.engine(), &tables, &sql).await;
+    for [json, said] in got.values() {
+        let said = said.as_deref().unwrap();
+        assert!(json.is_none() && said.contains("welder.toml: No such file"), "{said}");
+        assert!(said.contains("every executor needs the file in its --robots folder"), "{said}");
+    }
+    // With the file there is an answer, without a start of anything anew.
+    fs::write(robots.join("welder.toml"), stiffarm_robots::toml("kuka_kr240").unwrap()).unwrap();
+    let got = answers(&cluster.engine(), &tables, &sql).await;
+    let [json, said] = &got[&all[0].arm];
+    assert_eq!(*said, None);
+    assert!(json.as_ref().unwrap().contains("from welder.toml"));
+}
+
+/// A scheduler that ends takes its jobs with it, and says so; one at its place finds the executors again.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_scheduler_may_be_started_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = data(folder.path());
+    let work = folder.path().join("work");
+    let mut cluster = Cluster::new(&[&work], &[None]);
+    let runs = format!("runs={}", folder.path().join("runs").display());
+    let url = format!("df://127.0.0.1:{}", cluster.port);
+    let sql = query(&all[0].columns());
+    let out = folder.path().join("out.json");
+    let words = ["sql", &sql, "--table", &runs, "--cluster", &url, "--format", "json", "--out"];
+    let words = [&words[..], &[out.to_str().unwrap()]].concat();
+    let (known, words): (_, Vec<String>) =
+        (jobs(&work), words.into_iter().map(str::to_owned).collect());
+    let asked = thread::spawn(move || {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        fleet(&words)
+    });
+    let began = Instant::now();
+    while jobs(&work) == known {
+        assert!(began.elapsed() < Duration::from_secs(120), "the executor has no work");
+        thread::sleep(Duration::from_millis(5));
+    }
+    cluster.end(0);
+    let said = refused(&asked.join().unwrap());
+    assert!(said.contains("scheduler"), "{said}");
+    assert!(!out.exists());
+    cluster.parts[0] = start_scheduler(cluster.port);
+    same(&all, &answers(&cluster.engine(), &[table(&folder.path().join("runs"))], &sql).await);
+}
