@@ -69,7 +69,9 @@ fn of_the_base(parameter: &Parameter) -> String {
             "{unknown}: {value:.3e} m/N; `give` is the mean of all directions that were found."
         ),
         Unknown::Base(3 | 4) => format!("{unknown}: {value:.3e} rad/(N*m), among the effects."),
-        _ => format!("{unknown}: {value:.3e} rad/(N*m); no entry has it: joint 1's spring turns so."),
+        _ => {
+            format!("{unknown}: {value:.3e} rad/(N*m); no entry has it: joint 1's spring turns so.")
+        }
     }
 }
 
@@ -81,8 +83,7 @@ fn on_its_foundation(robot: Robot, source: &Source, answer: &Answer) -> Result<R
         all.find(|p| p.unknown == Unknown::Base(k))
     };
     let weight = |p: &Parameter| p.interval().map_or(0.0, |[low, high]| (high - low).powi(-2));
-    let shifts: Vec<[f64; 2]> =
-        (0..3).filter_map(found).map(|p| [weight(p), p.value]).collect();
+    let shifts: Vec<[f64; 2]> = (0..3).filter_map(found).map(|p| [weight(p), p.value]).collect();
     let all: f64 = shifts.iter().map(|[weight, _]| weight).sum();
     let give: f64 = shifts.iter().map(|[weight, value]| weight / all * value).sum();
     let [x, y] = [3, 4].map(|k| found(k).map_or(0.0, |p| p.value));

@@ -11,6 +11,9 @@ const ROUNDING: f64 = 1e-11;
 /// Findings that the sentence tells; of more it tells one less, and counts the others.
 const TOLD: usize = 3;
 
+/// Of fewer poses the signs can be set in so few ways that no finding is rarer than its p value must be.
+const LEAST_POSES: usize = 6;
+
 impl Screen<'_> {
     /// What closes the gap, how far, and what is left open.
     pub(super) fn sentence(&self) -> String {
@@ -81,11 +84,15 @@ impl Screen<'_> {
                     format!(" It lies at {}, by all that this data shows.", p.place)
                 });
                 let known = "no effect that was tried explains it on poses that no fit has seen";
-                format!("The gap of {size} is more than noise, and {known}.{place}")
+                format!(
+                    "The gap of {size} is more than noise, and {known}.{place}{}",
+                    self.too_few()
+                )
             }
             (false, "residual") => format!(
                 "Nothing is found: no effect that was tried makes the gap of {size} smaller on \
-                 poses that no fit has seen."
+                 poses that no fit has seen.{}",
+                self.too_few()
             ),
             (false, _) => format!(
                 "The gap of {size} is noise ({}): of what this data could show, nothing is missing \
@@ -93,6 +100,20 @@ impl Screen<'_> {
                 shown.with_unit(self.noise())
             ),
         }
+    }
+
+    /// Why so few poses show nothing, whatever is wrong with the arm.
+    fn too_few(&self) -> String {
+        let poses = self.data.poses;
+        if poses >= LEAST_POSES {
+            return String::new();
+        }
+        let ways = 1 << poses.saturating_sub(1);
+        format!(
+            " At {} nothing can be found: chance alone does as well in one of {ways} cases, and a \
+             finding must be rarer than one in 20. Measure at {LEAST_POSES} poses or more.",
+            counted(poses, "pose")
+        )
     }
 
     /// The gap before and after, m (rad without positions).

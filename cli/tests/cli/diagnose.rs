@@ -142,6 +142,9 @@ fn no_finding_is_said_too() {
     assert!(!out.contains("Findings"), "{out}");
     let said = flat(&out);
     assert!(said.contains("no effect that was tried "), "{out}");
+    assert!(
+        said.contains("At 3 poses nothing can be found: chance alone does as well in one of 4")
+    );
     assert!(said.contains("joint compliance"), "{out}");
     assert!(said.contains("at joint 1: no load of this data reaches the joint"), "{out}");
     // Nor does anything where there is no gap.

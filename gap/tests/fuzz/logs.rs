@@ -32,10 +32,50 @@ const MAPS: [&str; 4] = [
 
 /// Pieces that a mutation puts in.
 const PIECES: [&str; 44] = [
-    "", " ", "\n", "\r", "\r\n", ",", ";", "\t", "\"", "\"\"", "#", "[", "]", "[]", "[,", "nan", "inf",
-    "-inf", "1e999", "1e308", "-1e308", "1e-320", "0", "-0", "-1", "1e12", "1,5", "+", "é", "\0",
-    "\u{feff}", "t", "q1", "q0", "q99999999999999999999", "q_cmd1", "tau1", "i1", "[deg]", "[rpm]", "run",
-    "contact", "torque_side = motor", "# torque_side = nothing\n",
+    "",
+    " ",
+    "\n",
+    "\r",
+    "\r\n",
+    ",",
+    ";",
+    "\t",
+    "\"",
+    "\"\"",
+    "#",
+    "[",
+    "]",
+    "[]",
+    "[,",
+    "nan",
+    "inf",
+    "-inf",
+    "1e999",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "0",
+    "-0",
+    "-1",
+    "1e12",
+    "1,5",
+    "+",
+    "é",
+    "\0",
+    "\u{feff}",
+    "t",
+    "q1",
+    "q0",
+    "q99999999999999999999",
+    "q_cmd1",
+    "tau1",
+    "i1",
+    "[deg]",
+    "[rpm]",
+    "run",
+    "contact",
+    "torque_side = motor",
+    "# torque_side = nothing\n",
 ];
 
 /// What is read is finite and in order, what is refused is said.
@@ -43,7 +83,10 @@ fn reads(bytes: &[u8], names: &Names) -> Result<(), TestCaseError> {
     match Log::from_bytes("log.csv", bytes, &ARM, names) {
         Ok(log) => {
             prop_assert!(!log.runs.is_empty());
-            prop_assert_eq!(log.samples, log.runs.iter().map(|r| r.t.len() + r.clock.repeated).sum());
+            prop_assert_eq!(
+                log.samples,
+                log.runs.iter().map(|r| r.t.len() + r.clock.repeated).sum()
+            );
             log.runs.iter().try_for_each(is_sound)?;
             prop_assert!(log.damaged.iter().all(|damaged| damaged.line > 0));
             prop_assert!(log.period().is_finite() && !log.remarks().iter().any(String::is_empty));
@@ -69,7 +112,9 @@ fn fuzz(cases: u32) {
     let own = Names::own(vec!["shoulder".to_owned(), "elbow".to_owned()]);
     let all: Vec<Names> = std::iter::once(own.clone())
         .chain(Names::formats().filter_map(|format| own.clone().of_format(format)))
-        .chain(MAPS.iter().filter_map(|map| Some(own.clone().mapped(Map::read("m.toml", map).ok()?))))
+        .chain(
+            MAPS.iter().filter_map(|map| Some(own.clone().mapped(Map::read("m.toml", map).ok()?))),
+        )
         .collect();
     let texts = mutated(&CORPUS, usize::MAX, &PIECES);
     answered(cases, &(texts, select(all.clone())), |(text, names)| reads(text.as_bytes(), &names));

@@ -10,9 +10,9 @@
 //!
 //! The first draws the arms of seeds 1 to 100, to work with; the second those of 1001 to 1100, which
 //! nobody tunes by. Both take many minutes, print a line for each arm and the sum, and assert the
-//! goals. `REALISTIC_SEEDS=7-12,101-150` draws these instead, up to 1000 of the first, of the second only its own; `REALISTIC_OUT=FOLDER` writes every
-//! arm's measurement file and truth, and `cases.json`, by which two states of the diagnosis can be
-//! compared case by case.
+//! goals. `REALISTIC_SEEDS=7-12,101-150` draws these instead: of the first any up to 1000, of the second
+//! some of its own. `REALISTIC_OUT=FOLDER` writes every arm's measurement file and truth, and
+//! `cases.json`, by which two states of the diagnosis can be compared case by case.
 
 mod case;
 mod draw;

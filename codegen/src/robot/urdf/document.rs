@@ -100,7 +100,7 @@ impl<'a> Element<'a> {
     fn said(self) -> String {
         let tag = self.node.tag_name().name();
         let name = self.node.attribute("name");
-        name.map_or_else(|| format!("<{tag}>"), |name| format!("{tag} `{name}`"))
+        name.map_or_else(|| format!("<{tag}>"), |name| format!("{tag} `{}`", name.escape_debug()))
     }
 
     fn refused(self, what: &str) -> Refusal {
@@ -112,6 +112,21 @@ impl<'a> Element<'a> {
 
     fn attribute(self, name: &str) -> Result<&'a str, Refusal> {
         self.node.attribute(name).ok_or_else(|| self.refused(&format!("has no {name}")))
+    }
+
+    /// A name: one line, as a robot file has it.
+    fn name(self) -> Result<String, Refusal> {
+        let found = self.attribute("name")?;
+        if found.chars().any(char::is_control) {
+            return Err(self.refused("has a control character in its name, expected none"));
+        }
+        Ok(found.to_owned())
+    }
+
+    /// The same of what is told from others by it.
+    fn own_name(self) -> Result<String, Refusal> {
+        let found = self.name()?;
+        if found.trim().is_empty() { Err(self.refused("has an empty name")) } else { Ok(found) }
     }
 
     /// A finite number.
@@ -169,7 +184,10 @@ impl<'a> Element<'a> {
         let version = self.node.attribute("version").and_then(|v| v.trim().parse::<f64>().ok());
         let unlimited = version.is_some_and(|version| version >= 1.2);
         Ok(Elements {
-            name: self.node.attribute("name").unwrap_or_default().to_owned(),
+            name: match self.node.has_attribute("name") {
+                true => self.name()?,
+                false => String::new(),
+            },
             links: self.children("link").map(Element::link).collect::<Result<_, _>>()?,
             joints: self
                 .children("joint")
@@ -179,7 +197,7 @@ impl<'a> Element<'a> {
     }
 
     fn link(self) -> Result<Link, Refusal> {
-        let name = self.attribute("name")?.to_owned();
+        let name = self.own_name()?;
         let Some(inertial) = self.child("inertial")? else {
             return Ok(Link { name, mass: 0.0, centre: Origin::default(), inertia: [0.0; 6] });
         };
@@ -201,7 +219,7 @@ impl<'a> Element<'a> {
         let link = |role| self.needed(role)?.attribute("link").map(str::to_owned);
         let mimic = self.child("mimic")?.map(|m| m.attribute("joint")).transpose()?;
         Ok(Joint {
-            name: self.attribute("name")?.to_owned(),
+            name: self.own_name()?,
             kind,
             origin: self.origin()?,
             parent: link("parent")?,

@@ -17,7 +17,7 @@ const CORPUS: [&str; 4] = [
 ];
 
 /// Pieces that a mutation puts in.
-const PIECES: [&str; 36] = [
+const PIECES: [&str; 38] = [
     "",
     " ",
     "\n",
@@ -32,6 +32,8 @@ const PIECES: [&str; 36] = [
     "&amp;",
     "&#0;",
     "&x;",
+    "&#10;",
+    "name=\"\"",
     "\0",
     "é",
     "0",
@@ -73,6 +75,19 @@ fn reads(text: &str) -> Result<(), TestCaseError> {
 
 fn fuzz(cases: u32) {
     answered(cases, &mutated(&CORPUS, usize::MAX, &PIECES), |text| reads(&text));
+}
+
+/// Found so: they made robot files that do not read back.
+#[test]
+fn a_name_is_one_line_that_is_not_empty() {
+    for (name, expected) in [
+        ("", "joint `` has an empty name"),
+        ("&#10;a", "joint `\\na` has a control character in its name"),
+    ] {
+        let text = CORPUS[0].replace("name=\"joint_a4\"", &format!("name=\"{name}\""));
+        let refusal = read(&text, false).map(|_| ()).unwrap_err();
+        assert!(refusal.message.contains(expected), "{}", refusal.message);
+    }
 }
 
 #[test]

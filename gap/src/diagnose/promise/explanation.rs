@@ -166,8 +166,7 @@ impl Explanation {
         }
         let each = data.rows.iter().enumerate();
         let inside = each.map(|(number, row)| {
-            self.covers.holds(row)
-                && self.spread.covers(&problem, &model, &after, number, &numbers)
+            self.covers.holds(row) && self.spread.covers(&problem, &model, &after, number, &numbers)
         });
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
     }
