@@ -161,15 +161,18 @@ fn strays(report: &LogReport) -> String {
         let named: Vec<String> = case.verdict.iter().flat_map(|v| &v.sets).map(set).collect();
         let left = case.verdict.as_ref().map_or(f64::NAN, |v| 100.0 * v.left);
         format!(
-            "  {:?} {} (×{:.1}) → {} [{left:.1} % left]\n",
+            "  {:?}{} {} (×{:.1}) → {} [{left:.1} % left]\n",
             case.asked.kind,
+            if case.is_open() { "" } else { ", closed," },
             case.asked.truth.as_deref().unwrap_or("nothing"),
             case.asked.multiple.unwrap_or_default(),
             named.join(", ")
         )
     };
+    let told = |case: &LogCase| case.verdict.as_ref().is_some_and(|v| v.unexplained);
     let is_stray = |case: &&LogCase| match case.asked.kind {
         Kind::None => case.verdict.as_ref().is_some_and(|v| !v.sets.is_empty()),
+        Kind::Removed => !told(case),
         _ => !case.is_right(),
     };
     report.cases.iter().filter(is_stray).map(|case| line(&case)).collect()

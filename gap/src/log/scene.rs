@@ -134,12 +134,12 @@ impl<'a> Scene<'a> {
 
     /// Which way a joint moves at a fine sample.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
-        self.signals.qd[joint][k].signum()
+        self.signals.way(k, |k| self.signals.qd[joint][k])
     }
 
     /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is
     /// one that has them in it.
-    fn modelled(&self, joint: usize, k: usize) -> f64 {
+    pub fn modelled(&self, joint: usize, k: usize) -> f64 {
         if !self.side.is_some_and(TorqueSide::is_driven) {
             return 0.0;
         }

@@ -10,7 +10,7 @@ use super::{Kind, Plan};
 use crate::effects::Effect;
 
 /// Up to this many times the noise a gap counts as closed.
-const CLOSED: f64 = 1.2;
+pub(super) const CLOSED: f64 = 1.2;
 
 /// The result of some cases.
 pub(super) fn report(

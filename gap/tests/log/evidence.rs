@@ -47,6 +47,9 @@ const STEP: f64 = 0.05;
 const COUNT: usize = 3000;
 const TIME: f64 = 0.5;
 
+/// By which nothing was chosen.
+const SEEDS: core::ops::Range<u64> = 20_000..20_500;
+
 fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     let mut dice = Dice::new(seed, Stream::Noise);
     let torque = vec![noise(&mut dice, COUNT, STEP, TIME, 1.0)];
@@ -78,8 +81,9 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
 #[test]
 fn a_slow_column_that_is_unrelated_is_seldom_taken_for_an_effect() {
     let arm = arm();
-    let trials: Vec<(f64, f64)> = (0..500).map(|seed| trial(seed, &arm)).collect();
+    let trials: Vec<(f64, f64)> = SEEDS.map(|seed| trial(seed, &arm)).collect();
     let taken = trials.iter().filter(|(chance, _)| *chance <= 0.05).count();
+    println!("{taken} of 500");
     assert!(taken <= 35, "{taken} of 500");
     // And it is no test that never speaks.
     assert!(taken >= 10, "{taken} of 500");

@@ -34,7 +34,9 @@ impl LogEffect for TorqueScale {
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         if spot != Spot::Arm {
             let joint = joint(spot);
-            return vec![scene.column(joint, |k| scene.loads.rigid[joint][k])];
+            return vec![
+                scene.column(joint, |k| scene.loads.rigid[joint][k] + scene.modelled(joint, k)),
+            ];
         }
         let known = scene.loads.known.iter().enumerate();
         let parts = known.map(|(joint, load)| (joint, scene.signals.filtered(load)));

@@ -131,10 +131,10 @@ impl<'s> Ground<'s> {
     pub fn candidates(&self, offers: &[usize]) -> Vec<Candidate> {
         let mut all: Vec<(Candidate, Beside)> =
             offers.par_iter().map(|offer| self.candidate(*offer)).collect();
-        let mut gains: Vec<f64> = all.iter().map(|(c, _)| c.gain / c.things()).collect();
+        let mut gains: Vec<f64> = all.iter().map(|(c, _)| c.takes()).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
         let least = gains.get(HELD_OUT).copied().unwrap_or(f64::NEG_INFINITY);
-        all.par_iter_mut().filter(|(c, _)| c.gain / c.things() > least).for_each(|(c, beside)| {
+        all.par_iter_mut().filter(|(c, _)| c.takes() > least).for_each(|(c, beside)| {
             c.squares = self.held_out(beside);
         });
         all.into_iter().map(|(candidate, _)| candidate).collect()
@@ -245,6 +245,11 @@ impl Candidate {
     /// What counts as one number: a direction does, however many it is told by.
     pub fn things(&self) -> f64 {
         self.term.effect.things() as f64
+    }
+
+    /// What it takes of the squares that are fitted, by each of its numbers.
+    pub fn takes(&self) -> f64 {
+        self.gain / self.things()
     }
 
     /// By how much its blocks pull together under signs, one a row: 1 on average where they do not.

@@ -8,6 +8,7 @@
 pub mod blocks;
 pub mod candidates;
 pub mod case;
+mod exchange;
 pub mod fit;
 pub mod grains;
 pub mod judge;
@@ -93,11 +94,36 @@ impl Round {
         let fit = Fitted::of(stock, &fit.terms, links, &fit.sizes(stock));
         let sizes = fit.sizes(stock);
         let correlation = fit.correlation(stock);
-        let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
-        let sums = stock.sums(&blocks);
-        let asked = Asked::of(stock, &fit, &sizes, (&blocks, &sums), offers, seed);
-        Round { fit, sizes, correlation, blocks, asked }
+        let ask = |correlation: &[f64], offers: &[usize]| {
+            let longest = correlation.iter().copied().fold(0.0, f64::max);
+            let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
+            let sums = stock.sums(&blocks);
+            let asked = Asked::of(stock, &fit, &sizes, (&blocks, &sums), offers, seed);
+            (blocks, asked)
+        };
+        let (blocks, asked) = ask(&correlation, offers);
+        let round = Round { fit: fit.clone(), sizes: sizes.clone(), correlation, blocks, asked };
+        if round.best().is_some() {
+            return round;
+        }
+        // What is left remembers long while something slow is missing, and few blocks tell nothing. Were the
+        // candidate that takes most unrelated, what is left would be left with it too: so long are the blocks.
+        let Some(most) = round.asked.most() else { return round };
+        let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
+        let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
+        let (blocks, mut asked) = ask(&correlation, offers);
+        if blocks.all.len() <= round.blocks.all.len() {
+            return round;
+        }
+        let others = asked.candidates.iter().map(|c| c.term.offer != most.term.offer);
+        asked
+            .chances
+            .iter_mut()
+            .zip(others)
+            .filter(|(_, other)| *other)
+            .for_each(|(p, _)| *p = 1.0);
+        let again = Round { correlation, blocks, asked, fit, sizes };
+        if again.best().is_some() { again } else { round }
     }
 
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
@@ -114,6 +140,12 @@ impl Round {
 }
 
 impl Asked {
+    /// The candidate that takes most by each of its numbers.
+    fn most(&self) -> Option<&Candidate> {
+        let may = self.candidates.iter().filter(|c| c.term.effect.may_be(&c.term.values));
+        may.max_by(|a, b| a.takes().total_cmp(&b.takes()))
+    }
+
     /// Asks a model for those of the offers that it lacks.
     fn of(
         stock: &Stock<'_>,
@@ -161,13 +193,13 @@ pub fn search(
         sizes = stock.sizes(&[stock.left(links, &[])], &[1.0]);
     }
     let mut terms = terms.to_vec();
+    let mut rounds = 0;
     loop {
         let round = Round::of(stock, &terms, links, &sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best().filter(|_| terms.len() < MOST) else { return round };
-        let added = best.term.clone();
-        terms = round.fit.terms;
-        terms.push(added);
+        let Some(best) = round.best().filter(|_| rounds < MOST) else { return round };
+        rounds += 1;
+        terms = exchange::added(stock, &round, &best.term, offers, seed);
         sizes = round.sizes;
     }
 }

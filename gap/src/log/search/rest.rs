@@ -22,7 +22,7 @@ const FLIPS: usize = 999;
 /// On what a rest may depend: of the joint itself, or of another.
 #[derive(Clone, Copy)]
 enum Of {
-    Angle,
+    Angle(usize),
     Speed(usize),
     Acceleration(usize),
     Load,
@@ -37,7 +37,7 @@ impl Of {
             false => format!("{name} of joint {}", k + 1),
         };
         match self {
-            Of::Angle => "angle".to_owned(),
+            Of::Angle(k) => of("angle", k),
             Of::Speed(k) => of("speed", k),
             Of::Acceleration(k) => of("acceleration", k),
             Of::Load => "load".to_owned(),
@@ -58,10 +58,24 @@ pub struct Rest {
     pub chance: f64,
 }
 
+/// A joint's rows, and what they may depend on.
+#[derive(Clone, Copy)]
+struct Asked {
+    joint: usize,
+    of: Of,
+}
+
+/// What is left, and what it may depend on.
+struct Left<'a> {
+    stock: &'a Stock<'a>,
+    /// At the rows of the sample, of each joint.
+    left: Vec<Vec<Option<f64>>>,
+    loads: Vec<Vec<Option<f64>>>,
+}
+
 /// Rows sorted into parts.
 struct Sorted {
-    joint: usize,
-    of: String,
+    asked: Asked,
     share: f64,
     /// Sums of what is left, of each block and part, told so that the squares of a part add up to one.
     sums: DMatrix<f64>,
@@ -69,54 +83,131 @@ struct Sorted {
 
 /// On what a verdict's rest depends; the largest share first.
 pub fn rests(stock: &Stock<'_>, verdict: &Verdict, seed: u64) -> Vec<Rest> {
-    let left = verdict.fit.sampled(stock);
-    let loads = asked(stock, &verdict.fit);
-    let signals = stock.case.signals;
-    let all: Vec<Sorted> = (0..left.len())
-        .into_par_iter()
+    let (left, loads) = (verdict.fit.sampled(stock), asked(stock, &verdict.fit));
+    let left = Left { stock, left, loads };
+    let joints = || 0..left.left.len();
+    let all: Vec<Asked> = joints()
         .flat_map(|joint| {
-            let joints = 0..left.len();
-            let others = joints.flat_map(|k| [Of::Speed(k), Of::Acceleration(k)]);
-            let of: Vec<Of> = [Of::Angle, Of::Load, Of::Time].into_iter().chain(others).collect();
-            let quantity = |of: Of| {
-                let kept = |of: &[f64]| signals.kept(of);
-                let rows = match of {
-                    Of::Angle => kept(&signals.q[joint]),
-                    Of::Speed(k) => kept(&signals.qd[k]),
-                    Of::Acceleration(k) => kept(&signals.qdd[k]),
-                    Of::Time => kept(&signals.t),
-                    Of::Load => Vec::new(),
-                };
-                let value = |k: usize| match of {
-                    Of::Load => loads[joint][k].unwrap_or(0.0),
-                    _ => rows[stock.rows[k]],
-                };
-                sorted(stock, &verdict.blocks, joint, of, &left[joint], value)
-            };
-            of.into_iter().filter_map(quantity).collect::<Vec<_>>()
+            let others = joints().flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
+            let of = [Of::Load, Of::Time].into_iter().chain(others);
+            of.map(move |of| Asked { joint, of })
         })
         .collect();
-    let count = verdict.blocks.all.len();
-    let mut dice = Dice::new(seed, Stream::Visits);
-    let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
-    let size = |sorted: &Sorted, signs: &DMatrix<f64>| -> Vec<f64> {
-        let pulls = signs * &sorted.sums;
-        pulls.row_iter().map(|row| row.norm_squared()).collect()
-    };
-    let mut largest = vec![0.0_f64; FLIPS];
-    for sorted in &all {
-        let sizes = size(sorted, &signs);
-        largest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
+    let (rests, largest) = left.rests(&all, &verdict.blocks, seed);
+    let Some(largest) = largest.filter(|_| rests.is_empty()) else { return rests };
+    // What depends on something slow remembers long, and few blocks tell nothing. Were it accident, what is
+    // left would be left without it too: so long are the blocks.
+    let correlation: Vec<f64> =
+        left.without(largest).iter().map(|rows| stock.correlation(rows)).collect();
+    let longest = correlation.into_iter().fold(0.0, f64::max);
+    let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
+    if blocks.all.len() <= verdict.blocks.all.len() {
+        return rests;
     }
-    let told = |sorted: &Sorted| {
-        let found = size(sorted, &DMatrix::repeat(1, count, 1.0))[0];
-        let as_good = largest.iter().filter(|x| **x >= found * (1.0 - 1e-12)).count();
-        let chance = (1 + as_good) as f64 / (FLIPS + 1) as f64;
-        Rest { joint: sorted.joint, of: sorted.of.clone(), share: sorted.share, chance }
-    };
-    let mut rests: Vec<Rest> = all.iter().map(told).filter(|rest| rest.chance <= CHANCE).collect();
-    rests.sort_by(|a, b| b.share.total_cmp(&a.share));
-    rests
+    let is_it =
+        |rest: &Rest| rest.joint == largest.joint && rest.of == largest.of.named(rest.joint);
+    left.rests(&all, &blocks, seed).0.into_iter().filter(is_it).collect()
+}
+
+impl Left<'_> {
+    /// What is left of some blocks' rows beyond chance; and on what most of it depends.
+    fn rests(&self, all: &[Asked], blocks: &Blocks, seed: u64) -> (Vec<Rest>, Option<Asked>) {
+        let all: Vec<Sorted> =
+            all.par_iter().filter_map(|asked| self.sorted(*asked, blocks)).collect();
+        let count = blocks.all.len();
+        let mut dice = Dice::new(seed, Stream::Visits);
+        let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
+        let size = |sorted: &Sorted, signs: &DMatrix<f64>| -> Vec<f64> {
+            let pulls = signs * &sorted.sums;
+            pulls.row_iter().map(|row| row.norm_squared()).collect()
+        };
+        let mut largest = vec![0.0_f64; FLIPS];
+        for sorted in &all {
+            let sizes = size(sorted, &signs);
+            largest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
+        }
+        let told = |sorted: &Sorted| {
+            let found = size(sorted, &DMatrix::repeat(1, count, 1.0))[0];
+            let as_good = largest.iter().filter(|x| **x >= found * (1.0 - 1e-12)).count();
+            let chance = (1 + as_good) as f64 / (FLIPS + 1) as f64;
+            let Asked { joint, of } = sorted.asked;
+            Rest { joint, of: of.named(joint), share: sorted.share, chance }
+        };
+        let mut rests: Vec<Rest> =
+            all.iter().map(told).filter(|rest| rest.chance <= CHANCE).collect();
+        rests.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let most = all.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        (rests, most.map(|sorted| sorted.asked))
+    }
+
+    /// Rows that count by what they are asked for, with their indices: equally many in each part.
+    fn parts(&self, Asked { joint, of }: Asked) -> Vec<Vec<usize>> {
+        let signals = self.stock.case.signals;
+        let rows = match of {
+            Of::Angle(k) => signals.kept(&signals.q[k]),
+            Of::Speed(k) => signals.kept(&signals.qd[k]),
+            Of::Acceleration(k) => signals.kept(&signals.qdd[k]),
+            Of::Time => signals.kept(&signals.t),
+            Of::Load => Vec::new(),
+        };
+        let value = |k: usize| match of {
+            Of::Load => self.loads[joint][k].unwrap_or(0.0),
+            _ => rows[self.stock.rows[k]],
+        };
+        let left = &self.left[joint];
+        let mut sorted: Vec<(f64, usize)> =
+            (0..left.len()).filter(|k| left[*k].is_some()).map(|k| (value(k), k)).collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let edge = |part: usize| sorted.len() * part / PARTS;
+        let part = |part| sorted[edge(part)..edge(part + 1)].iter().map(|row| row.1).collect();
+        (0..PARTS).map(part).collect()
+    }
+
+    fn mean(&self, joint: usize, rows: impl Iterator<Item = usize>) -> f64 {
+        let (sum, count) = rows
+            .filter_map(|k| self.left[joint][k])
+            .fold((0.0, 0.0), |(sum, count), left| (sum + left, count + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+
+    /// What would be left without the means of its parts.
+    fn without(&self, asked: Asked) -> Vec<Vec<Option<f64>>> {
+        let mut left = self.left.clone();
+        for part in self.parts(asked) {
+            let mean = self.mean(asked.joint, part.iter().copied());
+            for k in part {
+                left[asked.joint][k] = left[asked.joint][k].map(|left| left - mean);
+            }
+        }
+        left
+    }
+
+    fn sorted(&self, asked: Asked, blocks: &Blocks) -> Option<Sorted> {
+        let (stock, left) = (self.stock, &self.left[asked.joint]);
+        let block = |k: usize| stock.block_of(blocks, stock.rows[k]);
+        let mut parts = self.parts(asked);
+        parts.iter_mut().for_each(|part| part.retain(|k| block(*k).is_some()));
+        if parts.iter().any(Vec::is_empty) {
+            return None;
+        }
+        let rows = || parts.iter().flatten().copied();
+        let mean = self.mean(asked.joint, rows());
+        let beyond = |k: usize| left[k].map_or(0.0, |left| left - mean);
+        let whole: f64 = rows().map(|k| beyond(k).powi(2)).sum();
+        let mut sums = DMatrix::<f64>::zeros(blocks.all.len(), PARTS);
+        let mut explained = 0.0;
+        for (p, part) in parts.iter().enumerate() {
+            for k in part {
+                sums[(block(*k)?, p)] += beyond(*k);
+            }
+            explained += sums.column(p).sum().powi(2) / part.len() as f64;
+        }
+        for mut part in sums.column_iter_mut() {
+            let size = part.norm();
+            part /= if size > 0.0 { size } else { 1.0 };
+        }
+        Some(Sorted { asked, share: explained / whole.max(f64::MIN_POSITIVE), sums })
+    }
 }
 
 /// What a fit asks of each joint at the rows of the sample.
@@ -126,43 +217,4 @@ pub fn asked(stock: &Stock<'_>, fit: &Fitted) -> Vec<Vec<Option<f64>>> {
     values.push(1.0);
     // The target less what is left of it.
     stock.sampled(&columns, &values)
-}
-
-fn sorted(
-    stock: &Stock<'_>,
-    blocks: &Blocks,
-    joint: usize,
-    of: Of,
-    left: &[Option<f64>],
-    value: impl Fn(usize) -> f64,
-) -> Option<Sorted> {
-    let mut rows: Vec<(f64, f64, usize)> = left
-        .iter()
-        .enumerate()
-        .filter_map(|(k, left)| Some((value(k), (*left)?, stock.block_of(blocks, stock.rows[k])?)))
-        .collect();
-    if rows.len() < PARTS {
-        return None;
-    }
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let count = rows.len() as f64;
-    let mean = rows.iter().map(|row| row.1).sum::<f64>() / count;
-    let whole = rows.iter().map(|row| (row.1 - mean).powi(2)).sum::<f64>();
-    let mut sums = DMatrix::zeros(blocks.all.len(), PARTS);
-    let mut explained = 0.0;
-    for part in 0..PARTS {
-        let own = &rows[rows.len() * part / PARTS..rows.len() * (part + 1) / PARTS];
-        let mut total = 0.0;
-        for (_, left, block) in own {
-            sums[(*block, part)] += left - mean;
-            total += left - mean;
-        }
-        explained += total * total / own.len() as f64;
-    }
-    for mut part in sums.column_iter_mut() {
-        let size = part.norm();
-        part /= if size > 0.0 { size } else { 1.0 };
-    }
-    let of = of.named(joint);
-    Some(Sorted { joint, of, share: explained / whole.max(f64::MIN_POSITIVE), sums })
 }

@@ -1,18 +1,11 @@
-//! What a joint's drive is besides the links: friction with a memory, rotor, springs, ripple.
+//! What a joint's drive is besides the links: friction, rotor, springs, ripple.
 //!
-//! Friction is a bristle that bends as the joint begins to move and slides when it is bent all the way
-//! (Dahl 1968; LuGre without its damping, Canudas de Wit et al. 1995): `z' = (v − |v| z)/travel`, the
-//! torque `level(v) · z`. A joint at rest keeps its bristle, and so whatever torque holds it.
+//! Friction is dry: a joint that slides is braked by what its speed, load and time say, and one that stands
+//! is held by whatever it takes up to that ([`super::stick`]). What is planted to build up over a distance
+//! is a bristle that bends as the joint moves (Dahl 1968): `z' = (v − |v| z)/distance`, the torque `size · z`.
 
 use super::truth::MotionTruth;
 use stiffarm_kernels::generic;
-
-/// How far a bristle bends where nothing is said of it, rad or m: less than an encoder tells. One of a tenth of
-/// a milliradian takes some ten milliseconds to bend behind a reversal, and is found in a log.
-const SHORT: f64 = 1e-5;
-
-/// A bristle is no stiffer than a step can follow: it turns what moves in it through this angle in one.
-const TURN: f64 = 0.3;
 
 /// The numbers of one drive.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +20,7 @@ pub(super) struct Drive {
     root: f64,
     /// Torques, and the speeds at which they have gone.
     stribeck: Vec<[f64; 2]>,
-    /// Parts of the friction that a bristle longer than usual has, and how long it is.
+    /// Parts of the friction that bristles have, and how far they bend.
     presliding: Vec<[f64; 2]>,
     load: f64,
     /// Cosine and sine of the joint's value.
@@ -41,14 +34,16 @@ pub(super) struct Drive {
     pub(super) saturation: f64,
 }
 
-/// The bristles of one drive: each from −1 to 1.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Bristles {
-    short: f64,
-    long: Vec<f64>,
+/// What a drive remembers.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    /// Which way it moved last: −1, 0 before it moves, 1.
+    pub(super) way: f64,
+    /// Each from −1 to 1.
+    bristles: Vec<f64>,
 }
 
-/// What friction depends on beside its bristles.
+/// What friction depends on beside what it remembers.
 #[derive(Clone, Copy)]
 pub(super) struct Sliding {
     pub(super) rate: f64,
@@ -103,21 +98,40 @@ impl Drive {
         }
     }
 
-    /// Torque against the motion.
-    pub(super) fn friction(&self, at: Sliding, bristles: &Bristles) -> f64 {
+    /// Why there is no such drive, in words.
+    pub(super) fn fault(&self) -> Option<String> {
+        let bristles: f64 = self.presliding.iter().map(|[size, _]| size).sum();
+        let least = self.coulomb - self.asymmetry.abs() - bristles;
+        (least < 0.0).then(|| {
+            format!(
+                "its Coulomb friction is {} N·m, and {} N·m of it are to build up by and by or to be there one \
+                 way alone: make these smaller, or give it `coulomb`",
+                self.coulomb,
+                self.coulomb - least
+            )
+        })
+    }
+
+    /// Dry friction where it slides backwards, and forwards; where it stands it is between them.
+    pub(super) fn dry(&self, at: Sliding) -> [f64; 2] {
         let speed = at.rate.abs();
         let stribeck = |[size, over]: &[f64; 2]| size * (-(speed / over).powi(2)).exp();
-        let warm = 1.0 + self.warming * at.time;
-        let level = warm * self.coulomb
-            + self.asymmetry * bristles.short.signum()
+        let level = self.warm(at) * self.coulomb
             + self.root * speed.sqrt()
             + self.load * at.load.abs()
-            + self.stribeck.iter().map(stribeck).sum::<f64>();
-        // Of the whole level the long bristles carry their parts.
-        let late = |([size, _], z): (&[f64; 2], &f64)| size * (z - bristles.short);
-        level * bristles.short
-            + self.presliding.iter().zip(&bristles.long).map(late).sum::<f64>()
-            + warm * self.viscous * at.rate
+            + self.stribeck.iter().map(stribeck).sum::<f64>()
+            - self.presliding.iter().map(|[size, _]| size).sum::<f64>();
+        [(self.asymmetry - level).min(0.0), (self.asymmetry + level).max(0.0)]
+    }
+
+    /// What else brakes it: bristles, and what goes with its rate.
+    pub(super) fn smooth(&self, at: Sliding, memory: &Memory) -> f64 {
+        let bent = self.presliding.iter().zip(&memory.bristles).map(|([size, _], z)| size * z);
+        bent.sum::<f64>() + self.warm(at) * self.viscous * at.rate
+    }
+
+    fn warm(&self, at: Sliding) -> f64 {
+        1.0 + self.warming * at.time
     }
 
     /// What else the joint is held by.
@@ -132,31 +146,23 @@ impl Drive {
     pub(super) fn told(&self, torque: f64) -> f64 {
         (1.0 + self.scale) * torque * (1.0 + self.saturation * torque.abs()) + self.offset
     }
-
-    /// How far the usual bristle bends in front of an inertia, at steps of so long.
-    pub(super) fn travel(&self, inertia: f64, step: f64) -> f64 {
-        SHORT.max(self.coulomb * (step / TURN).powi(2) / inertia)
-    }
 }
 
-impl Bristles {
-    /// Of a drive whose joint begins to move that way.
-    pub(super) fn of(drive: &Drive, way: f64) -> Bristles {
-        Bristles { short: way, long: vec![way; drive.presliding.len()] }
+impl Memory {
+    /// Of a drive that begins at this rate.
+    pub(super) fn of(drive: &Drive, rate: f64) -> Memory {
+        let way = if rate == 0.0 { 0.0 } else { rate.signum() };
+        Memory { way, bristles: vec![way; drive.presliding.len()] }
     }
 
-    /// After a step at an even rate, exactly.
-    pub(super) fn bend(&mut self, drive: &Drive, travel: f64, rate: f64, step: f64) {
+    /// Goes on by a step at an even rate: bristles bend, exactly.
+    pub(super) fn bend(&mut self, drive: &Drive, rate: f64, step: f64) {
         if rate == 0.0 {
             return;
         }
-        let towards = |z: f64, over: f64| {
-            let end = rate.signum();
-            end + (z - end) * (-rate.abs() * step / over).exp()
-        };
-        self.short = towards(self.short, travel);
-        for (z, [_, over]) in self.long.iter_mut().zip(&drive.presliding) {
-            *z = towards(*z, *over);
+        self.way = rate.signum();
+        for (z, [_, over]) in self.bristles.iter_mut().zip(&drive.presliding) {
+            *z = self.way + (*z - self.way) * (-rate.abs() * step / over).exp();
         }
     }
 }

@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 use stiffarm_kernels::generic::Arm;
 
 use super::body::{Body, Piece};
-use super::drive::{Bristles, Drive, Sliding};
+use super::drive::{Drive, Memory, Sliding};
 use super::laws::Spot;
+use super::stick::{Slider, braked};
 use super::truth::MotionTruth;
 
 /// A motor that turns with two joints, as they feel it beside what is each one's own.
@@ -29,9 +30,6 @@ pub(super) struct Machine {
     gravity: Vector3<f64>,
     /// By which torques are told late, or commands followed, s.
     pub(super) delay: f64,
-    /// Of bristles before it moves, one for each joint, one for each shared motor.
-    travel: Vec<f64>,
-    of_shared: Vec<f64>,
     step: f64,
 }
 
@@ -41,8 +39,12 @@ pub(super) struct Moving {
     pub(super) time: f64,
     pub(super) q: Vec<f64>,
     pub(super) qd: Vec<f64>,
-    bristles: Vec<Bristles>,
-    of_shared: Vec<Bristles>,
+    /// Of the last step.
+    qdd: Vec<f64>,
+    /// Since when the rates are those, s: while it is driven they are told between steps.
+    since: f64,
+    /// Of each joint's drive, then of each shared motor.
+    memories: Vec<Memory>,
     /// What the links asked of the joints last.
     pub(super) loads: Vec<f64>,
 }
@@ -51,7 +53,7 @@ impl Machine {
     /// The robot file's arm with these truths, to be followed in steps of so long.
     ///
     /// # Errors
-    /// In words: a joint that moves no mass.
+    /// In words: a joint that moves no mass, or friction that drives.
     pub(super) fn new(arm: &Arm, truths: &[MotionTruth], step: f64) -> Result<Machine, String> {
         let mut machine = Machine {
             body: Body::of(arm),
@@ -59,12 +61,10 @@ impl Machine {
             shared: Vec::new(),
             gravity: arm.gravity,
             delay: 0.0,
-            travel: Vec::new(),
-            of_shared: Vec::new(),
             step,
         };
         truths.iter().for_each(|truth| machine.put(truth));
-        machine.bristle()?;
+        machine.checked()?;
         Ok(machine)
     }
 
@@ -96,25 +96,18 @@ impl Machine {
         }
     }
 
-    /// Bristles that the steps can follow, by the inertias of a usual posture.
-    fn bristle(&mut self) -> Result<(), String> {
+    fn checked(&self) -> Result<(), String> {
         let usual = self.body.posture(&vec![0.7; self.drives.len()]);
-        let masses = self.with_motors(self.body.masses(&usual));
-        if masses.clone().cholesky().is_none() {
+        if self.with_motors(self.body.masses(&usual)).cholesky().is_none() {
             return Err(
                 "the arm's joints move no mass, or a motor that two share outweighs them: \
                         give its rows `mass`, `com` and `inertia`, or `rotor_inertia`"
                     .to_owned(),
             );
         }
-        // What a joint feels where all others are free is the least that it does.
-        let free = masses.try_inverse().unwrap_or_else(|| DMatrix::identity(1, 1));
-        let inertia = |joint: usize| 1.0 / free[(joint, joint)];
-        let drives = self.drives.iter().enumerate();
-        self.travel = drives.map(|(j, drive)| drive.travel(inertia(j), self.step)).collect();
-        let least = |s: &Shared| inertia(s.joints[0]).min(inertia(s.joints[1]));
-        self.of_shared = self.shared.iter().map(|s| s.brake.travel(least(s), self.step)).collect();
-        Ok(())
+        let mut faults = self.drives.iter().enumerate();
+        let fault = faults.find_map(|(j, drive)| Some((j + 1, drive.fault()?)));
+        fault.map_or(Ok(()), |(joint, fault)| Err(format!("joint {joint}: {fault}")))
     }
 
     /// What accelerates beside the links.
@@ -131,15 +124,16 @@ impl Machine {
 
     /// At the start of a run.
     pub(super) fn at(&self, q: &[f64], qd: &[f64]) -> Moving {
-        let way = |rate: f64| if rate == 0.0 { 0.0 } else { rate.signum() };
-        let bristles = self.drives.iter().zip(qd).map(|(d, v)| Bristles::of(d, way(*v)));
+        let own = self.drives.iter().zip(qd).map(|(drive, rate)| Memory::of(drive, *rate));
+        let shared = self.shared.iter().map(|s| Memory::of(&s.brake, s.rate(qd)));
         let still = vec![0.0; q.len()];
         Moving {
             time: 0.0,
             q: q.to_vec(),
             qd: qd.to_vec(),
-            bristles: bristles.collect(),
-            of_shared: self.shared.iter().map(|s| Bristles::of(&s.brake, 0.0)).collect(),
+            qdd: still.clone(),
+            since: 0.0,
+            memories: own.chain(shared).collect(),
             loads: self.links(q, &still, &still),
         }
     }
@@ -149,27 +143,49 @@ impl Machine {
         self.body.torques(&self.body.posture(q), qd, qdd, &self.gravity)
     }
 
-    /// What holds each joint back beside its links and rotors.
-    fn held(&self, now: &Moving) -> Vec<f64> {
+    /// What holds each joint back beside its links and rotors and dry friction.
+    fn held(&self, now: &Moving, rates: &[f64]) -> Vec<f64> {
         let own = |(j, drive): (usize, &Drive)| {
-            let at = Sliding { rate: now.qd[j], load: now.loads[j], time: now.time };
-            drive.friction(at, &now.bristles[j]) + drive.springs(now.q[j])
+            drive.smooth(now.sliding(j, rates[j]), &now.memories[j]) + drive.springs(now.q[j])
         };
         let mut held: Vec<f64> = self.drives.iter().enumerate().map(own).collect();
-        for (shared, bristles) in self.shared.iter().zip(&now.of_shared) {
-            let [a, b] = shared.joints;
-            let at = Sliding { rate: shared.rate(&now.qd), load: 0.0, time: now.time };
-            let brake = shared.brake.friction(at, bristles);
-            held[a] += brake + shared.sum * shared.viscous * now.qd[b];
-            held[b] += shared.sum * (brake + shared.viscous * now.qd[a]);
+        for Shared { joints: [a, b], sum, viscous, .. } in &self.shared {
+            held[*a] += sum * viscous * rates[*b];
+            held[*b] += sum * viscous * rates[*a];
         }
         held
+    }
+
+    /// What has dry friction: joints, then shared motors.
+    fn sliders(&self, now: &Moving, rates: &[f64]) -> Vec<Slider> {
+        let along = |of: &[(usize, f64)]| {
+            let mut along = DVector::zeros(rates.len());
+            of.iter().for_each(|(joint, times)| along[*joint] = *times);
+            along
+        };
+        let own = self.drives.iter().enumerate().map(|(j, drive)| Slider {
+            along: along(&[(j, 1.0)]),
+            dry: drive.dry(now.sliding(j, rates[j])),
+        });
+        let shared = self.shared.iter().map(|shared| Slider {
+            along: along(&[(shared.joints[0], 1.0), (shared.joints[1], shared.sum)]),
+            dry: shared.brake.dry(Sliding { rate: shared.rate(rates), load: 0.0, time: now.time }),
+        });
+        own.chain(shared).collect()
     }
 
     /// What the motors give for accelerations.
     pub(super) fn needed(&self, now: &mut Moving, qdd: &[f64]) -> Vec<f64> {
         now.loads = self.links(&now.q, &now.qd, qdd);
-        let mut torques = self.held(now);
+        self.bend(now, 0.0);
+        let mut torques = self.held(now, &now.qd);
+        for (slider, memory) in self.sliders(now, &now.qd).iter().zip(&now.memories) {
+            let dry = slider.against(memory.way);
+            torques
+                .iter_mut()
+                .zip(&slider.along)
+                .for_each(|(torque, along)| *torque += along * dry);
+        }
         for ((torque, load), (drive, qdd)) in
             torques.iter_mut().zip(&now.loads).zip(self.drives.iter().zip(qdd))
         {
@@ -182,40 +198,45 @@ impl Machine {
         torques
     }
 
-    /// The accelerations that torques of the motors bring about; none where a joint moves no mass.
+    /// The accelerations that torques of the motors bring about; none where a joint moves no mass. Rates
+    /// are those between steps: what goes with them asks them as they are by now.
     pub(super) fn driven(&self, now: &mut Moving, torques: &[f64]) -> Option<Vec<f64>> {
         let posture = self.body.posture(&now.q);
         let still = vec![0.0; now.q.len()];
-        let bias = self.body.torques(&posture, &now.qd, &still, &self.gravity);
-        let held = self.held(now);
+        let rates: Vec<f64> =
+            now.qd.iter().zip(&now.qdd).map(|(qd, qdd)| qd + now.since * qdd).collect();
+        let bias = self.body.torques(&posture, &rates, &still, &self.gravity);
+        let held = self.held(now, &rates);
         let free = torques.iter().zip(&bias).zip(&held).map(|((t, b), h)| t - b - h);
         let free = DVector::from_iterator(torques.len(), free);
         let links = self.body.masses(&posture);
-        let solved = self.with_motors(links.clone()).cholesky()?.solve(&free);
+        let inverse = self.with_motors(links.clone()).cholesky()?.inverse();
+        let sliders = self.sliders(now, &rates);
+        let before = DVector::from_column_slice(&now.qd);
+        let span = now.since + 0.5 * self.step;
+        let solved = braked(&sliders, &inverse, &before, &inverse * free, span)?;
         // What the links ask with it is the bias and their share of the inertias.
         now.loads = bias.iter().zip((links * &solved).iter()).map(|(b, l)| b + l).collect();
         Some(solved.iter().copied().collect())
     }
 
-    /// Goes on by a step with these accelerations.
+    /// Goes on by a step with these accelerations (leapfrog: Störmer 1907, Verlet 1967).
     pub(super) fn step(&self, now: &mut Moving, qdd: &[f64]) {
         for ((q, qd), qdd) in now.q.iter_mut().zip(&mut now.qd).zip(qdd) {
-            *qd += qdd * self.step;
+            *qd += qdd * (now.since + 0.5 * self.step);
             *q += *qd * self.step;
         }
+        (now.qdd, now.since) = (qdd.to_vec(), 0.5 * self.step);
         self.bend(now, self.step);
     }
 
-    /// Bends the bristles for so long at the rates that there are.
+    /// Goes on for so long at the rates that there are: what drives remember.
     pub(super) fn bend(&self, now: &mut Moving, step: f64) {
         now.time += step;
-        for (j, bristles) in now.bristles.iter_mut().enumerate() {
-            bristles.bend(&self.drives[j], self.travel[j], now.qd[j], step);
-        }
-        for ((shared, bristles), travel) in
-            self.shared.iter().zip(&mut now.of_shared).zip(&self.of_shared)
-        {
-            bristles.bend(&shared.brake, *travel, shared.rate(&now.qd), step);
+        let own = self.drives.iter().zip(now.qd.iter().copied());
+        let shared = self.shared.iter().map(|s| (&s.brake, s.rate(&now.qd)));
+        for ((drive, rate), memory) in own.chain(shared).zip(&mut now.memories) {
+            memory.bend(drive, rate, step);
         }
     }
 
@@ -241,5 +262,11 @@ impl Shared {
     fn rate(&self, qd: &[f64]) -> f64 {
         let [a, b] = self.joints;
         qd[a] + self.sum * qd[b]
+    }
+}
+
+impl Moving {
+    fn sliding(&self, joint: usize, rate: f64) -> Sliding {
+        Sliding { rate, load: self.loads[joint], time: self.time }
     }
 }

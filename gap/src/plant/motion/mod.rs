@@ -1,8 +1,8 @@
 //! A plant that moves: the real arm with chosen effects, to be logged for a diagnosis that is not told.
 //!
 //! It shares with the diagnosis of logs the robot file's table, and names, places and numbers of the
-//! effects; nothing else. Its links are a recursion of their own (`body`), friction has a memory
-//! (`drive`), and a torque log comes of an arm that its controller drives with coarse encoders
+//! effects; nothing else. Its links are a recursion of their own (`body`), friction is dry and
+//! sticks (`drive`, `stick`), and a torque log comes of an arm that its controller drives with coarse encoders
 //! (`control`): nobody differentiates, and nothing is linear in what is looked for. A position log is
 //! that of servos (`servo`).
 
@@ -15,6 +15,7 @@ pub mod links;
 mod machine;
 mod record;
 mod servo;
+mod stick;
 mod text;
 mod truth;
 
@@ -35,8 +36,8 @@ use crate::motion::Course;
 use control::Track;
 use machine::Machine;
 
-/// Steps are no longer than this, s: bristles that no encoder sees are stiff.
-const STEP: f64 = 2.5e-4;
+/// Steps are no longer than this, s: what changes within one is told to the second order.
+const STEP: f64 = 5e-4;
 
 /// What a log tells beside the joints' values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,6 +8,7 @@ use super::rigid::Rigid;
 use super::run::plant;
 use super::{LogPlan, LogWithholdError};
 use crate::dice::Dice;
+use crate::effects::{Counterbalance, Effect, Place};
 use crate::motion::Course;
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, Spot};
 
@@ -87,12 +88,17 @@ impl<'a> Bench<'a> {
         spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, dice))
     }
 
-    /// Where an effect may be put. Of runs only those that are told to hold something may hold more.
+    /// Where an effect may be put. Of runs only those that are told to hold something may hold more, and
+    /// nobody balances a joint that no weight turns.
     fn spots(&self, law: &Law) -> Vec<Spot> {
         let LogPlan { arm, stages, .. } = self.plan;
         let mut spots = law.spots(arm, stages.len());
+        let balanced = || Counterbalance.places(arm).into_iter().map(Place::row);
         spots.retain(|spot| match spot {
             Spot::Tool(run) => stages[*run].payload.is_some(),
+            Spot::Joint(joint) if law.name == "counterbalance" => {
+                balanced().any(|row| row == *joint)
+            }
             _ => true,
         });
         spots
@@ -122,16 +128,24 @@ impl<'a> Bench<'a> {
             }
         }
         let close = (found / multiple - 1.0).abs() < 0.2 && all <= LARGEST * self.spread;
-        (close && !self.bends(&truth)).then_some(Planted { truth, multiple: found })
+        (close && self.may_be(&truth)).then_some(Planted { truth, multiple: found })
     }
 
-    /// Whether a drive gives way too far.
-    fn bends(&self, truth: &MotionTruth) -> bool {
-        let ("joint_elasticity", Spot::Joint(joint)) = (truth.law.name, truth.spot) else {
-            return false;
-        };
+    /// Whether there is such a thing: gears that give way little and do not hold themselves, iron that
+    /// saturates by less than what is given, friction that is there at the end.
+    fn may_be(&self, truth: &MotionTruth) -> bool {
+        let Spot::Joint(joint) = truth.spot else { return true };
         let given = self.nominal.iter().flat_map(|run| &run[joint]);
-        truth.values[0] * given.fold(0.0_f64, |most, x| most.max(x.abs())) > BENT
+        let given = given.fold(0.0_f64, |most, x| most.max(x.abs()));
+        let size = truth.values[0].abs();
+        let longest = self.plan.stages.iter().map(|stage| stage.course.duration());
+        match truth.law.name {
+            "joint_elasticity" => size * given < BENT,
+            "load_friction" | "torque_scale" => size < 1.0,
+            "torque_saturation" => size * given < 1.0,
+            "warm_up" => size * longest.fold(0.0, f64::max) / 60.0 < 1.0,
+            _ => true,
+        }
     }
 
     fn sizes(&self, truth: &MotionTruth) -> Result<[f64; 2], MotionError> {

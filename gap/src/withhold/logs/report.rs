@@ -7,7 +7,7 @@ use crate::log::LogDiagnosis;
 use crate::plant::motion::Law;
 use crate::withhold::Kind;
 use crate::withhold::report::{Confusion, Named, Rate, Single};
-use crate::withhold::summary::confusion;
+use crate::withhold::summary::{CLOSED, confusion};
 
 /// The result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,6 +38,8 @@ pub struct LogReport {
     pub single: Single,
     /// Cases whose effect the diagnosis does not know, in which it found something unexplained.
     pub removed_flagged: Rate,
+    /// Of those in which what it knows does not do as well.
+    pub removed_flagged_of_open: Rate,
     /// Of single effects: what was named first how often, most frequent first.
     pub confusion: Vec<Confusion>,
     /// Effects that were to be put in and show nothing in this motion at any place.
@@ -57,6 +59,8 @@ pub struct LogVerdict {
     pub unexplained: bool,
     /// What is left, as a part of the joints' spreads: their mean.
     pub left: f64,
+    /// Of each joint, N·m (N) or rad (m).
+    pub after: Vec<f64>,
 }
 
 /// What was asked.
@@ -80,6 +84,9 @@ pub struct LogCase {
     pub asked: Asked,
     /// What the diagnosis said.
     pub verdict: Option<LogVerdict>,
+    /// Of an effect that it does not know: what it said of the same log without the effect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without: Option<LogVerdict>,
     /// Why it said nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
@@ -97,6 +104,7 @@ impl LogVerdict {
             sets: sets.collect(),
             unexplained: found.unexplained.present,
             left: left / found.gap.len() as f64,
+            after: found.gap.iter().map(|gap| gap.after).collect(),
         }
     }
 }
@@ -122,6 +130,16 @@ impl LogCase {
 
     fn is_unexplained(&self) -> bool {
         self.verdict.as_ref().is_some_and(|verdict| verdict.unexplained)
+    }
+
+    /// Whether something of an effect that the diagnosis does not know is left to be told: as much as it takes
+    /// for a gap of a campaign to be open.
+    pub fn is_open(&self) -> bool {
+        let Some((verdict, without)) = self.verdict.as_ref().zip(self.without.as_ref()) else {
+            return true;
+        };
+        let mut pairs = verdict.after.iter().zip(&without.after);
+        self.is_unexplained() || pairs.any(|(after, without)| *after > CLOSED * without)
     }
 }
 
@@ -156,6 +174,9 @@ impl LogReport {
                 more_than_one: Rate::of(single().map(|case| case.sets().len() > 1)),
             },
             removed_flagged: Rate::of(of(Kind::Removed).map(LogCase::is_unexplained)),
+            removed_flagged_of_open: Rate::of(
+                of(Kind::Removed).filter(|case| case.is_open()).map(LogCase::is_unexplained),
+            ),
             confusion: confusion(named),
             cannot_plant: hidden.iter().map(|law| law.name).collect(),
             failed: cases.iter().filter(|case| case.verdict.is_none()).count(),

@@ -93,11 +93,12 @@ fn one(bench: &Bench<'_>, effects: &[&'static Law], k: usize) -> Result<LogCase,
         label: planted.as_ref().map(|p| Named::new(p.truth.law.name, &p.truth.spot)),
         multiple: planted.as_ref().map(|p| p.multiple),
     };
-    let told = text(plan, planted.as_ref(), seed)?;
-    let found = diagnosed(plan, &told, &options(plan, &asked, seed));
-    Ok(match found {
-        Ok(verdict) => LogCase { asked, verdict: Some(verdict), error: None },
-        Err(error) => LogCase { asked, verdict: None, error: Some(error) },
+    let options = options(plan, &asked, seed);
+    let found = |planted| Ok(diagnosed(plan, &text(plan, planted, seed)?, &options));
+    let without = if kind == Kind::Removed { found(None)?.ok() } else { None };
+    Ok(match found(planted.as_ref())? {
+        Ok(verdict) => LogCase { asked, verdict: Some(verdict), without, error: None },
+        Err(error) => LogCase { asked, verdict: None, without, error: Some(error) },
     })
 }
 
