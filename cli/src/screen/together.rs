@@ -31,10 +31,9 @@ pub fn cells(joined: &Joined) -> [String; 4] {
     let size = Size::of(joined.unit, most);
     let shown = |spring: &Spring| {
         let digits = decimals(spring.half_width() / size.si, 2);
-        let [value, low, high] =
-            [spring.value, spring.ci95[0], spring.ci95[1]].map(|x| fixed(x / size.si, digits));
+        let [value, half] = [spring.value, spring.half_width()].map(|x| fixed(x / size.si, digits));
         let beside = if spring.found { "" } else { ", no finding" };
-        format!("{value} [{low} to {high}] {}{beside}", size.name)
+        format!("{value} ± {half} {}{beside}", size.name)
     };
     let both = joined.together.as_ref().map_or_else(|| "they differ".to_owned(), shown);
     [joined.place.clone(), shown(&joined.at_rest), shown(&joined.in_motion), both]
