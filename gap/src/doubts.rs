@@ -90,7 +90,8 @@ pub(crate) fn beyond<I: Iterator<Item = f64>>(
     let inside = |j: usize, q: f64| limits[j][0] - 0.01 <= q && q <= limits[j][1] + 0.01;
     // In more than half of the rows.
     let most = |j: usize, is: &dyn Fn(f64) -> bool| {
-        let (those, all) = readings(j).fold((0, 0), |(n, all), q| (n + usize::from(is(q)), all + 1));
+        let (those, all) =
+            readings(j).fold((0, 0), |(n, all), q| (n + usize::from(is(q)), all + 1));
         2 * those > all
     };
     let beyond: Vec<usize> = (0..arm.dof()).filter(|&j| most(j, &|q| !inside(j, q))).collect();

@@ -4,7 +4,9 @@ use stiffarm_gap::spring::{Joined, Spring};
 
 use super::{Size, WIDTH, words};
 use crate::diagnose::Said;
-use crate::terminal::text::{Align, bad, bold, decimals, dim, fixed, good, indented, table, wrapped};
+use crate::terminal::text::{
+    Align, bad, bold, decimals, dim, fixed, good, indented, table, wrapped,
+};
 
 /// Behind both screens.
 pub fn text(said: &Said) -> String {
@@ -49,7 +51,9 @@ pub fn sentences(said: &Said) -> Vec<String> {
     let gives = |joined: &Joined| joined.at_rest.value - joined.in_motion.value;
     let mut sentences = Vec::new();
     if said.springs.is_empty() {
-        sentences.push("Neither has found a joint's spring of which the other tells something.".to_owned());
+        sentences.push(
+            "Neither has found a joint's spring of which the other tells something.".to_owned(),
+        );
     }
     if let Some(places) = named(&|j| j.together.is_some()) {
         sentences.push(format!(

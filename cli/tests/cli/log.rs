@@ -143,7 +143,8 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
-    let plain = stiffarm(&[&["diagnose", &robot, &log, "--torque-side", "motor"], &only[..]].concat());
+    let plain =
+        stiffarm(&[&["diagnose", &robot, &log, "--torque-side", "motor"], &only[..]].concat());
     assert!(!plain.good().contains("searched anew"));
 }
 
@@ -169,6 +170,7 @@ fn degrees_and_slow_logs_are_told() {
     assert!(out.contains("latency at the interface: a sample every 100 ms is held"), "{out}");
     assert!(out.contains("presliding at joint 1: its reversals are over in"), "{out}");
     let fast = file("fast.csv", 1, 1.0);
-    let out = stiffarm(&[&["diagnose", &robot, &fast][..], &few, &["--band", "20Hz"]].concat()).good();
+    let out =
+        stiffarm(&[&["diagnose", &robot, &fast][..], &few, &["--band", "20Hz"]].concat()).good();
     assert!(!out.contains("its reversals are over in"), "{out}");
 }
