@@ -63,7 +63,7 @@ pub struct Args {
     #[arg(
         long,
         group = "moved",
-        conflicts_with_all = ["report", "design", "poses", "payload", "repeats", "measure",
+        conflicts_with_all = ["design", "poses", "payload", "repeats", "measure",
                               "noise_position", "noise_rotation"]
     )]
     motion: bool,

@@ -45,7 +45,8 @@ const STIFFEST: f64 = 3e6;
 pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String> {
     let reach = reach(arm);
     let mut doubts = Vec::new();
-    doubts.extend(readings(arm, data));
+    let readings = |joint: usize| data.rows.iter().map(move |row| row.q[joint]);
+    doubts.extend(beyond(arm, &data.file, readings));
     doubts.extend(angles(data));
     if reach > 0.0 {
         doubts.extend(lengths(data, reach));
@@ -73,7 +74,12 @@ fn most(data: &Measurements, is: impl Fn(&Row) -> bool) -> bool {
     2 * data.rows.iter().filter(|row| is(row)).count() > data.rows.len()
 }
 
-fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
+/// Joint values beyond what the joints can do, of a campaign or a log.
+pub(crate) fn beyond<I: Iterator<Item = f64>>(
+    arm: &Arm,
+    file: &str,
+    readings: impl Fn(usize) -> I,
+) -> Option<String> {
     let limits = |joint: &Joint| match (joint.limits, joint.motion) {
         (Some(limits), _) => limits,
         (None, Motion::Revolute) => [-MOST_RADIANS, MOST_RADIANS],
@@ -82,9 +88,14 @@ fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
     let limits: Vec<[f64; 2]> = arm.joints.iter().map(limits).collect();
     // Half a degree beyond is how a limit was rounded.
     let inside = |j: usize, q: f64| limits[j][0] - 0.01 <= q && q <= limits[j][1] + 0.01;
-    let beyond: Vec<usize> =
-        (0..arm.dof()).filter(|&j| most(data, |row| !inside(j, row.q[j]))).collect();
-    let farthest = |j: usize| data.rows.iter().map(|row| row.q[j].abs()).fold(0.0, f64::max);
+    // In more than half of the rows.
+    let most = |j: usize, is: &dyn Fn(f64) -> bool| {
+        let (those, all) =
+            readings(j).fold((0, 0), |(n, all), q| (n + usize::from(is(q)), all + 1));
+        2 * those > all
+    };
+    let beyond: Vec<usize> = (0..arm.dof()).filter(|&j| most(j, &|q| !inside(j, q))).collect();
+    let farthest = |j: usize| readings(j).fold(0.0, |far: f64, q| far.max(q.abs()));
     let first = *beyond.first()?;
     let names: Vec<String> = beyond.iter().map(|j| format!("q{}", j + 1)).collect();
     let largest = beyond.iter().map(|&j| farthest(j)).fold(0.0, f64::max);
@@ -93,7 +104,7 @@ fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
             Motion::Revolute => PI / 180.0,
             Motion::Prismatic => 1e-3,
         };
-        most(data, |row| inside(j, factor * row.q[j]))
+        most(j, &|q| inside(j, factor * q))
     };
     let (unit, other, written) = match arm.joints[first].motion {
         Motion::Revolute => ("rad", "degrees", "deg"),
@@ -106,8 +117,7 @@ fn readings(arm: &Arm, data: &Measurements) -> Option<String> {
         "is it another robot's file, or are its limits not this arm's?".to_owned()
     };
     Some(format!(
-        "{}: {} {} {} {unit}, beyond the limits of the joint in most rows: {help}",
-        data.file,
+        "{file}: {} {} {} {unit}, beyond the limits of the joint in most rows: {help}",
         names.join(", "),
         if names.len() == 1 { "reaches" } else { "reach" },
         shown(largest)

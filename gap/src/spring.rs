@@ -63,7 +63,11 @@ impl Spring {
 impl Joined {
     /// The springs of joints of which both tell something and one has found something; `slides` says
     /// which joints are prismatic.
-    pub fn all(at_rest: &[Spring], in_motion: &[Spring], slides: impl Fn(usize) -> bool) -> Vec<Joined> {
+    pub fn all(
+        at_rest: &[Spring],
+        in_motion: &[Spring],
+        slides: impl Fn(usize) -> bool,
+    ) -> Vec<Joined> {
         let both = |at_rest: &Spring| {
             let in_motion = in_motion.iter().find(|s| s.joint == at_rest.joint)?;
             (at_rest.found || in_motion.found).then(|| Joined {

@@ -96,11 +96,19 @@ fn the_file_is_what_the_diagnosis_writes() {
         std::fs::write(path, &text).expect("a file");
     }
     let there = read(&std::fs::read_to_string(path).expect("a file"));
-    let [there, is] = [there, written.robot].map(|r| stiffarm_gap::robot::arm(&r).expect("numbers"));
+    let [there, is] =
+        [there, written.robot].map(|r| stiffarm_gap::robot::arm(&r).expect("numbers"));
     for (there, is) in there.joints.iter().zip(&is.joints) {
         let numbers = |joint: &stiffarm_kernels::generic::Joint| {
             let drive = &joint.drive;
-            [joint.mass, joint.com.x, joint.inertia.m33, drive.coulomb, drive.viscous, drive.rotor_inertia]
+            [
+                joint.mass,
+                joint.com.x,
+                joint.inertia.m33,
+                drive.coulomb,
+                drive.viscous,
+                drive.rotor_inertia,
+            ]
         };
         // Nine digits are written; the last bits of a sine are the platform's.
         for (there, is) in numbers(there).into_iter().zip(numbers(is)) {
@@ -136,7 +144,9 @@ fn compiled_torques_are_those_of_the_diagnosis() {
         assert!(left < 1.1 * gap.after && left < 0.1 * gap.before, "{left}: {gap:?}");
     }
     // The arm that was logged, by its closed form.
-    for (q, v, a) in [([0.3, -0.8], [0.7, -0.4], [1.1, 2.0]), ([-0.5, -2.0], [-0.3, 0.9], [0.0, -3.0])] {
+    for (q, v, a) in
+        [([0.3, -0.8], [0.7, -0.4], [1.1, 2.0]), ([-0.5, -2.0], [-0.3, 0.9], [0.0, -3.0])]
+    {
         let links = plant::rigid(q, v, a);
         let compiled = better::inverse_dynamics(&q, &v, &a);
         for j in 0..2 {

@@ -10,10 +10,10 @@ use stiffarm_gap::log::Model;
 use stiffarm_gap::log::effects::CATALOGUE;
 use stiffarm_gap::spring::{Joined, Spring};
 
-use super::corrected::{exported, file};
-use super::log::{Part, is_log};
 use super::campaign::Told as CampaignTold;
+use super::corrected::{exported, file};
 use super::log::Told as LogTold;
+use super::log::{Part, is_log};
 use super::{Args, Campaign, Format, Motion};
 use crate::input::source::Source;
 use crate::report::both::Both;

@@ -266,15 +266,29 @@ fn notes(found: &LogDiagnosis) -> String {
         );
         text.push_str(&note("Too short", few));
     }
-    if let Some(most) = found.unexplained.depends_on.first() {
-        let share = percent(most.share);
-        let rest = format!("of {}: {share} of what is left goes with its {}", most.place, most.of);
-        text.push_str(&note("Unexplained", rest));
+    for (k, line) in unexplained(found).into_iter().take(MOST).enumerate() {
+        text.push_str(&note(if k == 0 { "Unexplained" } else { "" }, line));
     }
     for (k, line) in hidden(found).into_iter().enumerate() {
         text.push_str(&note(if k == 0 { "Cannot see" } else { "" }, line));
     }
     indented(&text, 0)
+}
+
+/// On what it depends that is left, joint by joint; the largest share first.
+pub fn unexplained(found: &LogDiagnosis) -> Vec<String> {
+    let mut told: Vec<(&str, Vec<String>)> = Vec::new();
+    for rest in &found.unexplained.depends_on {
+        let part = format!("{} with its {}", percent(rest.share), rest.of);
+        match told.iter_mut().find(|(place, _)| *place == rest.place) {
+            Some((_, parts)) => parts.push(part),
+            None => told.push((&rest.place, vec![part])),
+        }
+    }
+    let line = |(place, parts): (&str, Vec<String>)| {
+        format!("of what is left of {place} goes {}", listed(&parts, MOST))
+    };
+    told.into_iter().map(line).collect()
 }
 
 /// What the log cannot show and why, places of the same kind in one line.

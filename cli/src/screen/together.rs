@@ -4,7 +4,9 @@ use stiffarm_gap::spring::{Joined, Spring};
 
 use super::{Size, WIDTH, words};
 use crate::diagnose::Said;
-use crate::terminal::text::{Align, bad, bold, decimals, dim, fixed, good, indented, table, wrapped};
+use crate::terminal::text::{
+    Align, bad, bold, decimals, dim, fixed, good, indented, table, wrapped,
+};
 
 /// Behind both screens.
 pub fn text(said: &Said) -> String {
@@ -31,10 +33,9 @@ pub fn cells(joined: &Joined) -> [String; 4] {
     let size = Size::of(joined.unit, most);
     let shown = |spring: &Spring| {
         let digits = decimals(spring.half_width() / size.si, 2);
-        let [value, low, high] =
-            [spring.value, spring.ci95[0], spring.ci95[1]].map(|x| fixed(x / size.si, digits));
+        let [value, half] = [spring.value, spring.half_width()].map(|x| fixed(x / size.si, digits));
         let beside = if spring.found { "" } else { ", no finding" };
-        format!("{value} [{low} to {high}] {}{beside}", size.name)
+        format!("{value} ± {half} {}{beside}", size.name)
     };
     let both = joined.together.as_ref().map_or_else(|| "they differ".to_owned(), shown);
     [joined.place.clone(), shown(&joined.at_rest), shown(&joined.in_motion), both]
@@ -50,7 +51,9 @@ pub fn sentences(said: &Said) -> Vec<String> {
     let gives = |joined: &Joined| joined.at_rest.value - joined.in_motion.value;
     let mut sentences = Vec::new();
     if said.springs.is_empty() {
-        sentences.push("Neither has found a joint's spring of which the other tells something.".to_owned());
+        sentences.push(
+            "Neither has found a joint's spring of which the other tells something.".to_owned(),
+        );
     }
     if let Some(places) = named(&|j| j.together.is_some()) {
         sentences.push(format!(

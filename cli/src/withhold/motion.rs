@@ -21,6 +21,11 @@ use crate::terminal::text::{bold, dim, indented, short};
 /// # Errors
 /// [`Failure`]: the robot, the commands, the options, or an output that cannot be written.
 pub(super) fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+    if args.report.is_some() {
+        let what =
+            "--report: found --motion, expected measurements at rest: withheld logs have no page";
+        return Err(Failure::with_help(what, "--json has every case, and the screen the rates"));
+    }
     let source = args.robot.load(quiet)?;
     let arm = motion::arm(&source, "withhold --motion")?;
     let (logged, seed) = (args.record.logged(), args.experiment.seed);

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 use stiffarm_gap::dice::{Dice, Stream};
 
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, read, stiffarm, text};
 
 const PENDULUM: &str = "\
 name = \"pendulum\"
@@ -126,4 +126,51 @@ fn options_go_with_what_the_file_is() {
     assert!(stiffarm(&band).refused().contains("--band is for joint logs"));
     let two = ["diagnose", "lin_planar", data, data];
     assert!(stiffarm(&two).refused().contains("found 2 files"));
+}
+
+/// The search that has not seen a block leaves at least what the fit of all findings leaves, and of two
+/// effects that are a hundred times their noise not much more.
+#[test]
+fn the_search_is_held_out_where_that_is_asked_for() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let log = folder.file("log.csv", rows(HEADER));
+    let json = text(&folder.path("log.json"));
+    let run = ["diagnose", &robot, &log, "--torque-side", "motor", "--nested", "--json", &json];
+    let only = ["--effects", "coulomb_friction,viscous_friction,rotor_inertia"];
+    let out = stiffarm(&[&run[..], &only].concat()).good();
+    assert!(out.contains("searched anew") && out.contains("Where the search has not"), "{out}");
+    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
+    assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
+    let plain =
+        stiffarm(&[&["diagnose", &robot, &log, "--torque-side", "motor"], &only[..]].concat());
+    assert!(!plain.good().contains("searched anew"));
+}
+
+#[test]
+fn degrees_and_slow_logs_are_told() {
+    let folder = Folder::new();
+    let robot = folder.file("pendulum.toml", PENDULUM);
+    let row = |line: &str| -> Vec<f64> {
+        line.split(',').map(|cell| cell.parse().expect("a number")).collect()
+    };
+    let all: Vec<Vec<f64>> = rows(HEADER).lines().skip(1).map(row).collect();
+    let file = |name: &str, every: usize, factor: f64| {
+        let told = |r: &Vec<f64>| format!("{},{},{}\n", r[0], factor * r[1], r[2]);
+        let lines: String = all.iter().step_by(every).map(told).collect();
+        folder.file(name, format!("# torque_side = motor\n{HEADER}\n{lines}"))
+    };
+    let few = ["--effects", "coulomb_friction,latency,presliding"];
+    let degrees = file("degrees.csv", 1, 180.0 / core::f64::consts::PI);
+    let told = stiffarm(&[&["diagnose", &robot, &degrees][..], &few].concat());
+    assert!(told.err.contains("are they in degrees? write q1[deg]"), "{}", told.err);
+    let slow = file("slow.csv", 10, 1.0);
+    let out = stiffarm(&[&["diagnose", &robot, &slow][..], &few].concat()).good();
+    assert!(out.contains("latency at the interface: a sample every 100 ms is held"), "{out}");
+    assert!(out.contains("presliding at joint 1: its reversals are over in"), "{out}");
+    let fast = file("fast.csv", 1, 1.0);
+    let out =
+        stiffarm(&[&["diagnose", &robot, &fast][..], &few, &["--band", "20Hz"]].concat()).good();
+    assert!(!out.contains("its reversals are over in"), "{out}");
 }

@@ -77,6 +77,40 @@ fn a_simulated_log_is_diagnosed() {
     assert!(blind.contains("# effects withheld") && !blind.contains("coulomb"), "{blind}");
 }
 
+/// What the file says of the arm in motion is part of the arm, and no gap.
+#[test]
+fn effects_of_a_robot_file_act_in_a_motion() {
+    let folder = Folder::new();
+    let effect = "\n[[effect]]\nid = \"coulomb_friction\"\nplace = \"joint 2\"\ncoulomb = 3.0\n";
+    let plain = folder.file("elbow.toml", ELBOW);
+    let robot = folder.file("knows.toml", format!("{ELBOW}{effect}"));
+    let log = text(&folder.path("log.csv"));
+    stiffarm(&["simulate", &robot, "--log", &log, "--lost", "0%"]).good();
+    let only = ["--effects", "coulomb_friction", "--json", "-"];
+    let found = |robot: &str| -> Value {
+        let run = [&["diagnose", robot, &log], &only[..]].concat();
+        serde_json::from_str(&stiffarm(&run).good()).expect("JSON")
+    };
+    let without = found(&plain);
+    assert_eq!(without["findings"][0]["place"], "joint 2", "{without:#}");
+    let value = without["findings"][0]["parameters"][0]["value"].as_f64().expect("a number");
+    assert!((value - 3.0).abs() < 0.3, "{value}");
+    let known = found(&robot);
+    let again = known["findings"].as_array().expect("a list").iter();
+    assert!(again.clone().all(|f| f["place"] != "joint 2"), "{known:#}");
+    // No plant of motion has a law for what is at rest alone.
+    let soft = folder.file(
+        "soft.toml",
+        format!("{ELBOW}\n[[effect]]\nid = \"transmission_error\"\nplace = \"joint 2\"\norder = 2\ncos = 1e-4\n"),
+    );
+    let told = stiffarm(&["simulate", &soft, "--log", "-"]).refused();
+    assert!(told.contains("has no law for it"), "{told}");
+    let run = ["withhold", &robot, "--motion", "--cases", "2", "--period", "15s", "--json", "-"];
+    let json = stiffarm(&[&run[..], &["--effects", "viscous_friction"]].concat()).good();
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["failed"], 0, "{json}");
+}
+
 /// The commands hold the limits, and the arm follows them.
 #[test]
 fn a_chosen_motion_is_what_simulate_takes() {
@@ -154,7 +188,8 @@ fn mistakes_are_told() {
         "few.csv",
         "t[s],q1[rad],q2[rad],q3[rad],q_cmd1[rad],q_cmd2[rad],q_cmd3[rad]\n0,0,0,0,0,0,0\n",
     );
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 11] = [
+        (&["withhold", &robot, "--motion", "--report", "x.html"], "withheld logs have no page"),
         (&["simulate", &robot, "--csv", "-", "--log", "x.csv"], "--log"),
         (&["simulate", &robot], "--csv"),
         (&["simulate", &robot, "--csv", "-", "--rate", "100Hz"], "--log"),

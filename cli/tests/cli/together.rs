@@ -17,7 +17,7 @@ fn data(folder: &Folder, droop: f64) -> [String; 3] {
     let noise = ["--payload", "5kg", "--noise-position", "0.5mm", "--effect", &spring];
     stiffarm(&[&["simulate", &robot, "--csv", &campaign][..], &noise].concat()).good();
     let droop = format!("servo_droop@joint 2={droop}");
-    let servo = ["--logged", "position", "--effect", &droop];
+    let servo = ["--logged", "position", "--lost", "0%", "--effect", &droop];
     stiffarm(&[&["simulate", &robot, "--log", &log][..], &servo].concat()).good();
     [robot, campaign, log]
 }

@@ -3,8 +3,8 @@
 use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, ToolFrame};
-use crate::spring::Spring;
 use crate::measurement::nearest;
+use crate::spring::Spring;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -20,6 +20,7 @@ pub mod report;
 pub mod rigid;
 pub mod scene;
 pub mod search;
+mod sight;
 pub mod signal;
 mod verdict;
 

@@ -25,6 +25,7 @@ use super::search::rest::rests;
 use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
 use super::search::{self, Round, effective};
+use super::sight::too_slow;
 use super::signal::Signals;
 use crate::measurement::Body;
 
@@ -173,9 +174,20 @@ pub fn diagnosed(
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
         findings: told.findings(&left, &verdict, &after),
-        cannot_see: hidden(&case, &simple, &loaded, unseen),
+        cannot_see: {
+            let mut all = hidden(&case, &simple, &loaded, unseen);
+            // What was found was seen.
+            let found = |h: &Hidden| {
+                verdict.findings.iter().any(|f| {
+                    f.term.effect.identifier() == h.effect && f.term.spot.to_string() == h.place
+                })
+            };
+            let asked = wanted.iter().map(|(effect, ..)| *effect);
+            all.extend(too_slow(&case, asked, log.period()).into_iter().filter(|h| !found(h)));
+            all
+        },
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
-        remarks: log.remarks(),
+        remarks: [log.remarks(), log.doubts(arm)].concat(),
     };
     Ok((diagnosis, model))
 }

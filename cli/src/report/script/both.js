@@ -8,7 +8,7 @@
       const tint = () => root.dataset.theme && (inner.dataset.theme = root.dataset.theme);
       new ResizeObserver(fit).observe(inner);
       new MutationObserver(tint).observe(root, { attributeFilter: ["data-theme"] });
-      inner.querySelector("#theme").hidden = true;
+      inner.querySelector("#theme").style.display = "none";
       tint();
       fit();
     };

@@ -74,5 +74,8 @@
   choice.innerHTML = page.joints
     .map((joint, k) => `<option value="${k}">${escaped(joint.name)}</option>`).join("");
   choice.addEventListener("change", () => draw(page.joints[Number(choice.value)]));
-  draw(page.joints[0]);
+  // First the joint of which the findings take most.
+  const taken = page.diagnosis.gap.map((gap) => (gap.before - gap.after) / gap.size);
+  choice.value = String(taken.indexOf(Math.max(...taken)));
+  draw(page.joints[Number(choice.value)]);
 }

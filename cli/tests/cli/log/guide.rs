@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, read};
+use crate::support::{Folder, read, stiffarm, text};
 
 /// A servo that comes 50 ms late.
 fn servo(rows: &str) -> String {
@@ -30,6 +30,10 @@ fn every_command_of_the_guide_runs() {
         folder.file(name, part(&lines[2000 * k..2000 * (k + 1)]));
     }
     folder.file("servo.csv", servo(&all));
+    let [arm, campaign] = ["arm.toml", "campaign.csv"].map(|name| text(&folder.path(name)));
+    let spring = "joint_compliance@joint 1=1e-5";
+    stiffarm(&["simulate", &arm, "--csv", &campaign, "--payload", "5kg", "--effect", spring])
+        .good();
     folder.file("recorded.csv", rows("timestamp,actual_q_0,actual_current_0"));
     let guide = read("docs/logs.md");
     let blocks = guide.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
@@ -51,7 +55,15 @@ fn every_command_of_the_guide_runs() {
         let err = String::from_utf8_lossy(&run.stderr);
         assert!(run.status.success(), "{command}: {err}");
     }
-    for made in ["log.html", "better.toml", "better.xml", "better.urdf", "servo.json"] {
+    for made in [
+        "log.html",
+        "better.toml",
+        "better.xml",
+        "better.urdf",
+        "servo.json",
+        "both.toml",
+        "both.html",
+    ] {
         assert!(folder.names().contains(&made.to_owned()), "{made}");
     }
 }

@@ -41,6 +41,9 @@ pub use column::{Signal, is_log};
 pub use format::{Format, Opened};
 pub use names::Names;
 use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
+
+use crate::doubts::beyond;
 
 /// Where along the drive the torque of a log is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -255,6 +258,13 @@ impl Log {
     /// Whether it has this signal.
     pub fn has(&self, signal: Signal) -> bool {
         self.runs.iter().all(|run| run.signals.contains_key(&signal))
+    }
+
+    /// What may mean otherwise than it says on this arm: a sentence each.
+    pub fn doubts(&self, arm: &Arm) -> Vec<String> {
+        let runs = |joint: usize| self.runs.iter().map(move |run| &run.signals[&Signal::Q][joint]);
+        let readings = |joint: usize| runs(joint).flatten().copied();
+        beyond(arm, &self.files.join(", "), readings).into_iter().collect()
     }
 
     /// What is to be said of its rows and its clock: a sentence each.

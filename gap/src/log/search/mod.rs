@@ -14,7 +14,7 @@ pub mod grains;
 pub mod judge;
 pub mod nested;
 pub mod rest;
-mod ripples;
+pub mod ripples;
 pub mod springs;
 pub mod stock;
 pub mod sums;

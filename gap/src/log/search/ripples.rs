@@ -15,7 +15,7 @@ use super::stock::Stock;
 use crate::dice::{Dice, Stream};
 
 /// Periods per turn that are looked at: what turns once is the weights' and a counterbalance's.
-const ORDERS: core::ops::RangeInclusive<usize> = 2..=400;
+pub const ORDERS: core::ops::RangeInclusive<usize> = 2..=400;
 
 /// Ripples of a joint that are asked for.
 const MOST: usize = 2;
@@ -24,7 +24,7 @@ const MOST: usize = 2;
 const FLIPS: usize = 199;
 
 /// A ripple is looked at where it stays below this part of the band's edge: the filter lets it pass.
-const PASSES: f64 = 0.7;
+pub const PASSES: f64 = 0.7;
 
 /// Of each joint the orders that stand out of what is left at the rows of the sample.
 pub fn found(stock: &Stock<'_>, left: &[Vec<Option<f64>>], seed: u64) -> Vec<Vec<f64>> {

@@ -108,10 +108,8 @@ pub(super) fn plant<'p>(
     truths: &[MotionTruth],
 ) -> Result<MovingPlant<'p>, MotionError> {
     let known = known(&plan.options.known, plan.arm, plan.stages.len(), plan.logged);
-    let known = known.map_err(|error| MotionError {
-        arm: plan.arm.name.clone(),
-        fault: error.to_string(),
-    })?;
+    let known = known
+        .map_err(|error| MotionError { arm: plan.arm.name.clone(), fault: error.to_string() })?;
     let all = [&known, truths].concat();
     Ok(MovingPlant::new(plan.arm, &all, plan.logged, plan.recording))
 }
