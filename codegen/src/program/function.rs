@@ -142,10 +142,12 @@ fn names<'a>(
 }
 
 /// Names that the generated text gives to other things.
-const TAKEN: [&str; 21] = [
+const TAKEN: [&str; 24] = [
     "all",
+    "angles",
     "arm",
     "constants",
+    "cosines",
     "double",
     "fx",
     "fy",
@@ -161,6 +163,7 @@ const TAKEN: [&str; 21] = [
     "own",
     "posture",
     "q",
+    "sines",
     "status",
     "wrench",
     "zero",

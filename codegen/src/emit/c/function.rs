@@ -8,6 +8,7 @@ use super::super::posture::Needs;
 use super::posture::Entrance;
 use super::solve::solve_name;
 use super::style::C;
+use super::trigonometry::{Pair, take};
 use crate::derive::{Block, Own};
 use crate::emit::lines::Lines;
 use crate::expr::Binding;
@@ -213,11 +214,16 @@ impl<'a> Function<'a> {
     /// Sines and cosines of angles that are not the posture's.
     fn angles(&self, out: &mut Lines, k: usize) {
         let real = self.language.real();
-        for angle in &self.plan.own_angles[k] {
-            let (suffix, sum) = (&angle.suffix, self.printer().print(angle.sum));
-            out.code(&format!("{real} s{suffix}, c{suffix};"));
-            out.code(&format!("sin_cos({sum}, &s{suffix}, &c{suffix});"));
+        let pairs = self.plan.own_angles[k].iter().map(|angle| Pair {
+            angle: self.printer().print(angle.sum),
+            sine: format!("s{}", angle.suffix),
+            cosine: format!("c{}", angle.suffix),
+        });
+        let pairs: Vec<Pair> = pairs.collect();
+        for Pair { sine, cosine, .. } in &pairs {
+            out.code(&format!("{real} {sine}, {cosine};"));
         }
+        take(out, self.language, &pairs);
     }
 
     /// The system, and the block of what is worked out where it has a solution.

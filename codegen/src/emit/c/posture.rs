@@ -3,6 +3,7 @@
 use super::super::posture::{Plain, Posture};
 use super::super::readings::{Extra, Stage};
 use super::style::C;
+use super::trigonometry::{Pair, take};
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -79,10 +80,12 @@ impl Entrance<'_> {
         for extra in unread.iter().filter(|e| !posture.plain.iter().any(|plain| reads(e, plain))) {
             out.code(&format!("(void){};", extra.name()));
         }
-        for pair in &posture.angles {
-            let (sum, suffix) = (&pair.sum, &pair.suffix);
-            out.code(&format!("sin_cos({sum}, &posture->s{suffix}, &posture->c{suffix});"));
-        }
+        let pairs = posture.angles.iter().map(|pair| Pair {
+            angle: pair.sum.clone(),
+            sine: format!("posture->s{}", pair.suffix),
+            cosine: format!("posture->c{}", pair.suffix),
+        });
+        take(out, self.language, &pairs.collect::<Vec<_>>());
         for plain in &posture.plain {
             let source = match plain {
                 Plain::Growth => self.stage.growth(self.language),
@@ -116,10 +119,12 @@ impl Entrance<'_> {
             for extra in stage.extras().into_iter().filter(|extra| !stage.reads(*extra)) {
                 out.code(&format!("(void){};", extra.name()));
             }
-            for angle in &angles {
-                let (suffix, sum) = (stage.suffix(*angle), stage.print(*angle, self.language));
-                out.code(&format!("sin_cos({sum}, &s{suffix}, &c{suffix});"));
-            }
+            let pairs = angles.iter().map(|angle| Pair {
+                angle: stage.print(*angle, self.language),
+                sine: format!("s{}", stage.suffix(*angle)),
+                cosine: format!("c{}", stage.suffix(*angle)),
+            });
+            take(out, self.language, &pairs.collect::<Vec<_>>());
             for (joint, value) in stage.readings.joints.iter().enumerate() {
                 out.code(&format!("out[{joint}] = {};", stage.print(*value, self.language)));
             }

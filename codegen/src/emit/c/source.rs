@@ -36,7 +36,7 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     out.code("#endif");
     sparsity(module, &mut out);
     if body.contains("sin_cos(") {
-        out.verbatim(sin_cos(module.options.sines, module.options.precision));
+        out.verbatim(&sin_cos(module.options.sines, module.options.precision));
     }
     let mut sizes: Vec<(usize, usize)> =
         module.functions.iter().flat_map(|f| f.systems()).collect();

@@ -1,136 +1,229 @@
-//! Sine and cosine in C: the Rust kernels' polynomial (`kernels/src/sin_cos`), operation by operation,
-//! or `math.h`'s.
+//! Sines and cosines in C, of many angles at a time: the Rust kernels' polynomial (`kernels/src/sin_cos`), operation by
+//! operation, or `math.h`'s.
+//!
+//! The polynomial is written once, for as many angles as a register holds: GCC's and Clang's vectors where there are
+//! any, a plain number in other C99. A lane is worked out like a number, so that the bits are the same.
 
+use super::style::C;
 use super::{Precision, Sines};
+use crate::emit::lines::Lines;
 
-/// The static function `sin_cos`.
-pub(super) fn sin_cos(sines: Sines, precision: Precision) -> &'static str {
+/// What stands before the functions: the static function `sin_cos` of an array of angles, and `PADDED`, the length that
+/// its arrays have.
+pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     match (sines, precision) {
-        (Sines::Math, Precision::F64) => MATH_DOUBLE,
-        (Sines::Math, Precision::F32) => MATH_SINGLE,
+        (Sines::Math, precision) => {
+            let language = C { precision };
+            MATH.replace("REAL", language.real()).replace("OF", language.suffix())
+        }
         // Where the caller gives the posture, functions of one's own still take sines of their inputs.
-        (Sines::Polynomial | Sines::Given, Precision::F64) => DOUBLE,
-        (Sines::Polynomial | Sines::Given, Precision::F32) => SINGLE,
+        (Sines::Polynomial | Sines::Given, Precision::F64) => lanes("double", 64) + DOUBLE,
+        (Sines::Polynomial | Sines::Given, Precision::F32) => lanes("float", 32) + SINGLE,
     }
 }
 
-const MATH_DOUBLE: &str = "
-static void sin_cos(double angle, double *sine, double *cosine)
+/// An angle, and where its sine and cosine go.
+pub(super) struct Pair {
+    pub angle: String,
+    pub sine: String,
+    pub cosine: String,
+}
+
+/// Statements that take the sines and cosines of all `pairs` at once.
+pub(super) fn take(out: &mut Lines, language: &C, pairs: &[Pair]) {
+    if pairs.is_empty() {
+        return;
+    }
+    let (real, count) = (language.real(), pairs.len());
+    out.braces(|out| {
+        let angles: Vec<&str> = pairs.iter().map(|pair| pair.angle.as_str()).collect();
+        out.code(&format!("const {real} angles[PADDED({count})] = {{{}}};", angles.join(", ")));
+        out.code(&format!("{real} sines[PADDED({count})];"));
+        out.code(&format!("{real} cosines[PADDED({count})];"));
+        out.blank();
+        out.code(&format!("sin_cos({count}, angles, sines, cosines);"));
+        for (k, pair) in pairs.iter().enumerate() {
+            out.code(&format!("{} = sines[{k}];", pair.sine));
+            out.code(&format!("{} = cosines[{k}];", pair.cosine));
+        }
+    });
+}
+
+/// The types of lanes: how many depends on the target.
+fn lanes(real: &str, bits: usize) -> String {
+    let registers = [("AVX512F", 512), ("AVX2", 256), ("SSE2", 128), ("aarch64", 128)];
+    let mut text = String::from(LANES);
+    for (at, (target, width)) in registers.into_iter().enumerate() {
+        // Eight angles at most: few arms have more.
+        let lanes = (width / bits).min(8);
+        let loaded: Vec<String> = (0..lanes).map(|k| format!("x[{k}]")).collect();
+        let test = if at == 0 { "if" } else { "elif" };
+        text +=
+            &format!("#{test} defined(__GNUC__) && defined(__{target}__)\n#define LANES {lanes}\n");
+        text += &format!("#define LOADED(x) {{{}}}\n", loaded.join(", ").replace("x[", "(x)["));
+    }
+    text += &TYPES.replace("REAL", real).replace("BITS", &bits.to_string());
+    text.replace("BYTES", &(bits / 8).to_string())
+}
+
+const MATH: &str = "
+/* The length of arrays of so many angles. */
+#define PADDED(count) (count)
+
+static void sin_cos(int count, const REAL *angles, REAL *sines, REAL *cosines)
 {
-    *sine = sin(angle);
-    *cosine = cos(angle);
+    int at;
+
+    for (at = 0; at < count; at++)
+    {
+        sines[at] = sinOF(angles[at]);
+        cosines[at] = cosOF(angles[at]);
+    }
 }
 ";
 
-const MATH_SINGLE: &str = "
-static void sin_cos(float angle, float *sine, float *cosine)
+const LANES: &str = "
+/* Sines and cosines are taken of as many angles at a time as a register holds, where the compiler
+ * has vectors. Each lane is worked out as one number is elsewhere: the bits are the same. */
+";
+
+const TYPES: &str = "#else
+#define LANES 1
+#define LOADED(x) {(x)[0]}
+#endif
+#if LANES > 1
+typedef REAL lanes_t __attribute__((vector_size(BYTES * LANES)));
+typedef uintBITS_t mask_t __attribute__((vector_size(BYTES * LANES)));
+/* All bits of each lane where the condition holds. */
+#define MASK(condition) ((mask_t)(condition))
+/* Lanes that stay in registers. */
+#define INLINED static inline __attribute__((always_inline))
+#else
+typedef REAL lanes_t;
+typedef uintBITS_t mask_t;
+#define MASK(condition) (UINTBITS_C(0) - (mask_t)(condition))
+#define INLINED static
+#endif
+
+/* The length of arrays of so many angles: whole lanes. */
+#define PADDED(count) (((count) + LANES - 1) / LANES * LANES)
+
+/* Numbers, their bits, and each by itself. */
+typedef union
 {
-    *sine = sinf(angle);
-    *cosine = cosf(angle);
-}
+    lanes_t number;
+    mask_t bits;
+    REAL each[LANES];
+} word_t;
 ";
 
 const DOUBLE: &str = "
-/* A number and its bits. */
-typedef union
-{
-    double number;
-    uint64_t bits;
-} word_t;
-
-/* Sine and cosine without a branch: at most 1.5 ulp off for |angle| <= 1e4 rad, exact at 0. Beyond
+/* Sines and cosines without a branch: at most 1.5 ulp off for |angle| <= 1e4 rad, exact at 0. Beyond
  * 1e9 rad, and where the angle is not finite, both are NaN.
  * The angle less the nearest multiple of pi/2, which is subtracted in three parts; adding
  * 1.5 * 2^52 rounds that multiple, and its last two bits say how the quadrant exchanges the pair
  * and its signs. */
-static void sin_cos(double angle, double *sine, double *cosine)
+INLINED void sin_cos(int count, const double *angles, double *sines, double *cosines)
 {
-    const double shift = 6755399441055744.0;
-    const double shifted = angle * 0.6366197723675814 + shift;
-    const double multiple = shifted - shift;
-    const double first = multiple * (-1.5707963267923333) + angle;
-    const double head = multiple * (-2.5633441515839558e-12) + first;
-    const double lost = multiple * (-2.5633441515839558e-12) + (first - head);
-    const double rest = multiple * (-1.0562999066987428e-23) + lost;
-    const uint64_t beyond = (uint64_t)(angle > 1e9) | (uint64_t)(angle < -1e9);
-    word_t s, c, quadrant, r;
+    int at;
+    int lane;
 
-    r.number = head;
-    r.bits |= UINT64_C(0) - beyond;
+    for (at = 0; at < count; at += LANES)
     {
-        const double x = r.number;
-        const double z = x * x;
-        const double z2 = z * z;
-        const double s0 = z * 0.008333333333322484 + (-0.16666666666666632);
-        const double s2 = z * 2.7557313704098867e-06 + (-0.0001984126982985116);
-        const double s4 = z * 1.5896875188647993e-10 + (-2.5050759714136158e-08);
-        const double c0 = z * (-0.001388888888887447) + 0.0416666666666666;
-        const double c2 = z * (-2.755731439923815e-07) + 2.4801587289666865e-05;
-        const double c4 = z * (-1.1359916899499847e-11) + 2.0875728988224267e-09;
-        const double falls = z * (z2 * (z2 * c4 + c2) + c0) + (-0.5);
+        const lanes_t angle = LOADED(angles + at);
+        const double shift = 6755399441055744.0;
+        const lanes_t shifted = angle * 0.6366197723675814 + shift;
+        const lanes_t multiple = shifted - shift;
+        const lanes_t first = multiple * (-1.5707963267923333) + angle;
+        const lanes_t head = multiple * (-2.5633441515839558e-12) + first;
+        const lanes_t lost = multiple * (-2.5633441515839558e-12) + (first - head);
+        const lanes_t rest = multiple * (-1.0562999066987428e-23) + lost;
+        const mask_t beyond = MASK(angle > 1e9) | MASK(angle < -1e9);
+        word_t s, c, quadrant, r;
 
-        s.number = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + rest);
-        c.number = x * (x * falls - rest) + 1.0;
-    }
-    quadrant.number = shifted;
-    {
-        const uint64_t sign = UINT64_C(1) << 63;
-        const uint64_t odd = UINT64_C(0) - (quadrant.bits & UINT64_C(1));
-        const uint64_t exchanged = (s.bits ^ c.bits) & odd;
+        r.number = head;
+        r.bits |= beyond;
+        {
+            const lanes_t x = r.number;
+            const lanes_t z = x * x;
+            const lanes_t z2 = z * z;
+            const lanes_t s0 = z * 0.008333333333322484 + (-0.16666666666666632);
+            const lanes_t s2 = z * 2.7557313704098867e-06 + (-0.0001984126982985116);
+            const lanes_t s4 = z * 1.5896875188647993e-10 + (-2.5050759714136158e-08);
+            const lanes_t c0 = z * (-0.001388888888887447) + 0.0416666666666666;
+            const lanes_t c2 = z * (-2.755731439923815e-07) + 2.4801587289666865e-05;
+            const lanes_t c4 = z * (-1.1359916899499847e-11) + 2.0875728988224267e-09;
+            const lanes_t falls = z * (z2 * (z2 * c4 + c2) + c0) + (-0.5);
 
-        s.bits ^= exchanged ^ ((quadrant.bits << 62) & sign);
-        c.bits ^= exchanged ^ (((quadrant.bits ^ (quadrant.bits << 1)) << 62) & sign);
+            s.number = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + rest);
+            c.number = x * (x * falls - rest) + 1.0;
+        }
+        quadrant.number = shifted;
+        {
+            const uint64_t sign = UINT64_C(1) << 63;
+            const mask_t odd = UINT64_C(0) - (quadrant.bits & UINT64_C(1));
+            const mask_t exchanged = (s.bits ^ c.bits) & odd;
+
+            s.bits ^= exchanged ^ ((quadrant.bits << 62) & sign);
+            c.bits ^= exchanged ^ (((quadrant.bits ^ (quadrant.bits << 1)) << 62) & sign);
+        }
+        for (lane = 0; lane < LANES; lane++)
+        {
+            sines[at + lane] = s.each[lane];
+            cosines[at + lane] = c.each[lane];
+        }
     }
-    *sine = s.number;
-    *cosine = c.number;
 }
 ";
 
 const SINGLE: &str = "
-/* A number and its bits. */
-typedef union
-{
-    float number;
-    uint32_t bits;
-} word_t;
-
-/* Sine and cosine without a branch and without a double: at most 1e-7 off for |angle| <= 100 rad,
+/* Sines and cosines without a branch and without a double: at most 1e-7 off for |angle| <= 100 rad,
  * exact at 0. Beyond 1e5 rad, and where the angle is not finite, both are NaN.
  * The angle less the nearest multiple of pi/2, which is subtracted in three parts; adding
  * 1.5 * 2^23 rounds that multiple, and its last two bits say how the quadrant exchanges the pair
  * and its signs. */
-static void sin_cos(float angle, float *sine, float *cosine)
+INLINED void sin_cos(int count, const float *angles, float *sines, float *cosines)
 {
-    const float shift = 12582912.0f;
-    const float shifted = angle * 0.63661975f + shift;
-    const float multiple = shifted - shift;
-    const float first = multiple * (-1.570770263671875f) + angle;
-    const float second = multiple * (-2.6063062250614166e-05f) + first;
-    const float reduced = multiple * (-6.07710062827671e-11f) + second;
-    const uint32_t beyond = (uint32_t)(angle > 1e5f) | (uint32_t)(angle < -1e5f);
-    word_t s, c, quadrant, r;
+    int at;
+    int lane;
 
-    r.number = reduced;
-    r.bits |= UINT32_C(0) - beyond;
+    for (at = 0; at < count; at += LANES)
     {
-        const float x = r.number;
-        const float z = x * x;
-        const float s1 = z * (-0.00019495957531034946f) + 0.008331982418894768f;
-        const float c1 = z * 2.4430670237052254e-05f + (-0.00138873013202101f);
+        const lanes_t angle = LOADED(angles + at);
+        const float shift = 12582912.0f;
+        const lanes_t shifted = angle * 0.63661975f + shift;
+        const lanes_t multiple = shifted - shift;
+        const lanes_t first = multiple * (-1.570770263671875f) + angle;
+        const lanes_t second = multiple * (-2.6063062250614166e-05f) + first;
+        const lanes_t reduced = multiple * (-6.07710062827671e-11f) + second;
+        const mask_t beyond = MASK(angle > 1e5f) | MASK(angle < -1e5f);
+        word_t s, c, quadrant, r;
 
-        s.number = (x * z) * (z * s1 + (-0.16666650772094727f)) + x;
-        c.number = (z * z) * (z * c1 + 0.04166664555668831f) + (1.0f - 0.5f * z);
-    }
-    quadrant.number = shifted;
-    {
-        const uint32_t sign = UINT32_C(1) << 31;
-        const uint32_t odd = UINT32_C(0) - (quadrant.bits & UINT32_C(1));
-        const uint32_t exchanged = (s.bits ^ c.bits) & odd;
+        r.number = reduced;
+        r.bits |= beyond;
+        {
+            const lanes_t x = r.number;
+            const lanes_t z = x * x;
+            const lanes_t s1 = z * (-0.00019495957531034946f) + 0.008331982418894768f;
+            const lanes_t c1 = z * 2.4430670237052254e-05f + (-0.00138873013202101f);
 
-        s.bits ^= exchanged ^ ((quadrant.bits << 30) & sign);
-        c.bits ^= exchanged ^ (((quadrant.bits ^ (quadrant.bits << 1)) << 30) & sign);
+            s.number = (x * z) * (z * s1 + (-0.16666650772094727f)) + x;
+            c.number = (z * z) * (z * c1 + 0.04166664555668831f) + (1.0f - 0.5f * z);
+        }
+        quadrant.number = shifted;
+        {
+            const uint32_t sign = UINT32_C(1) << 31;
+            const mask_t odd = UINT32_C(0) - (quadrant.bits & UINT32_C(1));
+            const mask_t exchanged = (s.bits ^ c.bits) & odd;
+
+            s.bits ^= exchanged ^ ((quadrant.bits << 30) & sign);
+            c.bits ^= exchanged ^ (((quadrant.bits ^ (quadrant.bits << 1)) << 30) & sign);
+        }
+        for (lane = 0; lane < LANES; lane++)
+        {
+            sines[at + lane] = s.each[lane];
+            cosines[at + lane] = c.each[lane];
+        }
     }
-    *sine = s.number;
-    *cosine = c.number;
 }
 ";

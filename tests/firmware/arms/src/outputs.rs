@@ -28,12 +28,14 @@ pub const ARMS: [&str; 5] = ["ur10", "kuka_kr240", "iiwa14", "ur5_springs", "var
 pub const MOVING: [&str; 2] = ["ur10", "panda"];
 
 /// Their equations of motion.
-pub const OF_MOTION: [Output; 5] = [
+pub const OF_MOTION: [Output; 7] = [
     Output::InverseDynamics,
     Output::Bias,
     Output::MassMatrix,
     Output::ForwardDynamics,
     Output::TorqueRegressor,
+    Output::InverseDynamicsByJoints,
+    Output::InverseDynamicsByRates,
 ];
 
 /// Results of one draw.
@@ -106,11 +108,13 @@ macro_rules! moving {
             let accelerations = $arm::forward_dynamics(q, qd, last);
             see(accelerations.as_ref().map(<[S; $arm::N]>::as_slice).map_err(|e| *e));
             see(Ok($arm::torque_regressor(q, qd, last).as_flattened()));
+            see(Ok($arm::inverse_dynamics_by_joints(q, qd, last).as_flattened()));
+            see(Ok($arm::inverse_dynamics_by_rates(q, qd).as_flattened()));
         }
     };
 }
 
-moving!(ur10_moves: ur10);
+moving!(ur10_moves: ur10_moving);
 moving!(panda_moves: panda);
 
 /// Calls every output of every arm at draw `k` and shows the result, column by column, or that

@@ -31,7 +31,7 @@ pub(super) fn mass_matrix(g: &mut Graph, links: &[Link]) -> Vec<Expr> {
         }
         run = run.moved(g, levers[k]);
         if link.begins {
-            let leaning = link.moments_lean_out(g, &run);
+            let leaning = link.lean.moments(g, &run);
             beyond = leaning.moved(g, link.offset);
             run = Moments::default();
         }
@@ -41,7 +41,7 @@ pub(super) fn mass_matrix(g: &mut Graph, links: &[Link]) -> Vec<Expr> {
 
 /// Where each link's origin is from the one before, in the axes of the run; of the first of a run, from where
 /// the run begins.
-fn levers(g: &mut Graph, links: &[Link]) -> Vec<Vec3> {
+pub(super) fn levers(g: &mut Graph, links: &[Link]) -> Vec<Vec3> {
     let lever = |(k, link): (usize, &Link)| {
         let mut lever = match link.begins {
             true => [Expr::ZERO; 3],
@@ -80,7 +80,7 @@ fn carried(
     if !link.begins {
         return (force, moment);
     }
-    let (force, moment) = (link.lean_out(g, force), link.lean_out(g, moment));
+    let (force, moment) = (link.lean.outwards(g, force), link.lean.outwards(g, moment));
     let lever = g.cross3(link.offset, force);
     let moment = g.add3(moment, lever);
     let before = &links[k - 1];

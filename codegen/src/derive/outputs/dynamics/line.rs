@@ -14,8 +14,8 @@ use crate::robot::{Convention, Motion, Value};
 pub(super) struct Link {
     /// Whether its axis is not parallel to the one before.
     pub begins: bool,
-    /// Alpha and beta, by which its axis leans in the axes of the link before.
-    lean: [Turn; 2],
+    /// How its axis leans in the axes of the link before.
+    pub lean: Lean,
     /// Whether its z is opposite to the run's.
     pub opposite: bool,
     /// Its angle about its own z, in the run's axes turned over if it is opposite.
@@ -24,9 +24,61 @@ pub(super) struct Link {
     pub offset: Vec3,
     /// How far it has slid along its z, where it does.
     pub slide: Option<Expr>,
-    /// From its origin to its row's frame, along its z.
-    head: Expr,
+    pub row: RowFrame,
     pub moments: Moments,
+}
+
+/// Turns by alpha about x, then by beta about y.
+#[derive(Clone)]
+pub(super) struct Lean([Turn; 2]);
+
+impl Lean {
+    const NONE: Lean = Lean([Turn::ZERO; 2]);
+
+    /// Whether the axis behind it is parallel to the one before.
+    fn is_straight(&self) -> bool {
+        let Lean([alpha, beta]) = self;
+        (alpha.is_zero() || alpha.is_half_turn()) && beta.is_zero()
+    }
+
+    /// A vector of the axes behind it in those before.
+    pub fn outwards(&self, g: &mut Graph, v: Vec3) -> Vec3 {
+        let v = turned(g, &self.0[1], 1, v);
+        turned(g, &self.0[0], 0, v)
+    }
+
+    /// The other way.
+    pub fn inwards(&self, g: &mut Graph, v: Vec3) -> Vec3 {
+        let v = turned(g, &self.0[0].negated(), 0, v);
+        turned(g, &self.0[1].negated(), 1, v)
+    }
+
+    /// Moments of mass, as [vectors](Lean::outwards).
+    pub fn moments(&self, g: &mut Graph, moments: &Moments) -> Moments {
+        moments.turned(g, &self.0[1], 1).turned(g, &self.0[0], 0)
+    }
+}
+
+/// The frame of a link's row, in which the table tells its mass.
+pub(super) struct RowFrame {
+    /// Of its axes in the link's.
+    pub lean: Lean,
+    /// From the link's origin, in the link's axes.
+    pub origin: Vec3,
+}
+
+impl RowFrame {
+    fn of(chain: &mut Chain, row: usize, head: Expr) -> RowFrame {
+        match chain.robot.convention {
+            Convention::Modified => {
+                RowFrame { lean: Lean::NONE, origin: [Expr::ZERO, Expr::ZERO, head] }
+            }
+            Convention::Standard => {
+                let (lean, along) = leans(chain, row);
+                RowFrame { lean, origin: [along[0], along[1], head] }
+            }
+        }
+    }
 }
 
 impl Link {
@@ -55,23 +107,6 @@ impl Link {
     fn over(&self, [x, y, z]: Vec3) -> Vec3 {
         if self.opposite { [x, -y, -z] } else { [x, y, z] }
     }
-
-    /// A vector of the axes of the run that begins with this link in those of the link before.
-    pub fn lean_out(&self, g: &mut Graph, v: Vec3) -> Vec3 {
-        let v = turned(g, &self.lean[1], 1, v);
-        turned(g, &self.lean[0], 0, v)
-    }
-
-    /// The other way.
-    pub fn lean_in(&self, g: &mut Graph, v: Vec3) -> Vec3 {
-        let v = turned(g, &self.lean[0].negated(), 0, v);
-        turned(g, &self.lean[1].negated(), 1, v)
-    }
-
-    /// Moments of mass, as [vectors](Link::lean_out).
-    pub fn moments_lean_out(&self, g: &mut Graph, moments: &Moments) -> Moments {
-        moments.turned(g, &self.lean[1], 1).turned(g, &self.lean[0], 0)
-    }
 }
 
 /// The links, the mass of each regrouped so that the constants are as few as can be told from motion
@@ -87,7 +122,7 @@ pub(super) fn line(chain: &mut Chain) -> Vec<Link> {
         let Some(before) = k.checked_sub(1) else { break };
         // A line of mass about its own axis stands as it is.
         let handed = if links[k].slide.is_some() { handed.turned(g, &own[k], 2) } else { handed };
-        let handed = links[k].moments_lean_out(g, &handed).moved(g, links[k].offset);
+        let handed = links[k].lean.moments(g, &handed).moved(g, links[k].offset);
         links[before].moments = links[before].moments.with(g, &handed);
     }
     links
@@ -98,27 +133,6 @@ pub(super) fn weightless(chain: &mut Chain) -> Vec<Link> {
     let (mut links, _) = laid_out(chain);
     links.iter_mut().for_each(|link| link.moments = Moments::default());
     links
-}
-
-/// A unit of each moment of mass of a row, about its origin and in its axes, as its link has it: m, m c, and xx, xy,
-/// yy, xz, yz, zz of the tensor of inertia.
-pub(super) fn units(chain: &mut Chain, row: usize) -> Vec<Moments> {
-    let head = laid_out(chain).0[row].head;
-    let g = &mut chain.g;
-    let one = |at: usize| core::array::from_fn(|k| if k == at { Expr::ONE } else { Expr::ZERO });
-    let mut units = vec![Moments { mass: Expr::ONE, ..Moments::default() }];
-    units.extend((0..3).map(|k| Moments { first: one(k), ..Moments::default() }));
-    // xx, xy, xz, yy, yz, zz, in the order of the columns.
-    for entry in [0, 1, 3, 2, 4, 5] {
-        let tensor: [Value; 6] =
-            core::array::from_fn(
-                |k| {
-                    if k == entry { Value::Number(Number::ONE) } else { Value::ZERO }
-                },
-            );
-        units.push(Moments { second: second(g, Some(&tensor)), ..Moments::default() });
-    }
-    units.into_iter().map(|moments| of_row(chain, row, &moments, head)).collect()
 }
 
 /// The links with the mass that is fixed to each, and the angle of each joint by itself.
@@ -143,10 +157,9 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
         };
         let (lean, a) = match leaning {
             Some(row) => leans(chain, row),
-            None => ([Turn::ZERO; 2], [zero; 3]),
+            None => (Lean::NONE, [zero; 3]),
         };
-        let straight = lean[0].is_zero() || lean[0].is_half_turn();
-        let begins = row == 0 || !(straight && lean[1].is_zero());
+        let begins = row == 0 || !lean.is_straight();
         let g = &mut chain.g;
         let link = if begins {
             let offset = [a[0], a[1], g.add(a[2], behind)];
@@ -159,12 +172,12 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
                 turn,
                 offset,
                 slide,
-                head: zero,
+                row: RowFrame { lean: Lean::NONE, origin: [zero; 3] },
                 moments: Moments::default(),
             }
         } else {
             let before = &links[row - 1];
-            let over = lean[0].is_half_turn();
+            let over = lean.0[0].is_half_turn();
             behind = behind.signed(over);
             let turned = if over { before.turn.negated() } else { before.turn.clone() };
             let (opposite, turn) = (before.opposite != over, turned.plus(g, &turn));
@@ -175,7 +188,7 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
                 turn,
                 offset: a,
                 slide,
-                head: zero,
+                row: RowFrame { lean: Lean::NONE, origin: [zero; 3] },
                 moments: Moments::default(),
             }
         };
@@ -183,24 +196,21 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
         own.push(turn);
         let foot = behind;
         behind = chain.g.add(behind, d);
-        links[row].head = behind;
+        links[row].row = RowFrame::of(chain, row, behind);
         weigh(chain, &mut links, row, [foot, behind]);
     }
     (links, own)
 }
 
 /// The turns of a row behind (standard) or before (modified) its joint, and the translation with them.
-fn leans(chain: &mut Chain, row: usize) -> ([Turn; 2], Vec3) {
+fn leans(chain: &mut Chain, row: usize) -> (Lean, Vec3) {
     let joint = &chain.robot.joints[row];
     let g = &mut chain.g;
-    let lean = [&joint.alpha, &joint.beta].map(|angle| Turn::constant(g, angle));
+    let lean = Lean([&joint.alpha, &joint.beta].map(|angle| Turn::constant(g, angle)));
     let along = [length(g, chain.robot, &joint.a), Expr::ZERO, Expr::ZERO];
     let offset = match chain.robot.convention {
         Convention::Standard => along,
-        Convention::Modified => {
-            let v = turned(g, &lean[1], 1, along);
-            turned(g, &lean[0], 0, v)
-        }
+        Convention::Modified => lean.outwards(g, along),
     };
     (lean, offset)
 }
@@ -217,8 +227,8 @@ fn weigh(chain: &mut Chain, links: &mut [Link], row: usize, [foot, head]: [Expr;
         let centre = joint.com.each_ref().map(|c| expression(g, c));
         let second = second(g, joint.inertia.as_ref());
         let at = Moments::body(g, mass, centre, second);
-        let at = of_row(chain, row, &at, head);
-        let g = &mut chain.g;
+        let frame = &links[row].row;
+        let at = frame.lean.moments(g, &at).moved(g, frame.origin);
         links[row].moments = links[row].moments.with(g, &at);
     }
     let mass = beam_mass(chain, row);
@@ -231,14 +241,13 @@ fn weigh(chain: &mut Chain, links: &mut [Link], row: usize, [foot, head]: [Expr;
         Convention::Modified => {
             let g = &mut chain.g;
             let d = g.sub(head, foot);
-            let up = turned(g, &lean[1], 1, [zero, zero, d]);
-            let up = turned(g, &lean[0], 0, up);
+            let up = lean.outwards(g, [zero, zero, d]);
             let link = &links[row];
             // Where the row begins, the translations left to the end of the run before are in its offset.
             let start = if link.begins {
                 g.sub(link.offset[2], along[2])
             } else {
-                foot.signed(lean[0].is_half_turn())
+                foot.signed(lean.0[0].is_half_turn())
             };
             (row.checked_sub(1), g.add3(along, up), [zero, zero, start])
         }
@@ -257,19 +266,6 @@ fn weigh(chain: &mut Chain, links: &mut [Link], row: usize, [foot, head]: [Expr;
     });
     let rod = Moments::body(g, mass, centre, rod);
     links[carrier].moments = links[carrier].moments.with(g, &rod);
-}
-
-/// Moments in a row's frame as its link has them, whose origin is `head` below that frame along the joint's axis.
-fn of_row(chain: &mut Chain, row: usize, moments: &Moments, head: Expr) -> Moments {
-    let (lean, along) = leans(chain, row);
-    let g = &mut chain.g;
-    match chain.robot.convention {
-        Convention::Modified => moments.moved(g, [Expr::ZERO, Expr::ZERO, head]),
-        Convention::Standard => {
-            let turned = moments.turned(g, &lean[1], 1).turned(g, &lean[0], 0);
-            turned.moved(g, [along[0], along[1], head])
-        }
-    }
 }
 
 /// Second moments of mass of a tensor of inertia: `tr/2 − I`.

@@ -4,6 +4,7 @@ mod composite;
 mod line;
 mod moments;
 mod newton_euler;
+mod regressor;
 
 use stiffarm_kernels::Output;
 
@@ -11,8 +12,7 @@ use super::{Derivation, Derived};
 use crate::derive::chain::{Chain, expression};
 use crate::derive::program::Solve;
 use crate::expr::{Expr, Symbol, Vec3};
-use line::{Link, line, units, weightless};
-use moments::Moments;
+use line::{Link, line, weightless};
 use newton_euler::{Motion, newton_euler};
 
 /// The outputs of this folder.
@@ -70,22 +70,14 @@ fn forward_dynamics(chain: &mut Chain) -> Derived {
     Derived { entries: unknowns, solve: Some(solve) }
 }
 
-/// ∂τ/∂π, n×10n: the torques of a motion with one moment of mass at a time.
+/// ∂τ/∂π, n×10n.
 fn regressor(chain: &mut Chain) -> Derived {
     let (rates, accelerations) =
         (symbols(chain, Symbol::Rate), symbols(chain, Symbol::Acceleration));
     let gravity = gravity(chain);
-    let mut links = weightless(chain);
+    let links = weightless(chain);
     let motion = Motion { rates: &rates, accelerations: &accelerations, gravity };
-    let mut columns = Vec::new();
-    for row in 0..chain.dof() {
-        for moments in units(chain, row) {
-            links[row].moments = moments;
-            columns.extend(newton_euler(&mut chain.g, &links, &motion));
-        }
-        links[row].moments = Moments::default();
-    }
-    columns.into()
+    regressor::regressor(&mut chain.g, &links, &motion).into()
 }
 
 /// ∂τ/∂q̈, n×n.

@@ -5,6 +5,7 @@
 //! `U S` of its second moments S (Khalil & Kleinfinger 1987). As nothing of S lies along z once the moments
 //! are regrouped, that takes thirteen products.
 
+use super::composite::levers;
 use super::line::Link;
 use crate::expr::{Expr, Graph, Vec3};
 
@@ -21,23 +22,23 @@ type Load = (Vec3, Vec3);
 
 /// A link's angular velocity and acceleration, and the acceleration of its origin.
 #[derive(Clone, Copy, Default)]
-struct State {
-    spin: Vec3,
-    spin_rate: Vec3,
-    acceleration: Vec3,
+pub(super) struct State {
+    pub spin: Vec3,
+    pub spin_rate: Vec3,
+    pub acceleration: Vec3,
 }
 
 /// How the points of a link accelerate.
 #[derive(Clone, Copy, Default)]
-struct Field {
+pub(super) struct Field {
     /// `[ω̇]× + [ω]×²`, rows.
-    u: [Vec3; 3],
+    pub u: [Vec3; 3],
     /// `U_zz − U_yy`, `U_xx − U_zz`, `U_yy − U_xx`: without the sums that they have in common.
-    differences: Vec3,
+    pub differences: Vec3,
 }
 
 impl Field {
-    fn new(g: &mut Graph, w: Vec3, rate: Vec3) -> Field {
+    pub fn new(g: &mut Graph, w: Vec3, rate: Vec3) -> Field {
         let [x, y, z] = w;
         let squares = w.map(|c| g.mul(c, c));
         let [xy, xz, yz] = [(x, y), (x, z), (y, z)].map(|(a, b)| g.mul(a, b));
@@ -54,7 +55,7 @@ impl Field {
     }
 
     /// `U r`.
-    fn times(&self, g: &mut Graph, r: Vec3) -> Vec3 {
+    pub fn times(&self, g: &mut Graph, r: Vec3) -> Vec3 {
         self.u.map(|row| g.dot3(row, r))
     }
 
@@ -93,35 +94,37 @@ fn sum(g: &mut Graph, products: &[(Expr, Expr)]) -> Expr {
 
 /// What the motors give so that the links move, rotors and friction apart.
 pub(super) fn newton_euler(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Vec<Expr> {
-    let (loads, levers) = outwards(g, links, motion);
+    let levers = levers(g, links);
+    let states = outwards(g, links, motion);
+    let load = |(link, state): (&Link, &State)| {
+        let field = Field::new(g, state.spin, state.spin_rate);
+        field.load(g, link, state.acceleration)
+    };
+    let loads: Vec<Load> = links.iter().zip(&states).map(load).collect();
     inwards(g, links, &loads, &levers)
 }
 
-/// The load on each link in its own axes, and where each link's origin is from the one before, in the axes of
-/// the run.
-fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> (Vec<Load>, Vec<Vec3>) {
-    let (mut loads, mut levers) = (Vec::new(), Vec::new());
+/// How each link moves, in its own axes.
+pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Vec<State> {
+    let mut states: Vec<State> = Vec::new();
     // A base that is thrown upwards weighs its links down.
     let acceleration = motion.gravity.map(|c| -c);
-    // The link before the run in the run's axes, the last link in its own, and the rates about the run's z.
+    // The link before the run in the run's axes, and the rates about the run's z.
     let mut run = State { acceleration, ..State::default() };
-    let mut last = run;
     let mut field = Field::default();
     let mut turning = [Expr::ZERO; 2];
     for (k, link) in links.iter().enumerate() {
+        let last = states.last().copied().unwrap_or(run);
         let carried = field.times(g, link.offset);
         if link.begins {
             let at = g.add3(last.acceleration, carried);
             let [spin, spin_rate, acceleration] =
-                [last.spin, last.spin_rate, at].map(|v| link.lean_in(g, v));
+                [last.spin, last.spin_rate, at].map(|v| link.lean.inwards(g, v));
             run = State { spin, spin_rate, acceleration };
             turning = [Expr::ZERO; 2];
-            levers.push([Expr::ZERO; 3]);
         } else {
-            let before = &links[k - 1];
-            let carried = before.outwards_to_run(g, carried);
+            let carried = links[k - 1].outwards_to_run(g, carried);
             run.acceleration = g.add3(run.acceleration, carried);
-            levers.push(before.outwards_to_run(g, link.offset));
         }
         let (rate, acceleration) = (motion.rates[k], motion.accelerations[k]);
         if link.slide.is_none() {
@@ -149,17 +152,14 @@ fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> (Vec<Load>, V
             let in_run = link.outwards_to_run(g, slid);
             run.acceleration = g.add3(run.acceleration, in_run);
             at = g.add3(at, slid);
-            let lever = &mut levers[k];
-            lever[2] = g.add(lever[2], link.signed(slide));
         }
-        last = State { spin, spin_rate, acceleration: at };
+        states.push(State { spin, spin_rate, acceleration: at });
         let i = k + 1;
         for (v, name) in [(spin, "w"), (spin_rate, "dw"), (at, "a")] {
             g.name3(v, &format!("{name}{i}"));
         }
-        loads.push(field.load(g, link, at));
     }
-    (loads, levers)
+    states
 }
 
 /// What each joint bears of its link and of all beyond.
@@ -183,7 +183,7 @@ fn inwards(g: &mut Graph, links: &[Link], loads: &[Load], levers: &[Vec3]) -> Ve
         let lever = g.cross3(levers[k], run.0);
         run.1 = g.add3(run.1, lever);
         if link.begins {
-            let (force, moment) = (link.lean_out(g, run.0), link.lean_out(g, run.1));
+            let (force, moment) = (link.lean.outwards(g, run.0), link.lean.outwards(g, run.1));
             let lever = g.cross3(link.offset, force);
             beyond = (force, g.add3(moment, lever));
             run = none;
