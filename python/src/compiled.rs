@@ -178,6 +178,7 @@ impl Library {
         let nominal = arm.robot().effects.is_empty();
         for (asked, _) in &self.functions {
             let output = asked.output;
+            let known = arm.asked(output, asked.at.clone()).map_err(|no| no.message)?;
             let textbook = nominal && asked.at.is_none();
             let plain = if textbook { Engine::Textbook } else { Engine::Graph };
             let (size, (rows, columns)) = (output.state(self.dof), output.shape(self.dof));
@@ -189,7 +190,7 @@ impl Library {
             let mut blocks = [vec![0.0; POSES * rows * columns], vec![0.0; POSES * rows * columns]];
             let [ours, theirs] = &mut blocks;
             let here = self.evaluate(asked, poses, ours);
-            let there = match arm.by(plain, asked, poses, theirs) {
+            let there = match arm.by(plain, &known, poses, theirs) {
                 Err(batch::Error::Unstable { first, count }) => Some((first, count)),
                 _ => None,
             };

@@ -152,7 +152,7 @@ def test_numbers_go_back_to_mujoco():
     ]  # fmt: skip
     corrected = rewritten(nominal, changes)
     q, qd = RANDOM.uniform(-1.0, 1.0, (2, 3))
-    assert numpy.abs(corrected.bias(q, qd) - nominal.bias(q, qd)).min() > 0.05
+    assert numpy.abs(corrected.bias(q, qd) - nominal.bias(q, qd)).max() > 0.5
     assert corrected.to_mujoco(spec, nominal, tip="tcp") == []
     assert_moves_alike(mujoco, corrected, spec)
     model = spec.compile()
