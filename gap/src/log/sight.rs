@@ -1,11 +1,13 @@
-//! What the rate of a log, and the band that it leaves, take from sight.
+//! What a log cannot show, and why.
 
 use core::f64::consts::TAU;
 
-use super::effects::{LogEffect, Spot};
+use super::effects::{CATALOGUE, LogEffect, Spot};
 use super::report::Hidden;
-use super::scene::Domain;
-use super::search::case::Case;
+use super::scene::{Domain, Loads};
+use super::search::case::{Case, Simple, Wanted};
+use super::search::fit::Term;
+use super::search::judge::Verdict;
 use super::search::ripples::{ORDERS, PASSES};
 use super::signal::Signals;
 
@@ -19,14 +21,55 @@ const GIVES: f64 = 0.01;
 /// A recorder holds a value for up to a step: below this step, s, no arm's delay is shorter.
 const SHORT: f64 = 0.01;
 
-/// Effects among `asked` that this log is too slow for.
-pub fn too_slow<'e>(
+/// What this log cannot show, and why: what no motion does, what the model as it was first showed nothing
+/// of, and what the log is too slow for.
+pub fn hidden(
     case: &Case<'_>,
-    asked: impl Iterator<Item = &'e dyn LogEffect>,
+    simple: &Simple,
+    unseen: Vec<(&'static dyn LogEffect, Spot)>,
+    wanted: &[Wanted],
+    verdict: &Verdict,
     period: f64,
 ) -> Vec<Hidden> {
+    let mut hidden = Vec::new();
+    let mut tell = |effect: &'static str, place: String, reason: &str| {
+        hidden.push(Hidden { effect, place, reason: reason.to_owned() });
+    };
+    if case.kind.0 == Domain::Torque && case.loaded.iter().all(Option::is_none) {
+        tell(
+            "torque_scale",
+            Spot::Arm.to_string(),
+            "with free masses all inertias and frictions grow with it, exactly: only a payload of \
+             known mass tells",
+        );
+    }
+    let loads = Loads::default();
+    let scene = case.scene(simple, case.signals, &loads);
+    let own = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0);
+    for (effect, reason) in own.filter_map(|e: &&dyn LogEffect| Some((e, e.excluded(&scene)?))) {
+        tell(effect.identifier(), "every joint".to_owned(), &reason);
+    }
+    let scale = |effect: &&dyn LogEffect, spot: &Spot| {
+        effect.identifier() == "torque_scale" && *spot == Spot::Arm
+    };
+    for (effect, spot) in unseen.iter().filter(|(e, s)| !scale(e, s)) {
+        let reason = "what is fitted along does the same in this motion";
+        tell(effect.identifier(), spot.to_string(), reason);
+    }
+    // What was found was seen, but for a delay that the recorder may make.
+    let found = |h: &Hidden| {
+        let is = |t: &Term| t.effect.identifier() == h.effect && t.spot.to_string() == h.place;
+        let told = |t: &Term| h.effect != "latency" || t.values[0].abs() > 0.5 * period;
+        verdict.findings.iter().any(|finding| is(&finding.term) && told(&finding.term))
+    };
+    let asked = wanted.iter().map(|(effect, ..)| effect.identifier()).collect::<Vec<_>>();
+    hidden.extend(too_slow(case, &asked, period).into_iter().filter(|h| !found(h)));
+    hidden
+}
+
+/// Effects among `asked` that this log is too slow for.
+fn too_slow(case: &Case<'_>, asked: &[&str], period: f64) -> Vec<Hidden> {
     let (signals, band) = (case.signals, case.signals.band);
-    let asked: Vec<&'static str> = asked.map(|effect| effect.identifier()).collect();
     let mut hidden = Vec::new();
     let mut tell = |effect: &'static str, spot: Spot, reason: String| {
         if asked.contains(&effect) {

@@ -5,17 +5,17 @@ use std::cell::RefCell;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::effects::{CATALOGUE, LogEffect, Spot};
+use super::effects::{LogEffect, Spot};
 use super::known;
 use super::model::{Acting, Model};
 use super::options::{LogOptions, Refused};
 use super::read::{Log, TorqueSide};
 use super::report::{
-    Alternative, Dependence, Evidence, Filter, Finding, Hidden, JointGap, LogDiagnosis, Parameter,
+    Alternative, Dependence, Evidence, Filter, Finding, JointGap, LogDiagnosis, Parameter,
     Unexplained,
 };
 use super::rigid::{Base, body, moved};
-use super::scene::{Domain, Loads};
+use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, Term};
@@ -25,7 +25,7 @@ use super::search::rest::rests;
 use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
 use super::search::{self, Round, effective};
-use super::sight::too_slow;
+use super::sight::hidden;
 use super::signal::Signals;
 use crate::measurement::Body;
 
@@ -174,18 +174,7 @@ pub fn diagnosed(
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
         findings: told.findings(&left, &verdict, &after),
-        cannot_see: {
-            let mut all = hidden(&case, &simple, &loaded, unseen);
-            // What was found was seen.
-            let found = |h: &Hidden| {
-                verdict.findings.iter().any(|f| {
-                    f.term.effect.identifier() == h.effect && f.term.spot.to_string() == h.place
-                })
-            };
-            let asked = wanted.iter().map(|(effect, ..)| *effect);
-            all.extend(too_slow(&case, asked, log.period()).into_iter().filter(|h| !found(h)));
-            all
-        },
+        cannot_see: hidden(&case, &simple, unseen, &wanted, &verdict, log.period()),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
         remarks: [log.remarks(), log.doubts(arm)].concat(),
     };
@@ -384,39 +373,4 @@ impl Told<'_> {
 
 fn alternative((term, leaves): &(Term, f64)) -> Alternative {
     Alternative { effect: term.effect.identifier(), place: term.spot.to_string(), leaves: *leaves }
-}
-
-/// What this log cannot show.
-fn hidden(
-    case: &Case<'_>,
-    simple: &Simple,
-    loaded: &[Option<[f64; 10]>],
-    unseen: Vec<(&'static dyn LogEffect, Spot)>,
-) -> Vec<Hidden> {
-    let mut hidden = Vec::new();
-    let mut tell = |effect: &'static str, place: String, reason: &str| {
-        hidden.push(Hidden { effect, place, reason: reason.to_owned() });
-    };
-    if case.kind.0 == Domain::Torque && loaded.iter().all(Option::is_none) {
-        tell(
-            "torque_scale",
-            Spot::Arm.to_string(),
-            "with free masses all inertias and frictions grow with it, exactly: only a payload of \
-             known mass tells",
-        );
-    }
-    let loads = Loads::default();
-    let scene = case.scene(simple, case.signals, &loads);
-    let own = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0);
-    for (effect, reason) in own.filter_map(|e: &&dyn LogEffect| Some((e, e.excluded(&scene)?))) {
-        tell(effect.identifier(), "every joint".to_owned(), &reason);
-    }
-    let scale = |effect: &&dyn LogEffect, spot: &Spot| {
-        effect.identifier() == "torque_scale" && *spot == Spot::Arm
-    };
-    for (effect, spot) in unseen.iter().filter(|(e, s)| !scale(e, s)) {
-        let reason = "what is fitted along does the same in this motion";
-        tell(effect.identifier(), spot.to_string(), reason);
-    }
-    hidden
 }

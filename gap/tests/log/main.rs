@@ -6,6 +6,7 @@ mod plant;
 mod planted;
 mod position;
 mod torque;
+mod written;
 
 /// The guide holds the catalogue as it is.
 #[test]

@@ -1,12 +1,6 @@
-//! From a log to compiled torques: what a diagnosis has put into a robot file is what the kernels made of that
-//! file ask, on every row of the log.
-//!
-//! `better.toml` is the file that the diagnosis writes; `UPDATE_LOGGED=1 cargo test --test logged` writes it
-//! again.
-
-#[path = "../../gap/tests/log/plant.rs"]
-#[allow(dead_code, reason = "the tests of logs use the rest of it")]
-mod plant;
+//! From a log to the torques of the robot file that is written of it: what the corrected arm's inverse dynamics
+//! ask is what the diagnosis predicts, on every row. Kernels are compiled of the same file, and are held against
+//! this textbook elsewhere (`tests/parity`).
 
 use std::collections::BTreeMap;
 
@@ -16,11 +10,7 @@ use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Signal, diagnosed};
 
-stiffarm::robot! {
-    /// The arm with what its log has shown.
-    mod better from "tests/logged/better.toml";
-    outputs: inverse_dynamics;
-}
+use super::plant::{self, Path, rigid};
 
 /// The arm as its user has it: the lengths are right, the masses are not, and there is no friction.
 const PLANAR: &str = "\
@@ -52,12 +42,12 @@ const FRICTION: [[f64; 2]; 2] = [[6.0, 4.0], [1.5, 2.5]];
 const ROTOR: f64 = 0.8;
 
 fn log() -> Log {
-    let path = plant::Path::new(7, 0.6);
+    let path = Path::new(7, 0.6);
     let mut dice = Dice::new(7, Stream::Noise);
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     for k in 0..COUNT {
         let [at, v, a] = path.at(STEP * k as f64);
-        let links = plant::rigid(at, v, a);
+        let links = rigid(at, v, a);
         for (j, [coulomb, viscous]) in FRICTION.into_iter().enumerate() {
             let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
             q[j].push(at[j] + 1e-6 * dice.normal());
@@ -88,72 +78,44 @@ fn found(log: &Log) -> (LogDiagnosis, Model, Corrected) {
 }
 
 #[test]
-fn the_file_is_what_the_diagnosis_writes() {
-    let (.., written) = found(&log());
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/logged/better.toml");
-    let text = written.robot.to_toml();
-    if std::env::var_os("UPDATE_LOGGED").is_some() {
-        std::fs::write(path, &text).expect("a file");
-    }
-    let there = read(&std::fs::read_to_string(path).expect("a file"));
-    let [there, is] =
-        [there, written.robot].map(|r| stiffarm_gap::robot::arm(&r).expect("numbers"));
-    for (there, is) in there.joints.iter().zip(&is.joints) {
-        let numbers = |joint: &stiffarm_kernels::generic::Joint| {
-            let drive = &joint.drive;
-            [
-                joint.mass,
-                joint.com.x,
-                joint.inertia.m33,
-                drive.coulomb,
-                drive.viscous,
-                drive.rotor_inertia,
-            ]
-        };
-        // Nine digits are written; the last bits of a sine are the platform's.
-        for (there, is) in numbers(there).into_iter().zip(numbers(is)) {
-            assert!((there - is).abs() <= 1e-6 * is.abs().max(1e-3), "{there}, not {is}: {text}");
-        }
-    }
-}
-
-#[test]
-fn compiled_torques_are_those_of_the_diagnosis() {
+fn the_written_arm_asks_what_the_diagnosis_predicts() {
     let log = log();
     let (found, model, written) = found(&log);
     assert_eq!(found.findings.len(), 5, "{:#?}", found.findings);
     let arm = stiffarm_gap::robot::arm(&read(PLANAR)).expect("numbers");
     let explained = model.explain(&arm, &log).expect("its own log");
+    // As it is read again: nine digits are written.
+    let better = stiffarm_gap::robot::arm(&read(&written.robot.to_toml())).expect("numbers");
     let mut signals = Signals::of(&log, model.drive, Some(model.band));
     signals.mark_ways(&model.still);
-    // The diagnosis filters what it computes at every sample: so are the compiled torques.
+    // The diagnosis filters what it computes at every sample: so are the written arm's torques.
     let mut torques = [Vec::new(), Vec::new()];
     for k in 0..signals.t.len() {
         let at = |of: &[Vec<f64>]| [of[0][k], of[1][k]];
-        let asks = better::inverse_dynamics(&at(&signals.q), &at(&signals.qd), &at(&signals.qdd));
-        torques.iter_mut().zip(asks).for_each(|(of, x)| of.push(x));
+        let asks = better.inverse_dynamics(&at(&signals.q), &at(&signals.qd), &at(&signals.qdd));
+        torques.iter_mut().zip(asks.iter()).for_each(|(of, x)| of.push(*x));
     }
     let bodies = written.bodies.expect("torque rows");
     for (joint, (fine, gap)) in torques.iter().zip(&found.gap).enumerate() {
-        let (compiled, rows) = (signals.filtered(fine), &explained.joints[joint]);
-        let off = rows.rms(|k| compiled[k] - (rows.target[k] - rows.left(k)));
+        let (asked, rows) = (signals.filtered(fine), &explained.joints[joint]);
+        let off = rows.rms(|k| asked[k] - (rows.target[k] - rows.left(k)));
         // The links are bodies that are near to what was fitted, by so much; friction is there to nine digits.
         assert!(off <= 2.0 * bodies * gap.size + 1e-6 * gap.size, "{off} of {}", gap.size);
         // And bodies leave of the torques what the diagnosis says, not what the file left before.
-        let left = rows.rms(|k| rows.target[k] - compiled[k]);
+        let left = rows.rms(|k| rows.target[k] - asked[k]);
         assert!(left < 1.1 * gap.after && left < 0.1 * gap.before, "{left}: {gap:?}");
     }
     // The arm that was logged, by its closed form.
     for (q, v, a) in
         [([0.3, -0.8], [0.7, -0.4], [1.1, 2.0]), ([-0.5, -2.0], [-0.3, 0.9], [0.0, -3.0])]
     {
-        let links = plant::rigid(q, v, a);
-        let compiled = better::inverse_dynamics(&q, &v, &a);
+        let links = rigid(q, v, a);
+        let asked = better.inverse_dynamics(&q, &v, &a);
         for j in 0..2 {
             let [coulomb, viscous] = FRICTION[j];
             let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
             let was = links[j] + rotor + coulomb * f64::signum(v[j]) + viscous * v[j];
-            assert!((compiled[j] - was).abs() < 0.02 * found.gap[j].size, "{} {was}", compiled[j]);
+            assert!((asked[j] - was).abs() < 0.02 * found.gap[j].size, "{} {was}", asked[j]);
         }
     }
 }
