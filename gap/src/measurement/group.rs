@@ -10,9 +10,10 @@ use super::Row;
 /// degree.
 const SAME: f64 = 1e-4;
 
-/// Side of a cell of the grid in which neighbours are looked up, in the distance within which they are
-/// such.
-const SIDE: f64 = 100.0;
+/// Side of a cell of the grid in which neighbours are looked up, for each coordinate that points have, in
+/// the distance within which they are such: a point near the borders of its cell is looked up in its
+/// neighbours too, in (1 + 2/side)ⁿ < e cells on average, and a cell holds as few as can be.
+const SIDE: f64 = 2.0;
 
 /// Where the cells begin, in their side: round numbers are not at their borders.
 const FIRST: f64 = 0.371_9;
@@ -38,11 +39,12 @@ impl Near {
     /// The kind of a point, numbered in the order in which they first appear; all have as many
     /// coordinates.
     pub(crate) fn kind(&mut self, point: &[f64]) -> usize {
+        let wide = SIDE * point.len().max(1) as f64;
         // A conversion out of range saturates.
-        let cell = |x: f64, off: f64| (x / (SIDE * self.within) + FIRST + off).floor() as i64;
+        let cell = |x: f64, off: f64| (x / (wide * self.within) + FIRST + off).floor() as i64;
         let mut cells = vec![Vec::with_capacity(point.len())];
         for x in point {
-            let [low, high] = [-1.0, 1.0].map(|side| cell(*x, side / SIDE));
+            let [low, high] = [-1.0, 1.0].map(|side| cell(*x, side / wide));
             if low < high {
                 let others: Vec<Vec<i64>> = cells.clone();
                 cells.iter_mut().for_each(|cell| cell.push(low));

@@ -113,7 +113,8 @@ pub(super) fn write(
     for row in &table.rows {
         put(outputs.iter().map(|o| (o.cell)(row)).collect::<Result<_, _>>()?);
     }
-    said.push(format!("{} rows", table.rows.len()));
+    let rows = table.rows.len();
+    said.push(format!("{rows} row{}", if rows == 1 { "" } else { "s" }));
     let csv = String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default();
     Ok(Imported { csv, said })
 }

@@ -27,7 +27,7 @@ sin = -5e-5
 id = "joint_coupling"
 place = "joint 2"
 joint = 1
-coupling = 1e-4
+ratio = 1e-4
 [[effect]]
 id = "slip"
 place = "tool"
