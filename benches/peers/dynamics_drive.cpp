@@ -19,7 +19,8 @@ extern "C" {
     CASADI_FUNCTION(arm##_inverse_dynamics_casadi)                                                             \
     CASADI_FUNCTION(arm##_bias_casadi)                                                                         \
     CASADI_FUNCTION(arm##_mass_matrix_casadi)                                                                  \
-    CASADI_FUNCTION(arm##_torque_regressor_casadi)
+    CASADI_FUNCTION(arm##_torque_regressor_casadi)                                                             \
+    CASADI_FUNCTION(arm##_derivatives_casadi)
 CASADI_ARM(ur10)
 CASADI_ARM(panda)
 #endif
@@ -29,6 +30,7 @@ CASADI_ARM(panda)
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/regressor.hpp>
+#include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <pinocchio/multibody.hpp>
 namespace pin = pinocchio;
@@ -149,11 +151,19 @@ pin::Model model_of(const Arm &arm) {
 
 template <int N, class Kernels>
 void all(const Arm &arm, const Kernels &kernels) {
-    const char *const names[] = {"inverse_dynamics", "bias", "mass_matrix", "forward_dynamics", "torque_regressor"};
-    const size_t sizes[] = {N, N, N * N, N, 10 * N * N};
-    std::vector<Way> ways[5];
-    std::vector<double> expected[5];
+    constexpr int COUNT = 6;
+    const char *const names[COUNT] = {"inverse_dynamics", "bias", "mass_matrix", "forward_dynamics",
+                                      "torque_regressor", "derivatives"};
+    const size_t sizes[COUNT] = {N, N, N * N, N, 10 * N * N, 3 * N * N};
+    std::vector<Way> ways[COUNT];
+    std::vector<double> expected[COUNT];
     for (int k = 0; k < 5; ++k) expected[k] = arm.expected(names[k]);
+    // By values, rates and accelerations: the last is the mass matrix.
+    const std::vector<double> by[] = {arm.expected("inverse_dynamics_by_joints"),
+                                      arm.expected("inverse_dynamics_by_rates"), expected[2]};
+    for (size_t call = 0; call < arm.calls(); ++call)
+        for (const auto &matrix : by)
+            expected[5].insert(expected[5].end(), &matrix[N * N * call], &matrix[N * N * call] + N * N);
     const auto ours = [&](int k, auto call) {
         ways[k].push_back(way(arm, names[k], "stiffarm", sizes[k], expected[k], call, as_it_is));
     };
@@ -162,6 +172,8 @@ void all(const Arm &arm, const Kernels &kernels) {
     ours(2, [=](const double *x, double *out) { kernels.mass_matrix(x, out); });
     ours(3, [=](const double *x, double *out) { (void)kernels.forward_dynamics(x, x + N, x + 2 * N, out); });
     ours(4, [=](const double *x, double *out) { kernels.torque_regressor(x, x + N, x + 2 * N, out); });
+
+    ours(5, [=](const double *x, double *out) { kernels.derivatives(x, out); });
 
     // A peer's joint frames need not be the rows': its regressor is right if its product with the moments is.
     std::vector<double> moments;
@@ -196,6 +208,7 @@ void all(const Arm &arm, const Kernels &kernels) {
     casadi(1, kernels.casadi_bias);
     casadi(2, kernels.casadi_mass_matrix);
     casadi(4, kernels.casadi_torque_regressor);
+    casadi(5, kernels.casadi_derivatives);
 #endif
 #ifdef PINOCCHIO
     const pin::Model model = model_of(arm);
@@ -228,8 +241,19 @@ void all(const Arm &arm, const Kernels &kernels) {
         at(out, 10 * N) =
             pin::computeJointTorqueRegressor(model, data, vector(x), vector(x + N), vector(x + 2 * N));
     }, product);
+    // Of the mass matrix, too, the upper triangle alone.
+    pinocchio(5, [&](const double *x, double *out) {
+        pin::computeRNEADerivatives(model, data, vector(x), vector(x + N), vector(x + 2 * N), at(out, N),
+                                    at(out + N * N, N), at(out + 2 * N * N, N));
+    }, [](const std::vector<double> &found) {
+        std::vector<double> whole(found);
+        double *mass = &whole[2 * N * N];
+        for (int i = 0; i < N; ++i)
+            for (int j = 0; j < i; ++j) mass[N * j + i] = mass[N * i + j];
+        return whole;
+    });
 #endif
-    for (int k = 0; k < 5; ++k) compete(arm, names[k], std::move(ways[k]));
+    for (int k = 0; k < COUNT; ++k) compete(arm, names[k], std::move(ways[k]));
 }
 
 #ifdef CASADI
@@ -237,25 +261,34 @@ void all(const Arm &arm, const Kernels &kernels) {
     decltype(&arm##_inverse_dynamics_casadi) casadi_inverse_dynamics = arm##_inverse_dynamics_casadi;           \
     decltype(&arm##_bias_casadi) casadi_bias = arm##_bias_casadi;                                               \
     decltype(&arm##_mass_matrix_casadi) casadi_mass_matrix = arm##_mass_matrix_casadi;                          \
-    decltype(&arm##_torque_regressor_casadi) casadi_torque_regressor = arm##_torque_regressor_casadi;
+    decltype(&arm##_torque_regressor_casadi) casadi_torque_regressor = arm##_torque_regressor_casadi;           \
+    decltype(&arm##_derivatives_casadi) casadi_derivatives = arm##_derivatives_casadi;
 #else
 #define CASADI_KERNELS(arm)
 #endif
-#define KERNELS(arm)                                                                                            \
+#define KERNELS(arm, joints)                                                                                    \
     struct {                                                                                                    \
         decltype(&arm##_inverse_dynamics) inverse_dynamics = arm##_inverse_dynamics;                            \
         decltype(&arm##_bias) bias = arm##_bias;                                                                \
         decltype(&arm##_mass_matrix) mass_matrix = arm##_mass_matrix;                                           \
         decltype(&arm##_forward_dynamics) forward_dynamics = arm##_forward_dynamics;                            \
         decltype(&arm##_torque_regressor) torque_regressor = arm##_torque_regressor;                            \
+        static void derivatives(const double *x, double *out) {                                                 \
+            constexpr int n = joints;                                                                           \
+            arm##_posture_t posture;                                                                            \
+            arm##_posture(x, &posture);                                                                         \
+            arm##_given_inverse_dynamics_by_joints(&posture, x + n, x + 2 * n, out);                            \
+            arm##_given_inverse_dynamics_by_rates(&posture, x + n, out + n * n);                                \
+            arm##_given_mass_matrix(&posture, out + 2 * n * n);                                                 \
+        }                                                                                                       \
         CASADI_KERNELS(arm)                                                                                     \
     } arm##_kernels;
 
 }  // namespace
 
 int main(int, char **argv) {
-    KERNELS(ur10)
-    KERNELS(panda)
+    KERNELS(ur10, UR10_JOINTS)
+    KERNELS(panda, PANDA_JOINTS)
     all<6>(Arm(argv[1], "ur10", 6), ur10_kernels);
     all<7>(Arm(argv[1], "panda", 7), panda_kernels);
     return 0;

@@ -90,6 +90,7 @@ for path in sorted(FOLDER.glob("*.links")):
         "bias": torques(gravity, links, numbers, q, qd, ca.SX(n, 1)),
         "mass_matrix": ca.jacobian(torques([0, 0, 0], links, numbers, q, ca.SX(n, 1), qdd), qdd),
         "torque_regressor": ca.jacobian(of_moments, ten),
+        "derivatives": ca.jacobian(torque, state),
     }
     for name, result in results.items():
         dense = ca.cse(ca.simplify(ca.densify(ca.vec(result))))

@@ -158,7 +158,7 @@ pub fn build<S: Scalar>(
     folder: &Folder,
     arm: &Arm<S>,
     precision: Precision,
-    level: &str,
+    flags: &[&str],
 ) {
     let (robot, _) = Robot::for_kernels(arm.toml, arm.id).expect("a valid file");
     let id = arm.id;
@@ -167,5 +167,6 @@ pub fn build<S: Scalar>(
     folder.write(&format!("{id}.h"), &files.header);
     folder.write(&format!("{id}.c"), &files.source);
     folder.write("main.c", &program(id, &robot, precision));
-    compile(compiler, folder, &[level, "main.c", &format!("{id}.c"), "-o", id, "-lm"]);
+    let source = format!("{id}.c");
+    compile(compiler, folder, &[flags, &["main.c", &source, "-o", id, "-lm"]].concat());
 }

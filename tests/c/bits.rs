@@ -12,6 +12,7 @@ use crate::compiler::{Folder, run, with_each_compiler};
 with_each_compiler! {
     doubles_are_the_rust_kernels_bits
     singles_are_the_rust_kernels_bits
+    as_many_lanes_as_there_are_have_the_same_bits
     a_reference_that_was_tampered_with_is_found
 }
 
@@ -121,11 +122,11 @@ fn expected<S: Bits>(arm: &Arm<S>, draws: &[Draw<S>]) -> Vec<Vec<Option<Vec<S>>>
     draws.iter().map(|(q, wrench)| arm.outputs(q, wrench)).collect()
 }
 
-fn check<S: Bits>(compiler: &str, arms: &[Arm<S>]) {
+fn check<S: Bits>(compiler: &str, arms: &[Arm<S>], flags: &[&str]) {
     for arm in arms {
-        let name = format!("{compiler}-{}-{:?}", arm.id, S::PRECISION);
+        let name = format!("{compiler}-{}-{:?}{}", arm.id, S::PRECISION, flags.concat());
         let folder = Folder::new(&name);
-        build(compiler, &folder, arm, S::PRECISION, "-O2");
+        build(compiler, &folder, arm, S::PRECISION, flags);
         let draws = draws::<S>(arm.kernels.dof());
         let expected = expected(arm, &draws);
         // Of the first draws the angles are none.
@@ -138,18 +139,37 @@ fn check<S: Bits>(compiler: &str, arms: &[Arm<S>]) {
 }
 
 fn doubles_are_the_rust_kernels_bits(compiler: &str) {
-    check(compiler, &doubles());
+    check(compiler, &doubles(), &["-O2"]);
 }
 
 fn singles_are_the_rust_kernels_bits(compiler: &str) {
-    check(compiler, &singles());
+    check(compiler, &singles(), &["-O2"]);
+}
+
+/// One number at a time, and the registers beyond those that the target has anyway.
+fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
+    let mut widths = vec!["-U__SSE2__", "-U__aarch64__"];
+    #[cfg(target_arch = "x86_64")]
+    {
+        widths.extend(std::is_x86_feature_detected!("avx2").then_some("-mavx2"));
+        widths.extend(std::is_x86_feature_detected!("avx512f").then_some("-mavx512f"));
+    }
+    // Sums of angles, seven of them, and angles that only readings and inputs have.
+    let is_one = |id: &str| ["ur10", "iiwa14", "corrected"].contains(&id);
+    let (mut doubles, mut singles) = (doubles(), singles());
+    doubles.retain(|arm| is_one(arm.id));
+    singles.retain(|arm| is_one(arm.id));
+    for width in widths {
+        check(compiler, &doubles, &["-O2", width]);
+        check(compiler, &singles, &["-O2", width]);
+    }
 }
 
 fn a_reference_that_was_tampered_with_is_found(compiler: &str) {
     let arms = doubles();
     let arm = arms.first().expect("an arm");
     let folder = Folder::new(&format!("tampered-{compiler}"));
-    build(compiler, &folder, arm, Precision::F64, "-O0");
+    build(compiler, &folder, arm, Precision::F64, &["-O0"]);
     let draws = draws::<f64>(arm.kernels.dof());
     let mut expected = expected(arm, &draws);
     let found = by_c(&folder, arm.id, &draws, expected[0].len());

@@ -4,7 +4,7 @@ use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, read, stiffarm, text};
 
 /// The robots of the collection by id.
 fn collection() -> impl Iterator<Item = (&'static str, Robot)> {
@@ -146,7 +146,7 @@ fn the_command_fuses_rust_alone() {
     }
 }
 
-/// Of a PUMA 560 motion tells 36 numbers (Mayeda, Yoshida & Osuka 1990), those of its last link among them.
+/// Of a PUMA 560 motion tells 36 numbers (as many as Pinocchio's regressor has ranks), those of its last link among them.
 #[test]
 fn base_parameters_are_listed() {
     let out = stiffarm(&["generate", "puma560", "--emit", "base"]).good();
@@ -156,4 +156,16 @@ fn base_parameters_are_listed() {
     let refused =
         stiffarm(&["generate", "puma560", "--emit", "base", "--outputs", "pose"]).refused();
     assert!(refused.contains("base are of the arm itself"), "{refused}");
+}
+
+/// The block of docs/dynamics.md is what its command prints, but for the lines that `…` stands for.
+#[test]
+fn base_parameters_are_those_of_the_page() {
+    let page = read("docs/dynamics.md");
+    let (_, block) =
+        page.split_once("$ stiffarm generate panda --emit base\n").expect("the command");
+    let (shown, _) = block.split_once("```").expect("the block's end");
+    let (first, last) = shown.split_once("     …\n").expect("lines left out");
+    let printed = stiffarm(&["generate", "panda", "--emit", "base"]).good();
+    assert!(printed.starts_with(first) && printed.ends_with(last), "{printed}");
 }

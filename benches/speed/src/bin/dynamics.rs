@@ -17,12 +17,14 @@ use stiffarm_kernels::generic::{Arm, Convention};
 
 const STATES: usize = 2048;
 
-const OUTPUTS: [Output; 5] = [
+const OUTPUTS: [Output; 7] = [
     Output::InverseDynamics,
     Output::Bias,
     Output::MassMatrix,
     Output::ForwardDynamics,
     Output::TorqueRegressor,
+    Output::InverseDynamicsByJoints,
+    Output::InverseDynamicsByRates,
 ];
 
 type Failure = Box<dyn std::error::Error>;
@@ -78,6 +80,7 @@ fn main() -> Result<(), Failure> {
 fn write<const M: usize>(directory: &Path, id: &str, states: &[[f64; M]]) -> Result<(), Failure> {
     let (_, text) = FILES.iter().find(|(known, _)| *known == id).ok_or("one of the arms")?;
     let (robot, _) = Robot::from_toml(text, id)?;
+    let robot = Robot { outputs: OUTPUTS.to_vec(), ..robot };
     let name = id.to_owned();
     let kernels =
         c(&robot, &COptions { name, precision: Precision::F64, sines: Sines::Polynomial })?;

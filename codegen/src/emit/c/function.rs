@@ -8,7 +8,7 @@ use super::super::posture::Needs;
 use super::posture::Entrance;
 use super::solve::solve_name;
 use super::style::C;
-use super::trigonometry::{Pair, take};
+use super::trigonometry::{Pair, declare};
 use crate::derive::{Block, Own};
 use crate::emit::lines::Lines;
 use crate::expr::Binding;
@@ -213,17 +213,13 @@ impl<'a> Function<'a> {
 
     /// Sines and cosines of angles that are not the posture's.
     fn angles(&self, out: &mut Lines, k: usize) {
-        let real = self.language.real();
+        let name = |letter, used: bool, suffix: &str| used.then(|| format!("{letter}{suffix}"));
         let pairs = self.plan.own_angles[k].iter().map(|angle| Pair {
             angle: self.printer().print(angle.sum),
-            sine: format!("s{}", angle.suffix),
-            cosine: format!("c{}", angle.suffix),
+            sine: name('s', angle.sine, &angle.suffix),
+            cosine: name('c', angle.cosine, &angle.suffix),
         });
-        let pairs: Vec<Pair> = pairs.collect();
-        for Pair { sine, cosine, .. } in &pairs {
-            out.code(&format!("{real} {sine}, {cosine};"));
-        }
-        take(out, self.language, &pairs);
+        declare(out, self.language, &pairs.collect::<Vec<_>>());
     }
 
     /// The system, and the block of what is worked out where it has a solution.

@@ -3,7 +3,7 @@
 use super::super::posture::{Plain, Posture};
 use super::super::readings::{Extra, Stage};
 use super::style::C;
-use super::trigonometry::{Pair, take};
+use super::trigonometry::{Pair, declare, take};
 use crate::emit::lines::Lines;
 use crate::robot::Robot;
 
@@ -82,8 +82,8 @@ impl Entrance<'_> {
         }
         let pairs = posture.angles.iter().map(|pair| Pair {
             angle: pair.sum.clone(),
-            sine: format!("posture->s{}", pair.suffix),
-            cosine: format!("posture->c{}", pair.suffix),
+            sine: Some(format!("posture->s{}", pair.suffix)),
+            cosine: Some(format!("posture->c{}", pair.suffix)),
         });
         take(out, self.language, &pairs.collect::<Vec<_>>());
         for plain in &posture.plain {
@@ -104,29 +104,29 @@ impl Entrance<'_> {
 
     /// The function itself.
     pub fn joints(&self, out: &mut Lines) {
-        let (real, stage) = (self.language.real(), self.stage);
+        let stage = self.stage;
         out.blank();
         out.code(&self.joints_head());
         out.braces(|out| {
-            let angles = stage.angles();
-            for angle in &angles {
-                let suffix = stage.suffix(*angle);
-                out.code(&format!("{real} s{suffix}, c{suffix};"));
-            }
-            if !angles.is_empty() {
-                out.blank();
-            }
             for extra in stage.extras().into_iter().filter(|extra| !stage.reads(*extra)) {
                 out.code(&format!("(void){};", extra.name()));
             }
-            let pairs = angles.iter().map(|angle| Pair {
-                angle: stage.print(*angle, self.language),
-                sine: format!("s{}", stage.suffix(*angle)),
-                cosine: format!("c{}", stage.suffix(*angle)),
+            let values = stage.readings.joints.iter();
+            let values: Vec<String> =
+                values.map(|value| stage.print(*value, self.language)).collect();
+            let wanted = |name: String| {
+                let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+                let mut words = values.iter().flat_map(|text| text.split(|c| !is_word(c)));
+                words.any(|word| word == name).then_some(name)
+            };
+            let pairs = stage.angles().into_iter().map(|angle| Pair {
+                angle: stage.print(angle, self.language),
+                sine: wanted(format!("s{}", stage.suffix(angle))),
+                cosine: wanted(format!("c{}", stage.suffix(angle))),
             });
-            take(out, self.language, &pairs.collect::<Vec<_>>());
-            for (joint, value) in stage.readings.joints.iter().enumerate() {
-                out.code(&format!("out[{joint}] = {};", stage.print(*value, self.language)));
+            declare(out, self.language, &pairs.collect::<Vec<_>>());
+            for (joint, value) in values.iter().enumerate() {
+                out.code(&format!("out[{joint}] = {value};"));
             }
         });
     }

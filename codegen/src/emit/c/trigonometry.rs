@@ -22,11 +22,19 @@ pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     }
 }
 
-/// An angle, and where its sine and cosine go.
+/// An angle, and where its sine and cosine go, as far as they are wanted.
 pub(super) struct Pair {
     pub angle: String,
-    pub sine: String,
-    pub cosine: String,
+    pub sine: Option<String>,
+    pub cosine: Option<String>,
+}
+
+/// [`take`] into locals, declared before.
+pub(super) fn declare(out: &mut Lines, language: &C, pairs: &[Pair]) {
+    for name in pairs.iter().flat_map(|pair| [&pair.sine, &pair.cosine]).flatten() {
+        out.code(&format!("{} {name};", language.real()));
+    }
+    take(out, language, pairs);
 }
 
 /// Statements that take the sines and cosines of all `pairs` at once.
@@ -43,8 +51,11 @@ pub(super) fn take(out: &mut Lines, language: &C, pairs: &[Pair]) {
         out.blank();
         out.code(&format!("sin_cos({count}, angles, sines, cosines);"));
         for (k, pair) in pairs.iter().enumerate() {
-            out.code(&format!("{} = sines[{k}];", pair.sine));
-            out.code(&format!("{} = cosines[{k}];", pair.cosine));
+            for (target, from) in [(&pair.sine, "sines"), (&pair.cosine, "cosines")] {
+                if let Some(target) = target {
+                    out.code(&format!("{target} = {from}[{k}];"));
+                }
+            }
         }
     });
 }

@@ -55,9 +55,9 @@ fn puma() -> Arm {
 }
 
 #[test]
-fn there_are_as_many_as_the_literature_counts() {
-    // Mayeda, Yoshida & Osuka 1990. Of any arm of n joints that turn 7n − 4 at most (Gautier & Khalil 1990); about a
-    // vertical first axis gravity does not tell the two first moments of its link.
+fn there_are_as_many_as_pinocchio_s_regressor_has_ranks() {
+    // tools/pinocchio_base.py, all counts here. Of any arm of n joints that turn 7n − 4 at most; about a vertical first
+    // axis gravity does not tell the two first moments of its link.
     assert_eq!(puma().base_parameters().len(), 36);
     let mut leaning = puma();
     leaning.gravity = Vector3::new(1.0, 2.0, -9.0);
@@ -66,7 +66,6 @@ fn there_are_as_many_as_the_literature_counts() {
     // About a leaning axis: the first moments across it, and the inertia.
     let alone: Vec<usize> = leaning.base_parameters().iter().map(|sum| sum.moment).collect();
     assert_eq!(alone, [1, 2, 9]);
-    // Gaz, Cognetti, Oliva, Robuffo Giordano & De Luca 2019: 43 of the Panda.
     let panda = arm(
         Convention::Modified,
         &[

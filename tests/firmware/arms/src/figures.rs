@@ -144,6 +144,16 @@ kernels! {
         let ([q, qd, qdd], _) = state.as_chunks() else { return };
         ur10_moving::torque_regressor(q, qd, qdd)
     } from [[S::of(0); 6]; 60];
+    /// How the UR10's torques change with the joint values.
+    ur10_inverse_dynamics_by_joints(state: 18, _) -> [[S; 6]; 6] {
+        let ([q, qd, qdd], _) = state.as_chunks() else { return };
+        ur10_moving::inverse_dynamics_by_joints(q, qd, qdd)
+    } from [[S::of(0); 6]; 6];
+    /// How they change with the rates.
+    ur10_inverse_dynamics_by_rates(state: 12, _) -> [[S; 6]; 6] {
+        let ([q, qd], _) = state.as_chunks() else { return };
+        ur10_moving::inverse_dynamics_by_rates(q, qd)
+    } from [[S::of(0); 6]; 6];
     /// One period of computed-torque control of the UR10, written against the trait.
     computed_torque_period(state: 30, _) -> [S; 6] {
         let ([q, qd, there, rates, accelerations], _) = state.as_chunks() else { return };

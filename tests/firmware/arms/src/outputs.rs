@@ -2,7 +2,7 @@
 
 use stiffarm::kernels::{Output, Unstable};
 
-use crate::robots::{iiwa14, kuka_kr240, panda, ur5_springs, ur10, various};
+use crate::robots::{iiwa14, kuka_kr240, panda, ur5_springs, ur10, ur10_moving, various};
 use crate::{Real, draw::draw};
 
 /// What the function `all` gives, after the outputs one by one.

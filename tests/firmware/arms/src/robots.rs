@@ -36,12 +36,14 @@ robot! {
 robot! {
     /// The UR10 as a loop of torques needs it.
     pub mod ur10_moving from "../../../robots/arms/ur10.toml";
-    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor, weight_torque;
+    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor, weight_torque,
+             inverse_dynamics_by_joints, inverse_dynamics_by_rates;
 }
 robot! {
     /// Franka Emika Panda: seven joints, ten full numbers for every link.
     pub mod panda from "../../../robots/arms/panda.toml";
-    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor;
+    outputs: inverse_dynamics, bias, mass_matrix, forward_dynamics, torque_regressor,
+             inverse_dynamics_by_joints, inverse_dynamics_by_rates;
 }
 robot! {
     /// Something of everything: a joint that slides, beams, weights, oblique twists, a turned tool.

@@ -68,7 +68,13 @@ pub fn objects(tools: &Tools, contraction: Contraction) -> Result<Vec<PathBuf>, 
         if sizes.contains_key(arm) {
             continue;
         }
-        let robot = Robot::from_toml(toml(arm)?, arm).map_err(|e| format!("{arm}: {e:?}"))?.0;
+        let mut robot = Robot::from_toml(toml(arm)?, arm).map_err(|e| format!("{arm}: {e:?}"))?.0;
+        if MOVING.contains(&arm) {
+            // What is generated on request, too.
+            let mut outputs = robot.generated();
+            outputs.extend(OF_MOTION.into_iter().filter(|output| !robot.generated().contains(output)));
+            robot.outputs = outputs;
+        }
         let name = arm.to_owned();
         let options = COptions { name, precision: Precision::F32, sines: Sines::Polynomial };
         let files = c(&robot, &options).map_err(|e| e.to_string())?;
