@@ -83,21 +83,21 @@ class Arm(_native.Arm, Outputs):
     @classmethod
     def from_pinocchio(cls, model: pinocchio.Model, *, tip: Optional[str] = None) -> Arm:
         """The arm of a model of Pinocchio's, up to the frame `tip` [default: the last frame of the last joint]."""
-        from .bridges import from_pinocchio
+        from .bridges.pinocchio import from_pinocchio
 
         return from_pinocchio(model, tip)
 
     @classmethod
     def from_mujoco(cls, spec: mujoco.MjSpec, *, tip: Optional[str] = None) -> Arm:
         """The arm of a model of MuJoCo's, up to the site or body `tip` [default: the last body], with its joints' springs."""
-        from .bridges import from_mujoco
+        from .bridges.mujoco import from_mujoco
 
         return from_mujoco(spec, tip)
 
     @classmethod
     def from_roboticstoolbox(cls, robot: Any) -> Arm:
         """The arm of a ``DHRobot`` of Corke's Robotics Toolbox."""
-        from .bridges import from_roboticstoolbox
+        from .bridges.roboticstoolbox import from_roboticstoolbox
 
         return from_roboticstoolbox(robot)
 
@@ -124,7 +124,7 @@ class Arm(_native.Arm, Outputs):
         bodies and of the site `tip`; masses, centres and moments of inertia; the joints' springs, friction and armature. Tells what
         the model has no place for.
         """
-        from .bridges import to_mujoco
+        from .bridges.to_mujoco import to_mujoco
 
         return to_mujoco(self, spec, nominal, tip)
 

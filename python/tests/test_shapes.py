@@ -62,3 +62,24 @@ def test_no_poses():
     for empty in ((0, N), (3, 0, N)):
         assert ARM.jacobian(numpy.zeros(empty)).shape == (*empty[:-1], 6, N)
         assert ARM.deflection(numpy.zeros(empty), numpy.zeros(6)).shape == (*empty[:-1], 6)
+
+
+@settings(max_examples=60, deadline=None)
+@given(some.data())
+def test_loads_go_with_poses(data):
+    lead, of_pose, of_load = data.draw(LEADS), data.draw(some.booleans()), data.draw(some.booleans())
+    numbers = some.floats(-1.0, 1.0, allow_subnormal=False)
+    q = data.draw(arrays.arrays(float, (*(lead if of_pose else ()), N), elements=numbers))
+    load = 50.0 * data.draw(arrays.arrays(float, (*(lead if of_load else ()), 6), elements=numbers))
+    found = ARM.joint_torque(q, load)
+    all_q, all_loads = (numpy.broadcast_to(one, (*found.shape[:-1], one.shape[-1])) for one in (q, load))
+    assert found.shape == (*(lead if of_pose or of_load else ()), N)
+    for at in numpy.ndindex(found.shape[:-1]):
+        # Lanes and one pose at a time are the same bits; and it is J^T w but for what a hundred roundings of 300 N·m make.
+        assert (found[at] == ARM.joint_torque(all_q[at], all_loads[at])).all()
+        assert numpy.abs(found[at] - ARM.jacobian(all_q[at]).T @ all_loads[at]).max() <= 100 * 2.3e-16 * 300
+    if load.size:
+        load.flat[data.draw(some.integers(0, load.size - 1))] = numpy.nan
+        if found.size:
+            with pytest.raises(ValueError, match="not finite"):
+                ARM.joint_torque(q, load)

@@ -17,14 +17,14 @@ ROUNDS = 15
 
 
 def median(work, repeat=1):
-    """Seconds of one piece of work, the median of some rounds."""
+    """Seconds of one piece of work, the median of some rounds: of the processor, which others may want too."""
     work()
     rounds = []
     for _ in range(ROUNDS):
-        begun = time.perf_counter()
+        begun = time.process_time()
         for _ in range(repeat):
             work()
-        rounds.append((time.perf_counter() - begun) / repeat)
+        rounds.append((time.process_time() - begun) / repeat)
     return statistics.median(rounds)
 
 
@@ -52,16 +52,16 @@ def batches(program):
 def imports():
     """Of a new interpreter, and of one that has NumPy already."""
     for what, before in (("import stiffarm", "pass"), ("the same behind NumPy", "import numpy")):
-        code = f"import time\n{before}\nt = time.perf_counter()\nimport stiffarm\nprint(time.perf_counter() - t)"
+        code = f"import time\n{before}\nt = time.process_time()\nimport stiffarm\nprint(time.process_time() - t)"
         run = [sys.executable, "-c", code]
         rounds = [float(subprocess.run(run, capture_output=True, text=True, check=True, cwd="/").stdout) for _ in range(ROUNDS)]
-        print(f"{what}, ms: {1e3 * statistics.median(rounds):.1f} ({1e3 * min(rounds):.1f})")
+        print(f"{what}, ms of the processor: {1e3 * statistics.median(rounds):.1f} ({1e3 * min(rounds):.1f})")
 
 
 def calls():
     arm = stiffarm.Arm.load("kuka_kr240")
     q, out = numpy.full(6, 0.3), numpy.empty((6, 6)).T
-    print("one Jacobian, µs:")
+    print("one Jacobian, µs of the processor:")
     print(f"  stiffarm           {1e6 * median(lambda: arm.jacobian(q), 2000):.2f}")
     print(f"  stiffarm, out=     {1e6 * median(lambda: arm.jacobian(q, out=out), 2000):.2f}")
     urdf = stiffarm.generate(arm, "urdf")["kuka_kr240.urdf"]
