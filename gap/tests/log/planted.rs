@@ -116,10 +116,11 @@ fn friction_that_falls_as_it_begins_and_iron_that_saturates_are_named_with_their
     close(found[1], 0.15, 0.15);
     let iron = recorded(26, |now| {
         let brake = 2.0 * now.v[0].signum();
+        // A few hundredths of the torque: it is told by the torque as it is told.
         let torque = rigid(now.q, now.v, now.a)[0] + brake;
-        [brake + 2e-3 * torque * torque.abs(), 0.0]
+        [brake + 5e-4 * torque * torque.abs(), 0.0]
     });
-    close(numbers(&diagnosed(&iron), "torque_saturation", "joint 1")[0], 2e-3, 0.15);
+    close(numbers(&diagnosed(&iron), "torque_saturation", "joint 1")[0], 5e-4, 0.15);
 }
 
 /// While a joint moves a wrong zero does the same: it is named, or told not to be apart from what is.
@@ -158,18 +159,18 @@ fn a_base_that_leans_is_named_with_its_angle() {
     close(numbers(&found, "gravity_direction", "the base")[2], 0.02, 0.1);
 }
 
-/// In a level plane: the encoder of joint 1 stands before its link by 0.1 mrad for each newton metre.
+/// In a level plane: the encoder of joint 1 stands before its link by 1 mrad for each newton metre.
 #[test]
 fn a_gear_that_gives_is_named_with_its_compliance() {
     let log = recorded_off(30, |now| {
         let weights = gravity(now.q);
         let torque = rigid(now.q, now.v, now.a)[0] - weights[0];
-        ([-weights[0], -weights[1]], [1e-4 * torque, 0.0])
+        ([-weights[0], -weights[1]], [1e-3 * torque, 0.0])
     });
     let level = Arm { gravity: Vector3::zeros(), ..arm() };
     let options = LogOptions { band: Some(10.0), ..LogOptions::default() };
     let found = diagnose(&level, &log, &options).unwrap();
-    close(numbers(&found, "joint_elasticity", "joint 1")[0], 1e-4, 0.15);
+    close(numbers(&found, "joint_elasticity", "joint 1")[0], 1e-3, 0.15);
 }
 
 /// Two runs, in the second of which the tool holds a body that nobody told.

@@ -30,7 +30,12 @@ impl LogEffect for AsymmetricFriction {
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let joint = joint(spot);
         let (speeds, still) = (&scene.signals.qd[joint], scene.still[joint]);
-        vec![scene.column(joint, |k| f64::from(u8::from(speeds[k].abs() > still)))]
+        // A joint that turns round does not rest.
+        let rests = |k: usize| {
+            let around = &speeds[k.saturating_sub(1)..(k + 2).min(speeds.len())];
+            around.iter().all(|speed| speed.abs() <= still)
+        };
+        vec![scene.column(joint, |k| f64::from(u8::from(!rests(k))))]
     }
 
     fn beside(&self) -> Option<&'static str> {

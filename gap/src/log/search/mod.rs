@@ -35,6 +35,9 @@ use super::signal::Signals;
 /// A chance above this is not told from accident.
 const CHANCE: f64 = 0.05;
 
+/// So many candidates are asked again by blocks of their own.
+const AGAIN: usize = 4;
+
 /// No log shows more.
 const MOST: usize = 80;
 
@@ -106,24 +109,25 @@ impl Round {
         if round.best().is_some() {
             return round;
         }
-        // What is left remembers long while something slow is missing, and few blocks tell nothing. Were the
-        // candidate that takes most unrelated, what is left would be left with it too: so long are the blocks.
-        let Some(most) = round.asked.most() else { return round };
-        let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
-        let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
-        let (blocks, mut asked) = ask(&correlation, offers);
-        if blocks.all.len() <= round.blocks.all.len() {
-            return round;
+        // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
+        // candidate unrelated, what is left would be left with it too: so long are the blocks.
+        for most in round.asked.most() {
+            let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
+            let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
+            let (blocks, mut asked) = ask(&correlation, offers);
+            if blocks.all.len() <= round.blocks.all.len() {
+                continue;
+            }
+            let others = asked.candidates.iter().map(|c| c.term.offer != most.term.offer);
+            let others = asked.chances.iter_mut().zip(others).filter(|(_, other)| *other);
+            others.for_each(|(chance, _)| *chance = 1.0);
+            let (fit, sizes) = (fit.clone(), sizes.clone());
+            let again = Round { correlation, blocks, asked, fit, sizes };
+            if again.best().is_some() {
+                return again;
+            }
         }
-        let others = asked.candidates.iter().map(|c| c.term.offer != most.term.offer);
-        asked
-            .chances
-            .iter_mut()
-            .zip(others)
-            .filter(|(_, other)| *other)
-            .for_each(|(p, _)| *p = 1.0);
-        let again = Round { correlation, blocks, asked, fit, sizes };
-        if again.best().is_some() { again } else { round }
+        round
     }
 
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
@@ -140,10 +144,13 @@ impl Round {
 }
 
 impl Asked {
-    /// The candidate that takes most by each of its numbers.
-    fn most(&self) -> Option<&Candidate> {
+    /// The candidates that take most by each of their numbers, that which does first.
+    fn most(&self) -> Vec<&Candidate> {
         let may = self.candidates.iter().filter(|c| c.term.effect.may_be(&c.term.values));
-        may.max_by(|a, b| a.takes().total_cmp(&b.takes()))
+        let mut most: Vec<&Candidate> = may.collect();
+        most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
+        most.truncate(AGAIN);
+        most
     }
 
     /// Asks a model for those of the offers that it lacks.

@@ -27,6 +27,9 @@ enum Of {
     Acceleration(usize),
     Load,
     Time,
+    /// What brakes goes with the way of the motion: the load's size or the time, with its sign.
+    BrakingLoad,
+    BrakingTime,
 }
 
 impl Of {
@@ -42,6 +45,8 @@ impl Of {
             Of::Acceleration(k) => of("acceleration", k),
             Of::Load => "load".to_owned(),
             Of::Time => "time".to_owned(),
+            Of::BrakingLoad => "load, against the motion".to_owned(),
+            Of::BrakingTime => "time, against the motion".to_owned(),
         }
     }
 }
@@ -89,7 +94,8 @@ pub fn rests(stock: &Stock<'_>, verdict: &Verdict, seed: u64) -> Vec<Rest> {
     let all: Vec<Asked> = joints()
         .flat_map(|joint| {
             let others = joints().flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
-            let of = [Of::Load, Of::Time].into_iter().chain(others);
+            let own = [Of::Load, Of::Time, Of::BrakingLoad, Of::BrakingTime];
+            let of = own.into_iter().chain(others);
             of.map(move |of| Asked { joint, of })
         })
         .collect();
@@ -148,10 +154,19 @@ impl Left<'_> {
             Of::Speed(k) => signals.kept(&signals.qd[k]),
             Of::Acceleration(k) => signals.kept(&signals.qdd[k]),
             Of::Time => signals.kept(&signals.t),
+            Of::BrakingTime => {
+                let rows =
+                    signals.kept(&signals.t).into_iter().zip(signals.kept(&signals.qd[joint]));
+                rows.map(|(t, rate)| t * rate.signum()).collect()
+            }
+            Of::BrakingLoad => signals.kept(&signals.qd[joint]),
             Of::Load => Vec::new(),
         };
         let value = |k: usize| match of {
             Of::Load => self.loads[joint][k].unwrap_or(0.0),
+            Of::BrakingLoad => {
+                self.loads[joint][k].unwrap_or(0.0).abs() * rows[self.stock.rows[k]].signum()
+            }
             _ => rows[self.stock.rows[k]],
         };
         let left = &self.left[joint];

@@ -140,12 +140,19 @@ impl<'a> Bench<'a> {
         let size = truth.values[0].abs();
         let longest = self.plan.stages.iter().map(|stage| stage.course.duration());
         match truth.law.name {
-            "joint_elasticity" => size * given < BENT,
+            "joint_elasticity" => size * given < BENT && self.is_held(truth),
             "load_friction" | "torque_scale" => size < 1.0,
             "torque_saturation" => size * given < 1.0,
             "warm_up" => size * longest.fold(0.0, f64::max) / 60.0 < 1.0,
             _ => true,
         }
+    }
+
+    /// Whether the controller holds such an arm: what gives lies between its encoders and the links.
+    fn is_held(&self, truth: &MotionTruth) -> bool {
+        let truths = core::slice::from_ref(truth);
+        let plant = MovingPlant::new(self.plan.arm, truths, self.plan.logged, self.plan.recording);
+        plant.record(self.plan.stages, self.plan.seed).is_ok()
     }
 
     fn sizes(&self, truth: &MotionTruth) -> Result<[f64; 2], MotionError> {
