@@ -93,9 +93,13 @@ fn options_go_to_the_data_that_they_are_about() {
     let [robot, campaign, log] = data(&folder, GIVES);
     let both = ["diagnose", &robot, &campaign, &log];
     let only = ["--effects", "joint_compliance,servo_droop,latency", "--nuisance", "base_frame"];
-    let checked = ["--band", "5Hz", "--check", &log];
-    let out = stiffarm(&[&both[..], &only, &checked].concat()).good();
-    assert!(out.contains("nothing is fitted to it") && out.contains("below 5 Hz"), "{out}");
+    let checked = ["--band", "5Hz", "--check", &log, "--json", "-"];
+    let found = stiffarm(&[&both[..], &only, &checked].concat()).good();
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    // The log's options are the log's, and its check too.
+    assert_eq!(found["log"]["filter"]["band"], 5.0, "{found:#}");
+    assert!(found["log"]["check"].is_object() && found["campaign"]["check"].is_null());
+    assert_eq!(found["campaign"]["findings"][0]["effect"], "joint_compliance", "{found:#}");
     let wrong = stiffarm(&[&both[..], &["--effects", "gremlins"]].concat()).refused();
     assert!(wrong.contains("unknown effect `gremlins`"), "{wrong}");
     let more = stiffarm(&[&both[..], &[campaign.as_str()]].concat()).refused();
