@@ -10,9 +10,9 @@ use super::Row;
 /// degree.
 const SAME: f64 = 1e-4;
 
-/// Side of a cell of the grid in which neighbours are looked up, for each coordinate that points have, in
-/// the distance within which they are such: a point near the borders of its cell is looked up in its
-/// neighbours too, in (1 + 2/side)ⁿ < e cells on average, and a cell holds as few as can be.
+/// Least side of a cell of the grid in which neighbours are looked up, in the distance within which they
+/// are such: what is near a point then lies in its cell and one beside it, along each coordinate. Of n
+/// coordinates the side is n: (1 + 2/n)ⁿ < e² cells are looked up on average, and each holds few.
 const SIDE: f64 = 2.0;
 
 /// Where the cells begin, in their side: round numbers are not at their borders.
@@ -39,7 +39,7 @@ impl Near {
     /// The kind of a point, numbered in the order in which they first appear; all have as many
     /// coordinates.
     pub(crate) fn kind(&mut self, point: &[f64]) -> usize {
-        let wide = SIDE * point.len().max(1) as f64;
+        let wide = SIDE.max(point.len() as f64);
         // A conversion out of range saturates.
         let cell = |x: f64, off: f64| (x / (wide * self.within) + FIRST + off).floor() as i64;
         let mut cells = vec![Vec::with_capacity(point.len())];
