@@ -1,6 +1,7 @@
 """What a diagnosis is in Python beyond what the command line writes."""
 
 import _thread
+import signal
 import threading
 import time
 
@@ -75,7 +76,15 @@ def test_progress(campaign, monkeypatch):
     assert "withheld cases" in said and said[-1] == "closed"
 
 
-def test_ctrl_c_ends_it():
+@pytest.fixture
+def interruptible():
+    """Signals as at a terminal: what is started in the background has them ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_ends_it(interruptible):
     data = stiffarm.simulate("kuka_kr240", effects=["backlash@joint 1=1mrad", "joint_compliance@joint 2=3e-7"], poses=400, payload=200.0)
     threading.Timer(0.4, _thread.interrupt_main).start()
     begun = time.monotonic()
