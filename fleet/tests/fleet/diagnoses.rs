@@ -130,7 +130,7 @@ async fn fields_say_what_the_json_says() {
     write(folder.path(), &campaigns);
     let sql = format!(
         "SELECT found['json'], CAST(found['after'] AS VARCHAR), found['findings'][1]['effect'] || ' at ' || \
-         found['findings'][1]['place'] FROM (SELECT diagnose(robot, {}) AS found FROM runs)",
+         found['findings'][1]['place'] FROM (SELECT diagnose(robot || ' {OPTIONS}', {}) AS found FROM runs)",
         quoted(&campaigns[0].columns())
     );
     let got = answers(&here(2), &[table(folder.path())], &sql).await;
