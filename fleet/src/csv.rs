@@ -58,13 +58,12 @@ pub fn columns(folder: &Path) -> Result<[String; 2], String> {
         };
         format!("{} {kind}", quoted(field.name()))
     });
-    let named: Vec<String> = parts.iter().map(|name| quoted(name)).collect();
-    let of_folders = named.iter().map(|name| format!("{name} VARCHAR"));
+    let of_folders = parts.iter().map(|name| format!("{} VARCHAR", quoted(name)));
     let columns = fields.chain(of_folders).collect::<Vec<_>>().join(", ");
-    let by = if named.is_empty() {
-        String::new()
-    } else {
-        format!("PARTITIONED BY ({})", named.join(", "))
+    // There a name stands as it is, without quotation marks.
+    let by = match parts.is_empty() {
+        true => String::new(),
+        false => format!("PARTITIONED BY ({})", parts.join(", ")),
     };
     Ok([format!("({columns})"), by])
 }
