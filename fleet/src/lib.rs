@@ -8,6 +8,7 @@ pub mod answer;
 pub mod arm;
 pub mod arms;
 pub mod cluster;
+pub mod csv;
 pub mod functions;
 pub mod output;
 pub mod question;

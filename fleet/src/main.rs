@@ -179,11 +179,12 @@ impl On {
 impl Sql {
     async fn run(self) -> Result<(), String> {
         let (engine, arms) = self.on.parts();
-        let wrong = |error| of_engine(&error);
+        let wrong = |error| engine.told(of_engine(&error));
         let session = engine.session(&arms, &self.on.tables).await.map_err(wrong)?;
         let query = session.sql(&self.query).await.map_err(wrong)?;
         let result = query.execute_stream().await.map_err(wrong)?;
-        output::write(result, self.format, self.out.as_deref()).await
+        let written = output::write(result, self.format, self.out.as_deref()).await;
+        written.map_err(|said| engine.told(said))
     }
 }
 
@@ -203,7 +204,7 @@ impl Report {
             options: self.options,
         };
         let (engine, arms) = self.on.parts();
-        let wrong = |error| of_engine(&error);
+        let wrong = |error| engine.told(of_engine(&error));
         let session = engine.session(&arms, &self.on.tables).await.map_err(wrong)?;
         let campaigns = report::campaigns(&session, &table.name, &columns).await.map_err(wrong)?;
         let page = report::html(&table.name, &Fleet::of(&campaigns));

@@ -87,18 +87,9 @@ fn cells(column: &Column) -> Result<Vec<String>> {
         kind => kind,
     };
     if kind.is_floating() || matches!(kind, DataType::Decimal128(..)) {
-        // A float keeps its own shortest digits.
-        if *kind == DataType::Float32 {
-            let array = cast(array, &DataType::Float32)?;
-            let numbers = array.as_primitive::<arrow::datatypes::Float32Type>();
-            return Ok(numbers
-                .iter()
-                .map(|x| x.map_or_else(String::new, |x| x.to_string()))
-                .collect());
-        }
         let array = cast(array, &DataType::Float64)?;
         let numbers = array.as_primitive::<Float64Type>();
-        return Ok(numbers.iter().map(|x| x.map_or_else(String::new, |x| x.to_string())).collect());
+        return Ok(numbers.iter().map(|x| x.map_or_else(String::new, number)).collect());
     }
     if kind.is_integer() {
         let array = cast(array, &DataType::Int64)?;
@@ -111,6 +102,15 @@ fn cells(column: &Column) -> Result<Vec<String>> {
         return Ok(texts.iter().map(|text| quoted(text.unwrap_or_default())).collect());
     }
     exec_err!("column {}: found {kind}, expected numbers or text", column.name)
+}
+
+/// The shortest text that reads as the same number, as the command line writes it in measurement files; −0 is 0.
+fn number(value: f64) -> String {
+    let value = value + 0.0;
+    match value == 0.0 || (1e-4..1e9).contains(&value.abs()) {
+        true => value.to_string(),
+        false => format!("{value:e}"),
+    }
 }
 
 /// Text as a cell.

@@ -1,6 +1,6 @@
 //! A session of the engine that knows the functions: in this process, or on a cluster.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use ballista::prelude::SessionContextExt;
@@ -11,6 +11,7 @@ use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::aggregates::aggregates;
 use crate::arms::Arms;
+use crate::csv;
 use crate::functions::functions;
 
 /// A table by its name and the folder or address in which its files are.
@@ -29,6 +30,20 @@ pub struct Engine {
     pub cluster: Option<String>,
     /// Into how many parts a query is split; the engine's choice if `None`.
     pub partitions: Option<usize>,
+}
+
+impl Engine {
+    /// What went wrong: where the way to the cluster broke, that it did.
+    pub fn told(&self, said: String) -> String {
+        let broken = ["transport error", "h2 protocol error", "tcp connect error", "broken pipe"];
+        match &self.cluster {
+            Some(address) if broken.iter().any(|sign| said.contains(sign)) => format!(
+                "the scheduler at {address} does not answer, and what it was asked is lost: ask again once it is there; \
+                 {said}"
+            ),
+            _ => said,
+        }
+    }
 }
 
 /// The functions, in any session of the engine.
@@ -84,16 +99,20 @@ impl Table {
         let format = self.format()?;
         let name = self.name.replace('"', "\"\"");
         let location = self.location.replace('\'', "''");
-        let options = match format {
-            Format::Parquet => "",
-            Format::Csv => " OPTIONS ('format.has_header' 'true', 'format.comment' '#')",
-        };
-        let kind = match format {
-            Format::Parquet => "PARQUET",
-            Format::Csv => "CSV",
+        let (kind, columns, by, options) = match format {
+            Format::Parquet => ("PARQUET", String::new(), String::new(), ""),
+            Format::Csv => {
+                let options = " OPTIONS ('format.has_header' 'true', 'format.comment' '#')";
+                let [columns, by] = match self.location.contains("://") {
+                    true => Default::default(),
+                    false => csv::columns(Path::new(&self.location))
+                        .map_err(|said| plan_datafusion_err!("table {}: {said}", self.name))?,
+                };
+                ("CSV", columns, by, options)
+            }
         };
         let sql = format!(
-            "CREATE EXTERNAL TABLE \"{name}\" STORED AS {kind} LOCATION '{location}'{options}"
+            "CREATE EXTERNAL TABLE \"{name}\" {columns} STORED AS {kind} {by} LOCATION '{location}'{options}"
         );
         let made = session.sql(&sql).await;
         made.map(|_| ()).map_err(|error| {
@@ -111,17 +130,17 @@ impl Table {
         if self.location.contains("://") {
             return plan_err!("table {}: found {}, {wanted} at its end", self.name, self.location);
         }
-        let first = first_file(Path::new(&self.location)).map_err(|error| {
+        let all = csv::files(Path::new(&self.location)).map_err(|error| {
             plan_datafusion_err!("table {}: cannot read {}: {error}", self.name, self.location)
         })?;
-        let found = first.ok_or_else(|| {
+        let found = all.first().ok_or_else(|| {
             plan_datafusion_err!(
                 "table {}: found no file in {}, {wanted}",
                 self.name,
                 self.location
             )
         })?;
-        Format::of(&found).ok_or_else(|| {
+        Format::of(found).ok_or_else(|| {
             plan_datafusion_err!("table {}: found {}, {wanted}", self.name, found.display())
         })
     }
@@ -141,18 +160,4 @@ impl Format {
             _ => None,
         }
     }
-}
-
-/// The first file by name, at whatever depth.
-fn first_file(folder: &Path) -> std::io::Result<Option<PathBuf>> {
-    let entries = std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut entries = entries.collect::<std::io::Result<Vec<_>>>()?;
-    entries.sort();
-    for entry in entries {
-        let found = if entry.is_dir() { first_file(&entry)? } else { Some(entry) };
-        if found.is_some() {
-            return Ok(found);
-        }
-    }
-    Ok(None)
 }

@@ -77,7 +77,7 @@ fn median(arms: &[Line]) -> Option<&Line> {
     arms.get(arms.len() / 2)
 }
 
-fn bars(arms: &[Line]) -> Vec<Bar<'_>> {
+fn bars<'a>(arms: &'a [Line]) -> Vec<Bar<'a>> {
     let all = arms.iter().flat_map(|line| line.gap).filter(|x| *x > 0.0);
     let (low, high) =
         all.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
@@ -86,7 +86,7 @@ fn bars(arms: &[Line]) -> Vec<Bar<'_>> {
         true => (1000.0 * (x / low).ln() / width).round() / 10.0,
         false => 0.0,
     };
-    let bar = |line| {
+    let bar = |line: &'a Line| {
         let Line { gap: [before, after, noise], is_length, .. } = *line;
         let said = format!("{} → {}", length(before, is_length), length(after, is_length));
         Bar { line, before: at(before), after: at(after), noise: at(noise), said }

@@ -21,7 +21,7 @@ pub struct Campaign {
 pub fn campaigns(robots: &[&'static str], arms: usize, poses: usize) -> Vec<Campaign> {
     let each = robots.iter().flat_map(|robot| (0..arms).map(move |arm| (*robot, arm)));
     let campaign = |(robot, arm): (&'static str, usize)| {
-        let effect = format!("joint_compliance@joint 2={}e-7", 1.0 + 0.2 * arm as f64);
+        let effect = format!("joint_compliance@joint 2={}e-6", 2.0 + 0.2 * arm as f64);
         let (poses, seed) = (poses.to_string(), arm.to_string());
         let words = [
             "simulate",

@@ -59,7 +59,7 @@ async fn options_that_touch_files_are_refused() {
     for options in ["--json /tmp/x", "--check=/etc/passwd", "/etc/passwd", "--write-robot x.toml"] {
         let columns = quoted(&all[0].columns());
         let sql = format!(
-            "SELECT found['error'], '', '' FROM (SELECT diagnose(robot || ' {options}', {columns}) AS found FROM runs)"
+            "SELECT found['error'] AS said, '' AS b, '' AS c FROM (SELECT diagnose(robot || ' {options}', {columns}) AS found FROM runs)"
         );
         let got = answers(&engine, &[table(folder.path())], &sql).await;
         let (said, _) = got.first_key_value().unwrap();

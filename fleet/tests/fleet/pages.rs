@@ -5,7 +5,7 @@ use std::fs;
 use crate::campaigns::{OPTIONS, campaigns, write};
 use crate::failures::fleet;
 
-/// Seven arms with springs from 1 to 2.2e-7, the last of which was as stiff as the first a campaign before.
+/// Seven arms with springs from 2 to 3.2e-6, the last of which was as stiff as the first a campaign before.
 #[test]
 fn a_page_says_what_was_put_in() {
     let folder = tempfile::tempdir().unwrap();
