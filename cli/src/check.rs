@@ -58,7 +58,8 @@ pub struct Args {
 #[derive(Serialize)]
 struct Written<'a> {
     stiffarm: &'static str,
-    count: u32,
+    /// Postures of each robot, at least.
+    count: usize,
     seed: u64,
     agrees: bool,
     limits: BTreeMap<&'static str, f64>,
@@ -69,6 +70,7 @@ struct Written<'a> {
 struct WrittenRobot<'a> {
     robot: &'a str,
     agrees: bool,
+    postures: usize,
     /// Evaluations that are left out: the arm is not stable under its load.
     unstable: usize,
     outputs: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
@@ -173,6 +175,7 @@ fn written<'a>(checked: &'a [Checked], args: &Args) -> Written<'a> {
     let robots = checked.iter().map(|one| WrittenRobot {
         robot: &one.source.given,
         agrees: one.agrees(),
+        postures: one.postures,
         unstable: one.agreement.unstable,
         outputs: one
             .agreement
@@ -183,12 +186,17 @@ fn written<'a>(checked: &'a [Checked], args: &Args) -> Written<'a> {
     });
     Written {
         stiffarm: env!("CARGO_PKG_VERSION"),
-        count: args.count,
+        count: least(checked),
         seed: args.seed,
         agrees: checked.iter().all(Checked::agrees),
         limits: by_name(&|k| Some(Comparison::EACH[k].limit())),
         robots: robots.collect(),
     }
+}
+
+/// The postures of the robot with the fewest.
+fn least(checked: &[Checked]) -> usize {
+    checked.iter().map(|robot| robot.postures).min().unwrap_or(0)
 }
 
 const HEADS: [&str; 4] = ["textbook", "f32", "differences", "dual numbers"];
@@ -276,8 +284,7 @@ fn summary(checked: &[Checked], args: &Args) -> String {
         rows.push(cells);
     }
     rows.push(limits());
-    let least = checked.iter().map(|robot| robot.postures).min();
-    let count = thousands(least.unwrap_or(0));
+    let count = thousands(least(checked));
     let mut text = format!(
         "{}  {}\n\n{}\n",
         bold("Built-in robots"),

@@ -222,10 +222,8 @@ mod tests {
         let mut dice = ChaCha8Rng::seed_from_u64(2);
         let mut out = 0;
         for _ in 0..2000 {
-            let mut draw = || Estimate {
-                value: normal(&mut dice) + 0.5 * normal(&mut dice),
-                error: 0.5,
-            };
+            let mut draw =
+                || Estimate { value: normal(&mut dice) + 0.5 * normal(&mut dice), error: 0.5 };
             let pool = Pool::of(&[(); 12].map(|()| draw())).unwrap();
             out += usize::from(pool.p_value(draw()) < 0.05);
         }
