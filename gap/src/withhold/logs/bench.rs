@@ -151,8 +151,8 @@ impl<'a> Bench<'a> {
     /// Whether the controller holds such an arm: what gives lies between its encoders and the links.
     fn is_held(&self, truth: &MotionTruth) -> bool {
         let truths = core::slice::from_ref(truth);
-        let plant = MovingPlant::new(self.plan.arm, truths, self.plan.logged, self.plan.recording);
-        plant.record(self.plan.stages, self.plan.seed).is_ok()
+        let plant = plant(self.plan, truths);
+        plant.and_then(|plant| plant.record(self.plan.stages, self.plan.seed)).is_ok()
     }
 
     fn sizes(&self, truth: &MotionTruth) -> Result<[f64; 2], MotionError> {
