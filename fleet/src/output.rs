@@ -99,7 +99,7 @@ async fn written<W: Write>(
 
 enum Sink<W: Write> {
     Table(Vec<RecordBatch>, W),
-    Csv(csv::Writer<BufWriter<W>>),
+    Csv(Box<csv::Writer<BufWriter<W>>>),
     Json(Writer<BufWriter<W>, LineDelimited>),
 }
 
@@ -120,7 +120,7 @@ impl<W: Write> Sink<W> {
                         field.name()
                     ));
                 }
-                Sink::Csv(csv::Writer::new(BufWriter::new(out)))
+                Sink::Csv(Box::new(csv::Writer::new(BufWriter::new(out))))
             }
         })
     }
@@ -144,7 +144,7 @@ impl<W: Write> Sink<W> {
                 writeln!(out, "{table}").map_err(|error| error.to_string())?;
                 Ok(out)
             }
-            Sink::Csv(csv) => flushed(csv.into_inner()),
+            Sink::Csv(csv) => flushed((*csv).into_inner()),
             Sink::Json(mut json) => {
                 json.finish().map_err(|error| error.to_string())?;
                 flushed(json.into_inner())

@@ -66,9 +66,10 @@ fn sentence(fleet: &Fleet) -> String {
 
 fn few(names: &[&str]) -> String {
     match names {
-        [all @ ..] if all.len() <= 3 => all.join(", "),
-        [first, second, rest @ ..] => format!("{first}, {second} and {} more", rest.len()),
-        _ => String::new(),
+        [first, second, rest @ ..] if rest.len() > 1 => {
+            format!("{first}, {second} and {} more", rest.len())
+        }
+        all => all.join(", "),
     }
 }
 

@@ -9,8 +9,8 @@ use crate::failures::fleet;
 #[test]
 fn a_page_says_what_was_put_in() {
     let folder = tempfile::tempdir().unwrap();
-    let mut all = campaigns(&["kuka_kr240"], 7, 12);
-    let before = campaigns(&["kuka_kr240"], 1, 12).pop().unwrap();
+    let mut all = campaigns(&["kuka_kr240"], 7, 24);
+    let before = campaigns(&["kuka_kr240"], 1, 24).pop().unwrap();
     all[6].name = "2026-Q2".to_owned();
     let arm = all[6].arm.clone();
     all.push(crate::campaigns::Campaign { arm, ..before });
