@@ -49,9 +49,10 @@ fn an_identifier_stands_in_its_own_file_alone() {
         }
     }
     // Kernels have their own reading of those that they are made of; some have a law of motion too, in a
-    // catalogue of its own.
+    // catalogue of its own. What is mutated by chance begins with a file that has some.
     let apart = [
         "codegen/src/robot/beyond",
+        "codegen/src/robot/fuzz.rs",
         "gap/src/log/effects",
         "gap/src/plant/motion",
         "gap/src/withhold/logs",

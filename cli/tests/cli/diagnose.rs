@@ -112,6 +112,7 @@ fn the_json_is_the_formats() {
         "covers",
         "data_sha256",
         "robot_sha256",
+        "trust",
         "corrected",
     ];
     for key in &keys[9..] {

@@ -135,6 +135,10 @@ impl Robot {
 
 /// Has generated of a robot what is asked for.
 pub(crate) fn ask<L: Place>(robot: &mut Robot, asked: &[Cell<Asked, L>], report: &mut Report<L>) {
+    // A table without a joint has its error already.
+    if robot.dof() == 0 {
+        return;
+    }
     for Cell { value, at } in asked {
         if let Some(Err(no)) = value.as_ref().map(|asked| robot.ask(asked)) {
             report.error(Problem::new(at.clone(), no.message).help(no.help));

@@ -13,7 +13,7 @@ const FILE: &str = r#"name = "arm"
 convention = "modified"
 gravity = [0.0, 0.0, -9.80665]
 torque_side = "motor"
-outputs = ["pose", "jacobian at elbow"]
+outputs = ["jacobian at elbow"]
 carries = "5kg"
 [[joint]]
 type = "revolute"

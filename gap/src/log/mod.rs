@@ -15,6 +15,7 @@ pub mod effects;
 pub mod known;
 pub mod model;
 pub mod options;
+pub mod pace;
 pub mod read;
 pub mod report;
 pub mod rigid;

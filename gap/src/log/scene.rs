@@ -134,7 +134,7 @@ impl<'a> Scene<'a> {
 
     /// Which way a joint moves at a fine sample.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
-        self.signals.way(k, |k| self.signals.qd[joint][k])
+        self.signals.qd[joint][k].signum()
     }
 
     /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is

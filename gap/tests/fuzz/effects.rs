@@ -14,6 +14,7 @@ d = 0.3
 alpha = "pi/2"
 stiffness = 2e4
 mass = 5
+gear = 100
 [[joint]]
 type = "prismatic"
 a = 0.4

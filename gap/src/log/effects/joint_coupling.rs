@@ -44,7 +44,7 @@ impl LogEffect for JointCoupling {
             let parts = [(a, b), (b, a)].map(|(on, from)| scene.column(on, |k| sum * of[from][k]));
             Column { parts: parts.into_iter().flat_map(|column| column.parts).collect() }
         };
-        let way = |k: usize| scene.signals.way(k, |k| qd[a][k] + sum * qd[b][k]);
+        let way = |k: usize| (qd[a][k] + sum * qd[b][k]).signum();
         let mut brake = scene.column(a, way);
         brake.parts.extend(scene.column(b, |k| sum * way(k)).parts);
         vec![crossed(qdd), crossed(qd), brake]

@@ -2,6 +2,7 @@
 
 use super::{LogEffect, Number, Spot};
 use crate::effects::About;
+use crate::log::pace::{Pace, round};
 use crate::log::scene::{Column, Domain, Scene};
 
 /// Joints go where they were to be `delay` ago: a bus, a buffer, an interpolator.
@@ -10,6 +11,9 @@ pub struct Latency;
 
 /// Delays from which the search begins, s.
 const STARTS: [f64; 10] = [0.0, 0.01, 0.02, 0.035, 0.06, 0.1, 0.14, 0.2, 0.28, 0.4];
+
+/// A recorder holds a value for up to a step: below this step, s, no arm's delay is shorter.
+const SHORT: f64 = 0.01;
 
 impl LogEffect for Latency {
     fn identifier(&self) -> &'static str {
@@ -45,6 +49,10 @@ impl LogEffect for Latency {
             pairs.map(|(before, after)| (after - before) / step).collect::<Vec<f64>>()
         };
         vec![whole(scene, rate)]
+    }
+
+    fn too_slow(&self, pace: &Pace<'_>, _: Spot, found: Option<&[f64]>) -> Option<String> {
+        held(pace, found)
     }
 
     fn bends(&self) -> bool {
@@ -92,4 +100,16 @@ fn ago(scene: &Scene<'_>, joint: usize, delay: f64) -> Vec<f64> {
 fn whole(scene: &Scene<'_>, of: impl Fn(usize) -> Vec<f64>) -> Column {
     let joints = 0..scene.signals.joints();
     Column { parts: joints.map(|joint| (joint, scene.signals.filtered(&of(joint)))).collect() }
+}
+
+/// Why a delay cannot be told from the recorder's, where this one is `found`.
+pub(super) fn held(pace: &Pace<'_>, found: Option<&[f64]>) -> Option<String> {
+    let period = pace.period;
+    let told = found.is_some_and(|values| values[0].abs() > 0.5 * period);
+    (period >= SHORT && !told).then(|| {
+        format!(
+            "a sample every {} ms is held for as long: a delay of less than half of that may be the recorder's",
+            round(1e3 * period)
+        )
+    })
 }

@@ -29,6 +29,7 @@ use std::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
+use super::pace::Pace;
 use super::read::TorqueSide;
 use super::scene::{Column, Domain, Scene};
 use crate::effects::{About, Place, RobotFile};
@@ -173,6 +174,11 @@ pub trait LogEffect: Sync {
 
     /// Why this log cannot show it; `None` if it may.
     fn excluded(&self, _: &Scene<'_>) -> Option<String> {
+        None
+    }
+
+    /// Why a log is too slow for it at a spot, where these values are `found`; `None` if it is not.
+    fn too_slow(&self, _: &Pace<'_>, _: Spot, _found: Option<&[f64]>) -> Option<String> {
         None
     }
 

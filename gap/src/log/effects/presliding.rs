@@ -2,6 +2,7 @@
 
 use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
+use crate::log::pace::{Pace, round};
 use crate::log::scene::{Column, Scene};
 
 /// Of Coulomb's friction the part `torque` builds up over a `distance` behind each reversal (Dahl 1968):
@@ -14,6 +15,10 @@ const DISTANCES: [f64; 5] = [3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 
 /// Part of a distance by which the slope over it is taken.
 const STEP: f64 = 0.05;
+
+/// A joint that turns round slides again after about so much, rad or m: teeth and rollers give by
+/// hundredths.
+const GIVES: f64 = 0.01;
 
 impl LogEffect for Presliding {
     fn identifier(&self) -> &'static str {
@@ -56,6 +61,20 @@ impl LogEffect for Presliding {
 
     fn probes(&self, _: &Scene<'_>, _: Spot) -> Vec<Vec<f64>> {
         DISTANCES.iter().map(|distance| vec![0.0, *distance]).collect()
+    }
+
+    fn too_slow(&self, pace: &Pace<'_>, spot: Spot, found: Option<&[f64]>) -> Option<String> {
+        let (signals, joint) = (pace.signals, joint(spot));
+        let slides = 2.0 * (2.0 * GIVES / pace.acceleration(joint)).sqrt();
+        (slides < signals.reach() && found.is_none()).then(|| {
+            format!(
+                "its reversals are over in {} s, and the band of {} Hz spreads them over {} s: log faster, or turn \
+                 round more gently",
+                round(slides),
+                round(signals.band),
+                round(signals.reach())
+            )
+        })
     }
 
     fn may_be(&self, values: &[f64]) -> bool {

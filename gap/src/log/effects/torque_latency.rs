@@ -1,7 +1,9 @@
 //! Torques are logged later than positions.
 
+use super::latency::held;
 use super::{LogEffect, Number, Spot};
 use crate::effects::About;
+use crate::log::pace::Pace;
 use crate::log::scene::{Column, Scene};
 use crate::log::signal::filter::rate;
 
@@ -29,6 +31,10 @@ impl LogEffect for TorqueLatency {
 
     fn numbers(&self) -> &'static [Number] {
         &[("delay", "s")]
+    }
+
+    fn too_slow(&self, pace: &Pace<'_>, _: Spot, found: Option<&[f64]>) -> Option<String> {
+        held(pace, found)
     }
 
     fn columns(&self, scene: &Scene<'_>, _: Spot, _: &[f64]) -> Vec<Column> {

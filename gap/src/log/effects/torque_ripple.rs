@@ -1,7 +1,10 @@
 //! The torque of a motor, or the teeth of a gear, go up and down as it turns.
 
+use core::f64::consts::TAU;
+
 use super::{LogEffect, Number, Spot, joint};
 use crate::effects::About;
+use crate::log::pace::{ORDERS, PASSES, Pace, round};
 use crate::log::scene::{Column, Scene};
 
 /// A torque of so many periods per turn of the joint, of the orders that stand out of what a simple model leaves.
@@ -46,6 +49,18 @@ impl LogEffect for TorqueRipple {
         let (joint, [order, cos, sin]) = (joint(spot), [values[0], values[1], values[2]]);
         let q = &scene.signals.q[joint];
         scene.column(joint, |k| cos * (order * q[k]).cos() + sin * (order * q[k]).sin())
+    }
+
+    fn too_slow(&self, pace: &Pace<'_>, spot: Spot, found: Option<&[f64]>) -> Option<String> {
+        let band = pace.signals.band;
+        let highest = TAU * PASSES * band / pace.slow(joint(spot));
+        (highest < *ORDERS.end() as f64 && found.is_none()).then(|| {
+            format!(
+                "the band of {} Hz lets orders of up to {highest:.0} through at its slow speeds: log faster, or move \
+                 more slowly",
+                round(band)
+            )
+        })
     }
 
     fn probes(&self, scene: &Scene<'_>, spot: Spot) -> Vec<Vec<f64>> {

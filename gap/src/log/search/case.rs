@@ -196,9 +196,7 @@ impl Case<'_> {
             let is_driven = self.kind.1.is_some_and(TorqueSide::is_driven);
             let more = if is_driven { [drive.coulomb, drive.viscous] } else { [0.0; 2] };
             let [coulomb, viscous] = [coulomb + more[0], viscous + more[1]];
-            let rates = &signals.qd[joint];
-            let way = |k: usize| signals.way(k, |k| rates[k]);
-            rates.iter().enumerate().map(|(k, v)| coulomb * way(k) + viscous * v).collect()
+            signals.qd[joint].iter().map(|v| coulomb * v.signum() + viscous * v).collect()
         };
         loads.friction = simple.friction.iter().enumerate().map(friction).collect();
         loads.numbers = base.numbers(&values);

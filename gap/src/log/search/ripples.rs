@@ -13,18 +13,13 @@ use super::CHANCE;
 use super::blocks::Blocks;
 use super::stock::Stock;
 use crate::dice::{Dice, Stream};
-
-/// Periods per turn that are looked at: what turns once is the weights' and a counterbalance's.
-pub const ORDERS: core::ops::RangeInclusive<usize> = 2..=400;
+use crate::log::pace::{ORDERS, PASSES};
 
 /// Ripples of a joint that are asked for.
 const MOST: usize = 2;
 
 /// Random signs.
 const FLIPS: usize = 199;
-
-/// A ripple is looked at where it stays below this part of the band's edge: the filter lets it pass.
-pub const PASSES: f64 = 0.7;
 
 /// Of each joint the orders that stand out of what is left at the rows of the sample.
 pub fn found(stock: &Stock<'_>, left: &[Vec<Option<f64>>], seed: u64) -> Vec<Vec<f64>> {

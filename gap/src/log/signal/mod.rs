@@ -218,15 +218,6 @@ impl Signals {
         (signals, rows.start - from)
     }
 
-    /// Which way something goes at a fine sample, by its rates: the mean over its step, in which it may turn
-    /// round. A sign at the sample alone would have the turn half a step too early or too late, by chance.
-    pub fn way(&self, k: usize, rate: impl Fn(usize) -> f64) -> f64 {
-        let (before, after) = (k.saturating_sub(1), (k + 1).min(self.t.len() - 1));
-        let turns = 0.5 * (rate(after) - rate(before)).abs() / (after - before).max(1) as f64;
-        let rate = rate(k);
-        if rate.abs() < turns { rate / turns } else { rate.signum() }
-    }
-
     /// Number of joints.
     pub fn joints(&self) -> usize {
         self.q.len()
