@@ -72,7 +72,8 @@ pub fn objects(tools: &Tools, contraction: Contraction) -> Result<Vec<PathBuf>, 
         if MOVING.contains(&arm) {
             // What is generated on request, too.
             let mut outputs = robot.generated();
-            outputs.extend(OF_MOTION.into_iter().filter(|output| !robot.generated().contains(output)));
+            outputs
+                .extend(OF_MOTION.into_iter().filter(|output| !robot.generated().contains(output)));
             robot.outputs = outputs;
         }
         let name = arm.to_owned();
