@@ -70,13 +70,15 @@ fn an_identifier_stands_in_its_own_file_alone() {
         let times: usize = all.iter().map(|(_, text)| text.matches(&quoted).count()).sum();
         assert_eq!(times, 1, "{identifier}");
         // As a type it stands in the catalogue and in the table of the plant's own laws; the frames
-        // that may be unknown are effects too, and all of the geometry together is offsets and rows.
+        // that may be unknown are effects too, all of the geometry together is offsets and rows, and a
+        // foundation that was identified is written as the effect.
         let name = camel(identifier);
         let allowed = [own.clone(), room.join("mod.rs"), root.join("gap/src/plant/laws.rs")];
         let also = match name.as_str() {
             "BaseFrame" | "ToolFrame" | "Geometry" => {
                 Some(root.join("gap/src/diagnose/options.rs"))
             }
+            "BaseCompliance" => Some(root.join("cli/src/identify/written.rs")),
             "JointOffset" | "LinkGeometry" => Some(room.join("geometry.rs")),
             _ => None,
         };
