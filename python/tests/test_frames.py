@@ -11,6 +11,8 @@ import stiffarm
 def told(found):
     """The diagnosis, without what it was read of."""
     record = dict(found.to_dict())
+    if "trust" in record:
+        record["trust"] = {key: value for key, value in record["trust"].items() if key != "file"}
     return {key: value for key, value in record.items() if key not in ("data_sha256", "robot_sha256", "corrected", "files")}
 
 
