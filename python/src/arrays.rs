@@ -159,9 +159,12 @@ impl Shape {
                 if self.homogeneous {
                     blocks = homogeneous(&blocks);
                 }
-                let view = ArrayViewD::from_shape(IxDyn(as_written.shape()), &blocks);
-                let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
-                target.as_array_mut().assign(&view);
+                // NumPy's strides of nothing are none that ndarray takes.
+                if poses > 0 {
+                    let view = ArrayViewD::from_shape(IxDyn(as_written.shape()), &blocks);
+                    let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
+                    target.as_array_mut().assign(&view);
+                }
                 raised
             }
         };

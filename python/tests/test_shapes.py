@@ -3,8 +3,8 @@
 import numpy
 import pytest
 import stiffarm
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import example, given, settings
+from hypothesis import example, strategies as some
 from hypothesis.extra import numpy as arrays
 
 ARM = stiffarm.Arm.load("stanford")
@@ -49,6 +49,7 @@ def test_what_is_not_finite_is_refused(data):
 
 @settings(max_examples=60, deadline=None)
 @given(LEADS, some.integers(0, 9))
+@example((3, 2, 0), N)
 def test_a_wrong_last_dimension_is_refused(lead, size):
     q = numpy.zeros((*lead, size))
     if size == N:
