@@ -4,7 +4,7 @@ import numpy
 import pytest
 import stiffarm
 from hypothesis import example, given, settings
-from hypothesis import example, strategies as some
+from hypothesis import strategies as some
 from hypothesis.extra import numpy as arrays
 
 ARM = stiffarm.Arm.load("stanford")
