@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use stiffarm_kernels::{Form, Output, Side};
+use stiffarm_kernels::{Form, Input, Output, Side};
 use syn::{Attribute, Ident, Visibility};
 
 use crate::robot::Outline;
@@ -10,8 +10,8 @@ use crate::robot::Outline;
 /// Joints of a stub whose table shows none.
 const JOINTS: usize = 6;
 
-/// A module with everything that code outside can name. Its functions take any number of joints: a
-/// row may be among the mistakes.
+/// A module with everything that code outside can name but the fields of a posture, which only the table tells. Its
+/// functions take any number of joints: a row may be among the mistakes.
 pub(super) fn stub(
     (attrs, vis, name): (&[Attribute], &Visibility, &Ident),
     kernels: &TokenStream,
@@ -22,12 +22,15 @@ pub(super) fn stub(
         outline.symbols.iter().filter_map(|name| syn::parse_str(name).ok()).collect();
     let symbolic = !symbols.is_empty();
     let constants = symbolic.then(|| quote!(_: &Constants<S>,));
+    let offsets = constants.as_ref().filter(|_| outline.offsets);
     let sides = outline.sides.then(|| quote!(, _: &[S; M]));
     let warming = outline.warming.then(|| quote!(, _: S));
-    let posture = quote!(#constants _: &[S; M] #sides #warming);
-    let functions = Output::EACH.map(|output| function(output, &posture));
+    let joints_of = quote!(_: &[S; M] #sides #warming);
+    let by_joints = quote!(#constants #joints_of);
+    let given = quote!(#constants _: &Posture<S, M>);
+    let functions = Output::EACH.map(|output| function(output, &by_joints, &given));
     let parameters = symbolic.then(|| parameters(&symbols));
-    let all = all(&posture);
+    let all = all(outline, &by_joints, &given);
     let robot = robot(symbolic, outline);
     let places = outline.places.iter().filter_map(|name| syn::parse_str::<Ident>(name).ok());
     let places = places.map(|name| quote!(pub mod #name { pub use super::super::*; }));
@@ -35,10 +38,13 @@ pub(super) fn stub(
         #(#attrs)*
         #[allow(unused, missing_docs, clippy::all, clippy::pedantic)]
         #vis mod #name {
-            use #kernels::{DhRow, Error, Kernels, Motion, Ops, Output, Pose, Scalar, Unstable};
+            use #kernels::{
+                Arm, Convention, DhRow, Error, Kernels, Motion, Numeric, Ops, Output, Pose, Row, Scalar,
+                Unstable, has,
+            };
             pub const NAME: &str = "";
             pub const N: usize = #joints;
-            pub const DH: [DhRow; N] = [DhRow {
+            const ROW: DhRow = DhRow {
                 joint: "",
                 motion: Motion::Revolute,
                 theta: "",
@@ -47,11 +53,19 @@ pub(super) fn stub(
                 alpha: "",
                 beta: "",
                 stiffness: "",
-            }; N];
+            };
+            pub const DH: [DhRow; N] = [ROW; N];
             pub const OUTPUTS: [Output; Output::EACH.len()] = Output::EACH;
             pub const OPS: Ops = Ops { add: 0, mul: 0, neg: 0, div: 0, sin_cos: 0 };
             #parameters
-            pub fn joints<S: Scalar, const M: usize>(#posture) -> [S; M] { ::core::unreachable!() }
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct Posture<S, const M: usize = N>([S; M]);
+            impl<S: Scalar, const M: usize> Posture<S, M> {
+                pub fn new(#offsets #joints_of) -> Self { ::core::unreachable!() }
+            }
+            pub fn joints<S: Scalar, const M: usize>(#joints_of) -> [S; M] {
+                ::core::unreachable!()
+            }
             #(#functions)*
             #all
             #robot
@@ -91,9 +105,8 @@ fn size(side: Side, joints: &TokenStream, n: &TokenStream) -> TokenStream {
     }
 }
 
-/// The function of an output, given what makes a posture and what it takes beside, and the figures in its module.
-fn function(output: Output, posture: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}", output.name());
+/// What an output's functions take beside a posture, and what they return.
+fn signature(output: Output) -> (TokenStream, TokenStream) {
     let beside = output.beside().map(|input| match input.side() {
         Side::Joints => quote!(, _: &[S; M]),
         side => {
@@ -101,40 +114,60 @@ fn function(output: Output, posture: &TokenStream) -> TokenStream {
             quote!(, _: &[S; #count])
         }
     });
-    let ty = match (ty(output), output.is_fallible()) {
+    let returned = match (ty(output), output.is_fallible()) {
         (ty, true) => quote!(Result<#ty, Unstable>),
         (ty, false) => ty,
     };
+    (beside.collect(), returned)
+}
+
+/// The function of an output, given what makes a posture, and its module: the kernel, given a posture, and the figures.
+fn function(output: Output, by_joints: &TokenStream, given: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}", output.name());
+    let (beside, returned) = signature(output);
     let n = quote!(super::N);
     let (rows, columns) = (size(output.rows(), &n, &n), size(output.columns(), &n, &n));
     quote! {
-        pub fn #name<S: Scalar, const M: usize>(#posture #(#beside)*) -> #ty {
+        pub fn #name<S: Scalar, const M: usize>(#by_joints #beside) -> #returned {
             ::core::unreachable!()
         }
         pub mod #name {
+            use super::*;
             pub use super::OPS;
             pub const SPARSITY: [[bool; #rows]; #columns] = [[true; #rows]; #columns];
+            pub fn given<S: Scalar, const M: usize>(#given #beside) -> #returned {
+                ::core::unreachable!()
+            }
         }
     }
 }
 
 /// The fused function.
-fn all(posture: &TokenStream) -> TokenStream {
+fn all(outline: &Outline, by_joints: &TokenStream, given: &TokenStream) -> TokenStream {
     let fields = Output::ALL.map(|output| {
         let (name, ty) = (format_ident!("{}", output.name()), ty(output));
         quote!(pub #name: #ty,)
     });
+    let asked = |output: &&Output| outline.asked.is_empty() || outline.asked.contains(output);
+    let together: Vec<&Output> = Output::ALL.iter().filter(asked).collect();
+    let loaded = together.iter().any(|output| output.takes(Input::Wrench));
+    let wrench = loaded.then(|| quote!(, _: &[S; 6]));
+    let returned = match together.iter().any(|output| output.is_fallible()) {
+        true => quote!(Result<all::All<S, M>, Unstable>),
+        false => quote!(all::All<S, M>),
+    };
     quote! {
-        pub fn all<S: Scalar, const M: usize>(
-            #posture, _: &[S; 6]
-        ) -> Result<all::All<S, M>, Unstable> {
+        pub fn all<S: Scalar, const M: usize>(#by_joints #wrench) -> #returned {
             ::core::unreachable!()
         }
         pub mod all {
-            use super::{N, Pose};
+            use super::*;
             pub use super::OPS;
             #[derive(Clone, Copy, Debug, PartialEq)]
             pub struct All<S, const M: usize = N> { #(#fields)* }
+            pub fn given<S: Scalar, const M: usize>(#given #wrench) -> #returned {
+                ::core::unreachable!()
+            }
         }
     }
 }
@@ -154,7 +187,7 @@ fn parameters(symbols: &[Ident]) -> TokenStream {
     }
 }
 
-/// The robot behind a pointer.
+/// The robot behind a pointer, and for what is written against an arm: one of any number of joints.
 fn robot(symbolic: bool, outline: &Outline) -> TokenStream {
     let sides = outline.sides.then(|| quote!(pub sides: [S; N],));
     let warming = outline.warming.then(|| quote!(pub warming: S,));
@@ -188,8 +221,31 @@ fn robot(symbolic: bool, outline: &Outline) -> TokenStream {
             quote!(Robot),
         ),
     };
+    // The table in numbers says how many joints it has, and takes none from which that could be told.
+    let generic = (outline.sides || outline.warming).then(|| quote!(<S: Scalar>));
+    let numeric = (!symbolic).then(|| {
+        quote! {
+            impl #generic Numeric<N> for #ty {
+                const CONVENTION: Convention = Convention::Standard;
+                const ROWS: [Row; N] = [Row {
+                    theta: 0.0, d: 0.0, a: 0.0, alpha: 0.0, stiffness: None, mass: 0.0, com: [0.0; 3]
+                }; N];
+                const GRAVITY: [f64; 3] = [0.0; 3];
+            }
+        }
+    });
+    let has = Output::EACH.map(|output| has(output, &ty));
     quote! {
         #definition
+        #numeric
+        impl<S: Scalar, const M: usize> Arm<M, S> for #ty {
+            const NAME: &'static str = NAME;
+            const DH: [DhRow; M] = [ROW; M];
+            const LIMITS: [Option<[f64; 2]>; M] = [None; M];
+            type Posture = Posture<S, M>;
+            fn posture(&self, _: &[S; M]) -> Posture<S, M> { ::core::unreachable!() }
+        }
+        #(#has)*
         impl<S: Scalar> Kernels<S> for #ty {
             fn name(&self) -> &'static str { NAME }
             fn dof(&self) -> usize { N }
@@ -199,6 +255,20 @@ fn robot(symbolic: bool, outline: &Outline) -> TokenStream {
             ) -> Result<(), Error> {
                 Err(Error::Length)
             }
+        }
+    }
+}
+
+/// The trait of an output.
+fn has(output: Output, robot: &TokenStream) -> TokenStream {
+    let (name, of) = (format_ident!("{}", output.name()), format_ident!("{output:?}"));
+    let (beside, returned) = signature(output);
+    let columns = matches!(output.columns(), Side::Entries | Side::Moments)
+        .then(|| quote!(type Columns = #returned;));
+    quote! {
+        impl<S: Scalar, const M: usize> has::#of<M, S> for #robot {
+            #columns
+            fn #name(&self, _: &Posture<S, M> #beside) -> #returned { ::core::unreachable!() }
         }
     }
 }

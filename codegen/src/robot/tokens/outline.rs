@@ -1,6 +1,7 @@
 //! What a rejected table seems to describe, so that the stub of its module fits the code that uses it.
 
 use proc_macro2::{Delimiter, TokenTree};
+use stiffarm_kernels::Output;
 use toml::Value;
 
 use super::super::beyond::{SIDED, WARMED};
@@ -28,6 +29,10 @@ pub struct Outline {
     pub joints: Option<usize>,
     /// What seems to be a parameter, each once, in order of appearance.
     pub symbols: Vec<String>,
+    /// Whether some joint's angle seems to have a parameter in its offset.
+    pub offsets: bool,
+    /// The outputs that seem to be asked for of the tool; all of them if there are none.
+    pub asked: Vec<Output>,
     /// What seem to be frames and markers.
     pub places: Vec<String>,
     /// Whether some effect depends on the side from which a joint came.
@@ -52,6 +57,11 @@ impl Outline {
             if set("frame") || set("marker") {
                 outline.place(&token.to_string());
             }
+            if set("outputs") {
+                let list = settings[i..].iter().take_while(|token| !is_sign(token, ';'));
+                let list: Vec<String> = list.map(ToString::to_string).collect();
+                list.split(|word| word == ",").for_each(|words| outline.ask(&words.join(" ")));
+            }
         }
         let rows = rows::split(table);
         let Some((header, rows)) = rows.split_first().filter(|_| !table.is_empty()) else {
@@ -68,6 +78,11 @@ impl Outline {
                 if column.is_some_and(|name| !WITHOUT_PARAMETERS.contains(&name)) {
                     outline.cell(&cell.tokens);
                 }
+                if *column == Some("theta") && cell.tokens.iter().any(|token| is_word(token, "q")) {
+                    let mut theta = Outline::default();
+                    theta.cell(&cell.tokens);
+                    outline.offsets |= !theta.symbols.is_empty();
+                }
             }
         }
         outline
@@ -82,6 +97,15 @@ impl Outline {
         for key in ["gravity", "joint", "tool"] {
             table.get(key).into_iter().for_each(|value| outline.value(value));
         }
+        let revolute =
+            |joint: &&Value| joint.get("type").and_then(Value::as_str) != Some("prismatic");
+        for joint in joints.into_iter().flatten().filter(revolute) {
+            let mut theta = Outline::default();
+            joint.get("theta").into_iter().for_each(|value| theta.value(value));
+            outline.offsets |= !theta.symbols.is_empty();
+        }
+        let asked = table.get("outputs").and_then(Value::as_array).into_iter().flatten();
+        asked.filter_map(Value::as_str).for_each(|name| outline.ask(name));
         let places = ["frame", "marker"].into_iter().filter_map(|key| table.get(key)?.as_array());
         let names = places.flatten().filter_map(|place| place.get("name")?.as_str());
         names.for_each(|name| outline.place(name));
@@ -90,6 +114,11 @@ impl Outline {
         outline.sides = ids.iter().any(|id| SIDED.contains(id));
         outline.warming = ids.iter().any(|id| WARMED.contains(id));
         outline
+    }
+
+    /// An output of the tool, where `name` is one's.
+    fn ask(&mut self, name: &str) {
+        self.asked.extend(Output::EACH.into_iter().find(|output| output.name() == name));
     }
 
     /// A frame or marker, where its name can be a module's.
@@ -175,7 +204,7 @@ mod tests {
     #[test]
     fn rows_and_names_show_through_mistakes() {
         let outline = table(
-            "gravity: [0, g_y, 0]; frame: elbow no 3; marker: smr1 [0, 1]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
+            "gravity: [0, g_y, 0]; outputs: pose, jacobian at smr1, compliance; frame: elbow no 3; marker: smr1 [0, 1]; tool: translation [0, 2*t, 0] rotatoin [r, 0, 0];\n\
              joint | theta  | d      | alhpa | kind | stiffness | com | beam\n\
              a1 | q + t1 | 350 mn | 2*al  | big  | k1 N*m    | [c, 0] | { youngs_modulus: E, colour: red, section: tube }\n\
              a2 | q      | d2/2 | 0 | - | type | - | -\n\
@@ -184,16 +213,21 @@ mod tests {
         assert_eq!(outline.joints, Some(3));
         assert_eq!(outline.symbols, ["g_y", "t", "t1", "al", "k1", "c", "E", "d2", "e"]);
         assert_eq!(outline.places, ["elbow", "smr1"]);
+        assert_eq!(
+            (outline.offsets, outline.asked),
+            (true, vec![Output::Pose, Output::Compliance])
+        );
     }
 
     #[test]
     fn a_file_shows_the_same() {
-        let text = "name = \"arm\"\n[[joint]]\ntype = \"revolut\"\na = \"2*a1\"\nd = \"3 furlong\"\n\
-                    [joint.beam]\nsection = { area = \"A\" }\n[[joint]]\nsource = \"x\"\n\
+        let text = "name = \"arm\"\noutputs = [\"jacobian\", \"pose at elbow\"]\n[[joint]]\ntype = \"revolut\"\na = \"2*a1\"\nd = \"3 furlong\"\n\
+                    [joint.beam]\nsection = { area = \"A\" }\n[[joint]]\ntheta = \"t\"\nsource = \"x\"\n\
                     [[frame]]\nname = \"elbow\"\n[[marker]]\nname = \"a b\"";
         let outline = Outline::of_file(text);
-        assert_eq!((outline.joints, outline.symbols.join(" ")), (Some(2), "a1 A".to_owned()));
+        assert_eq!((outline.joints, outline.symbols.join(" ")), (Some(2), "a1 A t".to_owned()));
         assert_eq!(outline.places, ["elbow"]);
+        assert_eq!((outline.offsets, outline.asked), (true, vec![Output::Jacobian]));
         assert_eq!(Outline::of_file("not toml"), Outline::default());
     }
 }
