@@ -112,6 +112,7 @@ fn every_arm(states: usize) {
         let (outputs, generated) = (&outputs, &generated);
         let subject = Subject { outputs, arm: &arm, beyond: None, generated, single: None };
         for line in parity::agreement(&subject, states, 5, &|_| {}).lines {
+            println!("{} {} {:.1?}", entry.id, line.output.name(), line.worst);
             assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
         }
     }

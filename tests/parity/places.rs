@@ -96,6 +96,7 @@ fn every_arm(states: usize) {
         let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
         let row = arm.dof() / 2;
         let worst = agree(&placed(&table, row), &arm, row, (states, 6));
+        println!("{} {worst:?}", entry.id);
         assert!(worst.0 <= 1e-12, "{}: {worst:?}", entry.id);
     }
 }

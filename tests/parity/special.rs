@@ -131,3 +131,18 @@ fn a_stretched_arm_is_stretched_and_an_aligned_wrist_is_singular() {
     let aligned = aligned(&kuka, &mut Draws::new(15));
     assert!(aligned.iter().filter(|q| smallest(&kuka, q) < 1e-12).count() >= 2);
 }
+
+/// Every entry is written, whatever was there, and is what the function returns.
+#[test]
+fn a_large_result_is_written_over_what_was_there() {
+    use stiffarm_robots::panda::{Posture, torque_regressor};
+    let mut draws = Draws::new(17);
+    let [q, qd, qdd]: [[f64; 7]; 3] = core::array::from_fn(|_| draws.array(-3.0, 3.0));
+    let mut out = [[f64::NAN; 7]; 70];
+    torque_regressor::write(&Posture::new(&q), &qd, &qdd, &mut out);
+    assert_eq!(out, torque_regressor(&q, &qd, &qdd));
+    let [q, qd, qdd] = [q, qd, qdd].map(|part| part.map(|x| x as f32));
+    let mut out = [[f32::NAN; 7]; 70];
+    torque_regressor::write(&Posture::new(&q), &qd, &qdd, &mut out);
+    assert_eq!(out, torque_regressor(&q, &qd, &qdd));
+}

@@ -66,6 +66,29 @@ macro_rules! motion {
     };
 }
 
+/// The regressor, written into an array that is there.
+macro_rules! written {
+    ($works:ident $arm:ident $lanes:literal [$packed:expr]) => {
+        $works.push((
+            concat!(stringify!($arm), " torque_regressor::write", $lanes),
+            Box::new(|calls| {
+                use arms::$arm::plain::{N, Posture, torque_regressor};
+                let states = Draws::new(1).postures::<{ 3 * N }>(4 * CALLS);
+                let states = $packed(&states);
+                let zero = states[0][0] - states[0][0];
+                let mut out = [[zero; N]; 10 * N];
+                for state in states.iter().take(calls) {
+                    let ([q, qd, qdd], _) = state.as_chunks::<N>() else {
+                        unreachable!("three of each joint");
+                    };
+                    torque_regressor::write(&Posture::new(q), qd, qdd, &mut out);
+                    black_box(&mut out);
+                }
+            }),
+        ));
+    };
+}
+
 macro_rules! motions {
     ($works:ident $($arm:ident),+) => {$(
         motion!($works $arm
@@ -75,6 +98,8 @@ macro_rules! motions {
             forward_dynamics |q, qd, tau| (q, qd, tau),
             torque_regressor |q, qd, qdd| (q, qd, qdd)
         );
+        written!($works $arm "" [Vec::as_slice]);
+        written!($works $arm " x4" [by_four]);
     )+};
 }
 

@@ -32,50 +32,88 @@ impl<'a> Body<'a> {
     }
 
     pub fn text(&self, out: &mut Lines) {
-        let function = self.function;
         let schedule = &self.plan.schedule;
-        let everything = 0..schedule.steps.len();
         let solves = |item: usize| matches!(self.plan.targets[item], Target::Solve(_));
-        let blocks = schedule.blocks(everything.clone(), BLOCK, solves);
+        let blocks = schedule.blocks(0..schedule.steps.len(), BLOCK, solves);
         let small = schedule.lets() <= BLOCK;
         let parts = if small { Vec::new() } else { self.parts(&blocks) };
+        self.function.kernel_docs(out);
+        self.kernel(out, (&blocks, &parts), false);
+        if self.function.large() {
+            out.blank();
+            out.doc("The same, written into `out`, every entry of it: so many numbers take fewer instructions and less stack");
+            out.doc("this way than as a value that is put there.");
+            self.kernel(out, (&blocks, &parts), true);
+        }
+        if parts.len() > 1 {
+            let computing = parts.iter().enumerate().filter(|(_, p)| !self.is_solve(&p.blocks[0]));
+            computing.for_each(|(k, part)| self.part(out, k, part));
+        }
+    }
 
-        function.kernel_docs(out);
+    /// The function of the posture, which returns its result or writes it. Each has the whole text: a value that the
+    /// other one had filled would be zeroed before and copied behind.
+    fn kernel(&self, out: &mut Lines, (blocks, parts): (&[Block], &[Part]), written: bool) {
+        let function = self.function;
+        let everything = 0..self.plan.schedule.steps.len();
+        let small = self.plan.schedule.lets() <= BLOCK;
         if function.fallible() && self.plan.program.solves.is_empty() {
             out.code("#[allow(clippy::unnecessary_wraps)]");
         }
         if small {
             out.code(INLINE);
         }
-        out.code(&format!(
-            "pub fn given<S: Scalar>({}) -> {} {{",
-            function.parameters().join(", "),
-            function.returned(true)
-        ));
+        let mut parameters = function.parameters();
+        if written {
+            parameters.push(format!("out: &mut {}", function.ty()));
+        }
+        let parameters = parameters.join(", ");
+        out.code(&match written {
+            true => format!("pub fn write<S: Scalar>({parameters}) {{"),
+            false => {
+                format!("pub fn given<S: Scalar>({parameters}) -> {} {{", function.returned(true))
+            }
+        });
         out.indent();
-        if small || parts.len() <= 1 {
+        if parts.len() <= 1 {
             open_inputs(out, self.function, everything.clone());
         } else {
             open_solve_inputs(out, self.function);
         }
-        out.code("let zero = S::lit(0.0);");
-        let mutable =
-            if self.plan.program.roots().iter().any(|e| !e.is_zero()) { "mut " } else { "" };
-        out.code(&format!("let {mutable}out = {};", function.zero()));
+        if written {
+            self.zeros(out);
+        } else {
+            out.code("let zero = S::lit(0.0);");
+            let stored = self.plan.program.roots().iter().any(|e| !e.is_zero());
+            let mutable = if stored { "mut " } else { "" };
+            out.code(&format!("let {mutable}out = {};", function.zero()));
+        }
         if small {
             self.steps(out, everything);
         } else if parts.len() <= 1 {
             blocks.iter().for_each(|block| self.block(out, block));
         } else {
-            self.calls(out, &parts);
+            self.calls(out, parts, if written { "out" } else { "&mut out" });
         }
-        out.code(if function.fallible() { "Ok(out)" } else { "out" });
+        if !written {
+            out.code(if function.fallible() { "Ok(out)" } else { "out" });
+        }
         out.dedent();
         out.code("}");
-        if parts.len() > 1 {
-            let computing = parts.iter().enumerate().filter(|(_, p)| !self.is_solve(&p.blocks[0]));
-            computing.for_each(|(k, part)| self.part(out, k, part));
+    }
+
+    /// Entries that are structurally zero, one by one: the others are then stored once, too.
+    fn zeros(&self, out: &mut Lines) {
+        let blocks = self.plan.program.blocks.iter().enumerate();
+        let places = blocks.flat_map(|(at, block)| {
+            let zeros = block.entries.iter().enumerate().filter(|(_, e)| e.is_zero());
+            zeros.map(move |(entry, _)| self.function.place(at, entry))
+        });
+        let places: Vec<String> = places.collect();
+        if !places.is_empty() {
+            out.code("let zero = S::lit(0.0);");
         }
+        places.iter().for_each(|place| out.code(&format!("{place} = zero;")));
     }
 
     /// Runs of blocks, each a function of its own; a solve is a run by itself.
@@ -190,7 +228,7 @@ impl<'a> Body<'a> {
         out.code(if live.is_empty() { "}" } else { "};" });
     }
 
-    fn calls(&self, out: &mut Lines, parts: &[Part]) {
+    fn calls(&self, out: &mut Lines, parts: &[Part], place: &str) {
         for (k, part) in parts.iter().enumerate() {
             if self.is_solve(&part.blocks[0]) {
                 self.steps(out, part.blocks[0].steps.clone());
@@ -201,7 +239,7 @@ impl<'a> Body<'a> {
             let binding =
                 if live_out.is_empty() { String::new() } else { format!("let [{live_out}] = ") };
             let given = self.function.arguments("posture");
-            out.code(&format!("{binding}part_{}({given}, [{live_in}], &mut out);", k + 1));
+            out.code(&format!("{binding}part_{}({given}, [{live_in}], {place});", k + 1));
         }
     }
 

@@ -31,13 +31,13 @@ macro_rules! pose_and_jacobian {
 }
 
 macro_rules! kernels {
-    ($($(#[$doc:meta])* $name:ident($q:ident: $n:literal, $w:pat) -> $out:ty
+    ($($(#[$doc:meta])* $name:ident($q:ident: $n:literal, $w:pat $(, $place:ident)?) -> $out:ty
         $result:block from $initial:expr;)*) => {
         $(
             $(#[$doc])*
             #[inline(never)]
             pub fn $name<S: Real>($q: &[S; $n], $w: &[S; 6], out: &mut $out) {
-                *out = $result;
+                kernels!(@ out $($place)? $result);
             }
         )*
 
@@ -45,6 +45,12 @@ macro_rules! kernels {
         pub fn each<S: Real>(counter: &mut impl Counter<S>) {
             $(counter.count(stringify!($name), $name::<S>, $initial);)*
         }
+    };
+    (@ $out:ident $result:block) => { *$out = $result };
+    // A result that the kernel itself writes.
+    (@ $out:ident $place:ident $result:block) => {
+        let $place = $out;
+        $result
     };
 }
 
@@ -139,10 +145,10 @@ kernels! {
         let ([q, qd, tau], _) = state.as_chunks() else { return };
         ur10_moving::forward_dynamics(q, qd, tau)
     } from Err(Unstable);
-    /// Regressor of the UR10's torques.
-    ur10_torque_regressor(state: 18, _) -> [[S; 6]; 60] {
+    /// Regressor of the UR10's torques, written where it is to stand.
+    ur10_torque_regressor(state: 18, _, place) -> [[S; 6]; 60] {
         let ([q, qd, qdd], _) = state.as_chunks() else { return };
-        ur10_moving::torque_regressor(q, qd, qdd)
+        ur10_moving::torque_regressor::write(&ur10_moving::Posture::new(q), qd, qdd, place);
     } from [[S::of(0); 6]; 60];
     /// How the UR10's torques change with the joint values.
     ur10_inverse_dynamics_by_joints(state: 18, _) -> [[S; 6]; 6] {

@@ -34,7 +34,7 @@ fn title(name: &str) -> &str {
         "ur10_weight_torque" => "UR10: weights alone",
         "ur10_mass_matrix" => "UR10: mass matrix",
         "ur10_forward_dynamics" => "UR10: forward dynamics, 6×6 solve",
-        "ur10_torque_regressor" => "UR10: regressor of the torques, 6×60",
+        "ur10_torque_regressor" => "UR10: regressor of the torques, 6×60, by `write`",
         "ur10_inverse_dynamics_by_joints" => "UR10: ∂τ/∂q, 6×6",
         "ur10_inverse_dynamics_by_rates" => "UR10: ∂τ/∂q̇, 6×6",
         "computed_torque_period" => "a period of computed torque on the UR10, by the trait",
