@@ -32,12 +32,24 @@ impl<'a> Candidate<'a> {
         (q, w): (&'a [Q], &'a [W]),
         f: impl Fn(&Q, &W) -> T + 'a,
     ) -> Self {
+        let first = f(&q[0], &w[0]);
+        Candidate::writing(name, lanes, (q, w), first, move |q, w, out| *out = f(q, w))
+    }
+
+    /// The same of what writes its result; `first` is any.
+    pub fn writing<Q, W, T: Clone + 'a>(
+        name: &'static str,
+        lanes: usize,
+        (q, w): (&'a [Q], &'a [W]),
+        first: T,
+        f: impl Fn(&Q, &W, &mut T) + 'a,
+    ) -> Self {
         let kept = KEPT / lanes;
-        let mut out = vec![f(&q[0], &w[0]); kept];
+        let mut out = vec![first; kept];
         let run = move || {
             for (q, w) in q.chunks(kept).zip(w.chunks(kept)) {
                 for ((q, w), out) in q.iter().zip(w).zip(&mut out) {
-                    *out = f(q, w);
+                    f(q, w, out);
                 }
                 black_box(&mut out);
             }

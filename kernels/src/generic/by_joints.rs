@@ -149,14 +149,24 @@ impl Arm {
         self.jacobian(q).svd(false, false).singular_values.product()
     }
 
-    /// `w tr(J⁺ ∂J/∂q_i)`, n; zero at a singular posture.
+    /// `w tr(J⁺ ∂J/∂q_i)`, n; zero at a singular posture. J⁺ is `R⁻¹ Qᵀ`, of more than six joints that of Jᵀ = Q R:
+    /// singular vectors would do, but where two singular values are nearly equal they come out wrong by up to 1e-11.
     pub fn manipulability_by_joints(&self, q: &[f64]) -> DVector<f64> {
-        let svd = self.jacobian(q).svd(true, true);
-        let (least, largest) = (svd.singular_values.min(), svd.singular_values.max());
-        let w = svd.singular_values.product();
-        let inverse = (least > SINGULAR * largest).then(|| svd.pseudo_inverse(0.0).ok()).flatten();
-        let Some(inverse) = inverse else { return DVector::zeros(self.dof()) };
-        let slopes = self.hessian(q).into_iter().map(|by| w * (&inverse * by).trace());
-        DVector::from_iterator(self.dof(), slopes)
+        let (n, jacobian) = (self.dof(), self.jacobian(q));
+        let values = jacobian.clone().svd(false, false).singular_values;
+        if values.min() <= SINGULAR * values.max() {
+            return DVector::zeros(n);
+        }
+        let tall = |matrix: &Matrix6xX<f64>| match n > 6 {
+            true => DMatrix::from_column_slice(6, n, matrix.as_slice()).transpose(),
+            false => DMatrix::from_column_slice(6, n, matrix.as_slice()),
+        };
+        let (basis, triangle) = tall(&jacobian).qr().unpack();
+        let slopes = self.hessian(q).into_iter().map(|by| {
+            let solved = triangle.solve_upper_triangular(&basis.tr_mul(&tall(&by)));
+            // No entry of the diagonal is zero where no singular value is.
+            values.product() * solved.map_or(f64::NAN, |solved| solved.trace())
+        });
+        DVector::from_iterator(n, slopes)
     }
 }

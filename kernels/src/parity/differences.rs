@@ -72,7 +72,15 @@ pub fn of(arm: &mut Arm, output: Output, q: &[f64], w: &[f64; 6]) -> Option<Vec<
             smooth.joints.iter_mut().for_each(|joint| joint.drive.coulomb = 0.0);
             slopes(rates, |rates| smooth.bias(q, rates).as_slice().to_vec())
         }
-        Output::ManipulabilityByJoints => slopes(q, |q| Vec::from([arm.manipulability(q)])),
+        Output::ManipulabilityByJoints => {
+            // Within a step of a singular posture, where the measure turns back: there is nothing to compare with.
+            let (here, of) = (arm.manipulability(q), |q: &[f64]| arm.manipulability(q));
+            let change = |joint, by| (of(&moved(q, joint, by)) - here).abs();
+            if (0..q.len()).any(|j| change(j, -STEP).max(change(j, STEP)) > here) {
+                return None;
+            }
+            slopes(q, |q| Vec::from([of(q)]))
+        }
         _ => return None,
     })
 }

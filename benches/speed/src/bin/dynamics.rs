@@ -46,6 +46,19 @@ macro_rules! candidates {
             forward_dynamics |q, qd, tau| (q, qd, tau),
             torque_regressor |q, qd, qdd| (q, qd, qdd)
         );
+        $all.push(Candidate::writing(
+            concat!(stringify!($arm), " torque_regressor::write ", $way),
+            $lanes,
+            ($states, $states),
+            [[$states[0][0]; $n]; 10 * $n],
+            |state, _, out| {
+                use arms::$arm::plain::{Posture, torque_regressor};
+                let ([q, qd, qdd], _) = state.as_chunks::<$n>() else {
+                    unreachable!("three of each joint");
+                };
+                torque_regressor::write(&Posture::new(q), qd, qdd, out);
+            },
+        ));
     };
     ($all:ident $arm:ident $n:literal $way:literal $lanes:literal $states:ident
         $($function:ident |$q:pat_param, $qd:pat_param, $last:pat_param| $args:tt),+) => {$(
