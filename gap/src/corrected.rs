@@ -89,11 +89,9 @@ pub fn folded(robot: &Robot, catalogue: &Catalogue) -> Result<(Robot, Vec<Known>
     let nominal = arm(&robot)?;
     let known = Known::all(&robot, &nominal, catalogue).map_err(FoldError::Effects)?;
     for one in known {
-        // Each on top of the last: two may act on one entry.
-        let table = arm(&robot)?;
-        let mut file = RobotFile::new(&robot, &table);
+        let mut file = RobotFile::new(&robot, &nominal);
         let is_in = one.effect.write(&mut file, one.spot, &one.values).is_some();
-        robot = file.finish(&[]);
+        robot = file.exact();
         left.extend((!is_in).then_some(one));
     }
     robot.effects = left.iter().map(|known| known.table(&nominal)).collect();

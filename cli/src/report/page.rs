@@ -122,7 +122,10 @@ struct Compared<'a> {
 pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
     let found = report.found;
     let unexplained = &found.unexplained;
-    let size = report.main_unit().with_unit(unexplained.position_rms);
+    let size = match unexplained.position_rms {
+        rms if rms > 0.0 => format!("{} beyond the noise", report.main_unit().with_unit(rms)),
+        _ => "A pattern within the noise".to_owned(),
+    };
     let page = Page {
         robot: &found.robot,
         file: &report.data.file,

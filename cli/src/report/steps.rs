@@ -24,14 +24,15 @@ pub fn steps(report: &Report<'_>) -> Vec<Step> {
         interval: None,
         text: unit.with_unit(size),
     };
-    let first = match report.found.nuisances.is_empty() {
-        true => "as the robot file is",
-        false => "with the unknown frames fitted",
-    };
-    let mut steps = vec![plain(first, "whole", before)];
+    let mut steps = vec![plain(report.found.before_is(), "whole", before)];
     steps.extend(report.found.findings.iter().map(|finding| taken(report, finding)));
     if !report.found.findings.is_empty() {
         steps.push(plain("left, held out", "left", after));
+    }
+    let anew = [("searched anew", &gap.nested), ("searched anew, in time", &gap.nested_in_time)];
+    for (label, of) in anew {
+        let size = of.as_ref().map(|gap| main(gap.position_rms, gap.rotation_rms));
+        steps.extend(size.map(|size| plain(label, "left", size)));
     }
     steps.push(plain(&format!("noise, {}", noise_from(gap.noise.from)), "noise", noise));
     steps

@@ -149,11 +149,7 @@ impl Screen<'_> {
             let positions = [s.position_rms, s.position_p95, s.position_max].map(Some);
             line(name, positions, Some(s.rotation_rms))
         };
-        let first = match self.found.nuisances.is_empty() {
-            true => "as the robot file is",
-            false => "with the unknown frames fitted",
-        };
-        let mut rows = vec![heads, all(first, &gap.before)];
+        let mut rows = vec![heads, all(self.found.before_is(), &gap.before)];
         if !self.found.findings.is_empty() {
             let name = match self.found.findings.len() {
                 1 => "with the finding, held out",
@@ -161,6 +157,12 @@ impl Screen<'_> {
             };
             rows.push(all(name, &gap.after));
             rows.push(all("the same on its own rows", &gap.fitted));
+        }
+        if let Some(nested) = &gap.nested {
+            rows.push(all("searched anew without each fold", nested));
+        }
+        if let Some(in_time) = &gap.nested_in_time {
+            rows.push(all("the same without each fifth in time", in_time));
         }
         let noise = &gap.noise;
         let mut known = |name: &str, position: Option<f64>, rotation: Option<f64>| {

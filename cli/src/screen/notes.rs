@@ -71,7 +71,10 @@ impl Screen<'_> {
             let of = n.session.as_ref().map_or_else(String::new, |name| format!(" in {name}"));
             format!("{}{of} at ({x}, {y}, {z}) mm", words(&n.name))
         };
-        let frames: Vec<String> = self.found.nuisances.iter().map(frame).collect();
+        let geometry = "geometry: lengths, twists and zeros of the table";
+        let geometry = self.found.geometry_along.then(|| geometry.to_owned());
+        let frames = self.found.nuisances.iter().map(frame).chain(geometry);
+        let frames: Vec<String> = frames.collect();
         listed(&frames, MOST)
     }
 
@@ -82,12 +85,16 @@ impl Screen<'_> {
             return String::new();
         }
         let positions = self.measures(0..3);
+        // A row in which the arm comes to no rest is the worst.
         let size = |row: &LeftOut| if positions { row.position } else { row.rotation };
-        rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let order = |row: &LeftOut| size(row).unwrap_or(f64::INFINITY);
+        rows.sort_by(|a, b| order(b).total_cmp(&order(a)));
         let far = |row: &&LeftOut| {
-            let size = size(row);
-            let shown = if positions { self.length(size, size) } else { self.angle(size, size) };
-            format!("line {} ({})", row.line, shown.with_unit(size))
+            let shown =
+                |size| if positions { self.length(size, size) } else { self.angle(size, size) };
+            let text = size(row)
+                .map_or("no rest under its load".to_owned(), |size| shown(size).with_unit(size));
+            format!("line {} ({text})", row.line)
         };
         let each: Vec<String> = rows.iter().map(far).collect();
         let (out, all) = (each.len(), self.found.measurements);
@@ -158,7 +165,10 @@ impl Screen<'_> {
                 _ => "nothing beyond the noise".to_owned(),
             };
         }
-        let mut text = format!("{} beyond the noise", self.left());
+        let mut text = match left.position_rms > 0.0 {
+            true => format!("{} beyond the noise", self.left()),
+            false => "a pattern within the noise".to_owned(),
+        };
         let places = shares(&left.places);
         if !places.is_empty() {
             text.push_str(&format!(", at {places}"));

@@ -66,7 +66,12 @@ impl Screen<'_> {
             text.push_str(&format!(" This data does not tell {which} from {others}."));
         }
         if self.found.unexplained.present {
-            text.push_str(&format!(" {} of it stays unexplained.", self.left()));
+            text.push_str(&match self.found.unexplained.position_rms > 0.0 {
+                true => format!(" {} of it stays unexplained.", self.left()),
+                false => {
+                    " What is left is no larger than the noise, and still has a pattern.".to_owned()
+                }
+            });
         }
         text
     }

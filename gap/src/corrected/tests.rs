@@ -180,6 +180,16 @@ fn a_link_without_mass_is_weighed_at_its_middle() {
     }
 }
 
+/// A centre of mass without a mass is refused by the reader.
+#[test]
+fn a_link_that_weighs_nothing_keeps_its_centre() {
+    let weight = CATALOGUE.into_iter().find(|e| e.identifier() == "link_weight").unwrap();
+    let none = known(weight, Spot::at("link 1".parse().unwrap()), vec![-30.0]);
+    let (found, left, off) = put(&robot(false), &none);
+    assert_eq!((found.joints[0].com.clone(), left.len()), (robot(false).joints[0].com.clone(), 0));
+    assert!(off < 1e-10 && found.joints[0].mass.as_ref().is_some_and(|mass| mass.is_zero()));
+}
+
 /// What a file has and what is found on top of it are one effect; what belongs to one session is not
 /// the same as what is always there.
 #[test]

@@ -126,16 +126,17 @@ pub fn diagnose_with(
         let (fits, out, precision) = search.fitting(&looked.explained)?;
         let fit = options.keep_all || fits == problem.fits;
         let settled = fit && precision.is_near(&problem.precision, SAME_PRECISION);
-        if settled || round == MOST_ROUNDS || search.stopped() {
+        let ends = settled || round == MOST_ROUNDS || search.stopped();
+        // The last fit is that of the rows that are told.
+        if !options.keep_all && (fit || !ends) {
+            (problem.fits, left_out) = (fits, out);
+        }
+        if ends {
             break looked;
         }
         round += 1;
         known = Some(looked.explained.fit.model);
         problem.precision = precision;
-        if !fit {
-            problem.fits = fits;
-            left_out = out;
-        }
     };
     if !looked.is_there {
         candidates.clear();
@@ -146,8 +147,12 @@ pub fn diagnose_with(
     let (explained, judged) =
         search.judged(&looked.start, looked.explained, &before, looked.is_there)?;
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
-    let nested = options.nested.then(|| search.nested(&model)).transpose()?;
-    let nested = nested.map(|gaps| Statistics::of(problem.kept(&gaps)));
+    let nested = |folds: &Folds| -> Result<Option<Statistics>, DiagnoseError> {
+        let gaps = options.nested.then(|| search.nested(&model, folds)).transpose()?;
+        Ok(gaps.map(|gaps| Statistics::of(problem.kept(&gaps))))
+    };
+    let in_time = Folds::fifths(data);
+    let (nested, nested_in_time) = (nested(&folds)?, in_time.map_or(Ok(None), |f| nested(&f))?);
     let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(problem.kept(gaps)));
     let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
     let compared = compared.iter().map(compare).collect();
@@ -162,6 +167,7 @@ pub fn diagnose_with(
             shrink: judged.shrink,
             fitted: Statistics::of(problem.kept(&explained.fit.predicted.gaps)),
             nested,
+            nested_in_time,
             noise: explained.noise.report(),
         },
         places: looked.places,
@@ -175,6 +181,7 @@ pub fn diagnose_with(
         parts: looked.parts,
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
+        geometry_along: problem.along.is_some(),
         covers: verdict::cover(&problem),
         rivals: (!options.rivals.is_empty()).then_some(compared),
         stopped: options.stop.is_asked(),

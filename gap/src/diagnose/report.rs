@@ -52,6 +52,9 @@ pub struct Diagnosis {
     /// Frames that were fitted along, and are no findings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub nuisances: Vec<NuisanceReport>,
+    /// Whether zeros, lengths and twists of the table were fitted along, and are no finding.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub geometry_along: bool,
     /// Where the data has been: predictions elsewhere are extrapolation.
     pub covers: Cover,
     /// Other models' predictions against this one's; only if they were asked for.
@@ -60,6 +63,18 @@ pub struct Diagnosis {
     /// Whether it was told to stop before the search was at its end: there may be more to be found.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub stopped: bool,
+}
+
+impl Diagnosis {
+    /// What the gap before is that of.
+    pub fn before_is(&self) -> &'static str {
+        match (self.nuisances.is_empty(), self.geometry_along) {
+            (true, false) => "as the robot file is",
+            (false, false) => "with the unknown frames fitted",
+            (true, true) => "with its geometry fitted",
+            (false, true) => "with frames and geometry fitted",
+        }
+    }
 }
 
 /// A number of the geometry that is one with others: only a sum of them is seen.
@@ -76,10 +91,13 @@ pub struct Gauge {
 pub struct LeftOut {
     /// Its line in the file.
     pub line: u64,
-    /// How far it is from what the model with the findings predicts, m.
-    pub position: f64,
+    /// How far it is from what the model with the findings predicts, m; `None` where that model comes to
+    /// no rest under its load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
     /// The same of its rotation, rad.
-    pub rotation: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<f64>,
 }
 
 /// A part of the gap.
@@ -264,6 +282,9 @@ pub struct GapReport {
     /// As `after`, the search run again for each fold on the others; only if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nested: Option<Statistics>,
+    /// The same where each fold is a stretch of time: what a campaign tells of the next.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nested_in_time: Option<Statistics>,
     /// Of the measurement.
     pub noise: NoiseReport,
 }

@@ -148,8 +148,11 @@ pub trait Effect: Sync {
 
     /// Puts its values at a spot into the file's own entries, and names them; `None` if these hold
     /// no such thing: it stands in an `[[effect]]` table then.
-    fn write(&self, _: &mut RobotFile<'_>, _: Spot, _: &[f64]) -> Option<String> {
-        None
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
+        let parameters = self.parameters(file.arm(), spot);
+        let keys = parameters.iter().map(|parameter| parameter.key);
+        let values: Vec<_> = keys.zip(values.iter().copied()).collect();
+        file.fold(self.identifier(), spot.place, &values)
     }
 
     // Its cases when it is withheld.

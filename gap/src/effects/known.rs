@@ -4,7 +4,7 @@
 use stiffarm_codegen::robot::{self, Effect as Table, Entry, Quantity as Given};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Catalogue, Depends, Effect, Forms, MOST_ORDERS, Parameter, Place, Spot};
+use super::{Catalogue, Depends, Effect, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
 use crate::measurement::{Measurements, Row, nearest};
 use crate::simulate::{Actual, Moment};
 
@@ -39,13 +39,22 @@ pub struct KnownError {
 }
 
 impl KnownError {
-    fn new(at: &robot::Spot, message: String, help: Option<String>) -> KnownError {
+    pub(crate) fn new(at: &robot::Spot, message: String, help: Option<String>) -> KnownError {
         KnownError { at: at.clone(), message, help }
+    }
+
+    /// With how to mend it.
+    pub(crate) fn in_full(&self) -> String {
+        let help = self.help.iter().map(|help| format!("; {help}"));
+        format!("{self}{}", help.collect::<String>())
     }
 }
 
 /// The nearest of some words, else all of them.
-fn advice<'n>(found: &str, known: impl Iterator<Item = &'n str> + Clone) -> Option<String> {
+pub(crate) fn advice<'n>(
+    found: &str,
+    known: impl Iterator<Item = &'n str> + Clone,
+) -> Option<String> {
     let all = || format!("known here: {}", known.clone().collect::<Vec<_>>().join(", "));
     Some(nearest(found, known.clone()).map_or_else(all, |near| format!("did you mean `{near}`?")))
 }
@@ -114,21 +123,14 @@ impl Known {
 
     /// As a table of a robot file. Reading it gives the same effect.
     pub fn table(&self, arm: &Arm) -> Table {
-        let entry = |key: &str, value| Entry { key: key.to_owned(), value, at: Default::default() };
-        let text =
-            |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
         let forms = self.effect.forms_are();
-        let form = forms.key().map(|key| entry(key, Given::Si(forms.number(self.spot.form))));
-        let session = self.session.iter().map(|file| entry(SESSION, Given::Text(file.clone())));
+        let form = forms.key().map(|key| (key, Given::Si(forms.number(self.spot.form))));
+        let session = self.session.iter().map(|file| (SESSION, Given::Text(file.clone())));
         let parameters = self.effect.parameters(arm, self.spot);
         let each = parameters.iter().zip(&self.values).filter(|(_, value)| **value != 0.0);
-        let numbers = each.map(|(parameter, value)| entry(parameter.key, Given::Si(*value)));
-        Table {
-            at: Default::default(),
-            id: text("id", self.effect.identifier().to_owned()),
-            place: text("place", self.spot.place.to_string()),
-            numbers: form.into_iter().chain(session).chain(numbers).collect(),
-        }
+        let numbers = each.map(|(parameter, value)| (parameter.key, Given::Si(*value)));
+        let numbers = form.into_iter().chain(session).chain(numbers);
+        table(self.effect.identifier(), &self.spot.place, numbers)
     }
 
     /// Its values by the names in which truths and findings tell them.
@@ -198,22 +200,46 @@ fn form(
 }
 
 fn value(number: &Entry<Given>, parameter: &Parameter) -> Result<f64, KnownError> {
-    let (value, found) = match &number.value {
-        Given::Si(x) => (Some(*x), x.to_string()),
-        Given::Text(text) => (parameter.quantity.read(text), text.clone()),
-    };
-    let units = parameter.quantity.units();
-    let wrong = |message: String, help: Option<String>| KnownError::new(&number.at, message, help);
-    let value = value.ok_or_else(|| {
-        let help = format!("a number without a unit is in {}", parameter.quantity.unit());
-        wrong(format!("`{found}` is no number and its unit: {units}"), Some(help))
-    })?;
+    let value = si(number, parameter.quantity)?;
     if value < parameter.least {
+        let found = match &number.value {
+            Given::Si(x) => x.to_string(),
+            Given::Text(text) => text.clone(),
+        };
         let message =
             format!("`{}` is {found}: below {:e} it is not physical", number.key, parameter.least);
-        return Err(wrong(message, None));
+        return Err(KnownError::new(&number.at, message, None));
     }
     Ok(value)
+}
+
+/// A number of some kind, in SI or with its unit.
+pub(crate) fn si(number: &Entry<Given>, quantity: Quantity) -> Result<f64, KnownError> {
+    match &number.value {
+        Given::Si(x) => Ok(*x),
+        Given::Text(text) => quantity.read(text).ok_or_else(|| {
+            let message = format!("`{text}` is no number and its unit: {}", quantity.units());
+            let help = format!("a number without a unit is in {}", quantity.unit());
+            KnownError::new(&number.at, message, Some(help))
+        }),
+    }
+}
+
+/// An effect as a table of a robot file.
+pub(crate) fn table<'n>(
+    id: &str,
+    place: &impl ToString,
+    numbers: impl Iterator<Item = (&'n str, Given)>,
+) -> Table {
+    let text = |key: &str, value| Entry { key: key.to_owned(), value, at: robot::Spot::default() };
+    let entry =
+        |(key, value): (&str, Given)| Entry { key: key.to_owned(), value, at: Default::default() };
+    Table {
+        at: Default::default(),
+        id: text("id", id.to_owned()),
+        place: text("place", place.to_string()),
+        numbers: numbers.map(entry).collect(),
+    }
 }
 
 #[cfg(test)]

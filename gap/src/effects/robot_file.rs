@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 use stiffarm_codegen::number::Number;
-use stiffarm_codegen::robot::{Angle, Convention, Frame, Joint, Marker, Robot, Value};
+use stiffarm_codegen::robot::{Angle, Frame, Joint, Marker, Robot, Value};
 use stiffarm_kernels::generic;
 
 use super::{Known, Place};
@@ -10,17 +10,14 @@ use super::{Known, Place};
 /// A correction below this changes nothing, m and rad: entries are written with 12 decimals.
 const FINEST: f64 = 1e-12;
 
-/// A compliance below this part of what the file has is none.
-pub(super) const RIGID: f64 = 1e-9;
-
 /// A robot file that is being corrected. Entries that nothing is put into stay as they are, exact
 /// multiples of π too.
 #[derive(Clone)]
 pub struct RobotFile<'a> {
     robot: Robot,
+    /// As it was.
+    was: &'a Robot,
     arm: &'a generic::Arm,
-    base: Option<Isometry3<f64>>,
-    tool: Option<Isometry3<f64>>,
 }
 
 /// A row of its table.
@@ -29,14 +26,12 @@ pub struct Row<'a> {
     pub joint: &'a mut Joint,
     /// The numbers that they stood for when the findings were made.
     pub nominal: &'a generic::Joint,
-    /// Of the table.
-    pub convention: Convention,
 }
 
 impl<'a> RobotFile<'a> {
     /// The file, and the arm that was diagnosed.
-    pub fn new(robot: &Robot, arm: &'a generic::Arm) -> Self {
-        RobotFile { robot: robot.clone(), arm, base: None, tool: None }
+    pub fn new(robot: &'a Robot, arm: &'a generic::Arm) -> Self {
+        RobotFile { robot: robot.clone(), was: robot, arm }
     }
 
     /// The arm that was diagnosed.
@@ -44,38 +39,38 @@ impl<'a> RobotFile<'a> {
         self.arm
     }
 
-    /// Puts numbers into the row at a place: `put` names the entries that it took; `None` if there
-    /// are none that hold them, and the row is then as it was.
+    /// Puts numbers into the row at a place: `put` names the entry that it took.
     pub fn at_row(
         &mut self,
         place: Place,
-        put: impl FnOnce(&mut Row<'_>) -> Option<&'static str>,
+        put: impl FnOnce(&mut Row<'_>) -> &'static str,
     ) -> Option<String> {
-        let (row, convention) = (place.row(), self.robot.convention);
-        let nominal = self.arm.joints.get(row)?;
-        let joint = self.robot.joints.get_mut(row)?;
-        let mut changed = joint.clone();
-        let entries = put(&mut Row { joint: &mut changed, nominal, convention })?;
-        *joint = changed;
-        Some(format!("{entries} of {}", joint.name))
+        let nominal = self.arm.joints.get(place.row())?;
+        let joint = self.robot.joints.get_mut(place.row())?;
+        let entry = put(&mut Row { joint: &mut *joint, nominal });
+        Some(format!("{entry} of {}", joint.name))
     }
 
-    /// Moves the tool.
-    pub fn move_tool(&mut self, by: &Isometry3<f64>) -> Option<String> {
-        *self.tool.get_or_insert(self.arm.tool) *= by;
-        Some("[tool]".to_owned())
-    }
-
-    /// Moves the base.
-    pub fn move_base(&mut self, by: &Isometry3<f64>) -> Option<String> {
-        *self.base.get_or_insert(self.arm.base) *= by;
-        Some("[base]".to_owned())
+    /// Puts the numbers of an effect, by their keys, into the table's own entries and names them; `None` if
+    /// these hold no such thing.
+    pub fn fold(&mut self, id: &str, place: Place, values: &[(&str, f64)]) -> Option<String> {
+        let entries = self.robot.fold(id, place, values)?;
+        Some(match place {
+            Place::Joint(_) | Place::Link(_) => {
+                format!("{entries} of {}", self.robot.joints[place.row()].name)
+            }
+            Place::Base | Place::Tool | Place::Arm | Place::Instrument => entries.to_owned(),
+        })
     }
 
     /// Puts base and tool, those of them that were fitted, where the arm that was diagnosed has them.
     pub fn place_frames(&mut self, [base, tool]: [bool; 2]) {
-        self.base = base.then_some(self.arm.base);
-        self.tool = tool.then_some(self.arm.tool);
+        if base {
+            self.robot.base = frame(&self.arm.base);
+        }
+        if tool {
+            self.robot.tool = frame(&self.arm.tool);
+        }
     }
 
     /// Puts a measured point where it was found, tool frame, m.
@@ -105,50 +100,83 @@ impl<'a> RobotFile<'a> {
         "an [[effect]]".to_owned()
     }
 
-    /// The corrected file with these effects.
-    pub fn finish(mut self, known: &[Known]) -> Robot {
-        for (frame, found) in [(&mut self.robot.base, self.base), (&mut self.robot.tool, self.tool)]
-        {
-            if let Some(found) = found {
-                set(frame, &found);
+    /// The corrected file with these effects, its numbers with as many digits as a measurement has.
+    pub fn finish(self, known: &[Known]) -> Robot {
+        let effects = known.iter().map(|known| known.table(self.arm)).collect();
+        let (mut robot, was) = (Robot { effects, ..self.robot }, self.was);
+        for (joint, was) in robot.joints.iter_mut().zip(&was.joints) {
+            lengths([&mut joint.a, &mut joint.d], [&was.a, &was.d]);
+            lengths(joint.com.each_mut(), was.com.each_ref());
+            angles(
+                [&mut joint.theta, &mut joint.alpha, &mut joint.beta],
+                [&was.theta, &was.alpha, &was.beta],
+            );
+            for (entry, was) in
+                [(&mut joint.stiffness, &was.stiffness), (&mut joint.mass, &was.mass)]
+            {
+                let changed = entry.as_mut().filter(|entry| Some(&**entry) != was.as_ref());
+                changed.into_iter().for_each(digits);
+            }
+            if let (Some(beam), Some(was)) = (&mut joint.beam, &was.beam) {
+                let (now, was) = (&mut beam.section, &was.section);
+                for (entry, was) in
+                    [(&mut now.iy, &was.iy), (&mut now.iz, &was.iz), (&mut now.j, &was.j)]
+                {
+                    if entry != was {
+                        digits(entry);
+                    }
+                }
             }
         }
-        self.robot.effects = known.iter().map(|known| known.table(self.arm)).collect();
+        for (frame, was) in [(&mut robot.base, &was.base), (&mut robot.tool, &was.tool)] {
+            lengths(frame.translation.each_mut(), was.translation.each_ref());
+            angles(frame.rotation.each_mut(), was.rotation.each_ref());
+        }
+        robot
+    }
+
+    /// The file as it is now, every digit of it.
+    pub(crate) fn exact(self) -> Robot {
         self.robot
     }
 }
 
-/// Puts a frame where it was found; numbers that have not changed stay exact.
-fn set(frame: &mut Frame, found: &Isometry3<f64>) {
-    let (position, rotation) = (found.translation.vector, found.rotation.scaled_axis());
-    for (entry, is) in frame.translation.iter_mut().zip(position.iter()) {
-        let was = entry.number().map_or(0.0, Number::to_f64);
-        shift(entry, is - was);
-    }
-    for (entry, is) in frame.rotation.iter_mut().zip(rotation.iter()) {
-        let was = entry.radians().unwrap_or(0.0);
-        turn(entry, is - was);
+fn frame(at: &Isometry3<f64>) -> Frame {
+    let value = |x: f64| Value::Number(Number::Rounded(x));
+    let angle = |x: f64| Angle::Radians(Number::Rounded(x));
+    Frame {
+        translation: at.translation.vector.map(value).into(),
+        rotation: at.rotation.scaled_axis().map(angle).into(),
     }
 }
 
-/// Adds to a length.
-pub fn shift(entry: &mut Value, by: f64) {
-    if by.abs() >= FINEST {
-        let was = entry.number().map_or(0.0, Number::to_f64);
-        *entry = decimals(was + by);
+/// Gives lengths that have changed 12 decimals, and others what they were.
+fn lengths<const N: usize>(entries: [&mut Value; N], was: [&Value; N]) {
+    let number = |value: &Value| value.number().map_or(0.0, Number::to_f64);
+    for (entry, was) in entries.into_iter().zip(was).filter(|(entry, was)| entry != was) {
+        let by = number(entry) - number(was);
+        *entry = if by.abs() < FINEST { was.clone() } else { decimals(number(entry)) };
     }
 }
 
-/// Adds to an angle.
-pub fn turn(entry: &mut Angle, by: f64) {
-    if by.abs() >= FINEST {
-        let Value::Number(number) = decimals(entry.radians().unwrap_or(0.0) + by) else { return };
-        *entry = Angle::Radians(number);
+/// The same of angles.
+fn angles<const N: usize>(entries: [&mut Angle; N], was: [&Angle; N]) {
+    let number = |angle: &Angle| angle.radians().unwrap_or(0.0);
+    for (entry, was) in entries.into_iter().zip(was).filter(|(entry, was)| entry != was) {
+        let by = number(entry) - number(was);
+        *entry = match decimals(number(entry)) {
+            Value::Number(rounded) if by.abs() >= FINEST => Angle::Radians(rounded),
+            _ => was.clone(),
+        };
     }
+}
+
+fn digits(entry: &mut Value) {
+    *entry = significant(entry.number().map_or(0.0, Number::to_f64));
 }
 
 /// With 12 decimals.
-pub fn decimals(x: f64) -> Value {
+fn decimals(x: f64) -> Value {
     Value::Number(Number::from_decimal(&format!("{x:.12}")).unwrap_or(Number::Rounded(x)))
 }
 

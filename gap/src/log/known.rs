@@ -8,6 +8,7 @@ use stiffarm_codegen::robot::{Effect as Table, Entry, Quantity as Given};
 use super::effects::{CATALOGUE, LogEffect, Spot};
 use super::model::Acting;
 use super::scene::Domain;
+use crate::effects::{self, KnownError, Quantity, advice, si};
 
 /// Whether a table is of motion. Arms have no more joints than places are compared with.
 pub fn is_of_motion(table: &Table) -> bool {
@@ -21,52 +22,52 @@ const MOST: usize = 64;
 ///
 /// # Errors
 /// What is wrong with a table, and its line.
-pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting>, String> {
+pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting>, KnownError> {
     let mut terms = Vec::new();
     for table in tables {
-        let Some(effect) = effect(table) else { continue };
-        if effect.domain() != rows {
-            continue;
-        }
-        let wrong =
-            |what: String| format!("line {}: [[effect]] {}: {what}", table.at.line, table.id.value);
+        let Some(effect) = effect(table).filter(|effect| effect.domain() == rows) else { continue };
         let spot = spot(table, joints).ok_or_else(|| {
-            wrong(format!("found the place `{}`, expected one of the arm's", table.place.value))
+            let (found, id) = (&table.place.value, &table.id.value);
+            let places: Vec<String> = Spot::all(joints).iter().map(Spot::to_string).collect();
+            let help = advice(found, places.iter().map(String::as_str));
+            KnownError::new(&table.place.at, format!("`{found}` is no place of {id}"), help)
         })?;
-        let value = |(name, unit): &(&'static str, &'static str)| {
-            let entry = table.numbers.iter().find(|entry| entry.key == *name);
-            match entry.map(|entry| &entry.value) {
-                Some(Given::Si(value)) if value.is_finite() => Ok(*value),
-                Some(other) => {
-                    Err(wrong(format!("found {name} = {other:?}, expected a number in {unit}")))
-                }
-                None => Ok(0.0),
-            }
+        let value = |(key, unit): &(&'static str, &'static str)| {
+            let entry = table.numbers.iter().find(|entry| entry.key == *key);
+            entry.map_or(Ok(0.0), |entry| number(entry, unit))
         };
-        let values: Result<Vec<f64>, String> = effect.numbers().iter().map(value).collect();
-        let values = values?;
+        let values: Vec<f64> = effect.numbers().iter().map(value).collect::<Result<_, _>>()?;
         if !effect.may_be(&values) {
-            return Err(wrong(format!(
-                "found {values:?}, expected numbers that such a thing may have"
-            )));
+            let message = format!(
+                "found {values:?}, expected numbers that such a thing as {} may have",
+                table.id.value
+            );
+            return Err(KnownError::new(&table.at, message, None));
         }
         terms.push(Acting { effect, spot, values });
     }
     Ok(terms)
 }
 
+/// A number in SI, or with its unit where it is of a kind of which others are known.
+fn number(entry: &Entry<Given>, unit: &str) -> Result<f64, KnownError> {
+    let kind = Quantity::ALL.iter().find(|quantity| quantity.unit() == unit);
+    match (&entry.value, kind) {
+        (Given::Si(value), _) if value.is_finite() => Ok(*value),
+        (Given::Text(_), Some(quantity)) => si(entry, *quantity),
+        (Given::Si(_) | Given::Text(_), _) => {
+            let message = format!("`{}` is no number in {unit}", entry.key);
+            let help = format!("write it as a number without a unit, in {unit}");
+            Err(KnownError::new(&entry.at, message, Some(help)))
+        }
+    }
+}
+
 /// The table that says a term.
 pub fn table(term: &Acting) -> Table {
-    let entry = |key: &str, value| Entry { key: key.to_owned(), value, at: Default::default() };
-    let text =
-        |key: &str, value: String| Entry { key: key.to_owned(), value, at: Default::default() };
     let numbers = term.effect.numbers().iter().zip(&term.values);
-    Table {
-        at: Default::default(),
-        id: text("id", term.effect.identifier().to_owned()),
-        place: text("place", term.spot.to_string()),
-        numbers: numbers.map(|((name, _), value)| entry(name, Given::Si(*value))).collect(),
-    }
+    let numbers = numbers.map(|((key, _), value)| (*key, Given::Si(*value)));
+    effects::table(term.effect.identifier(), &term.spot, numbers)
 }
 
 /// The effect of a table: that of its identifier which has all its keys.
@@ -83,4 +84,53 @@ fn effect(table: &Table) -> Option<&'static dyn LogEffect> {
 /// The place that is printed so.
 fn spot(table: &Table, joints: usize) -> Option<Spot> {
     Spot::all(joints).into_iter().find(|spot| spot.to_string() == table.place.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use stiffarm_codegen::robot::Robot;
+
+    use super::*;
+
+    /// What an `[[effect]]` of an arm of two joints says in these rows.
+    fn said(effect: &str, rows: Domain) -> Result<Vec<(String, Vec<f64>)>, String> {
+        let text = format!(
+            "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1\n\
+             [[joint]]\ntype = \"revolute\"\na = 1\n[[effect]]\n{effect}"
+        );
+        let (robot, _) = Robot::from_toml(&text, "arm.toml").unwrap_or_else(|e| panic!("{e}"));
+        let terms = terms(&robot.effects, 2, rows).map_err(|wrong| wrong.in_full())?;
+        Ok(terms.into_iter().map(|term| (term.spot.to_string(), term.values)).collect())
+    }
+
+    #[test]
+    fn numbers_may_have_their_units() {
+        let backlash = "id = \"backlash\"\nplace = \"joint 2\"\nhalf_width = \"0.5 mrad\"\n";
+        let found = said(backlash, Domain::Position);
+        assert_eq!(found, Ok(vec![("joint 2".to_owned(), vec![0.5e-3])]));
+        assert_eq!(said(backlash, Domain::Torque), Ok(Vec::new()));
+        let viscous = "id = \"viscous_friction\"\nplace = \"joint 1\"\nviscous = ";
+        let found = said(&format!("{viscous}12\n"), Domain::Torque);
+        assert_eq!(found, Ok(vec![("joint 1".to_owned(), vec![12.0])]));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_line() {
+        let id = "id = \"coulomb_friction\"\nplace = ";
+        let cases = [
+            (
+                "\"joint 3\"\ncoulomb = 1\n",
+                "line 11: `joint 3` is no place of coulomb_friction; did",
+            ),
+            ("\"joint 1\"\ncoulomb = \"3 mm\"\n", "line 12: `3 mm` is no number and its unit: N*m"),
+            ("\"joint 1\"\ncoulomb = -1\n", "line 9: found [-1.0], expected numbers that"),
+        ];
+        for (text, message) in cases {
+            let wrong = said(&format!("{id}{text}"), Domain::Torque).unwrap_err();
+            assert!(wrong.starts_with(message), "{wrong}");
+        }
+        let viscous = "id = \"viscous_friction\"\nplace = \"joint 1\"\nviscous = \"1 N*m\"\n";
+        let wrong = said(viscous, Domain::Torque).unwrap_err();
+        assert!(wrong.ends_with("write it as a number without a unit, in N·m·s/rad"), "{wrong}");
+    }
 }

@@ -74,7 +74,7 @@ pub fn diagnosed(
     let current = side == Some(TorqueSide::Current);
     let loaded = loaded(arm, &payloads, &options.payloads, current);
     let known = known::terms(&options.known, arm.dof(), domain)
-        .map_err(|message| Refused::Known { message })?;
+        .map_err(|wrong| Refused::Known { message: wrong.in_full() })?;
     let case = Case {
         arm,
         signals: &signals,

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use stiffarm_draws::texts::{answered, mutated};
+use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::log::{Log, LogError, Names, Run};
 use stiffarm_gap::readings::Map;
 use stiffarm_kernels::Motion;
@@ -28,54 +28,6 @@ const MAPS: [&str; 4] = [
     "[columns]\nt = { column = \"t\", unit = \"ms\" }\ntau1 = { column = \"q2\", factor = -1, offset = 1e300 }\n",
     "[columns]\nq1 = \"A1\"\nspeed = \"t\"\n",
     "[columns]\nq99999 = \"q1\"\n",
-];
-
-/// Pieces that a mutation puts in.
-const PIECES: [&str; 44] = [
-    "",
-    " ",
-    "\n",
-    "\r",
-    "\r\n",
-    ",",
-    ";",
-    "\t",
-    "\"",
-    "\"\"",
-    "#",
-    "[",
-    "]",
-    "[]",
-    "[,",
-    "nan",
-    "inf",
-    "-inf",
-    "1e999",
-    "1e308",
-    "-1e308",
-    "1e-320",
-    "0",
-    "-0",
-    "-1",
-    "1e12",
-    "1,5",
-    "+",
-    "é",
-    "\0",
-    "\u{feff}",
-    "t",
-    "q1",
-    "q0",
-    "q99999999999999999999",
-    "q_cmd1",
-    "tau1",
-    "i1",
-    "[deg]",
-    "[rpm]",
-    "run",
-    "contact",
-    "torque_side = motor",
-    "# torque_side = nothing\n",
 ];
 
 /// What is read is finite and in order, what is refused is said.
@@ -116,7 +68,7 @@ fn fuzz(cases: u32) {
             MAPS.iter().filter_map(|map| Some(own.clone().mapped(Map::read("m.toml", map).ok()?))),
         )
         .collect();
-    let texts = mutated(&CORPUS, usize::MAX, &PIECES);
+    let texts = mutated(&CORPUS, usize::MAX, &PIECES_OF_TABLES);
     answered(cases, &(texts, select(all.clone())), |(text, names)| reads(text.as_bytes(), &names));
     let bytes = prop::collection::vec(any::<u8>(), 0..300);
     answered(cases / 10, &(bytes, select(all)), |(bytes, names)| reads(&bytes, &names));

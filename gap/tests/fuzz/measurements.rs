@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use stiffarm_codegen::robot::Motion;
-use stiffarm_draws::texts::{answered, mutated};
+use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Marker, Mistake};
 use stiffarm_gap::readings::{Map, Sheet, import};
 use stiffarm_gap::{Measurements, ReadError};
@@ -36,58 +36,6 @@ const MAPS: [&str; 5] = [
     "decimal = \",\"\nseparator = \";\"\norientation = \"zyz\"\n",
     "header = 3\n[columns]\nq1 = { column = \"A1\", unit = \"deg\", factor = -1, offset = 90 }\n",
     "orientation = \"quaternion\"\ngravity = [0, 0, 1e300]\n",
-];
-
-/// Pieces that a mutation puts in.
-const PIECES: [&str; 48] = [
-    "",
-    " ",
-    "\n",
-    "\r",
-    "\r\n",
-    ",",
-    ";",
-    "\t",
-    "|",
-    "\"",
-    "\"\"",
-    "#",
-    "[",
-    "]",
-    "(mm)",
-    "[deg]",
-    "[kN]",
-    "[in]",
-    "nan",
-    "NaN",
-    "inf",
-    "-inf",
-    "1e999",
-    "1e308",
-    "-1e308",
-    "1e-320",
-    "0",
-    "-0",
-    "-1",
-    "1,5",
-    "1.5.2",
-    "1e",
-    "+",
-    "-",
-    "é",
-    "°",
-    "\0",
-    "\u{feff}",
-    "q1",
-    "q99999999999999999999",
-    "x",
-    "drx",
-    "sim_x",
-    "marker",
-    "smr1",
-    "A1",
-    "kg",
-    "1 000",
 ];
 
 /// Lines of a file: a few are as good as many.
@@ -157,7 +105,7 @@ fn imports(text: &str, map: &str) -> Result<(), TestCaseError> {
 }
 
 fn fuzz(cases: u32) {
-    let texts = || mutated(&CORPUS, LINES, &PIECES);
+    let texts = || mutated(&CORPUS, LINES, &PIECES_OF_TABLES);
     answered(cases, &texts(), |text| reads(text.as_bytes()));
     answered(cases / 10, &prop::collection::vec(any::<u8>(), 0..300), |bytes| reads(&bytes));
     let flips = prop::collection::vec((any::<Index>(), 0_u8..8), 1..8);
@@ -169,7 +117,7 @@ fn fuzz(cases: u32) {
         }
         reads(&bytes)
     });
-    let map = (select(&MAPS[..]), any::<Option<Index>>(), select(&PIECES[..]));
+    let map = (select(&MAPS[..]), any::<Option<Index>>(), select(&PIECES_OF_TABLES[..]));
     answered(cases, &(texts(), map), |(text, (map, edit, piece))| {
         let mut map = map.to_owned();
         if let Some(at) = edit {

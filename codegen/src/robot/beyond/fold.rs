@@ -4,86 +4,111 @@ use super::super::decimal::of_double;
 use super::super::model::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
 use super::super::space::{Frame as Moved, norm, times};
 use super::read::Found;
-use super::{Beyond, Law, Move, Spring};
+use super::{Beyond, Law, Move, Place, Spring};
 use crate::number::Number;
 
 /// What of a compliance may be left for it to be none.
 const RIGID: f64 = 1e-9;
 
 impl Robot {
-    /// Puts an effect into the table; whether it has entries for it.
-    pub(super) fn fold(&mut self, found: &Found) -> bool {
-        let row = found.place.row();
-        let v = &found.values;
-        match found.id {
-            "base_frame" => self.base = frame(placed(&self.base).then(&displacement(v))),
-            "tool_frame" => self.tool = frame(placed(&self.tool).then(&displacement(v))),
-            "gravity_tilt" => {
-                let turned = turn([v[0], v[1], 0.0]).direction(self.gravity.each_ref().map(double));
-                self.gravity = turned.map(value);
+    /// Puts the numbers of an effect at a place, by their keys, into the table's own entries, and names
+    /// these; `None` if there are none that hold them, and the table is then as it was. Symbols count as zero.
+    pub fn fold(&mut self, id: &str, place: Place, values: &[(&str, f64)]) -> Option<&'static str> {
+        let of = |key: &str| values.iter().find(|(k, _)| *k == key).map_or(0.0, |(_, by)| *by);
+        let six = ["x", "y", "z", "rx", "ry", "rz"].map(of);
+        let (row, convention) = (place.row(), self.convention);
+        let joint = self.joints.get_mut(row)?;
+        match id {
+            "base_frame" => {
+                self.base = frame(placed(&self.base).then(&displacement(six)));
+                Some("[base]")
             }
-            "joint_offset" => {
-                let joint = &mut self.joints[row];
-                match joint.motion {
-                    Motion::Revolute => add_angle(&mut joint.theta, v[0]),
-                    Motion::Prismatic => add(&mut joint.d, v[0]),
+            "tool_frame" => {
+                self.tool = frame(placed(&self.tool).then(&displacement(six)));
+                Some("[tool]")
+            }
+            "joint_offset" => match joint.motion {
+                Motion::Revolute => {
+                    add_angle(&mut joint.theta, of("offset"));
+                    Some("theta")
                 }
+                Motion::Prismatic => {
+                    add(&mut joint.d, of("offset"));
+                    Some("d")
+                }
+            },
+            "joint_compliance" => {
+                soften(joint, of("compliance"));
+                Some("stiffness")
             }
-            "joint_compliance" => soften(&mut self.joints[row], v[0]),
             "link_geometry" => {
-                let joint = &mut self.joints[row];
-                match joint.motion {
-                    Motion::Revolute => add(&mut joint.d, v[0]),
-                    Motion::Prismatic => add_angle(&mut joint.theta, v[0]),
-                }
-                add(&mut joint.a, v[1]);
-                add_angle(&mut joint.alpha, v[2]);
-                add_angle(&mut joint.beta, v[3]);
+                let Joint { theta, alpha, beta, .. } = joint;
+                let angles = [(theta, "theta"), (alpha, "alpha"), (beta, "beta")];
+                angles.into_iter().for_each(|(entry, key)| add_angle(entry, of(key)));
+                add(&mut joint.d, of("d"));
+                add(&mut joint.a, of("a"));
+                Some("the lengths and angles")
             }
             "link_com" => {
-                self.joints[row].com.iter_mut().zip(v).for_each(|(entry, by)| add(entry, *by));
+                joint.com.iter_mut().zip(six).for_each(|(entry, by)| add(entry, by));
+                Some("com")
             }
-            "link_weight" => self.weigh(row, v[0]),
-            "link_compliance" => return bend(&mut self.joints[row], v),
-            _ => return false,
+            "link_weight" if has_centre(joint, convention) => {
+                weigh(joint, convention, of("mass"));
+                Some("mass")
+            }
+            "link_compliance" => bend(joint, of("bending"), of("torsion")),
+            _ => None,
         }
-        true
     }
 
-    /// Adds mass at the link's centre; of a link without any that is the middle of its chord.
-    fn weigh(&mut self, row: usize, mass: f64) {
-        let standard = self.convention == Convention::Standard;
-        let joint = &mut self.joints[row];
-        if joint.mass.is_none() {
-            let (a, d) = (double(&joint.a), double(&joint.d));
-            let [alpha, beta] =
-                [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
-            let chord = if standard {
+    /// Takes an effect into the table's own entries; whether it has any for it.
+    pub(super) fn takes(&mut self, found: &Found) -> bool {
+        if found.id != "gravity_tilt" {
+            return self.fold(found.id, found.place, &found.values).is_some();
+        }
+        let tilt = turn([found.values[0].1, found.values[1].1, 0.0]);
+        self.gravity = tilt.direction(self.gravity.each_ref().map(double)).map(value);
+        true
+    }
+}
+
+/// Adds mass at the link's centre; of a link without any that is the middle of its chord.
+fn weigh(joint: &mut Joint, convention: Convention, by: f64) {
+    if !is_weighed(joint) {
+        let (a, d) = (double(&joint.a), double(&joint.d));
+        let [alpha, beta] = [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
+        let chord = match convention {
+            Convention::Standard => {
                 let row = turn([alpha, 0.0, 0.0]).then(&turn([0.0, beta, 0.0]));
                 row.inverse().direction([a, 0.0, d])
-            } else {
-                [0.0, 0.0, d]
-            };
-            joint.com = times(chord, -0.5).map(value);
-        }
-        let whole = joint.mass.as_ref().map_or(0.0, double) + mass;
-        joint.mass = Some(value(whole.max(0.0)));
+            }
+            Convention::Modified => [0.0, 0.0, d],
+        };
+        joint.com = times(chord, -0.5).map(value);
     }
+    let whole = joint.mass.as_ref().map_or(0.0, double) + by;
+    joint.mass = Some(value(whole.max(0.0)));
+}
+
+/// Whether the row says where its link is weighed.
+fn is_weighed(joint: &Joint) -> bool {
+    joint.mass.as_ref().is_some_and(|mass| double(mass) != 0.0)
+        || !joint.com.iter().all(Value::is_zero)
 }
 
 /// Whether a row can say where its link is weighed: it has a centre of mass, or the middle of its chord
 /// stays where it is in its frame.
-pub(super) fn has_centre(robot: &Robot, row: usize) -> bool {
-    let joint = &robot.joints[row];
-    let stays = robot.convention == Convention::Standard || joint.a.is_zero();
-    joint.mass.is_some() || (joint.motion == Motion::Revolute && stays)
+pub(super) fn has_centre(joint: &Joint, convention: Convention) -> bool {
+    let stays = convention == Convention::Standard || joint.a.is_zero();
+    is_weighed(joint) || (joint.motion == Motion::Revolute && stays)
 }
 
 impl Beyond {
     /// Takes in what the table does not hold.
     pub(super) fn take(&mut self, found: &Found) {
         let (joint, form) = (found.place.row(), found.form);
-        let v: Vec<Number> = found.values.iter().map(|x| number(*x)).collect();
+        let v: Vec<Number> = found.values.iter().map(|(_, x)| number(*x)).collect();
         let mut moves = |law| self.moves.push(Move::Joint(joint, law));
         match found.id {
             "joint_ratio" => moves(Law::Ratio(v[0])),
@@ -99,7 +124,7 @@ impl Beyond {
             "link_compliance" => self.springs.push(Spring::Link(joint, [v[0], v[1]])),
             "wrench_scale" => {
                 let scale = 1.0 + self.wrench_scale.to_f64();
-                self.wrench_scale = number(scale * (1.0 + found.values[0]) - 1.0);
+                self.wrench_scale = number(scale * (1.0 + found.values[0].1) - 1.0);
             }
             _ => {
                 for (sum, by) in self.load_point.iter_mut().zip(v) {
@@ -119,19 +144,18 @@ fn soften(joint: &mut Joint, by: f64) {
 
 /// Adds 1/EI in both planes and 1/GJ to the row's beam; area, weight and moduli stay. A row without a beam
 /// has no entries for it, nor one that would be rigid.
-fn bend(joint: &mut Joint, v: &[f64]) -> bool {
-    let Some(beam) = joint.beam.as_mut() else { return false };
+fn bend(joint: &mut Joint, bending: f64, torsion: f64) -> Option<&'static str> {
+    let beam = joint.beam.as_mut()?;
     let softened = |modulus: &Value, moment: &Value, by: f64| {
         let own = 1.0 / (double(modulus) * double(moment));
         let whole = own + by;
         (whole > RIGID * own).then(|| value(1.0 / (double(modulus) * whole)))
     };
     let (e, g, section) = (&beam.youngs_modulus, &beam.shear_modulus, &beam.section);
-    let [y, z, j] = [(e, &section.iy, v[0]), (e, &section.iz, v[0]), (g, &section.j, v[1])]
-        .map(|(modulus, moment, by)| softened(modulus, moment, by));
-    let (Some(y), Some(z), Some(j)) = (y, z, j) else { return false };
-    (beam.section.iy, beam.section.iz, beam.section.j) = (y, z, j);
-    true
+    let [y, z] = [&section.iy, &section.iz].map(|moment| softened(e, moment, bending));
+    let j = softened(g, &section.j, torsion);
+    (beam.section.iy, beam.section.iz, beam.section.j) = (y?, z?, j?);
+    Some("the beam's iy, iz and j")
 }
 
 /// A number; the readers let nothing stand that is not finite, and symbols are refused before.
@@ -166,7 +190,7 @@ fn turn(vector: [f64; 3]) -> Moved {
 }
 
 /// A displacement as a transform: the origin moves, and the frame turns about its moved origin.
-fn displacement(v: &[f64]) -> Moved {
+fn displacement(v: [f64; 6]) -> Moved {
     Moved::moved([v[0], v[1], v[2]]).then(&turn([v[3], v[4], v[5]]))
 }
 

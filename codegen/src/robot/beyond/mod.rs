@@ -151,7 +151,7 @@ impl Robot {
         }
         let mut robot = Robot { effects: Vec::new(), beyond: Beyond::default(), ..self.clone() };
         for (found, table) in found.into_iter().flatten().zip(&self.effects) {
-            if !robot.fold(&found) {
+            if !robot.takes(&found) {
                 robot.beyond.take(&found);
                 robot.effects.push(table.clone());
             }

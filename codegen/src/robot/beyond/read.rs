@@ -16,8 +16,8 @@ pub(super) struct Found {
     pub place: Place,
     /// The order, or the other joint from 0.
     pub form: usize,
-    /// Its numbers, SI, in the order of its keys.
-    pub values: Vec<f64>,
+    /// Its keys and their numbers, SI.
+    pub values: Vec<(&'static str, f64)>,
 }
 
 /// Where an effect may act.
@@ -159,7 +159,7 @@ impl Found {
             ));
         };
         let place = at.place(id, table, robot)?;
-        if *id == "link_weight" && !has_centre(robot, place.row()) {
+        if *id == "link_weight" && !has_centre(&robot.joints[place.row()], robot.convention) {
             let message = format!(
                 "no kernel is made of the link weight at {place}: the middle of a link without `mass` moves in \
                  this row's frame"
@@ -176,7 +176,7 @@ impl Found {
         let motion = robot.joints[place.row()].motion;
         let keys: Vec<Key> =
             keys.iter().filter(|key| entry_of(id, key.0, motion)).copied().collect();
-        let mut values = vec![0.0; keys.len()];
+        let mut values: Vec<_> = keys.iter().map(|key| (key.0, 0.0)).collect();
         for number in table.numbers.iter().filter(|n| !is_form(id, &n.key)) {
             let Some(index) = keys.iter().position(|key| key.0 == number.key) else {
                 let message = format!("unknown number `{}` of {id} at {place}", number.key);
@@ -191,13 +191,14 @@ impl Found {
                 &"joint_coupling" => coupling(motion, robot.joints[form].motion),
                 _ => Quantity::of(motion, quantity),
             };
-            values[index] = value(number, quantity)?;
+            let found = value(number, quantity)?;
             let least = if positive { 0.0 } else { least(id, key, &robot.joints[place.row()]) };
-            if values[index] < least {
-                let (found, least) = (values[index], least + 0.0);
+            if found < least {
+                let least = least + 0.0;
                 let message = format!("`{key}` is {found:e}: below {least} it is not physical");
                 return Err(wrong(&number.at, message, None));
             }
+            values[index].1 = found;
         }
         Ok(Found { id, place, form, values })
     }

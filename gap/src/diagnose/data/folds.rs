@@ -18,6 +18,9 @@ const MOST_BLOCKS: usize = 64;
 /// Stretches of time: as many as give enough sign patterns, and as long as errors that linger last.
 const MOST_STRETCHES: usize = 32;
 
+/// Stretches of time that are held out by themselves.
+const FIFTHS: usize = 5;
+
 /// Visits of a stretch, at least.
 const LEAST_VISITS: usize = 3;
 
@@ -61,6 +64,16 @@ impl Folds {
         let count = (all / LEAST_VISITS).clamp(1, MOST_STRETCHES);
         let block_of_row = visits.of_row.iter().map(|visit| visit * count / all).collect();
         Folds { count, block_of_row, of_block: (0..count).collect() }
+    }
+
+    /// A fold of each fifth of the poses, in the order in which they were first measured; `None` of several
+    /// sessions, whose frames are each its own, and of fewer poses than folds.
+    pub(crate) fn fifths(data: &Measurements) -> Option<Folds> {
+        if data.poses < FIFTHS || data.sessions().count() > 1 {
+            return None;
+        }
+        let block_of_row = data.rows.iter().map(|row| row.group * FIFTHS / data.poses).collect();
+        Some(Folds { count: FIFTHS, block_of_row, of_block: (0..FIFTHS).collect() })
     }
 
     pub(crate) fn blocks(&self) -> usize {

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
+use super::misfits::ordinary;
 use super::precision::Precision;
 use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
@@ -104,17 +105,25 @@ impl<'a> Problem<'a> {
         let known: Vec<Known> =
             options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
         let moments = Moments::of(data);
+        let fits = match options.keep_all {
+            true => vec![true; data.rows.len()],
+            false => ordinary(data),
+        };
         let seen = |number: usize| -> Result<(Reading, f64), DiagnoseError> {
             let (row, when) = (&data.rows[number], moments.at(number));
             let line = row.line;
             let [x, y, z] = row.offset.unwrap_or_default();
-            let sim = Sim::of(data.kind, Isometry3::translation(x, y, z), None, |loaded| {
-                let wrench = if loaded { row.wrench } else { Vector6::zeros() };
-                let mut actual = Actual::new(arm, &row.q, &wrench);
-                actual.base = Isometry3::identity();
-                known.iter().for_each(|known| known.alter(&mut actual, row, &when));
-                actual
-            });
+            let sim = |load: Vector6<f64>| {
+                Sim::of(data.kind, Isometry3::translation(x, y, z), None, |loaded| {
+                    let wrench = if loaded { load } else { Vector6::zeros() };
+                    let mut actual = Actual::new(arm, &row.q, &wrench);
+                    actual.base = Isometry3::identity();
+                    known.iter().for_each(|known| known.alter(&mut actual, row, &when));
+                    actual
+                })
+            };
+            let unloaded = |wrong| if fits[number] { Err(wrong) } else { sim(Vector6::zeros()) };
+            let sim = sim(row.wrench).or_else(unloaded);
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
             let sim = sim.seen_from(origin(data.kind, row));
             let tool = sim.loaded.tool.translation.vector;
@@ -155,7 +164,7 @@ impl<'a> Problem<'a> {
             centres,
             centre_of,
             constants: Vec::new(),
-            fits: vec![true; data.rows.len()],
+            fits,
             precision: Precision::default(),
             visits: Visits::of(data),
             nominal: own.then_some(readings),

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::misfits::ordinary;
 use crate::measurement::{Measurements, Near, Row};
 
 /// Loads that differ by less than this part of the largest are the same.
@@ -20,9 +21,10 @@ pub(crate) struct Visits {
 impl Visits {
     pub(crate) fn of(data: &Measurements) -> Self {
         let part = |row: &Row, from: usize| row.wrench.fixed_rows::<3>(from).into_owned();
+        let ordinary = ordinary(data);
         let largest = [0, 3].map(|from| {
-            let sizes = data.rows.iter().map(|row| part(row, from).norm());
-            sizes.fold(f64::MIN_POSITIVE, f64::max)
+            let rows = data.rows.iter().zip(&ordinary).filter(|(_, is)| **is);
+            rows.map(|(row, _)| part(row, from).norm()).fold(f64::MIN_POSITIVE, f64::max)
         });
         let mut loads = Near::new(SAME_LOAD);
         let (mut sets, mut of_row, mut repeats) = (HashMap::new(), Vec::new(), Vec::new());

@@ -113,9 +113,21 @@ impl Model {
         row: usize,
         near: Option<&Sim>,
     ) -> Result<Sim, DiagnoseError> {
+        self.at_rest(problem, row, near, true)
+    }
+
+    /// The same with its load or without.
+    fn at_rest(
+        &self,
+        problem: &Problem<'_>,
+        row: usize,
+        near: Option<&Sim>,
+        load: bool,
+    ) -> Result<Sim, DiagnoseError> {
         let measured = self.measured(problem, row);
-        let at_rest =
-            Sim::of(problem.data.kind, measured, near, |loaded| self.actual(problem, row, loaded));
+        let at_rest = Sim::of(problem.data.kind, measured, near, |loaded| {
+            self.actual(problem, row, loaded && load)
+        });
         let from = origin(problem.data.kind, &problem.data.rows[row]);
         let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
         Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_from(from))
@@ -129,12 +141,13 @@ impl Model {
     ) -> Result<Predicted, DiagnoseError> {
         let rows = problem.data.rows.len();
         let each = (0..rows).into_par_iter().map(|row| {
-            let sim = self.sim(problem, row, near.and_then(|near| near.get(row)))?;
-            let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
-            let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
-            let gap = if problem.fits[row] { gap } else { Vector6::zeros() };
-            let is_small = gap.iter().all(|g| g.abs() < LARGEST);
-            if is_small { Ok((sim, gap)) } else { Err(problem.unstable(row)) }
+            let near = near.and_then(|near| near.get(row));
+            if problem.fits[row] {
+                return self.seen(problem, row, near);
+            }
+            // Nothing is asked of it: its load may be more than the arm bears.
+            let unloaded = |_| self.at_rest(problem, row, None, false);
+            Ok((self.sim(problem, row, near).or_else(unloaded)?, Vector6::zeros()))
         });
         let (sims, mut gaps): (Vec<Sim>, Vec<Vector6<f64>>) = if rows <= MOST_KEPT {
             each.collect::<Result<Vec<_>, _>>()?.into_iter().unzip()
@@ -146,6 +159,20 @@ impl Model {
             rows.iter().for_each(|&row| gaps[row] -= mean);
         }
         Ok(Predicted { sims, gaps })
+    }
+
+    /// The states of one row, and its gap.
+    pub(crate) fn seen(
+        &self,
+        problem: &Problem<'_>,
+        row: usize,
+        near: Option<&Sim>,
+    ) -> Result<(Sim, Vector6<f64>), DiagnoseError> {
+        let sim = self.sim(problem, row, near)?;
+        let reading = problem.with_own_sim(row, &sim.reading(), &sim.base);
+        let gap = row_gap(problem.data, &problem.data.rows[row], &reading);
+        let is_small = gap.iter().all(|g| g.abs() < LARGEST);
+        if is_small { Ok((sim, gap)) } else { Err(problem.unstable(row)) }
     }
 
     /// The states of a row that was predicted. There is an error only where there was one then.

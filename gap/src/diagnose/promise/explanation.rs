@@ -123,7 +123,7 @@ impl Explanation {
     /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`], [`DiagnoseError::NewSession`] or
     /// [`DiagnoseError::NewPoint`] for a marker, base or point whose place was never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
-        let problem = Problem::new(&self.nominal, data, &self.options())?;
+        let mut problem = Problem::new(&self.nominal, data, &self.options())?;
         let mut places = Vec::with_capacity(problem.markers.len());
         for name in &problem.markers {
             let known = self.markers.iter().position(|known| known == name);
@@ -153,8 +153,12 @@ impl Explanation {
             model.found.retain(lasts);
             model
         };
-        let model = carried(&self.after);
-        let before = carried(&self.before).predict(&problem, None)?.gaps;
+        let [start, model] = [&self.before, &self.after].map(carried);
+        // A load far beyond the others may be more than the arm bears.
+        let bears =
+            |row: usize| [&start, &model].iter().all(|m| m.seen(&problem, row, None).is_ok());
+        problem.fits = (0..data.rows.len()).map(|row| problem.fits[row] || bears(row)).collect();
+        let before = start.predict(&problem, None)?.gaps;
         let after = model.predict(&problem, None)?;
         let frames = 6 * problem.nuisances.len();
         let mut numbers: Vec<usize> = (0..frames).collect();

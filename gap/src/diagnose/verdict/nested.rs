@@ -2,19 +2,23 @@
 
 use nalgebra::Vector6;
 
-use crate::diagnose::data::Problem;
+use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::Search;
 
 impl Search<'_, '_> {
-    /// Gap of each row with what a search finds that has not seen its fold, m and rad; `model` is
+    /// Gap of each row with what a search finds that has not seen its fold of these, m and rad; `model` is
     /// where each begins.
-    pub(crate) fn nested(&self, model: &Model) -> Result<Vec<Vector6<f64>>, DiagnoseError> {
+    pub(crate) fn nested(
+        &self,
+        model: &Model,
+        folds: &Folds,
+    ) -> Result<Vec<Vector6<f64>>, DiagnoseError> {
         let rows = self.problem.data.rows.len();
         let mut gaps = vec![Vector6::zeros(); rows];
-        for fold in 0..self.folds.count {
-            let is_held_out = |row: usize| self.folds.of_row(row) == fold;
+        for fold in 0..folds.count {
+            let is_held_out = |row: usize| folds.of_row(row) == fold;
             let fits = (0..rows).map(|row| self.problem.fits[row] && !is_held_out(row));
             let seen = Problem { fits: fits.collect(), ..self.problem.clone() };
             let search = Search { problem: &seen, ..*self };

@@ -5,8 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::displacement::Displacement;
 use crate::effects::{
-    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told,
-    displacement,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -66,9 +65,5 @@ impl Effect for BaseFrame {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         format!("the base stands {} off", told.moved())
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, _: Spot, v: &[f64]) -> Option<String> {
-        file.move_base(&Displacement::new(&Vector6::from_column_slice(v)).transform())
     }
 }

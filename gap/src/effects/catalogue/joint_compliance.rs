@@ -4,10 +4,9 @@
 
 use stiffarm_kernels::generic::{Arm, Joint};
 
-use crate::effects::robot_file::{RIGID, significant};
 use crate::effects::{
-    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity,
-    RobotFile, Scene, Spot, Told, joints,
+    About, Carrier, Curve, Effect, Group, Over, Parameter, ParameterReport, Place, Quantity, Scene,
+    Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -82,14 +81,5 @@ impl Effect for JointCompliance {
         let compliance = numbers.first()?.value;
         let value = Box::new(move |torque| compliance * torque);
         Some(Curve { over: Over::Torque, proportional: true, value })
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        file.at_row(spot.place, |row| {
-            let whole = row.nominal.compliance + v[0];
-            let gives = whole > RIGID * row.nominal.compliance;
-            row.joint.stiffness = gives.then(|| significant(1.0 / whole));
-            Some("stiffness")
-        })
     }
 }

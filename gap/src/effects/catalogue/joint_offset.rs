@@ -1,11 +1,9 @@
 //! The zero of the joint is off.
 
-use stiffarm_codegen::robot;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::robot_file::{shift, turn};
 use crate::effects::{
-    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, joints,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, joints,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -65,18 +63,5 @@ impl Effect for JointOffset {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         format!("the zero of {} is off by {}", told.place, told.sized(told.first()))
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        file.at_row(spot.place, |row| match row.joint.motion {
-            robot::Motion::Revolute => {
-                turn(&mut row.joint.theta, v[0]);
-                Some("theta")
-            }
-            robot::Motion::Prismatic => {
-                shift(&mut row.joint.d, v[0]);
-                Some("d")
-            }
-        })
     }
 }

@@ -3,10 +3,7 @@
 use nalgebra::{Matrix6xX, Point3, Vector3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::robot_file::shift;
-use crate::effects::{
-    About, Draw, Effect, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
-};
+use crate::effects::{About, Draw, Effect, Parameter, Place, Quantity, Scene, Spot, Told, links};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -69,13 +66,6 @@ impl Effect for LinkCom {
     fn sentence(&self, told: &Told<'_>) -> String {
         let beside = (told.write)("m", 1e-3, told.norm(&AXES));
         format!("the centre of mass of {} is {beside} off", told.place)
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        file.at_row(spot.place, |row| {
-            row.joint.com.iter_mut().zip(v).for_each(|(entry, by)| shift(entry, *by));
-            Some("com")
-        })
     }
 
     /// A few centimetres.

@@ -7,10 +7,7 @@ use nalgebra::{Matrix6xX, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::robot_file::{RIGID, significant};
-use crate::effects::{
-    About, Effect, Group, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told,
-};
+use crate::effects::{About, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
@@ -37,21 +34,6 @@ fn gives(chord: &Vector3<f64>, load: &Vector6<f64>) -> [Vector6<f64>; 2] {
         Vector6::new(shift.x, shift.y, shift.z, slope.x, slope.y, slope.z),
         Vector6::new(0.0, 0.0, 0.0, twist.x, twist.y, twist.z),
     ]
-}
-
-/// Adds 1/EI in both planes and 1/GJ to the row's beam; its area, weight and moduli stay.
-fn soften(row: &mut RobotRow<'_>, v: &[f64]) -> Option<&'static str> {
-    let (beam, nominal) = (row.joint.beam.as_mut()?, row.nominal.beam.as_ref()?);
-    // The second moment m' with 1/(modulus m') = 1/(modulus m) + value; no beam is rigid.
-    let softened = |modulus: f64, moment: f64, value: f64| {
-        let softer = 1.0 / (modulus * moment) + value;
-        let bends = softer > RIGID / (modulus * moment);
-        bends.then(|| significant(1.0 / (modulus * softer)))
-    };
-    beam.section.iy = softened(nominal.youngs_modulus, nominal.iy, v[0])?;
-    beam.section.iz = softened(nominal.youngs_modulus, nominal.iz, v[0])?;
-    beam.section.j = softened(nominal.shear_modulus, nominal.j, v[1])?;
-    Some("the beam's iy, iz and j")
 }
 
 impl Effect for LinkCompliance {
@@ -115,9 +97,5 @@ impl Effect for LinkCompliance {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         format!("{} bends and twists {} than modelled", told.place, told.by_sign("less", "more"))
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        file.at_row(spot.place, |row| soften(row, v))
     }
 }

@@ -8,10 +8,7 @@ use nalgebra::{Matrix6xX, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::effects::robot_file::{shift, turn};
-use crate::effects::{
-    About, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told, links,
-};
+use crate::effects::{About, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, links};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -137,21 +134,5 @@ impl Effect for LinkGeometry {
         let each = shown.map(|p| format!("{} in {}", size(p.value, p.unit), p.name));
         let each = each.collect::<Vec<_>>().join(", ");
         format!("the table's row of {} is off by {each}", told.place)
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        let entries = entries(file.arm(), spot.row());
-        file.at_row(spot.place, |row| {
-            for (entry, value) in entries.iter().zip(v) {
-                match *entry {
-                    "theta" => turn(&mut row.joint.theta, *value),
-                    "d" => shift(&mut row.joint.d, *value),
-                    "a" => shift(&mut row.joint.a, *value),
-                    "alpha" => turn(&mut row.joint.alpha, *value),
-                    _ => turn(&mut row.joint.beta, *value),
-                }
-            }
-            Some("the lengths and angles")
-        })
     }
 }

@@ -1,13 +1,9 @@
 //! A link is heavier or lighter than modelled and the compliant structure sags.
 
-use nalgebra::{Matrix6xX, Point3, UnitQuaternion, Vector3};
-use stiffarm_codegen::robot::{Convention, Motion, Value};
+use nalgebra::{Matrix6xX, Point3, Vector3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::effects::robot_file::{decimals, significant};
-use crate::effects::{
-    About, Effect, Parameter, Place, Quantity, RobotFile, RobotRow, Scene, Spot, Told, links,
-};
+use crate::effects::{About, Effect, Parameter, Place, Quantity, Scene, Spot, Told, links};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site, chord};
 
@@ -26,28 +22,6 @@ fn centre(actual: &Actual<'_>, row: usize) -> Vector3<f64> {
     }
     let (before, behind) = actual.row(row);
     chord(&(before * behind)) * -0.5
-}
-
-/// Adds mass at the link's centre of mass; at the middle of the chord where the file has none.
-fn weigh(row: &mut RobotRow<'_>, mass: f64) -> Option<&'static str> {
-    let (nominal, joint) = (row.nominal, &mut *row.joint);
-    let whole = nominal.mass + mass;
-    if nominal.mass == 0.0 && joint.com.iter().all(Value::is_zero) {
-        let (sine, cosine) = nominal.alpha.sin_cos();
-        let chord = match (row.convention, joint.motion) {
-            (Convention::Standard, Motion::Revolute) => {
-                let chord = Vector3::new(nominal.a, nominal.d * sine, nominal.d * cosine);
-                let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), nominal.beta);
-                (tilt.inverse() * chord).into()
-            }
-            (Convention::Modified, Motion::Revolute) if nominal.a == 0.0 => [0.0, 0.0, nominal.d],
-            // The middle of this link moves in its own frame.
-            _ => return None,
-        };
-        joint.com = chord.map(|x| decimals(-0.5 * x));
-    }
-    joint.mass = (whole > 0.0).then(|| significant(whole));
-    Some("mass")
 }
 
 impl Effect for LinkWeight {
@@ -104,9 +78,5 @@ impl Effect for LinkWeight {
             told.size(),
             told.by_sign("lighter", "heavier")
         )
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, v: &[f64]) -> Option<String> {
-        file.at_row(spot.place, |row| weigh(row, v[0]))
     }
 }

@@ -3,10 +3,8 @@
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-use crate::displacement::Displacement;
 use crate::effects::{
-    About, Carrier, Effect, Group, Parameter, Place, Quantity, RobotFile, Scene, Spot, Told,
-    displacement,
+    About, Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, displacement,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -65,9 +63,5 @@ impl Effect for ToolFrame {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         format!("the tool is {} off", told.moved())
-    }
-
-    fn write(&self, file: &mut RobotFile<'_>, _: Spot, v: &[f64]) -> Option<String> {
-        file.move_tool(&Displacement::new(&Vector6::from_column_slice(v)).transform())
     }
 }

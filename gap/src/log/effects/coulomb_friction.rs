@@ -44,7 +44,7 @@ impl LogEffect for CoulombFriction {
     fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
         file.at_row(row(spot), |row| {
             row.joint.drive.coulomb = Some(significant(row.nominal.drive.coulomb + values[0]));
-            Some("coulomb")
+            "coulomb"
         })
     }
 }

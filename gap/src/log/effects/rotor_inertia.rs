@@ -45,7 +45,7 @@ impl LogEffect for RotorInertia {
             // The file's is at the motor.
             let rotor = drive.rotor_inertia + values[0] / (drive.gear * drive.gear);
             row.joint.drive.rotor_inertia = Some(significant(rotor));
-            Some("rotor_inertia")
+            "rotor_inertia"
         })
     }
 }

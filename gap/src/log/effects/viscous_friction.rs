@@ -44,7 +44,7 @@ impl LogEffect for ViscousFriction {
     fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
         file.at_row(row(spot), |row| {
             row.joint.drive.viscous = Some(significant(row.nominal.drive.viscous + values[0]));
-            Some("viscous")
+            "viscous"
         })
     }
 }
