@@ -183,7 +183,7 @@ def test_one_that_bends():
 
     data = braked(lambda q, qd: 9.0 * numpy.tanh(qd / 0.4))
     effect = stiffarm.LogEffect("soft_brake", "torque", [("torque", "N·m"), ("speed", "rad/s")], levels, [[0.0, 0.1], [0.0, 0.25], [0.0, 0.6]])
-    found = own(data, effect, effects=["viscous_friction"])
+    found = own(data, effect, effects=["coulomb_friction"])
     named = [finding for finding in found.findings if finding.effect == "soft_brake"]
     assert [finding.place for finding in named] == ["joint 3"], str(found)
     for number, truth in zip(named[0].parameters, (9.0, 0.4)):
