@@ -6,6 +6,7 @@ mod check;
 mod compared;
 mod corrected;
 mod log;
+mod predicted;
 mod provenance;
 mod together;
 
@@ -13,6 +14,7 @@ use std::path::PathBuf;
 
 use stiffarm_gap::diagnose::{Prior, Stage};
 use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::log::effects::Catalogue as LogCatalogue;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{DiagnoseError, Options};
@@ -24,6 +26,7 @@ pub use check::Check;
 pub use compared::{Compared, Reached};
 pub use corrected::Format;
 pub use log::{Check as LogCheck, Motion};
+pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
 pub use together::{Said, Together};
 
@@ -130,6 +133,15 @@ pub struct Args {
     log: log::LogArgs,
 }
 
+/// The effects that are tried: those that stiffarm knows, and one's own.
+#[derive(Clone, Debug, Default)]
+pub struct Catalogues {
+    /// Of measurements.
+    pub at_rest: Catalogue,
+    /// Of joint logs.
+    pub in_motion: LogCatalogue,
+}
+
 /// What was diagnosed.
 pub enum Found {
     /// Measurements at rest.
@@ -145,7 +157,7 @@ pub enum Found {
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let found = find(args, Catalogue::default(), quiet)?;
+    let found = find(args, Catalogues::default(), quiet)?;
     if let Some(target) = &args.json {
         target.write(&found.json()?)?;
     }
@@ -162,26 +174,39 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     Ok(if found.is_accepted() { Verdict::Good } else { Verdict::Failed })
 }
 
-/// Diagnoses what was given, with the effects of `catalogue`.
+/// Diagnoses what was given, with the effects of `catalogues`.
 ///
 /// # Errors
-/// [`Failure`]: the robot, the data or the options.
-pub fn find(args: &Args, catalogue: Catalogue, quiet: bool) -> Result<Found, Failure> {
+/// [`Failure`]: the robot, the data or the options; effects of one's own that are not asked of such data.
+pub fn find(args: &Args, catalogues: Catalogues, quiet: bool) -> Result<Found, Failure> {
     let source = args.robot.load(quiet)?;
+    let Catalogues { at_rest, in_motion } = catalogues;
     match log::files(args)? {
         log::Files::Log(parts) => {
-            Motion::new(args, source, parts, quiet).map(|found| Found::Motion(Box::new(found)))
+            unasked(at_rest.identifiers(), Catalogue::default().identifiers(), "measurements")?;
+            Motion::new(args, source, parts, in_motion, quiet)
+                .map(|found| Found::Motion(Box::new(found)))
         }
         log::Files::Measurements(bytes) => {
-            Campaign::new(args, source, bytes, &[], catalogue, quiet)
+            unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
+            Campaign::new(args, source, bytes, &[], at_rest, quiet)
                 .map(|found| Found::Campaign(Box::new(found)))
         }
         log::Files::Both(path, bytes, parts) => {
-            let both = args.both(path, &catalogue)?;
-            Together::new(&both, source, bytes, parts, catalogue, quiet)
+            let catalogues = Catalogues { at_rest, in_motion };
+            let both = args.both(path, &catalogues)?;
+            Together::new(&both, source, bytes, parts, catalogues, quiet)
                 .map(|found| Found::Together(Box::new(found)))
         }
     }
+}
+
+/// Refuses an effect of one's own that such data is not asked for.
+fn unasked(given: Vec<&str>, known: Vec<&str>, of: &str) -> Result<(), Failure> {
+    let own = given.into_iter().find(|name| !known.contains(name));
+    own.map_or(Ok(()), |own| {
+        Err(Failure::new(format!("found the effect `{own}`, which is of {of}, and none are given")))
+    })
 }
 
 impl Found {
@@ -252,11 +277,13 @@ impl Found {
     }
 
     /// What has to be known of any file of the corrected arm, a sentence each.
-    fn caveats(&self) -> Vec<String> {
+    pub fn caveats(&self) -> Vec<String> {
         match self {
             Found::Campaign(found) => found.corrections().caveats(),
-            Found::Motion(_) => Vec::new(),
-            Found::Together(found) => found.campaign.corrections().caveats(),
+            Found::Motion(found) => found.caveats(),
+            Found::Together(found) => {
+                [found.campaign.corrections().caveats(), found.motion.caveats()].concat()
+            }
         }
     }
 }

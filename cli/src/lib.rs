@@ -36,10 +36,11 @@ use std::sync::Arc;
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use stiffarm_gap::effects::Catalogue;
 use terminal::output;
 
-pub use diagnose::{Campaign, Format, Found, Motion, Together};
+pub use diagnose::{
+    Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Together,
+};
 pub use input::source::{RobotArgs, Source};
 use inside::{Ended, Host};
 pub use terminal::failure::{Failure, Remark};
@@ -131,17 +132,17 @@ pub fn run(host: &Arc<Host>) -> Result<Result<bool, Failure>, Ended> {
     })
 }
 
-/// Diagnoses as the host's words say, `diagnose` being the first, with the effects of `catalogue`; outputs that are
+/// Diagnoses as the host's words say, `diagnose` being the first, with the effects of `catalogues`; outputs that are
 /// named among them are not written.
 ///
 /// # Errors
 /// [`Failure`] as at a terminal, of wrong words too; [`Ended`] if the host asked for the end.
 pub fn diagnose_inside(
     host: &Arc<Host>,
-    catalogue: Catalogue,
+    catalogues: Catalogues,
 ) -> Result<Result<Found, Failure>, Ended> {
     host.run(|| match read(host)? {
-        Cli { command: Command::Diagnose(args), quiet } => diagnose::find(&args, catalogue, quiet),
+        Cli { command: Command::Diagnose(args), quiet } => diagnose::find(&args, catalogues, quiet),
         _ => Err(Failure::new("found another command, expected diagnose")),
     })
 }

@@ -1,83 +1,117 @@
 //! A diagnosis that Python holds.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use nalgebra::Vector6;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use stiffarm_cli::inside::Host;
-use stiffarm_cli::{Campaign, Format, diagnose_inside};
-use stiffarm_gap::effects::Catalogue;
+use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, diagnose_inside};
+use stiffarm_gap::diagnose::Prediction;
+use stiffarm_gap::log::model::{Explained, JointRows};
 
-use crate::effect::Effect;
+use crate::own::Own;
 use crate::work::{error, wait};
 
 /// What a diagnosis found.
 #[pyclass(frozen, module = "stiffarm._native")]
-pub struct Found(stiffarm_cli::Found);
-
-/// Gaps of rows before and after, and whether a row is within what was diagnosed.
-type Predicted<'py> =
-    (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<bool>>);
+pub struct Found {
+    found: stiffarm_cli::Found,
+    /// Effects of one's own that it was asked for.
+    own: Vec<Own>,
+}
 
 #[pymethods]
 impl Found {
     /// The diagnosis in JSON, as the command line writes it.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        let text = py.detach(|| self.0.json());
+        let text = py.detach(|| self.found.json());
         text.map_err(|failure| error(py, &failure))
     }
 
     /// The page in HTML.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        let page = py.detach(|| self.0.page());
+        let page = py.detach(|| self.found.page());
         page.map_err(|failure| error(py, &failure))
     }
 
     /// As it stands on a screen.
     fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| self.0.text())
+        py.detach(|| self.found.text())
     }
 
     /// The robot file with what was found; None of a log of currents.
     fn corrected(&self, py: Python<'_>) -> Option<String> {
-        py.detach(|| self.0.corrected().ok())
+        py.detach(|| self.found.corrected().ok())
+    }
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    fn caveats(&self, py: Python<'_>) -> Vec<String> {
+        py.detach(|| self.found.caveats())
     }
 
     /// The corrected arm as a URDF or an MJCF, and a sentence on what it has no place for.
     fn exported(&self, py: Python<'_>, mjcf: bool) -> PyResult<(String, Option<String>)> {
         let format = if mjcf { Format::Mjcf } else { Format::Urdf };
-        let text = py.detach(|| self.0.exported(format));
+        let text = py.detach(|| self.found.exported(format));
         text.map_err(|failure| error(py, &failure))
     }
 
-    /// Measured minus predicted of other rows, (m, 6), before and after; and whether each row lies within what was
-    /// diagnosed, (m,). None of a log.
+    /// Measured minus predicted of other data, before and after, and whether a row is judged: (m, 6) and (m,) of rows at
+    /// rest. Of a log (m, n) each, and with them its times and runs, (m,), what was measured, joint values and rates, (m, n),
+    /// and what `diagnose --check` writes, in JSON.
     fn predict<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        bytes: &[u8],
-    ) -> PyResult<Option<Predicted<'py>>> {
-        let Some(found) = self.campaign() else { return Ok(None) };
-        let predicted = py.detach(|| found.predict(name, bytes));
-        let predicted = predicted.map_err(|failure| error(py, &failure))?;
-        let rows = |gaps: &[Vector6<f64>]| {
-            let flat: Vec<f64> = gaps.iter().flat_map(|gap| gap.iter().copied()).collect();
-            PyArray1::from_vec(py, flat).reshape([gaps.len(), 6])
-        };
-        let inside = PyArray1::from_vec(py, predicted.inside);
-        Ok(Some((rows(&predicted.before)?, rows(&predicted.after)?, inside)))
+        slf: &Bound<'py, Self>,
+        paths: Vec<PathBuf>,
+        files: HashMap<String, Vec<u8>>,
+        hear: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let (py, found) = (slf.py(), slf.clone().unbind());
+        let host = Host::new(Vec::new(), files);
+        let work = move |host: &Arc<Host>| host.run(|| found.get().found.predict(&paths));
+        let predicted = wait(py, &host, hear, |_, _| {}, work);
+        slf.get().own.iter().try_for_each(Own::raised)?;
+        match predicted? {
+            Predicted::Rows(rows) => at_rest(py, &rows),
+            Predicted::Log(log) => in_motion(py, &log),
+        }
     }
 }
 
-impl Found {
-    fn campaign(&self) -> Option<&Campaign> {
-        match &self.0 {
-            stiffarm_cli::Found::Campaign(found) => Some(found),
-            stiffarm_cli::Found::Motion(_) | stiffarm_cli::Found::Together(_) => None,
-        }
-    }
+fn at_rest<'py>(py: Python<'py>, rows: &Prediction) -> PyResult<Bound<'py, PyTuple>> {
+    let table = |gaps: &[Vector6<f64>]| {
+        let flat: Vec<f64> = gaps.iter().flat_map(|gap| gap.iter().copied()).collect();
+        PyArray1::from_vec(py, flat).reshape([gaps.len(), 6])
+    };
+    let inside = PyArray1::from_slice(py, &rows.inside);
+    (table(&rows.before)?, table(&rows.after)?, inside).into_pyobject(py)
+}
+
+fn in_motion<'py>(py: Python<'py>, log: &PredictedLog) -> PyResult<Bound<'py, PyTuple>> {
+    let Explained { t, run, joints } = &log.explained;
+    let numbers = |of: &dyn Fn(&JointRows, usize) -> f64| table(py, log, of);
+    let json = log.json().map_err(|failure| error(py, &failure))?;
+    let measured = numbers(&|joint, row| joint.measured[row])?;
+    let motion = (numbers(&|joint, row| joint.q[row])?, numbers(&|joint, row| joint.qd[row])?);
+    let left = (numbers(&JointRows::without)?, numbers(&JointRows::left)?);
+    let counts = (0..t.len()).flat_map(|row| joints.iter().map(move |joint| joint.counts[row]));
+    let counts = PyArray1::from_iter(py, counts).reshape([t.len(), joints.len()])?;
+    let (t, run) = (PyArray1::from_slice(py, t), PyArray1::from_slice(py, run));
+    (left.0, left.1, counts, t, run, measured, motion.0, motion.1, json).into_pyobject(py)
+}
+
+/// A number of each row and joint.
+fn table<'py>(
+    py: Python<'py>,
+    log: &PredictedLog,
+    of: &dyn Fn(&JointRows, usize) -> f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let Explained { t, joints, .. } = &log.explained;
+    let flat = (0..t.len()).flat_map(|row| joints.iter().map(move |joint| of(joint, row)));
+    PyArray1::from_vec(py, flat.collect()).reshape([t.len(), joints.len()])
 }
 
 /// Diagnoses as the words say, the first of which is `diagnose`, with effects of one's own.
@@ -86,16 +120,16 @@ pub fn diagnose(
     py: Python<'_>,
     words: Vec<String>,
     files: HashMap<String, Vec<u8>>,
-    own: Vec<Py<Effect>>,
+    own: Vec<Own>,
     hear: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
     let host = Host::new(words, files);
-    let mut catalogue = Catalogue::default();
+    let mut catalogues = Catalogues::default();
     for effect in &own {
-        catalogue = Effect::join(effect.bind(py), catalogue)?;
+        catalogues = effect.join(py, catalogues)?;
     }
-    let found = wait(py, &host, hear, |_, _| {}, move |host| diagnose_inside(host, catalogue));
+    let found = wait(py, &host, hear, |_, _| {}, move |host| diagnose_inside(host, catalogues));
     // What an effect raised is why there is no diagnosis, whatever it looked like from outside.
-    own.iter().try_for_each(|effect| effect.get().raised())?;
-    found.map(Found)
+    own.iter().try_for_each(Own::raised)?;
+    Ok(Found { found: found?, own })
 }

@@ -1,18 +1,17 @@
 //! An effect of one's own: a Python function for how a joint or a frame is moved, differentiated numerically.
 
-use std::panic::resume_unwind;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 use nalgebra::{Matrix6xX, Vector6};
 use numpy::PyArray1;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use stiffarm_gap::effects::{Carrier, Catalogue, Parameter, Place, Quantity, Scene, Spot, Told};
 use stiffarm_gap::measurement::Row;
 use stiffarm_gap::simulate::{Actual, Moment, Site};
 use stiffarm_kernels::generic::Arm;
 
-use crate::work::Raised;
+use crate::own::{Function, checked, kept, twice};
 
 /// What an effect sees of a row.
 #[pyclass(frozen, get_all, module = "stiffarm._native")]
@@ -36,6 +35,8 @@ pub struct Reading {
 /// An effect of one's own.
 #[pyclass(frozen, module = "stiffarm._native")]
 pub struct Effect {
+    /// What findings call it.
+    #[pyo3(get)]
     name: String,
     place: String,
     parameters: Vec<(String, String)>,
@@ -45,11 +46,9 @@ pub struct Effect {
 
 /// The same for the catalogue, where it lives as long as the program.
 struct Own {
-    name: &'static str,
+    function: Function,
     at: At,
     parameters: Vec<Parameter>,
-    change: Py<PyAny>,
-    raised: Mutex<Option<PyErr>>,
 }
 
 /// What is moved.
@@ -73,13 +72,8 @@ impl Effect {
         change: Py<PyAny>,
         py: Python<'_>,
     ) -> PyResult<Effect> {
-        if !change.bind(py).is_callable() {
-            return Err(PyTypeError::new_err("change: expected a function of a row and of values"));
-        }
+        checked(change.bind(py), &parameters)?;
         at(&place)?;
-        if parameters.is_empty() {
-            return Err(PyValueError::new_err("parameters: found none, expected at least one"));
-        }
         parameters.iter().try_for_each(|(_, unit)| quantity(unit).map(|_| ()))?;
         Ok(Effect { name, place, parameters, change, made: OnceLock::new() })
     }
@@ -90,30 +84,22 @@ impl Effect {
     ///
     /// # Errors
     /// `ValueError` if the catalogue has one of that name.
-    pub fn join(this: &Bound<'_, Effect>, catalogue: Catalogue) -> PyResult<Catalogue> {
-        let effect = this.get();
-        if catalogue.named(&effect.name).is_some() {
-            let name = &effect.name;
-            return Err(PyValueError::new_err(format!(
-                "found two effects called `{name}`, expected one"
-            )));
+    pub fn join(&self, py: Python<'_>, catalogue: Catalogue) -> PyResult<Catalogue> {
+        if catalogue.named(&self.name).is_some() {
+            return Err(twice(&self.name));
         }
-        if let Some(own) = effect.made.get() {
+        if let Some(own) = self.made.get() {
             return Ok(catalogue.with(*own));
         }
-        let parameters = effect.parameters.iter().map(|(name, unit)| {
-            let key: &'static str = Box::leak(name.clone().into_boxed_str());
-            Ok(Parameter::free(key, quantity(unit)?))
-        });
-        let own = Own {
-            name: Box::leak(effect.name.clone().into_boxed_str()),
-            at: at(&effect.place)?,
-            parameters: parameters.collect::<PyResult<_>>()?,
-            change: effect.change.clone_ref(this.py()),
-            raised: Mutex::new(None),
-        };
-        // Findings name their effects as long as there are any; each is made once.
-        Ok(catalogue.with(*effect.made.get_or_init(|| Box::leak(Box::new(own)))))
+        let parameters = self
+            .parameters
+            .iter()
+            .map(|(name, unit)| Ok(Parameter::free(kept(name), quantity(unit)?)));
+        let parameters = parameters.collect::<PyResult<_>>()?;
+        let function = Function::new(py, &self.name, &self.change);
+        let own = Own { function, at: at(&self.place)?, parameters };
+        // Each is made once.
+        Ok(catalogue.with(*self.made.get_or_init(|| Box::leak(Box::new(own)))))
     }
 
     /// What the function raised, if it did.
@@ -121,8 +107,7 @@ impl Effect {
     /// # Errors
     /// Just that.
     pub fn raised(&self) -> PyResult<()> {
-        let raised = |own: &&Own| own.raised.lock().unwrap_or_else(PoisonError::into_inner).take();
-        self.made.get().and_then(raised).map_or(Ok(()), Err)
+        self.made.get().map_or(Ok(()), |own| own.function.raised())
     }
 }
 
@@ -152,7 +137,7 @@ fn quantity(unit: &str) -> PyResult<Quantity> {
 impl Own {
     /// How a joint (one number), or a frame (six), is moved.
     fn moved(&self, row: &Row, when: &Moment, spot: Spot, values: &[f64]) -> Vec<f64> {
-        let called = Python::attach(|py| -> PyResult<Vec<f64>> {
+        self.function.ask(|py, change| {
             let number = match spot.place {
                 Place::Joint(number) | Place::Link(number) => number,
                 _ => 0,
@@ -166,25 +151,13 @@ impl Own {
                 index: when.index,
                 number,
             };
-            let found = self.change.bind(py).call1((reading, PyArray1::from_slice(py, values)))?;
+            let found = change.call1((reading, PyArray1::from_slice(py, values)))?;
             let numbers = match self.at {
                 At::Joint => vec![found.extract::<f64>()?],
                 _ => found.try_iter()?.map(|x| x?.extract()).collect::<PyResult<Vec<f64>>>()?,
             };
-            let expected = if self.at == At::Joint { 1 } else { 6 };
-            if numbers.len() != expected || !numbers.iter().all(|x| x.is_finite()) {
-                return Err(PyValueError::new_err(format!(
-                    "{}: found {numbers:?}, expected {expected} finite numbers",
-                    self.name
-                )));
-            }
+            self.function.finite(&numbers, if self.at == At::Joint { 1 } else { 6 })?;
             Ok(numbers)
-        });
-        called.unwrap_or_else(|error| {
-            let mut raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
-            raised.get_or_insert(error);
-            drop(raised);
-            resume_unwind(Box::new(Raised))
         })
     }
 
@@ -214,7 +187,7 @@ impl Own {
 
 impl stiffarm_gap::effects::Effect for Own {
     fn identifier(&self) -> &'static str {
-        self.name
+        self.function.name
     }
 
     fn places(&self, arm: &Arm) -> Vec<Place> {
@@ -263,6 +236,6 @@ impl stiffarm_gap::effects::Effect for Own {
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {
-        format!("{} at {}", self.name.replace('_', " "), told.place)
+        format!("{} at {}", self.function.name.replace('_', " "), told.place)
     }
 }

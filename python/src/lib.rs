@@ -8,6 +8,8 @@ mod compiled;
 mod diagnosis;
 mod effect;
 mod engine;
+mod log_effect;
+mod own;
 mod work;
 
 use pyo3::prelude::*;
@@ -20,6 +22,8 @@ mod _native {
     use super::diagnosis::{Found, diagnose};
     #[pymodule_export]
     use super::effect::{Effect, Reading};
+    #[pymodule_export]
+    use super::log_effect::{LogEffect, Samples};
     #[pymodule_export]
     use super::work::{Error, Unstable, run};
 

@@ -10,13 +10,14 @@ at the tool's origin in base axes. Remarks go to the logger ``stiffarm``, progre
 """
 
 from ._native import VERSION as __version__
-from ._native import Effect, Error, Reading, Row, Unstable, robots
+from ._native import Effect, Error, LogEffect, Reading, Row, Samples, Unstable, robots
 from .arm import Arm
 from .commands import check, compensate, effects, generate, identify, import_urdf, measurements, papers, predict
 from .commands import eval as eval
 from .commands import map as map
-from .diagnosis import Diagnosis, Prediction, diagnose
+from .diagnosis import Diagnosis, diagnose
 from .experiments import Log, Motion, poses, simulate, withhold
+from .prediction import LogPrediction, Prediction
 from .record import Record
 from .result import Identification, Predicted, Result
 from .table import Map, Table
@@ -29,6 +30,8 @@ __all__ = [
     "Error",
     "Identification",
     "Log",
+    "LogEffect",
+    "LogPrediction",
     "Map",
     "Motion",
     "Predicted",
@@ -37,6 +40,7 @@ __all__ = [
     "Record",
     "Result",
     "Row",
+    "Samples",
     "Table",
     "Unstable",
     "__version__",

@@ -13,6 +13,9 @@ from .words import Path, Progress
 if TYPE_CHECKING:
     import mujoco
     import pinocchio
+    from numpy.typing import ArrayLike
+
+    from .outputs import Reals
 
 #: An entry of a table: a number in SI, or a text with a unit: ``0.35``, ``"350 mm"``, ``"pi/2"``.
 Cell = Union[float, str]
@@ -108,6 +111,16 @@ class Arm(_native.Arm, Outputs):
             arm = cls.__new__(cls, name, text, words, hear)
         # A diagnosis holds the file of its arm: messages are about that.
         return arm if text is not None or not name.endswith(".json") else cls.from_toml(arm.toml, f"<{os.path.basename(name)}>")
+
+    def gravity(self, q: ArrayLike, **beside: Any) -> Reals:
+        """Torques that hold the arm at rest under its weight, (n,): :meth:`inverse_dynamics` where nothing moves.
+
+        `beside`: ``out``, ``sides``, ``warming``, as of all outputs.
+        """
+        return self.bias(q, [0.0] * self.dof, **beside)
+
+    #: Its short name.
+    regressor = Outputs.torque_regressor
 
     def compile(self, *, compiler: Optional[str] = None, cache: Optional[Path] = None) -> str:
         """Prints C for the arm, compiles it, compares it with what computed before, and uses it; tells which is in use.

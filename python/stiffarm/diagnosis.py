@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
 from .arm import Arm
+from .prediction import Prediction, prediction
 from .record import Record, read
 from .result import framed
 from .run import AnyArm, robot
@@ -14,27 +15,19 @@ from .table import NAME, Frame, held
 from .words import Path, Progress, Quantity, each, log, numbers, option
 
 if TYPE_CHECKING:
-    import numpy
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-
-class Prediction(NamedTuple):
-    """What a diagnosis makes of other rows."""
-
-    #: Measured minus predicted without the findings, (m, 6): m and rad; 0 where nothing is measured.
-    before: NDArray[numpy.float64]
-    #: The same with them.
-    after: NDArray[numpy.float64]
-    #: Whether the row lies within the joint ranges and loads that were diagnosed, (m,).
-    inside: NDArray[numpy.bool_]
+#: An effect of one's own, at rest or in motion.
+Own = Union[_native.Effect, _native.LogEffect]
 
 
 class Diagnosis:
     """What a diagnosis found; ``str`` of it is the command line's screen, and a notebook shows its page.
 
     The keys of the command line's JSON are attributes: ``findings``, ``gap``, ``where``, ``cannot_see``, ``unexplained``,
-    ``stopped`` of a campaign; ``findings``, ``gap``, ``joints`` and more of a log.
+    ``stopped`` of a campaign; ``findings``, ``gap`` joint by joint, ``evidence`` and more of a log. Of a campaign and a log
+    together both stand in ``campaign`` and ``log``, what they say of the springs that both see in ``together``, and ``findings``
+    are the campaign's, then the log's.
     """
 
     def __init__(self, found: _native.Found) -> None:
@@ -62,9 +55,20 @@ class Diagnosis:
         return self._dict
 
     @property
+    def parts(self) -> list[Record]:
+        """The diagnosis itself; of a campaign and a log together that of each."""
+        told = self.to_dict()
+        return [told.campaign, told.log] if "together" in told else [told]
+
+    @property
+    def findings(self) -> list[Record]:
+        """What was found, in the order in which it was added."""
+        return [finding for part in self.parts for finding in part.findings]
+
+    @property
     def stopped(self) -> bool:
         """Whether the search was told to stop before its end."""
-        return bool(self.to_dict().get("stopped", False))
+        return any(part.get("stopped", False) for part in self.parts)
 
     @property
     def sets(self) -> list[frozenset[tuple[str, str]]]:
@@ -78,17 +82,27 @@ class Diagnosis:
 
     @property
     def shrink(self) -> tuple[float, tuple[float, float]]:
-        """The part of the gap that the findings remove on rows that no fit has seen, and its 95 % interval."""
-        shrink = self.gap["shrink"]
-        low, high = shrink["shrink_ci95"]
-        return 1.0 - shrink["after"] / shrink["before"] if shrink["before"] else 0.0, (low, high)
+        """The part of the gap that the findings remove on rows that no fit has seen, and its 95 % interval.
+
+        Of a campaign and a log together that of the campaign. Of a log alone the mean of the joints, each in its own size; it
+        tells no interval, whose ends are not numbers.
+        """
+        gap = self.parts[0].gap
+        if isinstance(gap, list):
+            before, after = (sum(joint[when] / joint["size"] for joint in gap) for when in ("before", "after"))
+            low = high = float("nan")
+        else:
+            before, after = gap["shrink"]["before"], gap["shrink"]["after"]
+            low, high = gap["shrink"]["shrink_ci95"]
+        return 1.0 - after / before if before else 0.0, (low, high)
 
     @property
     def corrected(self) -> Arm:
-        """The arm with all that was found."""
+        """The arm with all that was found; what has to be known of it goes to the log."""
         text = self._found.corrected()
         if text is None:
             raise ValueError("a log of currents corrects no robot file: it tells no newton-metres")
+        self._warn()
         return Arm.from_toml(text, "<corrected>")
 
     def to_mjcf(self, path: Optional[Path] = None) -> str:
@@ -103,22 +117,25 @@ class Diagnosis:
         text, lost = self._found.exported(mjcf)
         if lost is not None:
             log.warning("%s", lost)
+        self._warn()
         if path is not None:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         return text
 
-    def predict(self, frame: Frame) -> Prediction:
-        """The gaps of other measurements of the arm, before and after."""
+    def _warn(self) -> None:
+        for caveat in self._found.caveats():
+            log.warning("%s", caveat)
+
+    def predict(self, data: Union[Frame, Sequence[Frame]]) -> Prediction:
+        """The gaps of other measurements of the arm, or of another log, before and after; nothing is fitted to it.
+
+        Of a log, or a list of its runs, it is a :class:`LogPrediction`.
+        """
         files: dict[str, bytes] = {}
-        name = held(frame, files)
-        if name not in files:
-            with open(name, "rb") as file:
-                files[name] = file.read()
-        predicted = self._found.predict(name, files[name])
-        if predicted is None:
-            raise ValueError("a diagnosis of a log predicts no poses")
-        return Prediction(*predicted)
+        names = _named(data, files)
+        with Progress(False) as hear:
+            return prediction(self._found.predict(names, files, hear))
 
     def to_html(self, path: Optional[Path] = None) -> str:
         """The page that the command line writes with ``--report``; written to `path` too, if there is one."""
@@ -149,7 +166,7 @@ def diagnose(
     noise_rotation: Optional[Quantity] = None,
     keep_all: bool = False,
     effects: Optional[Sequence[str]] = None,
-    own: Sequence[_native.Effect] = (),
+    own: Sequence[Own] = (),
     folds: Optional[int] = None,
     nested: bool = False,
     seed: int = 0,
@@ -170,12 +187,12 @@ def diagnose(
     """Why the real arm is not where the model says, at rest or in motion.
 
     data: measurements or a joint log: a path, a dictionary of arrays, or a table of pandas, polars or pyarrow; or a
-        list of these, the runs of one log. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
+        list of these, the runs of one log, with measurements of the same arm among them or not. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
         (or ``wrench``, (m, 6)), and what was measured, ``x y z rx ry rz`` or ``dx …``; units in brackets, ``x[mm]``.
     nuisance: what is known to be unknown, fitted along and never a finding: ``base_frame``, ``tool_frame``, ``geometry``.
     tolerance: how well the maker holds lengths and angles, standard deviations, m and rad [default: 0.3 mm, 0.5 mrad].
     noise_position, noise_rotation: standard deviations of a coordinate, m, and of a rotation, rad; or ``"30um"``.
-    effects: try only these; own: effects of one's own, tried beside them.
+    effects: try only these; own: effects of one's own, tried beside them: ``Effect`` of measurements, ``LogEffect`` of logs.
     rivals: prefixes of columns with other models' predictions; check: another campaign to predict; compare: an earlier
         diagnosis; accept: the position error, m, that is accepted in 95 % of the rows.
     torque_side, rows, band (Hz), standstill (rad/s), known_masses, map, topic: of joint logs, as in ``stiffarm diagnose --help``.
@@ -183,21 +200,20 @@ def diagnose(
     Ctrl-C ends it. Raises Error, with the place, of what cannot be used.
     """
     files: dict[str, bytes] = {}
-    frames = data if isinstance(data, (list, tuple)) else [data]
     last = _last(compare, files)
     if tolerance is not None and not isinstance(tolerance, str):
         tolerance = ",".join(x if isinstance(x, str) else f"{x!r}{unit}" for x, unit in zip(tolerance, ("m", "rad")))
     words = [
         "diagnose",
         robot(arm, files),
-        *(held(frame, files, f"<data {k + 1}>" if len(frames) > 1 else NAME) for k, frame in enumerate(frames)),
+        *_named(data, files),
         *option("nuisance", list(nuisance)),
         *option("tolerance", tolerance),
         *each("usual", usual),
         *option("noise_position", noise_position, "m"),
         *option("noise_rotation", noise_rotation, "rad"),
         *option("keep_all", keep_all),
-        *option("effects", None if effects is None else list(effects)),
+        *option("effects", None if effects is None else [*effects, *(effect.name for effect in own)]),
         *option("folds", folds),
         *option("nested", nested),
         *option("seed", seed),
@@ -216,6 +232,12 @@ def diagnose(
     ]
     with Progress(progress) as hear:
         return Diagnosis(_native.diagnose(words, files, list(own), hear))
+
+
+def _named(data: Union[Frame, Sequence[Frame]], files: dict[str, bytes]) -> list[str]:
+    """The words for one frame or several."""
+    frames = data if isinstance(data, (list, tuple)) else [data]
+    return [held(frame, files, f"<data {k + 1}>" if len(frames) > 1 else NAME) for k, frame in enumerate(frames)]
 
 
 def _last(compare: Union[None, Path, Diagnosis], files: dict[str, bytes]) -> Optional[Path]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .record import Record
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -16,18 +18,21 @@ def diagnosis(found: Diagnosis) -> Figure:
         from matplotlib.figure import Figure
     except ImportError as error:
         raise ImportError("plots are made by matplotlib: pip install stiffarm[plot]") from error
-    figure = Figure(figsize=(7.0, 1.5 + 0.5 * (1 + len(found.findings))), layout="constrained")
-    axes: Any = figure.subplots()
-    names, sizes, errors = _bars(found)
-    axes.barh(range(len(names)), sizes, xerr=errors, color="0.6", error_kw={"capsize": 3})
-    axes.set_yticks(range(len(names)), names)
-    axes.invert_yaxis()
-    axes.set_xlabel("gap, rms, on rows that no fit has seen, in parts of the gap before")
-    axes.set_title(str(found.robot))
+    parts = found.parts
+    heights = [2 + len(part.gap) if isinstance(part.gap, list) else 1 + len(part.findings) for part in parts]
+    figure = Figure(figsize=(7.0, 1.5 * len(parts) + 0.5 * sum(heights)), layout="constrained")
+    all_axes: Any = figure.subplots(len(parts), 1, squeeze=False, height_ratios=heights)
+    for axes, part in zip(all_axes[:, 0], parts):
+        if isinstance(part.gap, list):
+            _joints(axes, part)
+        else:
+            _findings(axes, part)
+        axes.invert_yaxis()
+        axes.set_title(str(part.robot))
     return figure
 
 
-def _bars(found: Diagnosis) -> tuple[list[str], list[float], Any]:
+def _findings(axes: Any, found: Record) -> None:
     names, sizes, low, high = ["before"], [1.0], [0.0], [0.0]
     first = None
     for finding in found.findings:
@@ -39,4 +44,17 @@ def _bars(found: Diagnosis) -> tuple[list[str], list[float], Any]:
         sizes.append(size)
         low.append(max(0.0, size - min(ends)))
         high.append(max(0.0, max(ends) - size))
-    return names, sizes, [low, high]
+    axes.barh(range(len(names)), sizes, xerr=[low, high], color="0.6", error_kw={"capsize": 3})
+    axes.set_yticks(range(len(names)), names)
+    axes.set_xlabel("gap, rms, on rows that no fit has seen, in parts of the gap before")
+
+
+def _joints(axes: Any, found: Record) -> None:
+    rows = range(len(found.gap))
+    for shift, when, shade in ((-0.2, "before", "0.8"), (0.2, "after", "0.4")):
+        sizes = [joint[when] / joint["size"] for joint in found.gap]
+        axes.barh([row + shift for row in rows], sizes, height=0.4, color=shade, label=f"{when} the findings")
+    axes.set_yticks(rows, [f"joint {row + 1}" for row in rows])
+    whole = "torques' spread" if found.rows == "torque" else "position errors"
+    axes.set_xlabel(f"gap, rms, on time that no fit has seen, in parts of the {whole}")
+    axes.legend()

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 
 import pytest
@@ -50,3 +51,11 @@ def campaign():
     import stiffarm
 
     return stiffarm.simulate("kuka_kr240", effects=["joint_compliance@joint 2=1.5e-7"], poses=12, payload=200.0, seed=3)
+
+
+@pytest.fixture
+def interruptible():
+    """Signals as at a terminal: what is started in the background has them ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

@@ -63,6 +63,15 @@ def test_eval_of_the_command_line(cli, gravity):
         assert numpy.abs(value - want[key]).max() <= 1e3 * 2.3e-16 * scale, key
 
 
+def test_gravity_holds_the_weights():
+    arm, q = stiffarm.Arm.load("ur10"), RANDOM.uniform(-1.0, 1.0, (7, 6))
+    want = -arm.weight_torque(q)
+    # Inverse dynamics and sums over weights share no code; each adds up some ten terms per link.
+    assert numpy.abs(arm.gravity(q) - want).max() < 1e2 * 2.3e-16 * numpy.abs(want).max()
+    out = numpy.empty((7, 6))
+    assert arm.gravity(q, out=out) is out and (arm.regressor(q, q, q) == arm.torque_regressor(q, q, q)).all()
+
+
 def test_an_output_array_is_filled():
     arm, q = stiffarm.Arm.load("ur5"), RANDOM.uniform(-1.0, 1.0, (1500, 6))
     want = arm.jacobian(q)

@@ -1,7 +1,6 @@
 """What a diagnosis is in Python beyond what the command line writes."""
 
 import _thread
-import signal
 import threading
 import time
 
@@ -74,14 +73,6 @@ def test_progress(campaign, monkeypatch):
     monkeypatch.setattr(tqdm, "tqdm", Bar)
     stiffarm.withhold("ur5", cases=6, effects=["joint_compliance"], poses=10)
     assert "withheld cases" in said and said[-1] == "closed"
-
-
-@pytest.fixture
-def interruptible():
-    """Signals as at a terminal: what is started in the background has them ignored."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 def test_ctrl_c_ends_it(interruptible):

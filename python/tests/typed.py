@@ -26,17 +26,31 @@ def findings(data: stiffarm.Table) -> tuple[list[frozenset[tuple[str, str]]], fl
     return found.sets, part
 
 
+def in_motion(log: stiffarm.Table) -> float:
+    def brake(samples: stiffarm.Samples, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        q, rate = samples.q[:, samples.number - 1], samples.qd[:, samples.number - 1]
+        torque: NDArray[numpy.float64] = values[0] * abs(q) * numpy.sign(rate)
+        return torque
+
+    own = stiffarm.LogEffect("widening_brake", "torque", [("brake", "N·m/rad")], brake)
+    found = stiffarm.diagnose("ur10", log, own=[own], effects=["coulomb_friction"], progress=False)
+    prediction = found.predict([log])
+    assert isinstance(prediction, stiffarm.LogPrediction)
+    torque: NDArray[numpy.float64] = prediction.predicted
+    return float(torque.std())
+
+
 def main() -> None:
     arm = stiffarm.Arm.load("kuka_kr240")
     assert reach(arm, numpy.zeros(6)) > 1.0
     plan: stiffarm.Table = stiffarm.simulate(arm, effects=["joint_compliance@joint 2=1.5e-7"], poses=12, payload=200.0)
     sets, part = findings(plan)
     assert sets and part > 0.5
-    log = stiffarm.Log(runs=1, rate="100Hz", period=5.0)
+    log = stiffarm.Log(runs=1, rate="100Hz", period=20.0)
     motion: stiffarm.Table = stiffarm.simulate("ur10", log=log)
     checked: stiffarm.Result = stiffarm.check(arm, count=5)
     chart: stiffarm.Map = stiffarm.map(arm, ("q2", "q3"), "condition", steps=3)
-    assert motion.rows and checked.to_dict()["agrees"] and chart.svg
+    assert in_motion(motion) > 0.0 and motion.rows and checked.to_dict()["agrees"] and chart.svg
     try:
         arm.pose([0.0] * 5)
     except ValueError:

@@ -1,5 +1,7 @@
 //! A campaign that was diagnosed, and everything that is made of it.
 
+use std::path::Path;
+
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Prediction, Trust};
@@ -215,12 +217,12 @@ impl Campaign {
         report.html().map_err(|e| Failure::new(format!("cannot make the report: {e}")))
     }
 
-    /// What the models before and after make of other measurements of the arm, which stand in `bytes`.
+    /// What the models before and after make of other measurements of the arm.
     ///
     /// # Errors
     /// [`Failure`]: the measurements' mistakes, or what was never fitted.
-    pub fn predict(&self, file: &str, bytes: &[u8]) -> Result<Prediction, Failure> {
-        let data = data::read_bytes(file.as_ref(), bytes, &self.layout, false)?;
+    pub fn predict(&self, path: &Path) -> Result<Prediction, Failure> {
+        let data = data::read(path, &self.layout, false)?;
         self.diagnosed.explanation.predict(&data).map_err(plain)
     }
 }

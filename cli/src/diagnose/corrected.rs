@@ -2,12 +2,15 @@
 //! other programs read it.
 
 use std::cell::OnceCell;
+use std::mem::take;
 
 use stiffarm_codegen::emit::{lost_in_mjcf, lost_in_urdf, mjcf, urdf};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
+use stiffarm_gap::effects;
+use stiffarm_gap::log::effects as motion;
 
 use crate::input::source::Source;
 use crate::report::capital;
@@ -18,7 +21,7 @@ pub struct Corrections<'a> {
     source: &'a Source,
     data: &'a Measurements,
     diagnosed: &'a Diagnosed,
-    found: OnceCell<Corrected>,
+    found: OnceCell<(Corrected, Option<String>)>,
 }
 
 /// What other programs read.
@@ -36,10 +39,16 @@ impl<'a> Corrections<'a> {
     }
 
     fn found(&self) -> &Corrected {
+        &self.found_and_lost().0
+    }
+
+    /// The same, and a sentence on effects of one's own.
+    fn found_and_lost(&self) -> &(Corrected, Option<String>) {
         self.found.get_or_init(|| {
             let mut found = corrected(&self.source.robot, self.diagnosed);
             found.robot.effects.extend(self.source.motion.iter().cloned());
-            found
+            let lost = without_own(&mut found.robot);
+            (found, lost)
         })
     }
 
@@ -56,6 +65,7 @@ impl<'a> Corrections<'a> {
                         another diagnosis of these rows takes --nuisance base_frame";
             caveats.push(text.to_owned());
         }
+        caveats.extend(self.found_and_lost().1.clone());
         caveats
     }
 
@@ -94,6 +104,30 @@ impl<'a> Corrections<'a> {
     }
 }
 
+/// Leaves effects of one's own out of a robot, which no file holds; a sentence on them.
+pub fn without_own(robot: &mut Robot) -> Option<String> {
+    let (known, own): (Vec<_>, Vec<_>) =
+        take(&mut robot.effects).into_iter().partition(|table| is_known(&table.id.value));
+    robot.effects = known;
+    let names: Vec<String> =
+        own.iter().map(|table| format!("{} at {}", table.id.value, table.place.value)).collect();
+    let names = names.join(", ");
+    (!own.is_empty()).then(|| {
+        format!("no robot file has a place for {names}, of one's own: what it does is missing from this one")
+    })
+}
+
+/// Whether stiffarm knows an effect.
+pub fn is_known(id: &str) -> bool {
+    effects::Catalogue::default().named(id).is_some()
+        || motion::CATALOGUE.iter().any(|effect| effect.identifier() == id)
+}
+
+/// Where a number of an effect stands.
+pub fn stands_in<'a>(effect: &str, entry: &'a str) -> &'a str {
+    if is_known(effect) { entry } else { "no robot file" }
+}
+
 /// The first line of a corrected robot file.
 pub fn made_from(source: &Source, data: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
@@ -122,7 +156,7 @@ pub fn exported(robot: &Robot, format: Format) -> Result<(String, Option<String>
 }
 
 fn line(outcome: &Outcome) -> String {
-    let (p, entry) = (&outcome.parameter, &outcome.entry);
+    let (p, entry) = (&outcome.parameter, stands_in(outcome.effect, &outcome.entry));
     let [low, high] = p.ci95;
     let unit = if p.unit == "1" { String::new() } else { format!(" {}", p.unit) };
     let number = match low == high {

@@ -5,16 +5,14 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::log::Model;
-use stiffarm_gap::log::effects::CATALOGUE;
 use stiffarm_gap::spring::{Joined, Spring};
 
 use super::campaign::Told as CampaignTold;
 use super::corrected::{exported, file};
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
-use super::{Args, Campaign, Format, Motion};
+use super::{Args, Campaign, Catalogues, Format, Motion};
 use crate::input::source::Source;
 use crate::report::both::Both;
 use crate::screen::together as screen;
@@ -25,7 +23,8 @@ use crate::terminal::json;
 pub struct Together {
     /// What was measured at rest.
     pub campaign: Campaign,
-    motion: Motion,
+    /// What was logged in motion.
+    pub motion: Motion,
     /// The log's model beside the springs of both.
     model: Model,
     said: Said,
@@ -63,10 +62,14 @@ impl Args {
     ///
     /// # Errors
     /// [`Failure`]: --check with a file that cannot be read.
-    pub(super) fn both(&self, path: PathBuf, catalogue: &Catalogue) -> Result<[Args; 2], Failure> {
+    pub(super) fn both(
+        &self,
+        path: PathBuf,
+        catalogues: &Catalogues,
+    ) -> Result<[Args; 2], Failure> {
         let of_log = self.check.as_deref().map_or(Ok(false), is_log)?;
-        let is_of_log = |name: &str| CATALOGUE.iter().any(|e| e.identifier() == name);
-        let is_at_rest = |name: &str| catalogue.named(name).is_some();
+        let is_of_log = |name: &str| catalogues.in_motion.named(name).is_some();
+        let is_at_rest = |name: &str| catalogues.at_rest.named(name).is_some();
         // A name that neither knows is the campaign's to refuse.
         let named = |keep: &dyn Fn(&str) -> bool| {
             let names = self.effects.as_ref()?.iter().filter(|name| keep(name));
@@ -99,13 +102,14 @@ impl Together {
         source: Source,
         bytes: Vec<u8>,
         parts: Vec<Part>,
-        catalogue: Catalogue,
+        catalogues: Catalogues,
         quiet: bool,
     ) -> Result<Together, Failure> {
-        let motion = Motion::new(of_log, source.clone(), parts, quiet)?;
+        let motion = Motion::new(of_log, source.clone(), parts, catalogues.in_motion, quiet)?;
         let told = motion.springs();
         let effect = told.effect.identifier();
-        let campaign = Campaign::new(of_campaign, source, bytes, &told.told, catalogue, quiet)?;
+        let campaign =
+            Campaign::new(of_campaign, source, bytes, &told.told, catalogues.at_rest, quiet)?;
         let springs = campaign.beside_log().map_or_else(Vec::new, |both| both.springs.clone());
         let known: Vec<Spring> = springs.iter().filter_map(|joined| joined.together).collect();
         let ((_, alone), (model, both)) = (motion.beside(&[])?, motion.beside(&known)?);

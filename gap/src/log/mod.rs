@@ -30,4 +30,4 @@ pub use options::{LogOptions, Refused};
 pub use read::{Format, Log, LogError, Names, Opened, Run, Signal, TorqueSide, is_log};
 pub use report::LogDiagnosis;
 pub use scene::Domain;
-pub use verdict::{diagnose, diagnosed};
+pub use verdict::{diagnose, diagnosed, diagnosed_with};

@@ -91,6 +91,8 @@ pub struct JointRows {
     pub qd: Vec<f64>,
     /// Whether a row counts.
     pub counts: Vec<bool>,
+    /// What drove the joint, or where it was, as it was logged, through the filter.
+    pub measured: Vec<f64>,
     /// What was to be explained.
     pub target: Vec<f64>,
     /// What the rigid links ask.
@@ -181,10 +183,12 @@ impl Model {
             .counts()
             .into_iter()
             .zip(signals.q.iter().zip(&signals.qd))
-            .map(|(counts, (q, qd))| JointRows {
+            .zip(if self.rows == Domain::Torque { &signals.drive } else { &signals.measured })
+            .map(|((counts, (q, qd)), measured)| JointRows {
                 q: signals.kept(q),
                 qd: signals.kept(qd),
                 counts,
+                measured: signals.filtered(measured),
                 ..JointRows::default()
             })
             .collect();

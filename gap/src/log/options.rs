@@ -2,7 +2,7 @@
 
 use stiffarm_codegen::robot::Effect;
 
-use super::effects::CATALOGUE;
+use super::effects::Catalogue;
 use super::read::{Log, Signal, TorqueSide};
 use super::scene::Domain;
 use crate::measurement::{Body, nearest};
@@ -20,6 +20,8 @@ pub struct LogOptions {
     pub band: Option<f64>,
     /// Speed below which a joint counts as standing, rad/s or m/s; else 0.5 % of its largest.
     pub standstill: Option<f64>,
+    /// The effects that there are: stiffarm's, and one's own.
+    pub catalogue: Catalogue,
     /// Only these effects.
     pub effects: Option<Vec<String>>,
     /// What the robot file knows of the arm in motion: its tables of that kind.
@@ -109,7 +111,7 @@ impl LogOptions {
     /// # Errors
     /// [`Refused`]: an effect that is none, a band or a speed that is none.
     pub(super) fn checked(&self, period: f64) -> Result<(), Refused> {
-        let known = || CATALOGUE.iter().map(|e| e.identifier());
+        let known = || self.catalogue.iter().map(|e| e.identifier());
         let asked = self.effects.iter().flatten();
         if let Some(found) = asked.clone().find(|name| !known().any(|k| k == **name)) {
             let suggestion = nearest(found, known());

@@ -1,6 +1,6 @@
 //! What a log cannot show, and why.
 
-use super::effects::{CATALOGUE, LogEffect, Spot};
+use super::effects::{Catalogue, LogEffect, Spot};
 use super::pace::Pace;
 use super::report::Hidden;
 use super::scene::{Domain, Loads};
@@ -12,6 +12,7 @@ use super::search::judge::Verdict;
 pub fn hidden(
     case: &Case<'_>,
     simple: &Simple,
+    catalogue: &Catalogue,
     unseen: Vec<(&'static dyn LogEffect, Spot)>,
     wanted: &[Wanted],
     verdict: &Verdict,
@@ -31,8 +32,8 @@ pub fn hidden(
     }
     let loads = Loads::default();
     let scene = case.scene(simple, case.signals, &loads);
-    let own = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0);
-    for (effect, reason) in own.filter_map(|e: &&dyn LogEffect| Some((e, e.excluded(&scene)?))) {
+    let own = || catalogue.iter().filter(|e| e.domain() == case.kind.0);
+    for (effect, reason) in own().filter_map(|e| Some((e, e.excluded(&scene)?))) {
         tell(effect.identifier(), "every joint".to_owned(), &reason);
     }
     let scale = |effect: &&dyn LogEffect, spot: &Spot| {
@@ -48,7 +49,7 @@ pub fn hidden(
         let term = terms.find(|t| t.effect.identifier() == effect && t.spot == spot)?;
         Some(term.values.as_slice())
     };
-    for effect in CATALOGUE.iter().filter(|e| e.domain() == case.kind.0) {
+    for effect in own() {
         let id = effect.identifier();
         if wanted.iter().all(|(effect, ..)| effect.identifier() != id) {
             continue;

@@ -57,6 +57,20 @@ pub fn diagnosed(
     log: &Log,
     options: &LogOptions,
 ) -> Result<(LogDiagnosis, Model), Refused> {
+    diagnosed_with(arm, log, options, &|_| {})
+}
+
+/// The same; `each` is told how many effects are found, before the first and with each.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn diagnosed_with(
+    arm: &Arm,
+    log: &Log,
+    options: &LogOptions,
+    each: &dyn Fn(usize),
+) -> Result<(LogDiagnosis, Model), Refused> {
+    each(0);
     let (domain, drive, side) = options.rows_of(log)?;
     options.checked(log.period())?;
     let mut signals = Signals::of(log, drive, options.band);
@@ -89,7 +103,7 @@ pub fn diagnosed(
         return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
     }
     let simple = Simple::of(&case, options.seed);
-    let mut wanted = search::wanted(&case, &simple, options.effects.as_deref());
+    let mut wanted = search::wanted(&case, &simple, &options.catalogue, options.effects.as_deref());
     let links = links(&case, options);
     if links == Links::Free {
         wanted.retain(|(effect, spot, _)| {
@@ -104,6 +118,7 @@ pub fn diagnosed(
     let verdict = loop {
         let offers: Vec<usize> = (0..stock.offers.len()).collect();
         let last = search::search(&stock, &terms, &links, &offers, options.seed, &mut |round| {
+            each(round.fit.terms.len());
             history.borrow_mut().note(&stock, &told, round);
         });
         let verdict = judged(&stock, &last, &offers, options.seed);
@@ -174,7 +189,15 @@ pub fn diagnosed(
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
         findings: told.findings(&left, &verdict, &after),
-        cannot_see: hidden(&case, &simple, unseen, &wanted, &verdict, log.period()),
+        cannot_see: hidden(
+            &case,
+            &simple,
+            &options.catalogue,
+            unseen,
+            &wanted,
+            &verdict,
+            log.period(),
+        ),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
         remarks: [log.remarks(), log.doubts(arm)].concat(),
     };

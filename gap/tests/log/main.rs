@@ -2,6 +2,7 @@
 
 mod evidence;
 mod formats;
+mod own;
 mod plant;
 mod planted;
 mod position;

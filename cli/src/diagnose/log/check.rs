@@ -1,9 +1,9 @@
 //! Another log of the same arm, predicted with what was found.
 
 use serde::Serialize;
+use stiffarm_gap::log::model::Explained;
 use stiffarm_gap::log::report::JointGap;
-use stiffarm_gap::log::{Log, LogDiagnosis, Model, Refused};
-use stiffarm_kernels::generic::Arm;
+use stiffarm_gap::log::{Log, LogDiagnosis, Model};
 
 /// The gap on time that played no part in the diagnosis: nothing is fitted to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,22 +19,14 @@ pub struct Check {
 }
 
 impl Check {
-    /// Predicts `other` with what was found.
-    ///
-    /// # Errors
-    /// [`Refused`]: it has not the rows that were diagnosed.
-    pub fn of(
-        arm: &Arm,
-        found: &LogDiagnosis,
-        model: &Model,
-        other: &Log,
-    ) -> Result<Check, Refused> {
+    /// Of `other`, whose rows are as the model of a diagnosis has them.
+    pub fn of(found: &LogDiagnosis, model: &Model, other: &Log, explained: &Explained) -> Check {
         let units: Vec<&'static str> = found.gap.iter().map(|gap| gap.unit).collect();
-        Ok(Check {
+        Check {
             files: other.files.clone(),
             samples: other.samples,
-            gap: model.explain(arm, other)?.gap(model.rows, &units),
+            gap: explained.gap(model.rows, &units),
             remarks: other.remarks(),
-        })
+        }
     }
 }

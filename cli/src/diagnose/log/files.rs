@@ -60,7 +60,7 @@ impl Part {
 ///
 /// # Errors
 /// [`Failure`]: a folder that cannot be read, or has none.
-fn parts(given: &[PathBuf]) -> Result<Vec<Part>, Failure> {
+pub fn parts(given: &[PathBuf]) -> Result<Vec<Part>, Failure> {
     let mut parts = Vec::new();
     for path in given {
         if path.is_dir() {
@@ -133,14 +133,6 @@ pub fn files(args: &Args) -> Result<Files, Failure> {
 /// [`Failure`]: it cannot be read.
 pub fn is_log(path: &Path) -> Result<bool, Failure> {
     Ok(parts(&[path.to_owned()])?.iter().any(Part::is_log))
-}
-
-/// The log in another file, or in the files of a folder.
-///
-/// # Errors
-/// [`Failure`]: what cannot be read.
-pub fn other(path: &Path, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
-    read(parts(&[path.to_owned()])?, motions, names)
 }
 
 /// The log in these files.

@@ -1,31 +1,38 @@
 //! A log that was diagnosed, and everything that is made of it.
 
+use std::path::PathBuf;
+
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::log::effects::Catalogue;
 use stiffarm_gap::log::model::Springs;
 use stiffarm_gap::log::{
-    Domain, Log, LogDiagnosis, LogOptions, Model, Refused, TorqueSide, diagnosed,
+    Domain, Log, LogDiagnosis, LogOptions, Model, Names, Refused, TorqueSide, diagnosed_with,
 };
 use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{exported, file, made_from};
-use super::super::{Args, Format};
+use super::super::{Args, Format, PredictedLog};
 use super::files::{self, Part};
 use super::written::Written;
 use super::{Check, Rows};
 use crate::input::data::layout;
+use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::report::logged::Logged;
 use crate::screen::log as screen;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
+use crate::terminal::progress::Stages;
 
 /// A log, diagnosed.
 pub struct Motion {
     source: Source,
     arm: Arm,
+    /// What the columns of a log are called, and whether a map says it.
+    names: (Names, bool),
     log: Log,
     found: LogDiagnosis,
     model: Model,
@@ -44,12 +51,16 @@ pub struct Told<'a> {
     corrected: Option<String>,
 }
 
+fn motions(arm: &Arm) -> Vec<stiffarm_kernels::Motion> {
+    arm.joints.iter().map(|joint| joint.motion).collect()
+}
+
 fn plain(error: Refused) -> Failure {
     Failure::new(error.to_string())
 }
 
 impl Motion {
-    /// Reads and diagnoses a log.
+    /// Reads and diagnoses a log, with the effects of `catalogue`.
     ///
     /// # Errors
     /// [`Failure`]: the log or the options.
@@ -57,6 +68,7 @@ impl Motion {
         args: &Args,
         source: Source,
         parts: Vec<Part>,
+        catalogue: Catalogue,
         quiet: bool,
     ) -> Result<Motion, Failure> {
         if let Some(option) = args.of_measurements() {
@@ -67,10 +79,11 @@ impl Motion {
         }
         let arm = source.arm()?;
         let names = args.log.names(&source)?;
-        let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
-        let log = files::read(parts, &motions, &names)?;
+        let read = |parts| files::read(parts, &motions(&arm), &names);
+        let log = read(parts)?;
         let other = args.check.as_ref();
-        let other = other.map(|path| files::other(path, &motions, &names)).transpose()?;
+        let other =
+            other.map(|path| read(files::parts(std::slice::from_ref(path))?)).transpose()?;
         // What stands nearer to the torques comes first.
         let side = args.log.torque_side.or(log.side);
         let options = LogOptions {
@@ -82,6 +95,7 @@ impl Motion {
             }),
             band: args.log.band,
             standstill: args.log.standstill,
+            catalogue,
             effects: args.effects.clone(),
             known: source.motion.clone(),
             payloads: layout(&source)?.payloads.map_or_else(Vec::new, |known| known.bodies),
@@ -89,10 +103,37 @@ impl Motion {
             nested: args.nested,
             seed: args.seed,
         };
-        let (found, model) = diagnosed(&arm, &log, &options).map_err(plain)?;
+        let stages = Stages::new(quiet);
+        let each = |found| {
+            stages
+                .say(format!("looking for effects of motion, {} found", counted(found, "finding")));
+        };
+        let (found, model) = diagnosed_with(&arm, &log, &options, &each).map_err(plain)?;
+        drop(stages);
         found.remarks.iter().for_each(|remark| note(remark, quiet));
-        let check = other.map(|other| Check::of(&arm, &found, &model, &other)).transpose();
-        Ok(Motion { check: check.map_err(plain)?, source, arm, log, found, model })
+        let names = (names, args.log.map.is_some());
+        let found = Motion { check: None, source, arm, names, log, found, model };
+        let check = other.map(|other| found.predicted(&other)).transpose()?;
+        Ok(Motion { check: check.map(|predicted| predicted.check), ..found })
+    }
+
+    /// Another log of the arm, as what was found has it.
+    ///
+    /// # Errors
+    /// [`Failure`]: it cannot be read, or has not the rows that were diagnosed.
+    pub fn predict(&self, paths: &[PathBuf]) -> Result<PredictedLog, Failure> {
+        self.predicted(&files::read(files::parts(paths)?, &motions(&self.arm), &self.names.0)?)
+    }
+
+    fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
+        let explained = self.model.explain(&self.arm, other).map_err(plain)?;
+        let check = Check::of(&self.found, &self.model, other, &explained);
+        Ok(PredictedLog { explained, check })
+    }
+
+    /// Whether a map says what its columns are called.
+    pub(in super::super) fn is_mapped(&self) -> bool {
+        self.names.1
     }
 
     /// The diagnosis in JSON.
@@ -156,6 +197,12 @@ impl Motion {
     /// [`Failure`]: the log is one of currents, or the table has cells that are no numbers.
     pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
         exported(&self.written()?.robot, format)
+    }
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    pub(in super::super) fn caveats(&self) -> Vec<String> {
+        // Of currents there is no file.
+        self.written().ok().and_then(|written| written.lost).into_iter().collect()
     }
 
     fn written(&self) -> Result<Written, Failure> {

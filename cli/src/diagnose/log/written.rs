@@ -6,6 +6,8 @@ use stiffarm_gap::log::report::{Finding, Parameter};
 use stiffarm_gap::log::{Log, LogDiagnosis, Model};
 use stiffarm_kernels::generic::Arm;
 
+use super::super::corrected::{stands_in, without_own};
+use crate::report::capital;
 use crate::terminal::failure::Failure;
 
 /// A robot with what was found in it, and what that is.
@@ -14,6 +16,8 @@ pub struct Written {
     pub robot: Robot,
     /// What was put in, line by line.
     pub lines: Vec<String>,
+    /// A sentence on effects of one's own.
+    pub lost: Option<String>,
 }
 
 impl Written {
@@ -28,7 +32,7 @@ impl Written {
         found: &LogDiagnosis,
         model: &Model,
     ) -> Result<Written, Failure> {
-        let corrected = corrected(robot, arm, log, found, model)
+        let mut corrected = corrected(robot, arm, log, found, model)
             .map_err(|error| Failure::new(format!("{}: {error}", found.files.join(", "))))?;
         let mut lines = vec!["Put in, with 95 % intervals:".to_owned()];
         let pairs = found.findings.iter().zip(&corrected.entries);
@@ -43,11 +47,14 @@ impl Written {
                 100.0 * part
             ));
         }
-        Ok(Written { robot: corrected.robot, lines })
+        let lost = without_own(&mut corrected.robot);
+        lines.extend(lost.as_ref().map(|lost| capital(lost) + "."));
+        Ok(Written { robot: corrected.robot, lines, lost })
     }
 }
 
 fn told<'a>(finding: &'a Finding, entry: &'a str) -> impl Iterator<Item = String> + 'a {
+    let entry = stands_in(finding.effect, entry);
     finding.parameters.iter().map(move |Parameter { name, value, unit, ci95 }| {
         let [low, high] = ci95;
         format!(

@@ -2,6 +2,7 @@
 
 mod asymmetric_friction;
 mod backlash;
+mod catalogue;
 mod coulomb_friction;
 mod counterbalance;
 mod friction_curve;
@@ -28,6 +29,8 @@ mod warm_up;
 use std::fmt;
 
 use stiffarm_kernels::generic::Arm;
+
+pub use catalogue::Catalogue;
 
 use super::pace::Pace;
 use super::read::TorqueSide;

@@ -28,7 +28,7 @@ use fit::{Fitted, Links, Term};
 use stock::Stock;
 use sums::Sums;
 
-use super::effects::{CATALOGUE, LogEffect, Spot};
+use super::effects::{CATALOGUE, Catalogue, LogEffect, Spot};
 use super::scene::Loads;
 use super::signal::Signals;
 
@@ -66,17 +66,22 @@ pub struct Asked {
 }
 
 /// Effects and places that are asked for, and about which values.
-pub fn wanted(case: &Case<'_>, simple: &Simple, only: Option<&[String]>) -> Vec<Wanted> {
+pub fn wanted(
+    case: &Case<'_>,
+    simple: &Simple,
+    catalogue: &Catalogue,
+    only: Option<&[String]>,
+) -> Vec<Wanted> {
     let loads = Loads::default();
     let scene = case.scene(simple, case.signals, &loads);
-    let named = |e: &&&dyn LogEffect| {
+    let named = |e: &&dyn LogEffect| {
         only.is_none_or(|names| names.iter().any(|name| name == e.identifier()))
     };
-    let asked = CATALOGUE.iter().filter(|e| e.domain() == case.kind.0).filter(named);
+    let asked = catalogue.iter().filter(|e| e.domain() == case.kind.0).filter(named);
     let asked = asked.filter(|e| e.excluded(&scene).is_none());
-    let at = |e: &&'static dyn LogEffect| -> Vec<Wanted> {
+    let at = |e: &'static dyn LogEffect| -> Vec<Wanted> {
         let spots = e.spots(&scene).into_iter();
-        let probed = spots.map(|spot| (*e, spot, e.probes(&scene, spot)));
+        let probed = spots.map(|spot| (e, spot, e.probes(&scene, spot)));
         probed.filter(|(.., probes)| !probes.is_empty()).collect()
     };
     asked.flat_map(at).collect()

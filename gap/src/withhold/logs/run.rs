@@ -8,7 +8,6 @@ use super::bench::{Bench, Planted, may_show};
 use super::report::{Asked, LogCase, LogReport, LogVerdict};
 use super::{LogPlan, LogWithholdError};
 use crate::dice::{Dice, Stream, seed_of};
-use crate::log::effects::CATALOGUE;
 use crate::log::{Log, LogOptions, Names, diagnose};
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, csv, known};
 use crate::withhold::Kind;
@@ -134,7 +133,7 @@ fn diagnosed(plan: &LogPlan<'_>, told: &str, options: &LogOptions) -> Result<Log
 fn options(plan: &LogPlan<'_>, asked: &Asked, seed: u64) -> LogOptions {
     let mut options = LogOptions { seed, ..plan.options.clone() };
     if let (Kind::Removed, Some(label)) = (asked.kind, &asked.label) {
-        let known = CATALOGUE.iter().map(|effect| effect.identifier().to_owned());
+        let known = plan.options.catalogue.iter().map(|effect| effect.identifier().to_owned());
         let allowed =
             |name: &String| options.effects.as_ref().is_none_or(|only| only.contains(name));
         let known = known.filter(|name| allowed(name) && *name != label.effect);
