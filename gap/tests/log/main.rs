@@ -2,9 +2,11 @@
 
 mod evidence;
 mod formats;
+mod instrument;
 mod plant;
 mod planted;
 mod position;
+mod rest;
 mod torque;
 mod written;
 
