@@ -72,6 +72,10 @@ pub enum RowsArg {
     Motor,
     /// Torques behind the gears
     Link,
+    /// Currents of the motors
+    Current,
+    /// Torques that the controller asks of the drives
+    Commanded,
     /// Commands, which position servos follow
     Position,
 }
@@ -209,6 +213,8 @@ impl RecordArgs {
         match self.logged {
             RowsArg::Motor => Logged::Torque(Side::Motor),
             RowsArg::Link => Logged::Torque(Side::Link),
+            RowsArg::Current => Logged::Torque(Side::Current),
+            RowsArg::Commanded => Logged::Torque(Side::Commanded),
             RowsArg::Position => Logged::Position,
         }
     }

@@ -216,7 +216,6 @@ fn kept_apart() {
 
 /// Ten logs of each of two settings: a rate must not be worse than its goal beyond chance.
 #[test]
-#[ignore = "effects that are unknown are flagged less often than is the goal: see docs/logs.md"]
 fn quick() {
     let quick = settings().into_iter().filter(|setting| setting.quick).enumerate();
     let reports: Vec<_> = quick.map(|(k, s)| run(&s, 10, 5_001 + 100 * k as u64)).collect();

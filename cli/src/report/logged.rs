@@ -77,8 +77,12 @@ struct Page<'a> {
     check: Option<&'a str>,
     torque: bool,
     gaps: Vec<[String; 5]>,
+    /// Of each joint what a search leaves that has not seen the time; empty where none was run.
+    nested: Vec<String>,
     waterfall: Waterfall,
     findings: Vec<Found>,
+    /// What the commanded motion as instrument changes.
+    by_command: Option<String>,
     unexplained: Vec<String>,
     hidden: Vec<String>,
     remarks: &'a [String],
@@ -150,8 +154,10 @@ impl Logged<'_> {
             check: self.check.as_deref(),
             torque,
             gaps: said::gaps(found),
+            nested: said::nested(found),
             waterfall: waterfall(self.steps(), &unit),
             findings: found.findings.iter().map(finding).collect(),
+            by_command: said::by_command(found),
             unexplained: said::unexplained(found),
             hidden: said::hidden(found),
             remarks: &found.remarks,
@@ -286,10 +292,12 @@ impl Logged<'_> {
     }
 
     fn tables(&self) -> BTreeMap<&'static str, Table> {
-        let mut gap = Table::new(&["joint", "unit", "size", "before", "after"]);
+        let heads = ["joint", "unit", "size", "before", "after", "searched anew"];
+        let told = if self.found.gap.iter().all(|g| g.nested.is_some()) { 6 } else { 5 };
+        let mut gap = Table::new(&heads[..told]);
         for (k, g) in self.found.gap.iter().enumerate() {
             let mut row = vec![Value::from(k + 1), g.unit.into()];
-            row.extend([g.size, g.before, g.after].map(number));
+            row.extend([g.size, g.before, g.after].into_iter().chain(g.nested).map(number));
             gap.rows.push(row);
         }
         let heads = ["effect", "place", "number", "value", "low", "high", "unit", "p"];

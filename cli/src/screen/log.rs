@@ -91,10 +91,15 @@ pub fn left(gap: &[JointGap]) -> [f64; 2] {
 }
 
 /// What a search leaves that has not seen the time, as parts of the joints' sizes, mean; where it was run.
-fn nested(found: &LogDiagnosis) -> Option<f64> {
+fn nested_mean(found: &LogDiagnosis) -> Option<f64> {
     let parts: Option<Vec<f64>> =
         found.gap.iter().map(|g| g.nested.map(|nested| nested / g.size)).collect();
     parts.map(|parts| parts.iter().sum::<f64>() / parts.len() as f64)
+}
+
+/// The same of each joint; empty where it was not run.
+pub fn nested(found: &LogDiagnosis) -> Vec<String> {
+    found.gap.iter().filter_map(|g| Some(short(shown(g.unit).1 * g.nested?))).collect()
 }
 
 /// What the model lacks, and what that leaves.
@@ -118,7 +123,7 @@ pub fn sentence(found: &LogDiagnosis) -> String {
         "The model lacks {told}: with them {after} {what} is left on time that no fit has seen, without \
          them {before}."
     );
-    if let Some(nested) = nested(found) {
+    if let Some(nested) = nested_mean(found) {
         text.push_str(&format!(
             " Where the search has not seen the time either, {} % is left.",
             fixed(100.0 * nested, 1)
@@ -176,9 +181,9 @@ fn gap(found: &LogDiagnosis) -> String {
     }
     use Align::{Left, Right};
     let mut align = vec![Left, Right, Right, Right, Left];
-    if found.gap.iter().all(|gap| gap.nested.is_some()) {
-        let each = found.gap.iter().filter_map(|g| Some(short(shown(g.unit).1 * g.nested?)));
-        let cells = [dim("searched anew")].into_iter().chain(each);
+    let nested = nested(found);
+    if !nested.is_empty() {
+        let cells = [dim("searched anew")].into_iter().chain(nested);
         rows.iter_mut().zip(cells).for_each(|(row, cell)| row.insert(4, cell));
         align.insert(4, Right);
     }
@@ -266,6 +271,7 @@ fn notes(found: &LogDiagnosis) -> String {
         );
         text.push_str(&note("Too short", few));
     }
+    text.extend(by_command(found).map(|line| note("By commands", line)));
     for (k, line) in unexplained(found).into_iter().take(MOST).enumerate() {
         text.push_str(&note(if k == 0 { "Unexplained" } else { "" }, line));
     }
@@ -273,6 +279,38 @@ fn notes(found: &LogDiagnosis) -> String {
         text.push_str(&note(if k == 0 { "Cannot see" } else { "" }, line));
     }
     indented(&text, 0)
+}
+
+/// What the commanded motion as instrument changes; `None` where none is logged.
+pub fn by_command(found: &LogDiagnosis) -> Option<String> {
+    let all = || found.findings.iter().flat_map(|f| f.parameters.iter().map(move |p| (f, p)));
+    let told: Vec<_> = all().filter_map(|(f, p)| Some((f, p, p.by_command?))).collect();
+    let off = told.iter().filter(|(_, p, other)| *other < p.ci95[0] || *other > p.ci95[1]);
+    let off: Vec<String> = off
+        .map(|(f, p, other)| {
+            let (value, other) = (short(p.value), short(*other));
+            format!(
+                "{} of {} at {}, {other} for {value} {}",
+                p.name,
+                words(f.effect),
+                f.place,
+                p.unit
+            )
+        })
+        .collect();
+    match (told.is_empty(), off.is_empty()) {
+        (true, _) => None,
+        (_, true) => Some(
+            "with the commanded motion as instrument, which knows nothing of the noise of what is measured, every \
+             number stays in its interval"
+                .to_owned(),
+        ),
+        _ => Some(format!(
+            "the commanded motion as instrument, which knows nothing of the noise of what is measured, gives other \
+             numbers: {}",
+            listed(&off, MOST)
+        )),
+    }
 }
 
 /// On what it depends that is left, joint by joint; the largest share first.

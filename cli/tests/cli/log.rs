@@ -138,8 +138,12 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let json = text(&folder.path("log.json"));
     let run = ["diagnose", &robot, &log, "--torque-side", "motor", "--nested", "--json", &json];
     let only = ["--effects", "coulomb_friction,viscous_friction,rotor_inertia"];
-    let out = stiffarm(&[&run[..], &only].concat()).good();
+    let page = text(&folder.path("log.html"));
+    let out = stiffarm(&[&run[..], &only, &["--report", &page]].concat()).good();
     assert!(out.contains("searched anew") && out.contains("Where the search has not"), "{out}");
+    let page = read(&page);
+    assert!(page.contains("<th scope=\"col\">searched anew</th>"), "{page}");
+    assert!(page.contains("\"after\",\"searched anew\"]"), "{page}");
     let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);

@@ -12,6 +12,7 @@
 pub mod bodies;
 pub mod corrected;
 pub mod effects;
+mod instrument;
 pub mod known;
 pub mod model;
 pub mod options;

@@ -126,6 +126,9 @@ pub struct Parameter {
     pub unit: String,
     /// 95 % of it.
     pub ci95: [f64; 2],
+    /// The same number with the commanded motion as instrument, of torques where one is logged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_command: Option<f64>,
 }
 
 /// What would do instead of a finding.

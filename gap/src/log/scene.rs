@@ -34,6 +34,17 @@ impl Column {
     pub fn of(joint: usize, rows: Vec<f64>) -> Column {
         Column { parts: vec![(joint, rows)] }
     }
+
+    /// With so many times another.
+    pub fn plus(mut self, times: f64, other: &Column) -> Column {
+        for (joint, rows) in &other.parts {
+            match self.parts.iter_mut().find(|(on, _)| on == joint) {
+                Some((_, to)) => to.iter_mut().zip(rows).for_each(|(x, row)| *x += times * row),
+                None => self.parts.push((*joint, rows.iter().map(|row| times * row).collect())),
+            }
+        }
+        self
+    }
 }
 
 /// What a model asks of each joint's drive at every fine sample, in the unit of the rows. Not what was

@@ -6,6 +6,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::effects::{LogEffect, Spot};
+use super::instrument;
 use super::known;
 use super::model::{Acting, Model};
 use super::options::{LogOptions, Refused};
@@ -161,6 +162,14 @@ pub fn diagnosed_with(
         simple: simple.clone(),
         springs: Springs::of(&stock, &verdict),
     };
+    let asked = instrument::Asked {
+        case: &case,
+        simple: &simple,
+        terms: &model.terms,
+        links: &links,
+        sizes: &verdict.sizes,
+    };
+    let by_command = asked.numbers();
     let diagnosis = LogDiagnosis {
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
@@ -188,7 +197,7 @@ pub fn diagnosed_with(
         },
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
-        findings: told.findings(&left, &verdict, &after),
+        findings: told.findings(&left, &verdict, &after, by_command.as_deref()),
         cannot_see: hidden(
             &case,
             &simple,
@@ -362,11 +371,13 @@ impl Told<'_> {
         left: &[(Vec<(&'static str, Spot)>, f64)],
         verdict: &Verdict,
         unseen: &Unseen,
+        by_command: Option<&[f64]>,
     ) -> Vec<Finding> {
         let base = verdict.fit.columns.len()
             - verdict.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
         let mut widths = unseen.half_widths[base..].iter();
-        let tell = |judged: &Judged| {
+        let mut told_by_command = by_command.into_iter().flatten().copied();
+        let mut tell = |judged: &Judged| {
             let term = &judged.term;
             let name = (term.effect.identifier(), term.spot);
             // The first round that had it, and the one before.
@@ -381,6 +392,7 @@ impl Told<'_> {
                         value: *value,
                         unit: self.unit(unit, term.spot),
                         ci95: [value - width, value + width],
+                        by_command: told_by_command.next(),
                     })
                     .collect(),
                 held_out_before: left[with - 1].1,
@@ -390,7 +402,7 @@ impl Told<'_> {
                 to_separate: (!judged.rivals.is_empty()).then(|| term.effect.about().separated_by),
             }
         };
-        verdict.findings.iter().map(tell).collect()
+        verdict.findings.iter().map(&mut tell).collect()
     }
 }
 

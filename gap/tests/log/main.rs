@@ -2,10 +2,12 @@
 
 mod evidence;
 mod formats;
+mod instrument;
 mod own;
 mod plant;
 mod planted;
 mod position;
+mod rest;
 mod torque;
 mod written;
 

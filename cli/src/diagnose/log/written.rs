@@ -55,7 +55,7 @@ impl Written {
 
 fn told<'a>(finding: &'a Finding, entry: &'a str) -> impl Iterator<Item = String> + 'a {
     let entry = stands_in(finding.effect, entry);
-    finding.parameters.iter().map(move |Parameter { name, value, unit, ci95 }| {
+    finding.parameters.iter().map(move |Parameter { name, value, unit, ci95, .. }| {
         let [low, high] = ci95;
         format!(
             "  {} at {}: {name} {value:.6e} {unit} [{low:.3e} to {high:.3e}], in {entry}",

@@ -34,6 +34,11 @@ impl LogEffect for JointCoupling {
         &[("inertia", "kg·m²"), ("viscous", "N·m·s/rad"), ("coulomb", "N·m")]
     }
 
+    /// Gears and bearings of each joint that the other's motor does not turn.
+    fn along(&self) -> &'static [&'static str] {
+        &["coulomb_friction", "viscous_friction"]
+    }
+
     /// What the motor feels of its own joint stands in that joint's numbers; here is what it feels of
     /// the other one. Its sign is one for both.
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {

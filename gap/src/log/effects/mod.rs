@@ -82,6 +82,11 @@ impl Spot {
         rows.chain(pairs).chain([Spot::Base, Spot::Arm, Spot::Interface]).collect()
     }
 
+    /// The joints of a pair.
+    pub fn pair(self) -> Option<[usize; 2]> {
+        if let Spot::Pair(a, b, _) = self { Some([a, b]) } else { None }
+    }
+
     /// Whether both act on one joint.
     pub fn meets(self, other: Spot) -> bool {
         let joints = |spot| match spot {
@@ -168,6 +173,12 @@ pub trait LogEffect: Sync {
     /// The effect that must stand at the same place before: what this one adds to.
     fn beside(&self) -> Option<&'static str> {
         None
+    }
+
+    /// Effects that each of its joints has of its own on any such arm, large or small: they stand beside it even
+    /// where the log does not tell them from zero, and it does not take their part.
+    fn along(&self) -> &'static [&'static str] {
+        &[]
     }
 
     /// Whether the robot file has it at a spot, and it is in the torques: what adds to it may be there.

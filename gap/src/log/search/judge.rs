@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::along::is_along;
 use super::blocks::Blocks;
 use super::candidates::{Ground, without_each};
 use super::fit::{Fitted, Links, Term, weights};
@@ -88,12 +89,14 @@ pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> V
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
         let wrong = |j: &Judged| !j.term.effect.may_be(&j.term.values);
-        let worst = (0..all.len()).max_by(|a, b| {
+        let doubted =
+            |j: &Judged| wrong(j) || (j.chance > CHANCE && !is_along(&j.term, &fit.terms));
+        let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
             let doubt = |k: &usize| (wrong(&all[*k]), all[*k].chance);
             let (a, b) = (doubt(a), doubt(b));
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
-        match worst.filter(|k| wrong(&all[*k]) || all[*k].chance > CHANCE) {
+        match worst {
             None => return Verdict { findings: all, fit, sizes, correlation, blocks },
             Some(worst) => {
                 let mut terms = fit.terms.clone();

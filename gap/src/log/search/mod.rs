@@ -5,6 +5,7 @@
 //! among as many is to do as well. The best that chance does not explain is added. At the end every
 //! finding is asked again beside all others, and what else would do instead is told.
 
+mod along;
 pub mod blocks;
 pub mod candidates;
 pub mod case;
@@ -111,21 +112,24 @@ impl Round {
         };
         let (blocks, asked) = ask(&correlation, offers);
         let round = Round { fit: fit.clone(), sizes: sizes.clone(), correlation, blocks, asked };
-        if round.best().is_some() {
-            return round;
-        }
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
-        // candidate unrelated, what is left would be left with it too: so long are the blocks.
-        for most in round.asked.most() {
+        // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
+        // what takes less, and would be taken for it bit by bit.
+        let best = round.best().map_or(0.0, Candidate::takes);
+        let most = round.asked.most(best);
+        let looks = most.len() as f64;
+        for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
             let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
             let (blocks, mut asked) = ask(&correlation, offers);
             if blocks.all.len() <= round.blocks.all.len() {
                 continue;
             }
-            let others = asked.candidates.iter().map(|c| c.term.offer != most.term.offer);
-            let others = asked.chances.iter_mut().zip(others).filter(|(_, other)| *other);
-            others.for_each(|(chance, _)| *chance = 1.0);
+            for (chance, candidate) in asked.chances.iter_mut().zip(&asked.candidates) {
+                // Each look is another question that chance may answer (Bonferroni).
+                let is_it = candidate.term.offer == most.term.offer;
+                *chance = if is_it { (looks * *chance).min(1.0) } else { 1.0 };
+            }
             let (fit, sizes) = (fit.clone(), sizes.clone());
             let again = Round { correlation, blocks, asked, fit, sizes };
             if again.best().is_some() {
@@ -149,10 +153,13 @@ impl Round {
 }
 
 impl Asked {
-    /// The candidates that take most by each of their numbers, that which does first.
-    fn most(&self) -> Vec<&Candidate> {
-        let may = self.candidates.iter().filter(|c| c.term.effect.may_be(&c.term.values));
-        let mut most: Vec<&Candidate> = may.collect();
+    /// The candidates that chance may explain and that take most by each of their numbers, more than so much; that
+    /// which does first.
+    fn most(&self, least: f64) -> Vec<&Candidate> {
+        let open =
+            self.candidates.iter().zip(&self.chances).filter(|(_, chance)| **chance > CHANCE);
+        let may = open.map(|(c, _)| c).filter(|c| c.term.effect.may_be(&c.term.values));
+        let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
         most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
         most.truncate(AGAIN);
         most
@@ -212,6 +219,7 @@ pub fn search(
         let Some(best) = round.best().filter(|_| rounds < MOST) else { return round };
         rounds += 1;
         terms = exchange::added(stock, &round, &best.term, offers, seed);
+        terms = along::with_along(stock, terms, offers);
         sizes = round.sizes;
     }
 }

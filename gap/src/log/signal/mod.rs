@@ -189,6 +189,25 @@ impl Signals {
         self.ways = self.qd.iter().zip(still).map(of).collect();
     }
 
+    /// The motion that was commanded in place of the one that was measured; `None` where none was logged.
+    pub fn commanded(&self) -> Option<Signals> {
+        if self.command.iter().any(|joint| joint.len() != self.t.len()) {
+            return None;
+        }
+        let wide = LowPass::new(WIDER * self.band, self.period);
+        let smooth = |x: &[f64]| wide.map_or_else(|| x.to_vec(), |filter| filter.apply(x));
+        let by_span = |all: &Vec<f64>, of: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<f64> {
+            self.spans.iter().flat_map(|span| of(&all[span.fine.clone()])).collect()
+        };
+        let each = |all: &[Vec<f64>], of: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
+            all.iter().map(|joint| by_span(joint, of)).collect()
+        };
+        let q = each(&self.command, &smooth);
+        let qd = each(&q, &|x| rate(x, self.period));
+        let qdd = each(&qd, &|x| rate(x, self.period));
+        Some(Signals { q, qd, qdd, ..self.clone() })
+    }
+
     /// A part of a span by itself, with so much room at both its ends that no end is felt in its `rows`;
     /// and how many of its rows are that room, before them.
     pub fn stretch(&self, span: &Span, rows: &Range<usize>) -> (Signals, usize) {

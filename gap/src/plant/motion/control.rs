@@ -24,7 +24,7 @@ pub(super) struct Track {
     pub(super) step: f64,
     /// What the encoders stand at, before they are read.
     pub(super) q: Vec<Vec<f64>>,
-    /// What the motors gave, or where the joints were sent.
+    /// What the motors were asked for.
     pub(super) drive: Vec<Vec<f64>>,
     /// What the links asked.
     pub(super) links: Vec<Vec<f64>>,
@@ -43,6 +43,9 @@ impl Track {
     }
 }
 
+/// What drives give that are asked for torques; at which step.
+pub(super) type Gives<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
+
 /// Follows a course with the controller that knows `nominal`; encoders step by `encoder`.
 ///
 /// # Errors
@@ -53,6 +56,7 @@ pub(super) fn controlled(
     course: &dyn Course,
     encoder: f64,
     step: f64,
+    gives: &Gives<'_>,
 ) -> Result<Track, String> {
     let start = course.at(0.0);
     let n = start.q.len();
@@ -74,7 +78,7 @@ pub(super) fn controlled(
         let torques = asked(nominal, &wanted, &seen, &rates);
         let held = |j: usize| (wanted.q[j] - seen[j]).abs() < LOST;
         let lost = !(0..n).all(held);
-        let qdd = real.driven(&mut now, &torques).filter(|_| !lost);
+        let qdd = real.driven(&mut now, &gives(k, &torques)).filter(|_| !lost);
         let Some(qdd) = qdd else {
             return Err(format!(
                 "the controller loses the arm at {:.2} s: make the effects smaller, or move more slowly",

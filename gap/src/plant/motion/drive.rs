@@ -146,6 +146,13 @@ impl Drive {
     pub(super) fn told(&self, torque: f64) -> f64 {
         (1.0 + self.scale) * torque * (1.0 + self.saturation * torque.abs()) + self.offset
     }
+
+    /// The torque of which so much is told: what a drive gives that is asked for it.
+    pub(super) fn given(&self, told: f64) -> f64 {
+        let linear = (told - self.offset) / (1.0 + self.scale);
+        let root = (1.0 + 4.0 * self.saturation * linear.abs()).max(0.0).sqrt();
+        2.0 * linear / (1.0 + root)
+    }
 }
 
 impl Memory {

@@ -106,7 +106,8 @@ impl<'a> MovingPlant<'a> {
             let mut log = self.run(k, stage, &mut dice)?;
             log.run = k + 1;
             log.payload = stage.payload.as_ref().map(|(name, ..)| name.clone());
-            Ok(log)
+            let current = self.logged == Logged::Torque(Side::Current);
+            Ok(if current { log.in_amperes(seed) } else { log })
         };
         stages.iter().enumerate().map(run).collect()
     }
@@ -118,8 +119,26 @@ impl<'a> MovingPlant<'a> {
             let track = servo::served(&real, &self.truths, stage.course, step);
             return Ok(self.recording.joints(&track, dice));
         };
+        let noise = match side {
+            Side::Commanded => {
+                let exact = control::followed(&real, stage.course, step).drive;
+                self.recording.unruly(&exact, stage.course.duration(), dice)
+            }
+            _ => Vec::new(),
+        };
+        // What is measured is what was asked for; what is only asked for, each drive makes of it what it does.
+        let gives = |k: usize, asked: &[f64]| -> Vec<f64> {
+            if noise.is_empty() {
+                return asked.to_vec();
+            }
+            let at = (k as f64 * step * self.recording.rate) as usize;
+            let drives = asked.iter().zip(&real.drives).zip(&noise);
+            drives
+                .map(|((asked, drive), noise)| drive.given(*asked) + noise[at.min(noise.len() - 1)])
+                .collect()
+        };
         let encoder = self.recording.encoder;
-        let track = control::controlled(&real, &nominal, stage.course, encoder, step);
+        let track = control::controlled(&real, &nominal, stage.course, encoder, step, &gives);
         let track = track.map_err(|fault| self.error(fault))?;
         Ok(self.recording.torques(&track, &real.drives, side, real.delay, dice))
     }

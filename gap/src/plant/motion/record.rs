@@ -3,7 +3,10 @@
 
 use super::control::Track;
 use super::drive::Drive;
-use crate::dice::Dice;
+use crate::dice::{Dice, Stream};
+
+/// N·m (N) at the joint per ampere, from, to: a gear of 50 to 160 on a motor of 0.1 to 0.12 N·m/A.
+const PER_AMPERE: [f64; 2] = [5.0, 20.0];
 
 /// How well a log is recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +52,10 @@ pub enum Side {
     Motor,
     /// Behind the gear.
     Link,
+    /// The motors' currents; nobody says how many newton-metres an ampere is.
+    Current,
+    /// What the controller asked of the drives, which give it with an error of their own.
+    Commanded,
 }
 
 /// One run as it is logged; of each joint its samples.
@@ -64,8 +71,10 @@ pub struct Recorded {
     pub q: Vec<Vec<f64>>,
     /// Where they were to be.
     pub q_cmd: Vec<Vec<f64>>,
-    /// N·m or N; none of position logs.
+    /// N·m or N, or amperes; none of position logs.
     pub tau: Vec<Vec<f64>>,
+    /// Of a log of currents the N·m or N of an ampere, of each joint.
+    pub per_ampere: Vec<f64>,
 }
 
 impl Recording {
@@ -96,21 +105,32 @@ impl Recording {
         dice: &mut Dice,
     ) -> Recorded {
         let mut log = self.joints(track, dice);
-        let given = match side {
-            Side::Motor => &track.drive,
-            Side::Link => &track.links,
-        };
+        let given = if side == Side::Link { &track.links } else { &track.drive };
         for (drive, given) in drives.iter().zip(given) {
             let spread = spread(given);
             let largest = given.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             let noise = self.noise(&log.t, self.torque * spread, dice);
             let told = log.t.iter().zip(noise).map(|(t, noise)| {
-                let told = drive.told(between(given, (t - delay) / track.step)) + noise;
+                let then = between(given, (t - delay) / track.step);
+                // A controller knows what it asks; the noise is in what the drive makes of it.
+                let told = if side == Side::Commanded { then } else { drive.told(then) + noise };
                 quantised(told, self.torque_step * largest)
             });
             log.tau.push(told.collect());
         }
         log
+    }
+
+    /// What drives make of commands that are told: of each joint its noise, at the log's rate.
+    pub(super) fn unruly(
+        &self,
+        given: &[Vec<f64>],
+        duration: f64,
+        dice: &mut Dice,
+    ) -> Vec<Vec<f64>> {
+        let times: Vec<f64> =
+            (0..=(duration * self.rate) as usize).map(|k| k as f64 / self.rate).collect();
+        given.iter().map(|given| self.noise(&times, self.torque * spread(given), dice)).collect()
     }
 
     /// The log of a track without what drives it.
@@ -139,6 +159,19 @@ impl Recording {
             size * value
         };
         t.iter().map(next).collect()
+    }
+}
+
+impl Recorded {
+    /// The same in amperes: motors of chance, the same in every run of a seed.
+    pub(super) fn in_amperes(mut self, seed: u64) -> Recorded {
+        let mut dice = Dice::new(seed, Stream::Arm);
+        let [from, to] = PER_AMPERE;
+        self.per_ampere = self.tau.iter().map(|_| dice.between(from, to)).collect();
+        for (rows, per_ampere) in self.tau.iter_mut().zip(&self.per_ampere) {
+            rows.iter_mut().for_each(|torque| *torque /= per_ampere);
+        }
+        self
     }
 }
 

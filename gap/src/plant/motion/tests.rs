@@ -364,3 +364,55 @@ fn laws_are_called_as_in_the_catalogue() {
         assert!(found.contains(&law.numbers.to_vec()), "{}: {found:?}", law.name);
     }
 }
+
+/// The same motion, told by its motors' currents: in the newton-metres of an ampere the same torques.
+#[test]
+fn currents_are_the_motors_torques_in_amperes() {
+    let (arm, course) = (arm(), course());
+    let stages = [Stage { course: &course, payload: None }];
+    let recorded = |side| {
+        let plant = MovingPlant::new(&arm, &[], Logged::Torque(side), Recording::default());
+        plant.record(&stages, 4).unwrap().remove(0)
+    };
+    let (torques, currents) = (recorded(Side::Motor), recorded(Side::Current));
+    assert_eq!(torques.t, currents.t);
+    for (joint, per_ampere) in currents.per_ampere.iter().enumerate() {
+        for (torque, current) in torques.tau[joint].iter().zip(&currents.tau[joint]) {
+            assert!((torque - per_ampere * current).abs() < 1e-9 * torque.abs().max(1.0));
+        }
+    }
+    let text = csv(&arm, Logged::Torque(Side::Current), &[currents], &[]);
+    let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
+    let log = Log::from_bytes("log.csv", text.as_bytes(), &motions, &Names::default()).unwrap();
+    assert!(log.has(Signal::Current) && !log.has(Signal::Torque) && log.side.is_none());
+}
+
+/// What is asked of a drive that tells its torque too large, bent and shifted is what it gives, told so.
+#[test]
+fn a_command_is_what_its_drive_makes_of_it() {
+    let truths =
+        ["torque_scale@joint 2=0.1", "torque_offset@joint 2=2", "torque_saturation@joint 2=1e-3"]
+            .map(truth);
+    let mut drive = drive::Drive::default();
+    truths.iter().for_each(|truth| drive.put(truth));
+    for torque in [-80.0, -1.0, 0.0, 3.0, 60.0] {
+        assert!((drive.given(drive.told(torque)) - torque).abs() < 1e-12 * 80.0);
+    }
+    let (arm, course) = (arm(), course());
+    let stages = [Stage { course: &course, payload: None }];
+    let recorded = |side, truths: &[MotionTruth]| {
+        MovingPlant::new(&arm, truths, Logged::Torque(side), PERFECT)
+            .record(&stages, 4)
+            .unwrap()
+            .remove(0)
+    };
+    // Without an error of its own a drive gives what is asked for.
+    assert_eq!(recorded(Side::Commanded, &[]).tau, recorded(Side::Motor, &[]).tau);
+    // A controller that asks too much of a drive which gives less is where the drive's own sensor would be.
+    let (asked, measured) = (recorded(Side::Commanded, &truths), recorded(Side::Motor, &truths));
+    let size = record::spread(&asked.tau[1]);
+    let off: Vec<f64> = asked.tau[1].iter().zip(&measured.tau[1]).map(|(a, m)| a - m).collect();
+    assert!(record::spread(&off) < 0.02 * size, "{} of {size}", record::spread(&off));
+    let text = csv(&arm, Logged::Torque(Side::Commanded), &[asked], &[]);
+    assert!(text.starts_with("# torque_side = commanded\n"), "{}", &text[..60]);
+}

@@ -9,10 +9,14 @@ use super::{Logged, Recorded, Side};
 /// there where there are several, and where something is held.
 pub fn csv(arm: &Arm, logged: Logged, runs: &[Recorded], comments: &[String]) -> String {
     let mut text: String = comments.iter().map(|line| format!("# {}\n", line.trim_end())).collect();
-    if let Logged::Torque(side) = logged {
-        let side = if side == Side::Motor { "motor" } else { "link" };
-        text.push_str(&format!("# torque_side = {side}\n"));
-    }
+    let side = match logged {
+        Logged::Torque(Side::Motor) => Some("motor"),
+        Logged::Torque(Side::Link) => Some("link"),
+        Logged::Torque(Side::Commanded) => Some("commanded"),
+        // A column of currents says it itself.
+        Logged::Torque(Side::Current) | Logged::Position => None,
+    };
+    text.extend(side.map(|side| format!("# torque_side = {side}\n")));
     let (several, held) = (runs.len() > 1, runs.iter().any(|run| run.payload.is_some()));
     let mut heads = vec!["t[s]".to_owned()];
     heads.extend(several.then(|| "run".to_owned()));
@@ -25,6 +29,7 @@ pub fn csv(arm: &Arm, logged: Logged, runs: &[Recorded], comments: &[String]) ->
     };
     add("q", ["rad", "m"]);
     match logged {
+        Logged::Torque(Side::Current) => add("i", ["A"; 2]),
         Logged::Torque(_) => add("tau", ["N*m", "N"]),
         Logged::Position => add("q_cmd", ["rad", "m"]),
     }

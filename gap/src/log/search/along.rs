@@ -1,0 +1,37 @@
+//! What each joint of a pair has of its own.
+//!
+//! A motor that turns two joints is seen in what both share. What one of them has by itself may be too small to be
+//! told from zero, and its part is taken by the other then, with an interval that knows nothing of it: the
+//! friction of a wrist's motor comes out too large by half of what the last joint has.
+
+use super::fit::Term;
+use super::stock::Stock;
+use crate::log::effects::Spot;
+use crate::log::scene::Loads;
+
+use super::case::Simple;
+
+/// Whether a term stands beside another of these on any such arm.
+pub fn is_along(term: &Term, terms: &[Term]) -> bool {
+    let Spot::Joint(joint) = term.spot else { return false };
+    let has = |other: &Term| {
+        other.spot.pair().is_some_and(|pair| pair.contains(&joint))
+            && other.effect.along().contains(&term.effect.identifier())
+    };
+    terms.iter().any(has)
+}
+
+/// The terms, and what stands beside them; what the robot file has already is there.
+pub fn with_along(stock: &Stock<'_>, mut terms: Vec<Term>, offers: &[usize]) -> Vec<Term> {
+    let (loads, simple) = (Loads::default(), Simple::default());
+    let scene = stock.case.scene(&simple, stock.case.signals, &loads);
+    for offer in offers {
+        let term = stock.term(*offer, 0);
+        let stands =
+            terms.iter().any(|t| t.offer == *offer) || term.effect.in_file(&scene, term.spot);
+        if !stands && is_along(&term, &terms) {
+            terms.push(term);
+        }
+    }
+    terms
+}

@@ -1,0 +1,149 @@
+//! On what a rest may depend: rows sorted by a quantity into parts of equally many.
+
+use rayon::prelude::*;
+
+use super::super::fit::Fitted;
+use super::super::stock::{Mixed, Stock};
+use crate::log::scene::Domain;
+
+/// Parts into which a quantity is divided.
+pub(super) const PARTS: usize = 8;
+
+/// On what a rest may depend: of the joint itself, or of another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Of {
+    Angle(usize),
+    Speed(usize),
+    Acceleration(usize),
+    Load,
+    Time,
+    /// What brakes has the sign of the motion: a rest with that sign may depend on the speed's size, the load's, or
+    /// the time.
+    BrakingSpeed,
+    BrakingLoad,
+    BrakingTime,
+}
+
+impl Of {
+    /// Everything that the rest of a joint may depend on.
+    fn all(joints: usize) -> impl Iterator<Item = Of> {
+        let each = (0..joints).flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
+        let braking = [Of::BrakingSpeed, Of::BrakingLoad, Of::BrakingTime];
+        [Of::Load, Of::Time].into_iter().chain(braking).chain(each)
+    }
+
+    /// Of a joint.
+    pub(super) fn named(self, joint: usize) -> String {
+        let of = |name: &str, k: usize| match k == joint {
+            true => name.to_owned(),
+            false => format!("{name} of joint {}", k + 1),
+        };
+        match self {
+            Of::Angle(k) => of("angle", k),
+            Of::Speed(k) => of("speed", k),
+            Of::Acceleration(k) => of("acceleration", k),
+            Of::Load => "load".to_owned(),
+            Of::Time => "time".to_owned(),
+            Of::BrakingSpeed => "speed, against the motion".to_owned(),
+            Of::BrakingLoad => "load, against the motion".to_owned(),
+            Of::BrakingTime => "time, against the motion".to_owned(),
+        }
+    }
+}
+
+/// A joint's rows of the sample that count, sorted by what they are asked for.
+pub(super) struct Parts {
+    pub(super) joint: usize,
+    pub(super) of: Of,
+    /// Equally many rows each: their place in the sample, and the sign that what is left has there.
+    pub(super) rows: Vec<Vec<(usize, f64)>>,
+}
+
+/// The rows of the sample: what a rest may depend on.
+struct Rows {
+    q: Vec<Vec<f64>>,
+    qd: Vec<Vec<f64>>,
+    qdd: Vec<Vec<f64>>,
+    t: Vec<f64>,
+    /// What each joint carries.
+    loads: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    fn of(stock: &Stock<'_>, fit: &Fitted) -> Rows {
+        let signals = stock.case.signals;
+        let at = |fine: &Vec<f64>| -> Vec<f64> {
+            let kept = signals.kept(fine);
+            stock.rows.iter().map(|row| kept[*row]).collect()
+        };
+        let joints = |of: &[Vec<f64>]| -> Vec<Vec<f64>> { of.iter().map(at).collect() };
+        let q = joints(&signals.q);
+        let loads = match stock.case.kind.0 {
+            Domain::Torque => asked(stock, fit),
+            Domain::Position => weights(stock, &q),
+        };
+        Rows { q, qd: joints(&signals.qd), qdd: joints(&signals.qdd), t: at(&signals.t), loads }
+    }
+
+    fn sign(&self, joint: usize, of: Of, k: usize) -> f64 {
+        match of {
+            Of::BrakingSpeed | Of::BrakingLoad | Of::BrakingTime => self.qd[joint][k].signum(),
+            _ => 1.0,
+        }
+    }
+
+    fn value(&self, joint: usize, of: Of, k: usize) -> f64 {
+        match of {
+            Of::Angle(of) => self.q[of][k],
+            Of::Speed(of) => self.qd[of][k],
+            Of::Acceleration(of) => self.qdd[of][k],
+            Of::Load => self.loads[joint][k],
+            Of::Time | Of::BrakingTime => self.t[k],
+            Of::BrakingSpeed => self.qd[joint][k].abs(),
+            Of::BrakingLoad => self.loads[joint][k].abs(),
+        }
+    }
+}
+
+/// What a fit asks of each joint.
+fn asked(stock: &Stock<'_>, fit: &Fitted) -> Vec<Vec<f64>> {
+    let (mut columns, mut values) = fit.bordered();
+    // The target less what is left of it.
+    columns.push(Mixed::one(stock.target));
+    values.push(1.0);
+    let asked = stock.sampled(&columns, &values).into_iter();
+    asked.map(|rows| rows.into_iter().map(Option::unwrap_or_default).collect()).collect()
+}
+
+/// What the weights of the robot file do to each joint: a servo holds them by its error.
+fn weights(stock: &Stock<'_>, q: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut weights = vec![Vec::with_capacity(stock.rows.len()); q.len()];
+    for k in 0..stock.rows.len() {
+        let posture: Vec<f64> = q.iter().map(|q| q[k]).collect();
+        let torques = stock.case.arm.weight_torque(&posture);
+        weights.iter_mut().zip(torques.iter()).for_each(|(of, x)| of.push(*x));
+    }
+    weights
+}
+
+/// Of each joint all quantities that change over its rows; `left` has holes where a row does not count.
+pub(super) fn all(stock: &Stock<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]) -> Vec<Parts> {
+    let rows = Rows::of(stock, fit);
+    let sorted = |(joint, of): (usize, Of)| {
+        let counts = (0..left[joint].len()).filter(|k| left[joint][*k].is_some());
+        let mut sorted: Vec<(f64, usize)> = counts.map(|k| (rows.value(joint, of, k), k)).collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (first, last) = (sorted.first()?.0, sorted.last()?.0);
+        // What is the same everywhere would be sorted by its place in the log.
+        if sorted.len() < PARTS || first == last {
+            return None;
+        }
+        let edge = |part: usize| sorted.len() * part / PARTS;
+        let row = |(_, k): &(f64, usize)| (*k, rows.sign(joint, of, *k));
+        let part = |part| sorted[edge(part)..edge(part + 1)].iter().map(row).collect();
+        Some(Parts { joint, of, rows: (0..PARTS).map(part).collect() })
+    };
+    let joints = left.len();
+    let asked = (0..joints).flat_map(|joint| Of::all(joints).map(move |of| (joint, of)));
+    asked.collect::<Vec<_>>().into_par_iter().filter_map(sorted).collect()
+}
