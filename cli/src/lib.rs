@@ -42,6 +42,7 @@ use terminal::output;
 pub use diagnose::{Campaign, Format, Found, Motion, Together};
 pub use input::source::{RobotArgs, Source};
 use inside::{Ended, Host};
+pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
 
