@@ -43,6 +43,7 @@ pub use diagnose::{
 };
 pub use input::source::{RobotArgs, Source};
 use inside::{Ended, Host};
+pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
 

@@ -1,5 +1,6 @@
 //! `stiffarm map`: a quantity over two joints, as a picture or as numbers.
 
+mod axes;
 mod learnt;
 mod picture;
 mod quantity_of;
@@ -19,6 +20,7 @@ use crate::terminal::note::note;
 use crate::terminal::output::{Target, print};
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{bold, dim, short};
+pub use axes::Axes;
 use learnt::{Learnt, LearntArgs};
 use quantity_of::{NoValue, Of, Quantity};
 use sweep::Sweep;

@@ -5,8 +5,8 @@ use std::hash::{Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use stiffarm_cli::RobotArgs;
 use stiffarm_cli::inside::Host;
+use stiffarm_cli::{Axes, Failure, RobotArgs, Source};
 
 use crate::arm::Arm;
 use crate::sentence::sentence;
@@ -79,17 +79,27 @@ impl Arms {
         read.insert(name.to_owned(), Arc::clone(&arm));
         Ok(arm)
     }
+
+    /// The joints of `over` over their limits, and where the robot's others stand, as `stiffarm map` has them.
+    ///
+    /// # Errors
+    /// A sentence: the robot, or its joints.
+    pub fn axes(&self, name: &str, over: &str, at: &str, steps: usize) -> Result<Axes, String> {
+        with(&self.named(name)?, |source| Axes::new(source, &source.arm()?, over, at, steps))
+    }
 }
 
 fn load(named: Named) -> Result<Arm, String> {
+    let (robot, table) = with(&named, |source| Ok((source.for_kernels()?, source.arm()?)))?;
+    Ok(Arm::new(robot, table, named))
+}
+
+/// What is made of a robot as the command line reads it.
+fn with<T>(named: &Named, make: impl FnOnce(&Source) -> Result<T, Failure>) -> Result<T, String> {
     let host = Host::new(Vec::new(), named.files());
-    let loaded = host.run(|| {
-        let source = RobotArgs::named(&named.given).load(true)?;
-        Ok((source.for_kernels()?, source.arm()?))
-    });
-    match loaded {
-        Ok(Ok((robot, table))) => Ok(Arm::new(robot, table, named)),
-        Ok(Err(failure)) => Err(sentence(&failure)),
+    let made = host.run(|| make(&RobotArgs::named(&named.given).load(true)?));
+    match made {
+        Ok(made) => made.map_err(|failure| sentence(&failure)),
         Err(_) => Err(format!("reading the robot {} was left", named.given)),
     }
 }

@@ -6,6 +6,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use ballista_core::RuntimeProducer;
 use ballista_core::error::Result;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_core::utils::{default_config_producer, default_session_builder};
@@ -13,10 +14,13 @@ use ballista_executor::executor_process::{ExecutorProcessConfig, start_executor_
 use ballista_scheduler::cluster::BallistaCluster;
 use ballista_scheduler::config::SchedulerConfig;
 use ballista_scheduler::scheduler_process::start_server;
+use datafusion::execution::SessionStateBuilder;
 use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::arms::Arms;
+use crate::codec::{Logical, Physical};
 use crate::session::register;
+use crate::stores::environment;
 
 /// Seconds between an executor's signs of life, and those after which it counts as dead.
 const SIGN_OF_LIFE: u64 = 2;
@@ -47,10 +51,17 @@ pub async fn scheduler(address: SocketAddr, arms: Arc<Arms>) -> Result<()> {
         ..SchedulerConfig::default()
     };
     let config = config.with_override_session_builder(Arc::new(move |config: SessionConfig| {
-        let session = SessionContext::new_with_state(default_session_builder(config)?);
+        let state = SessionStateBuilder::new_from_existing(default_session_builder(config)?);
+        let state = state.with_runtime_env(environment(None)?).build();
+        let session = SessionContext::new_with_state(state);
         register(&session, &arms);
         Ok(session.state())
     }));
+    let config = SchedulerConfig {
+        override_logical_codec: Some(Arc::new(Logical::default())),
+        override_physical_codec: Some(Arc::new(Physical::default())),
+        ..config
+    };
     let cluster = BallistaCluster::new_from_config(&config).await?;
     start_server(cluster, address, Arc::new(config)).await
 }
@@ -80,6 +91,8 @@ impl Executor {
             SessionContext::new_with_state(default_session_builder(default_config_producer())?);
         register(&session, &arms);
         let functions = BallistaFunctionRegistry::from(&session.state());
+        let parts = self.work.clone();
+        let runtime: RuntimeProducer = Arc::new(move |_| environment(parts.as_deref()));
         let (scheduler_host, scheduler_port) = self.scheduler;
         let bind_host = self.address.ip().to_string();
         let config = ExecutorProcessConfig {
@@ -94,6 +107,9 @@ impl Executor {
             work_dir: self.work.map(|work| work.display().to_string()),
             executor_heartbeat_interval_seconds: SIGN_OF_LIFE,
             override_function_registry: Some(Arc::new(functions)),
+            override_runtime_producer: Some(runtime),
+            override_logical_codec: Some(Arc::new(Logical::default())),
+            override_physical_codec: Some(Arc::new(Physical::default())),
             ..ExecutorProcessConfig::default()
         };
         start_executor_process(Arc::new(config)).await

@@ -1,47 +1,23 @@
 //! The columns of a folder of CSV files: types wide enough for all of them, which the engine, file by file, would not
 //! find.
 
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::io::Cursor;
 
 use arrow::csv::reader::Format;
 use arrow::datatypes::{DataType, Schema};
+use object_store::{GetResultPayload, ObjectMeta, ObjectStore, ObjectStoreExt};
 
-/// Every file below a folder, by name; the folder itself if it is one.
-///
-/// # Errors
-/// A folder that cannot be read.
-pub fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    if folder.is_file() {
-        return Ok(vec![folder.to_owned()]);
-    }
-    let entries = std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut entries = entries.collect::<std::io::Result<Vec<_>>>()?;
-    entries.sort();
-    let mut found = Vec::new();
-    for entry in entries {
-        if entry.is_dir() { found.extend(files(&entry)?) } else { found.push(entry) }
-    }
-    Ok(found)
-}
+use crate::files::Files;
 
-/// The columns as a table's definition has them: `("x[m]" DOUBLE, arm VARCHAR) … PARTITIONED BY (arm)` without what is
-/// between.
+/// The columns as a table's definition has them: `("x[m]" DOUBLE, arm VARCHAR)` and `PARTITIONED BY (arm)`.
 ///
 /// # Errors
 /// A sentence: a file that cannot be read, or has other columns than the first.
-pub fn columns(folder: &Path) -> Result<[String; 2], String> {
-    let all =
-        files(folder).map_err(|error| format!("cannot read {}: {error}", folder.display()))?;
-    let is_csv = |path: &&PathBuf| path.extension().is_some_and(|end| end == "csv");
+pub async fn columns(files: &Files) -> Result<[String; 2], String> {
     let mut whole: Option<Schema> = None;
-    let mut parts: Vec<String> = Vec::new();
-    for path in all.iter().filter(is_csv) {
-        let wrong = |error: String| format!("{}: {error}", path.display());
-        let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
-        let format = Format::default().with_header(true).with_comment(b'#');
-        let (own, _) = format.infer_schema(file, None).map_err(|error| wrong(error.to_string()))?;
-        parts = partitions(folder, path);
+    for file in &files.all {
+        let wrong = |error: String| format!("{}: {error}", file.location);
+        let own = schema(files.store.as_ref(), file).await.map_err(wrong)?;
         whole = Some(match whole {
             None => own,
             Some(whole) => joined(&whole, &own).map_err(wrong)?,
@@ -58,6 +34,7 @@ pub fn columns(folder: &Path) -> Result<[String; 2], String> {
         };
         format!("{} {kind}", quoted(field.name()))
     });
+    let parts = files.partitions();
     let of_folders = parts.iter().map(|name| format!("{} VARCHAR", quoted(name)));
     let columns = fields.chain(of_folders).collect::<Vec<_>>().join(", ");
     // There a name stands as it is, without quotation marks.
@@ -68,11 +45,17 @@ pub fn columns(folder: &Path) -> Result<[String; 2], String> {
     Ok([format!("({columns})"), by])
 }
 
-/// The names of the folders `name=value` on the way to a file.
-fn partitions(folder: &Path, file: &Path) -> Vec<String> {
-    let way = file.strip_prefix(folder).ok().and_then(Path::parent);
-    let steps = way.into_iter().flat_map(Path::iter).filter_map(|step| step.to_str());
-    steps.filter_map(|step| step.split_once('=')).map(|(name, _)| name.to_owned()).collect()
+async fn schema(store: &dyn ObjectStore, file: &ObjectMeta) -> Result<Schema, String> {
+    let format = Format::default().with_header(true).with_comment(b'#');
+    let got = store.get(&file.location).await.map_err(|error| error.to_string())?;
+    let found = match got.payload {
+        GetResultPayload::File(file, _) => format.infer_schema(file, None),
+        GetResultPayload::Stream(_) => {
+            let text = got.bytes().await.map_err(|error| error.to_string())?;
+            format.infer_schema(Cursor::new(text), None)
+        }
+    };
+    found.map(|(schema, _)| schema).map_err(|error| error.to_string())
 }
 
 /// The same columns, each of a type that holds both.

@@ -7,6 +7,7 @@ use arrow::array::{Array, ArrayRef, AsArray, StructArray};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, FieldRef, Float64Type, Int64Type};
 use datafusion::common::{Result, exec_err};
+use stiffarm_gap::plant::{number, quoted};
 
 /// The column that says where a row stands in its file, and is no part of it.
 pub const ORDER: &str = "row";
@@ -99,32 +100,15 @@ fn cells(column: &Column) -> Result<Vec<String>> {
     if kind.is_string() || *kind == DataType::Null {
         let array = cast(array, &DataType::Utf8)?;
         let texts = array.as_string::<i32>();
-        return Ok(texts.iter().map(|text| quoted(text.unwrap_or_default())).collect());
+        return Ok(texts.iter().map(quoted).collect());
     }
     exec_err!("column {}: found {kind}, expected numbers or text", column.name)
-}
-
-/// The shortest text that reads as the same number, as the command line writes it in measurement files; −0 is 0.
-fn number(value: f64) -> String {
-    let value = value + 0.0;
-    match value == 0.0 || (1e-4..1e9).contains(&value.abs()) {
-        true => value.to_string(),
-        false => format!("{value:e}"),
-    }
-}
-
-/// Text as a cell.
-fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r', '#']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
 }
 
 /// The measurement file of these rows.
 pub fn file(header: &[String], mut rows: Vec<Row>) -> String {
     rows.sort_by(|a, b| a.order.total_cmp(&b.order).then_with(|| a.line.cmp(&b.line)));
-    let head = header.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(",");
+    let head = header.iter().map(|name| quoted(Some(name))).collect::<Vec<_>>().join(",");
     let lines = std::iter::once(head).chain(rows.into_iter().map(|row| row.line));
     lines.map(|line| line + "\n").collect()
 }

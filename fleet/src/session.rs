@@ -1,18 +1,22 @@
 //! A session of the engine that knows the functions: in this process, or on a cluster.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use ballista::prelude::SessionContextExt;
 use ballista_core::extension::SessionConfigExt;
-use datafusion::common::{Result, exec_datafusion_err, plan_datafusion_err, plan_err};
+use datafusion::common::{Result, exec_datafusion_err, plan_datafusion_err};
 use datafusion::execution::SessionStateBuilder;
 use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::aggregates::aggregates;
 use crate::arms::Arms;
+use crate::codec::Logical;
 use crate::csv;
+use crate::files::{Files, Format};
 use crate::functions::functions;
+use crate::grid::GridFunction;
+use crate::sentence::of_engine;
+use crate::stores::environment;
 
 /// A table by its name and the folder or address in which its files are.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +54,7 @@ impl Engine {
 pub fn register(session: &SessionContext, arms: &Arc<Arms>) {
     functions(arms).into_iter().for_each(|function| session.register_udf(function));
     aggregates(arms).into_iter().for_each(|aggregate| session.register_udaf(aggregate));
+    session.register_udtf("grid", Arc::new(GridFunction { arms: Arc::clone(arms) }));
 }
 
 impl Engine {
@@ -59,17 +64,20 @@ impl Engine {
     /// The cluster is not there, or a table cannot be read.
     pub async fn session(&self, arms: &Arc<Arms>, tables: &[Table]) -> Result<SessionContext> {
         let mut config = match &self.cluster {
-            Some(_) => SessionConfig::new_with_ballista(),
+            Some(_) => SessionConfig::new_with_ballista()
+                .with_ballista_logical_extension_codec(Arc::new(Logical::default())),
             None => SessionConfig::new(),
         };
+        // A table's files are those of all its folders.
+        config.options_mut().execution.listing_table_ignore_subdirectory = false;
         if let Some(partitions) = self.partitions {
             config = config.with_target_partitions(partitions);
         }
         let session = match &self.cluster {
-            None => SessionContext::new_with_config(config),
+            None => SessionContext::new_with_config_rt(config, environment(None)?),
             Some(address) => {
                 let state = SessionStateBuilder::new().with_default_features();
-                let state = state.with_config(config).build();
+                let state = state.with_config(config).with_runtime_env(environment(None)?).build();
                 SessionContext::remote_with_state(address, state).await?
             }
         };
@@ -95,69 +103,29 @@ impl Table {
         }
     }
 
-    async fn register(&self, session: &SessionContext) -> Result<()> {
-        let format = self.format()?;
-        let name = self.name.replace('"', "\"\"");
-        let location = self.location.replace('\'', "''");
-        let (kind, columns, by, options) = match format {
-            Format::Parquet => ("PARQUET", String::new(), String::new(), ""),
+    /// Makes it known to a session.
+    ///
+    /// # Errors
+    /// A sentence: it cannot be read, or is nothing that can be a table.
+    pub async fn register(&self, session: &SessionContext) -> Result<()> {
+        let wrong = |said: String| plan_datafusion_err!("table {}: {said}", self.name);
+        let files = Files::at(session, &self.location).await;
+        let files = files.map_err(|error| wrong(of_engine(&error)))?;
+        let (kind, [columns, by], options) = match files.format {
+            Format::Parquet => ("PARQUET", Default::default(), ""),
             Format::Csv => {
                 let options = " OPTIONS ('format.has_header' 'true', 'format.comment' '#')";
-                let [columns, by] = match self.location.contains("://") {
-                    true => Default::default(),
-                    false => csv::columns(Path::new(&self.location))
-                        .map_err(|said| plan_datafusion_err!("table {}: {said}", self.name))?,
-                };
-                ("CSV", columns, by, options)
+                ("CSV", csv::columns(&files).await.map_err(wrong)?, options)
             }
         };
+        let name = self.name.replace('"', "\"\"");
+        let location = files.place.as_str().replace('\'', "''");
         let sql = format!(
             "CREATE EXTERNAL TABLE \"{name}\" {columns} STORED AS {kind} {by} LOCATION '{location}'{options}"
         );
         let made = session.sql(&sql).await;
         made.map(|_| ()).map_err(|error| {
-            let said = crate::sentence::of_engine(&error);
-            exec_datafusion_err!("table {}, {}: {said}", self.name, self.location)
+            exec_datafusion_err!("table {}, {}: {}", self.name, self.location, of_engine(&error))
         })
-    }
-
-    /// What its files are: by the ending of an address, else of the first file in the folder.
-    fn format(&self) -> Result<Format> {
-        if let Some(format) = Format::of(Path::new(&self.location)) {
-            return Ok(format);
-        }
-        let wanted = "expected .parquet or .csv";
-        if self.location.contains("://") {
-            return plan_err!("table {}: found {}, {wanted} at its end", self.name, self.location);
-        }
-        let all = csv::files(Path::new(&self.location)).map_err(|error| {
-            plan_datafusion_err!("table {}: cannot read {}: {error}", self.name, self.location)
-        })?;
-        let found = all.first().ok_or_else(|| {
-            plan_datafusion_err!(
-                "table {}: found no file in {}, {wanted}",
-                self.name,
-                self.location
-            )
-        })?;
-        Format::of(found).ok_or_else(|| {
-            plan_datafusion_err!("table {}: found {}, {wanted}", self.name, found.display())
-        })
-    }
-}
-
-#[derive(Clone, Copy)]
-enum Format {
-    Parquet,
-    Csv,
-}
-
-impl Format {
-    fn of(path: &Path) -> Option<Format> {
-        match path.extension()?.to_str()? {
-            "parquet" => Some(Format::Parquet),
-            "csv" => Some(Format::Csv),
-            _ => None,
-        }
     }
 }

@@ -166,7 +166,7 @@ fn maps_that_cannot_be_made_are_refused() {
         refused(&["--over", joints, "--of", "condition", "--csv", "-"], expected);
     };
     over("q2", "expected two joints");
-    over("q2,q2", "expected two joints");
+    over("q2,q2", "found q2 twice in `q2,q2`, expected each joint once");
     over("q2,q7", "found `q7`, expected a joint");
     let loaded = ["--over", "q2,q3", "--of", "stiffness", "--csv", "-"];
     refused(&loaded, "--wrench is missing");

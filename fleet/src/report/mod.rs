@@ -10,3 +10,4 @@ mod time;
 pub use campaigns::{Campaign, Columns, campaigns};
 pub use facts::Fleet;
 pub use page::html;
+pub use time::{Change, Kind};

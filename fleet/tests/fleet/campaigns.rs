@@ -22,32 +22,22 @@ pub fn campaigns(robots: &[&'static str], arms: usize, poses: usize) -> Vec<Camp
     let each = robots.iter().flat_map(|robot| (0..arms).map(move |arm| (*robot, arm)));
     let campaign = |(robot, arm): (&'static str, usize)| {
         let effect = format!("joint_compliance@joint 2={}e-6", 2.0 + 0.2 * arm as f64);
-        let (poses, seed) = (poses.to_string(), arm.to_string());
-        let words = [
-            "simulate",
-            robot,
-            "--effect",
-            &effect,
-            "--poses",
-            &poses,
-            "--payload",
-            "10kg",
-            "--noise-position",
-            "30um",
-            "--seed",
-            &seed,
-            "--withhold",
-            "--csv",
-            "-",
-        ];
         Campaign {
             arm: format!("{robot}_{arm:03}"),
             name: "2026-Q1".to_owned(),
             robot,
-            text: without_comments(&run(&words, &[])),
+            text: simulated(robot, &effect, poses, "30um", arm),
         }
     };
     each.map(campaign).collect()
+}
+
+/// The measurement file of an arm with one effect.
+pub fn simulated(robot: &str, effect: &str, poses: usize, noise: &str, seed: usize) -> String {
+    let (poses, seed) = (poses.to_string(), seed.to_string());
+    let words = ["simulate", robot, "--effect", effect, "--payload", "10kg", "--withhold"];
+    let sizes = ["--poses", &poses, "--noise-position", noise, "--seed", &seed, "--csv", "-"];
+    without_comments(&run(&[&words[..], &sizes].concat(), &[]))
 }
 
 /// What a command prints.

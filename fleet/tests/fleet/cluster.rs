@@ -12,6 +12,7 @@ use stiffarm_fleet::session::Engine;
 use crate::campaigns::{Campaign, campaigns, write};
 use crate::diagnoses::{answers, query, same, table};
 use crate::failures::{fleet, refused};
+use crate::grids::{DEFLECTION, numbers};
 
 /// Ends its processes with itself.
 struct Cluster {
@@ -43,24 +44,7 @@ impl Cluster {
         let port = ports();
         let mut cluster = Cluster { port, parts: vec![start_scheduler(port)] };
         for (work, robots) in work.iter().zip(robots) {
-            fs::create_dir_all(work).unwrap();
-            let (scheduler, own) = (format!("127.0.0.1:{port}"), ports().to_string());
-            let work = work.to_str().unwrap();
-            let mut words = vec![
-                "executor",
-                "--scheduler",
-                &scheduler,
-                "--port",
-                &own,
-                "--cores",
-                "1",
-                "--work-dir",
-                work,
-            ];
-            if let Some(robots) = robots {
-                words.extend(["--robots", robots.to_str().unwrap()]);
-            }
-            cluster.parts.push(start(&words));
+            cluster.parts.push(start_executor(port, work, *robots));
         }
         cluster
     }
@@ -74,6 +58,18 @@ impl Cluster {
         self.parts[part].kill().unwrap();
         self.parts[part].wait().unwrap();
     }
+}
+
+fn start_executor(scheduler: u16, work: &Path, robots: Option<&Path>) -> Child {
+    fs::create_dir_all(work).unwrap();
+    let (scheduler, own) = (format!("127.0.0.1:{scheduler}"), ports().to_string());
+    let work = work.to_str().unwrap();
+    let mut words = vec!["executor", "--scheduler", &scheduler, "--port", &own, "--cores", "1"];
+    words.extend(["--work-dir", work]);
+    if let Some(robots) = robots {
+        words.extend(["--robots", robots.to_str().unwrap()]);
+    }
+    start(&words)
 }
 
 fn start_scheduler(port: u16) -> Child {
@@ -134,30 +130,95 @@ fn jobs(work: &Path) -> usize {
     fs::read_dir(work).unwrap().count()
 }
 
-/// The robot's file is in the folder of one executor alone: where it is not, a row says so.
+/// The robot's file is in the folder of one executor alone: the groups of the other have rows that say so, and no
+/// group is lost or answered twice. With the file there are answers, without a start of anything anew.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_file_that_an_executor_lacks_is_said_in_its_rows() {
     let folder = tempfile::tempdir().unwrap();
     let mut all = data(folder.path());
-    let robots = folder.path().join("robots");
-    fs::create_dir(&robots).unwrap();
+    let [has, lacks] = ["has", "lacks"].map(|name| folder.path().join(name));
+    [&has, &lacks].iter().for_each(|robots| fs::create_dir(robots).unwrap());
+    let text = stiffarm_robots::toml("kuka_kr240").unwrap();
+    fs::write(has.join("welder.toml"), text).unwrap();
     all.iter_mut().for_each(|campaign| campaign.robot = "welder");
     write(&folder.path().join("runs"), &all);
-    let cluster = Cluster::new(&[&folder.path().join("work")], &[Some(&robots)]);
+    let [first, second] = ["first", "second"].map(|name| folder.path().join(name));
+    let cluster = Cluster::new(&[&first, &second], &[Some(&has), Some(&lacks)]);
     let tables = [table(&folder.path().join("runs"))];
     let sql = query(&all[0].columns());
-    let got = answers(&cluster.engine(), &tables, &sql).await;
-    for [json, said] in got.values() {
-        let said = said.as_deref().unwrap();
-        assert!(json.is_none() && said.contains("welder.toml: No such file"), "{said}");
-        assert!(said.contains("every executor needs the file in its --robots folder"), "{said}");
+    let (began, mut seen) = (Instant::now(), [false; 2]);
+    // Which executor takes which group is the scheduler's choice.
+    while seen != [true; 2] {
+        assert!(began.elapsed() < Duration::from_secs(120), "one executor answers all: {seen:?}");
+        let got = answers(&cluster.engine(), &tables, &sql).await;
+        assert_eq!(got.len(), all.len());
+        for [json, said] in got.values() {
+            seen[usize::from(said.is_some())] = true;
+            match said {
+                None => assert!(json.as_ref().unwrap().contains("from welder.toml")),
+                Some(said) => {
+                    assert!(json.is_none() && said.contains("welder.toml: No such file"), "{said}");
+                    assert!(said.contains("every executor needs the file"), "{said}");
+                }
+            }
+        }
     }
-    // With the file there is an answer, without a start of anything anew.
-    fs::write(robots.join("welder.toml"), stiffarm_robots::toml("kuka_kr240").unwrap()).unwrap();
+    fs::write(lacks.join("welder.toml"), text).unwrap();
     let got = answers(&cluster.engine(), &tables, &sql).await;
-    let [json, said] = &got[&all[0].arm];
-    assert_eq!(*said, None);
-    assert!(json.as_ref().unwrap().contains("from welder.toml"));
+    assert!(got.values().all(|[_, said]| said.is_none()), "{got:?}");
+}
+
+/// A grid goes to a cluster as what makes it, and has the numbers that it has here.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_grid_is_made_where_it_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let cluster = Cluster::new(&[&folder.path().join("work")], &[None]);
+    let sql = format!("SELECT count(*), max(mm), min(mm), sum(q2) FROM ({DEFLECTION})");
+    let want = numbers(&Engine { cluster: None, partitions: Some(1) }, &sql).await.unwrap();
+    assert_eq!(want[0][0], Some(81.0));
+    let got = numbers(&cluster.engine(), &sql).await.unwrap();
+    assert_eq!(got[0][..3], want[0][..3]);
+    // The same terms, in another order; the joint goes up to 146°, 2.55 rad.
+    assert!((got[0][3].unwrap() - want[0][3].unwrap()).abs() < 81.0 * 81.0 * 2.55 * f64::EPSILON);
+}
+
+/// An executor whose disk is full says so, in one sentence; nothing is written. With room there is an answer.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs unshare: a disk of 64 KiB is mounted for the executor alone"]
+async fn needs_unshare_a_full_disk_ends_the_query() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = data(folder.path());
+    let work = folder.path().join("work");
+    let mut cluster = Cluster::new(&[], &[]);
+    fs::create_dir(&work).unwrap();
+    let (own, scheduler) = (ports().to_string(), format!("127.0.0.1:{}", cluster.port));
+    let mount = "mount -t tmpfs -o size=64k tmpfs \"$0\" && exec \"$@\"";
+    let small = Command::new("unshare")
+        .args([
+            "-Urm",
+            "sh",
+            "-c",
+            mount,
+            work.to_str().unwrap(),
+            env!("CARGO_BIN_EXE_stiffarm-fleet"),
+        ])
+        .args(["executor", "--scheduler", &scheduler, "--port", &own, "--cores", "1", "--work-dir"])
+        .arg(&work)
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    cluster.parts.push(small.unwrap());
+    let runs = format!("runs={}", folder.path().join("runs").display());
+    let url = format!("df://127.0.0.1:{}", cluster.port);
+    let sql = query(&all[0].columns());
+    let out = folder.path().join("out.json");
+    let words = ["sql", &sql, "--table", &runs, "--cluster", &url, "--format", "json", "--out"];
+    let said = refused(&fleet(&[&words[..], &[out.to_str().unwrap()]].concat()));
+    assert!(said.contains("No space left on device"), "{said}");
+    assert!(!out.exists());
+    cluster.end(1);
+    cluster.parts[1] = start_executor(cluster.port, &folder.path().join("more"), None);
+    same(&all, &answers(&cluster.engine(), &[table(&folder.path().join("runs"))], &sql).await);
 }
 
 /// A scheduler that ends takes its jobs with it, and says so; one at its place finds the executors again.

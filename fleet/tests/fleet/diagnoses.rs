@@ -7,6 +7,7 @@ use std::sync::Arc;
 use arrow::array::{Array, AsArray};
 use arrow::compute::cast;
 use arrow::datatypes::DataType;
+use datafusion::prelude::SessionContext;
 use stiffarm_fleet::arms::Arms;
 use stiffarm_fleet::session::{Engine, Table};
 
@@ -31,7 +32,11 @@ pub async fn answers(
     tables: &[Table],
     sql: &str,
 ) -> BTreeMap<String, [Option<String>; 2]> {
-    let session = engine.session(&Arc::new(Arms::default()), tables).await.unwrap();
+    asked(&engine.session(&Arc::new(Arms::default()), tables).await.unwrap(), sql).await
+}
+
+/// The same of a session that is there.
+pub async fn asked(session: &SessionContext, sql: &str) -> BTreeMap<String, [Option<String>; 2]> {
     let mut answers = BTreeMap::new();
     for batch in session.sql(sql).await.unwrap().collect().await.unwrap() {
         let columns: Vec<_> =
@@ -79,6 +84,25 @@ async fn a_group_is_its_file() {
     );
     session.sql(&copy).await.unwrap().collect().await.unwrap();
     same(&campaigns, &answers(&here(3), &[table(&parquet)], &sql).await);
+}
+
+/// A table's files are those of all its folders.
+#[tokio::test]
+async fn folders_within_folders_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    for (within, rows) in [("a/b", "1\n2\n"), ("a", "3\n"), ("c", "4.5\n5\n6\n")] {
+        let within = folder.path().join(within);
+        std::fs::create_dir_all(&within).unwrap();
+        std::fs::write(within.join("x.csv"), format!("x\n{rows}")).unwrap();
+    }
+    std::fs::write(folder.path().join("_SUCCESS"), "").unwrap();
+    let sql = "SELECT CAST(sum(x) AS VARCHAR), CAST(count(*) AS VARCHAR), '' FROM runs";
+    let got = answers(&here(2), &[table(folder.path())], sql).await;
+    assert_eq!(got["21.5"][0].as_deref(), Some("6"));
+    std::fs::write(folder.path().join("notes.txt"), "x\n7\n").unwrap();
+    let session = here(1).session(&Arc::new(Arms::default()), &[table(folder.path())]).await;
+    let said = stiffarm_fleet::sentence::of_engine(&session.err().unwrap());
+    assert!(said.contains("notes.txt beside"), "{said}");
 }
 
 /// `measurements` is the file itself, and without `row` a file in an order of its own.

@@ -5,4 +5,7 @@ mod cluster;
 mod diagnoses;
 mod failures;
 mod functions;
+mod grids;
 mod pages;
+mod pooling;
+mod stores;

@@ -37,7 +37,7 @@ pub use campaign::{Campaign, Instrument, Scatter};
 pub use laws::{effects, has_law};
 pub use noise::Noise;
 pub use observe::Frames;
-pub use text::csv;
+pub use text::{csv, number, quoted};
 pub use truth::{Truth, TruthError};
 
 use crate::dice::{Dice, Stream};

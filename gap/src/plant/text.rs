@@ -110,8 +110,8 @@ fn columns(arm: &Arm, data: &Measurements) -> Vec<Column> {
     columns
 }
 
-/// The shortest text that reads as the same number; −0 is 0.
-fn number(value: f64) -> String {
+/// A number as a cell: the shortest text that reads as the same number; −0 is 0.
+pub fn number(value: f64) -> String {
     let value = value + 0.0;
     let size = value.abs();
     if size != 0.0 && !(1e-4..1e9).contains(&size) {
@@ -121,8 +121,8 @@ fn number(value: f64) -> String {
     }
 }
 
-/// An id as a cell: in quotation marks where it needs them.
-fn quoted(id: Option<&str>) -> String {
+/// An id as a cell, empty of none: in quotation marks where it needs them.
+pub fn quoted(id: Option<&str>) -> String {
     let id = id.unwrap_or_default();
     if id.contains([',', '"', '\n', '\r', '#']) || id != id.trim() {
         return format!("\"{}\"", id.replace('"', "\"\""));
