@@ -33,8 +33,7 @@ impl Axes {
         steps: usize,
     ) -> Result<Axes, Failure> {
         let names = over.split(',').map(str::trim);
-        let joints =
-            names.map(|name| joint("--over", name, arm)).collect::<Result<Vec<_>, _>>()?;
+        let joints = names.map(|name| joint("--over", name, arm)).collect::<Result<Vec<_>, _>>()?;
         if let Some(twice) = joints.iter().enumerate().find(|(k, j)| joints[..*k].contains(j)) {
             return Err(Failure::new(format!(
                 "--over: found q{} twice in `{over}`, expected each joint once",

@@ -316,22 +316,24 @@ fn logs_are_read_back() {
         Stage { course: &course, payload: Some(("disc".to_owned(), 2.0, Vector3::z() * 0.1)) },
     ];
     let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
-    for logged in [MOTOR, Logged::Torque(Side::Link), Logged::Position] {
+    let sides = [Side::Motor, Side::Link, Side::Current, Side::Commanded].map(Logged::Torque);
+    for logged in [&sides[..], &[Logged::Position]].concat() {
         let plant = MovingPlant::new(&arm, &[], logged, Recording::default());
         let runs = plant.record(&stages, 3).unwrap();
         let text = csv(&arm, logged, &runs, &["simulated".to_owned()]);
         let log = Log::from_bytes("log", text.as_bytes(), &motions, &Names::default()).unwrap();
         assert_eq!((log.runs.len(), log.damaged.len()), (2, 0));
-        let side = match logged {
-            Logged::Torque(Side::Motor) => Some(TorqueSide::Motor),
-            Logged::Torque(Side::Link) => Some(TorqueSide::Link),
-            Logged::Position => None,
+        let (side, signal) = match logged {
+            Logged::Torque(Side::Motor) => (Some(TorqueSide::Motor), Signal::Torque),
+            Logged::Torque(Side::Link) => (Some(TorqueSide::Link), Signal::Torque),
+            Logged::Torque(Side::Commanded) => (Some(TorqueSide::Commanded), Signal::Torque),
+            Logged::Torque(Side::Current) => (None, Signal::Current),
+            Logged::Position => (None, Signal::QCmd),
         };
         assert_eq!(log.side, side);
-        let signal = if side.is_some() { Signal::Torque } else { Signal::QCmd };
         for (read, run) in log.runs.iter().zip(&runs) {
             assert_eq!(read.t.len(), run.t.len());
-            let expected = if side.is_some() { &run.tau[2] } else { &run.q_cmd[2] };
+            let expected = if signal == Signal::QCmd { &run.q_cmd[2] } else { &run.tau[2] };
             let off = read.signals[&signal][2].iter().zip(expected).map(|(a, b)| (a - b).abs());
             assert!(off.fold(0.0, f64::max) < 1e-9);
         }
