@@ -32,10 +32,11 @@ pub(crate) fn scale_elastic(
             && candidate.usual.iter().any(|usual| usual.is_infinite())
     };
     let predicted = model.predict(problem, None)?;
-    let count = problem.data.rows.len();
-    let rows = (0..count).step_by(count.div_ceil(MOST_ROWS));
+    // A load that is mistyped says nothing of how far arms give.
+    let kept: Vec<usize> = (0..problem.data.rows.len()).filter(|row| problem.fits[*row]).collect();
+    let rows = kept.iter().step_by(kept.len().div_ceil(MOST_ROWS).max(1));
     let rows: Vec<(usize, Cow<'_, Sim>)> = rows
-        .map(|row| Ok((row, model.state(problem, &predicted, row)?)))
+        .map(|row| Ok((*row, model.state(problem, &predicted, *row)?)))
         .collect::<Result<_, _>>()?;
     let (first, most) = match problem.measures_position() {
         true => (0, PART * problem.reach),
