@@ -22,9 +22,10 @@ use crate::codec::{Logical, Physical};
 use crate::session::register;
 use crate::stores::environment;
 
-/// Seconds between an executor's signs of life, and those after which it counts as dead.
+/// Seconds between an executor's signs of life, and those after which it counts as dead: on a machine that has no time
+/// for it, or waits for its disk, they have been seen to stay away for more than eight.
 const SIGN_OF_LIFE: u64 = 2;
-const DEAD_AFTER: u64 = 8;
+const DEAD_AFTER: u64 = 30;
 
 /// What has to be known of an address that others reach.
 pub fn warning(bind: IpAddr) -> Option<String> {

@@ -1,4 +1,4 @@
-"""What `proof`, `measure` and `store` are made of: programs, campaigns, clusters."""
+"""What `proof` and `measure` are made of: programs, campaigns, clusters."""
 
 import os
 import pathlib
