@@ -9,7 +9,8 @@
 #   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (the others)
 #
 # Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's and Pinocchio by turns, and
-# stiffarm's Rust beside the crates dynibo and featherstone.
+# stiffarm's Rust beside the crates dynibo and featherstone; and the fit of base parameters alone beside Pinocchio's regressor
+# and FIGAROH.
 #
 # A peer that is not installed is skipped with a sentence. EIGEN is the folder of Eigen's headers. FLAGS and RUSTFLAGS choose the target; the
 # default is the machine's own processor for all. Plain x86-64 instead:
@@ -27,7 +28,7 @@ eigen=${EIGEN:-/usr/include/eigen3}
 
 if [ "${1:-}" = --install ]; then
     apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
-    "$python" -m pip install --quiet casadi pin symforce wrenfold
+    "$python" -m pip install --quiet casadi pin figaroh symforce wrenfold
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -116,6 +117,15 @@ fi
 g++ -std=c++17 "${flags[@]}" -I. -I"$work" dynamics_drive.cpp "$work/ur10.o" "$work/panda.o" "${with[@]}" \
     "${pinocchio[@]}" -o "$work/dynamics"
 "$work/dynamics" "$work"
+
+# The fit of base parameters alone, of the same states and torques.
+cargo run --quiet --release --manifest-path ../speed/Cargo.toml --bin base_parameters --features "$features" -- "$work"
+if "$python" -c 'import pinocchio' 2>/dev/null; then
+    "$python" base_parameters_peer.py "$work"
+else
+    say "the base parameters of Pinocchio and FIGAROH are skipped: the Python package pin is not installed"
+fi
+
 if cargo build --quiet --release --manifest-path crates/Cargo.toml --target-dir "$work/crates" 2> "$work/crates.log"; then
     "$work/crates/release/crates-peer" "$work"
 else
