@@ -71,7 +71,7 @@ fn an_output_stands_in_three_places() {
         let named: Vec<&str> = sources
             .iter()
             // A number of an effect may be called as an output is.
-            .filter(|source| source.path != "codegen/src/robot/beyond/read.rs")
+            .filter(|source| !source.path.starts_with("codegen/src/robot/beyond/"))
             .filter(|source| source.text.contains(&quoted) || source.text.contains(&row))
             .map(|source| source.path.as_str())
             .collect();
