@@ -34,6 +34,7 @@ pub mod predicted;
 pub mod random;
 pub mod readings;
 pub mod robot;
+pub mod shrink;
 pub mod simulate;
 pub mod spring;
 pub mod whole;

@@ -1,11 +1,28 @@
 """The extension module. What is for users is in the package's own modules."""
 
 from collections.abc import Sequence
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional, Union, final
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
+
+__all__ = [
+    "Arm",
+    "Effect",
+    "Error",
+    "Found",
+    "LogEffect",
+    "Reading",
+    "Row",
+    "Samples",
+    "Unstable",
+    "VERSION",
+    "diagnose",
+    "outputs",
+    "robots",
+    "run",
+]
 
 VERSION: str
 
@@ -20,6 +37,7 @@ class Unstable(Error):
     first: int
     count: int
 
+@final
 class Row:
     """A joint and the link that it moves, as numbers of the table, SI: `com` and `inertia` (3, 3, about it) in the row's frame."""
 
@@ -74,6 +92,7 @@ class Arm:
         at: Optional[str] = None,
     ) -> NDArray[numpy.floating[Any]]: ...
 
+@final
 class Reading:
     """What an effect of one's own sees of a row."""
 
@@ -92,6 +111,7 @@ class Reading:
     @property
     def number(self) -> int: ...
 
+@final
 class Effect:
     """An effect of one's own on measurements at rest."""
 
@@ -106,6 +126,7 @@ class Effect:
         change: Callable[[Reading, NDArray[numpy.float64]], Any],
     ) -> Self: ...
 
+@final
 class Samples:
     """What an effect of one's own sees of a stretch of a log: m samples at even steps, low-passed."""
 
@@ -122,6 +143,7 @@ class Samples:
     @property
     def number(self) -> int: ...
 
+@final
 class LogEffect:
     """An effect of one's own on a joint in motion."""
 
@@ -136,6 +158,7 @@ class LogEffect:
         about: Sequence[Sequence[float]] = ...,
     ) -> Self: ...
 
+@final
 class Found:
     def json(self) -> str: ...
     def page(self) -> str: ...

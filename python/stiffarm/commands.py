@@ -221,9 +221,9 @@ def generate(
     return {plain if file == folder else os.path.basename(file): text for file, text in written.items()}
 
 
-def papers(files: Sequence[Path] = ()) -> str:
-    """The ledger of printed equations: which agree, which are misprints, and what they should say."""
-    return run(["papers", *(os.fspath(file) for file in files)], {})[1]["-"]
+def papers(files: Sequence[Path] = ()) -> list[Record]:
+    """The ledger of printed equations, an entry each: which agree, which are misprints, and what they should say."""
+    return read_all(run(["papers", *(os.fspath(file) for file in files), "--json=<json>"], {})[1]["<json>"])
 
 
 def import_urdf(urdf: Path, *, base: Optional[str] = None, tip: Optional[str] = None, as_written: bool = False) -> Arm:

@@ -84,17 +84,12 @@ class Diagnosis:
     def shrink(self) -> tuple[float, tuple[float, float]]:
         """The part of the gap that the findings remove on rows that no fit has seen, and its 95 % interval.
 
-        Of a campaign and a log together that of the campaign. Of a log alone the mean of the joints, each in its own size; it
-        tells no interval, whose ends are not numbers.
+        Of a log the mean of the joints, each in its own size; of a campaign and a log together that of the campaign.
         """
-        gap = self.parts[0].gap
-        if isinstance(gap, list):
-            before, after = (sum(joint[when] / joint["size"] for joint in gap) for when in ("before", "after"))
-            low = high = float("nan")
-        else:
-            before, after = gap["shrink"]["before"], gap["shrink"]["after"]
-            low, high = gap["shrink"]["shrink_ci95"]
-        return 1.0 - after / before if before else 0.0, (low, high)
+        part = self.parts[0]
+        told = part["shrink"] if "shrink" in part else part["gap"]["shrink"]
+        low, high = told["shrink_ci95"]
+        return told["shrink"], (low, high)
 
     @property
     def corrected(self) -> Arm:

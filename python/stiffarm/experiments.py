@@ -43,7 +43,8 @@ class Motion:
 class Log(Motion):
     """How a motion is logged."""
 
-    #: ``motor`` or ``link``, torques on that side of the gears, or ``position``, of position servos [default: motor].
+    #: ``motor`` or ``link``, torques on that side of the gears, ``commanded`` ones, ``current`` of the motors, or ``position``, of
+    #: position servos [default: motor].
     logged: Optional[str] = None
     #: Motions that are drawn, a run of the log each [default: 3].
     runs: Optional[int] = None

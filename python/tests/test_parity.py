@@ -166,7 +166,7 @@ def test_generate_c(cli, tmp_path):
 
 
 def test_papers(cli):
-    assert stiffarm.papers() == cli("papers")
+    assert stiffarm.papers() == json.loads(cli("papers", "--json"))
 
 
 def test_import_urdf(cli, at_root):

@@ -188,7 +188,13 @@ impl Logged<'_> {
             let (from, to) = (f.held_out_after.min(f.held_out_before), f.held_out_before);
             step(name(f), "removed", from, to, format!("to {}", part(f.held_out_after)))
         }));
-        steps.push(step("left, held out".to_owned(), "left", 0.0, after, part(after)));
+        let mut left = step("left, held out".to_owned(), "left", 0.0, after, part(after));
+        if !self.found.findings.is_empty() {
+            let [low, high] = self.found.shrink.shrink_ci95;
+            left.interval = Some([before * (1.0 - high), before * (1.0 - low)]);
+            left.text = format!("{}, {}", left.text, said::less(&self.found.shrink));
+        }
+        steps.push(left);
         steps
     }
 

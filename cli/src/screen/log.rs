@@ -2,6 +2,7 @@
 
 use stiffarm_gap::log::report::{Finding, JointGap, Parameter};
 use stiffarm_gap::log::{Domain, LogDiagnosis};
+use stiffarm_gap::shrink::Shrink;
 
 use super::{BAR, MOST, WIDTH, percent, words};
 use crate::diagnose::LogCheck;
@@ -121,7 +122,8 @@ pub fn sentence(found: &LogDiagnosis) -> String {
     let told = if told.is_empty() { last } else { format!("{} and {last}", told.join(", ")) };
     let mut text = format!(
         "The model lacks {told}: with them {after} {what} is left on time that no fit has seen, without \
-         them {before}."
+         them {before}: {}.",
+        less(&found.shrink)
     );
     if let Some(nested) = nested_mean(found) {
         text.push_str(&format!(
@@ -137,6 +139,12 @@ pub fn sentence(found: &LogDiagnosis) -> String {
         ));
     }
     text
+}
+
+/// How much less is left, with its interval.
+pub fn less(shrink: &Shrink) -> String {
+    let [low, high] = shrink.shrink_ci95.map(|x| fixed(100.0 * x, 0));
+    format!("{} less [{low} to {high}]", percent(shrink.shrink))
 }
 
 /// Position errors are told in what people read.

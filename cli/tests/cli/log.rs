@@ -75,6 +75,16 @@ fn friction_is_told_with_its_numbers() {
     assert!((value("coulomb_friction") - 2.0).abs() < 0.03, "{text}");
     assert!((value("viscous_friction") - 0.7).abs() < 0.03, "{text}");
     assert_eq!(found["torque_side"], "motor");
+    // Of one joint the whole is its own.
+    let (shrink, gap) = (&found["shrink"], &found["gap"][0]);
+    let number = |of: &Value| of.as_f64().expect("a number");
+    let part = 1.0 - number(&gap["after"]) / number(&gap["before"]);
+    let [low, high] = [0, 1].map(|end| number(&shrink["shrink_ci95"][end]));
+    assert!((number(&shrink["shrink"]) - part).abs() < 1e-12, "{text}");
+    assert!(low < part && part < high && high - low < 0.2, "{text}");
+    let [part, low, high] = [part, low, high].map(|x| (100.0 * x).round());
+    let told = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(told.contains(&format!("{part} % less [{low} to {high}]")), "{out}");
 }
 
 #[test]

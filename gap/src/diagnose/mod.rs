@@ -46,11 +46,12 @@ pub use promise::{Expected, Explanation, Prediction, Trust};
 pub use report::{
     Alternative, Autocorrelation, CannotSee, Correlation, CorrelationMatrix, Cover, Diagnosis,
     Finding, GapReport, Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport,
-    Observability, Part, Residual, Rival, Share, Shrink, Slice, Unexplained, Worst,
+    Observability, Part, Residual, Rival, Share, Slice, Unexplained, Worst,
 };
 
 use crate::gap::Statistics;
 use crate::measurement::Measurements;
+pub use crate::shrink::Shrink;
 use crate::spring::Joined;
 use data::{Folds, Precision, Problem};
 use fit::Model;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::effects::ParameterReport;
 use crate::gap::Statistics;
 use crate::measurement::Row;
+use crate::shrink::Shrink;
 
 /// A part of a range within which a value beyond it still counts as inside.
 pub(super) const EDGE: f64 = 1e-6;
@@ -345,21 +346,6 @@ pub struct Finding {
     /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
     /// if all are separable.
     pub to_separate: Option<String>,
-}
-
-/// The gap on measurements that no fit has seen: position, m (rotation, rad, if no position is
-/// measured).
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shrink {
-    /// Root mean square without the finding.
-    pub before: f64,
-    /// Root mean square with it.
-    pub after: f64,
-    /// 1 − after/before.
-    pub shrink: f64,
-    /// 95 % interval of that in another campaign: poses are drawn again, those to fit and those to
-    /// measure the gap on.
-    pub shrink_ci95: [f64; 2],
 }
 
 /// Another explanation.

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::read::TorqueSide;
 use super::scene::Domain;
+use crate::shrink::Shrink;
 
 /// The diagnosis of a log.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,6 +34,8 @@ pub struct LogDiagnosis {
     pub rigid_parameters: usize,
     /// The gap of each joint.
     pub gap: Vec<JointGap>,
+    /// Of all joints, from the gap before to that with all findings.
+    pub shrink: Shrink,
     /// In the order in which they were added.
     pub findings: Vec<Finding>,
     /// What this log cannot show, and why.

@@ -19,16 +19,18 @@ use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, Simple, Wanted};
-use super::search::fit::{Links, Term};
-use super::search::judge::{Judged, Unseen, Verdict, judged};
+use super::search::fit::{Fitted, Links, Term};
+use super::search::judge::{Judged, Verdict, judged};
 use super::search::nested::nested;
 use super::search::rest::rests;
 use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
+use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
 use super::sight::hidden;
 use super::signal::Signals;
 use crate::measurement::Body;
+use crate::shrink::{Shrink, interval};
 
 /// A joint that is slower than this part of its largest speed counts as standing.
 const STILL: f64 = 0.005;
@@ -134,6 +136,14 @@ pub fn diagnosed_with(
     let History { before, left, hidden: unseen, alone } = history.into_inner();
     let after = Unseen::of(&stock, &verdict.fit, &verdict.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
+    let (first, spread) = if verdict.findings.is_empty() {
+        (&after.sizes, 0.0)
+    } else {
+        let none = Fitted::of(&stock, &[], &links, &verdict.sizes);
+        let sizes = none.sizes(&stock);
+        let none = Unseen::of(&stock, &Fitted::of(&stock, &[], &links, &sizes), &sizes, blocks);
+        (&before, after.spread(&none, &told.sizes, options.seed))
+    };
     let nested = options.nested.then(|| nested(&stock, blocks, &links, options.seed));
     let rests = rests(&stock, &verdict, options.seed).into_iter().map(|rest| Dependence {
         place: Spot::Joint(rest.joint).to_string(),
@@ -197,6 +207,7 @@ pub fn diagnosed_with(
         },
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
+        shrink: told.shrink([first, &after.sizes], spread, blocks.all.len()),
         findings: told.findings(&left, &verdict, &after, by_command.as_deref()),
         cannot_see: hidden(
             &case,
@@ -357,6 +368,14 @@ impl Told<'_> {
             nested: nested.map(|nested| nested[joint]),
         };
         pairs.enumerate().map(told).collect()
+    }
+
+    /// From what is left of the joints before to what is left with all findings, the logarithm of whose ratio
+    /// scatters by `spread` over logs of so many blocks.
+    fn shrink(&self, left: [&[f64]; 2], spread: f64, blocks: usize) -> Shrink {
+        let [before, after] = left.map(|left| self.mean(left));
+        let shrink = if before > 0.0 { 1.0 - after / before } else { 0.0 };
+        Shrink { before, after, shrink, shrink_ci95: interval(shrink, spread, blocks) }
     }
 
     /// Mean over the joints of what is left, as a part of their sizes.

@@ -8,6 +8,7 @@ mod plant;
 mod planted;
 mod position;
 mod rest;
+mod shrink;
 mod torque;
 mod written;
 

@@ -1,8 +1,6 @@
 //! Intervals by resampling poses: a pose is drawn with all its rows, and what is compared is
 //! compared on the same poses.
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
-
 use crate::diagnose::data::{Stream, below, generator};
 use crate::gap::percentile;
 
@@ -39,16 +37,6 @@ pub(crate) fn shrink(before: f64, after: f64) -> f64 {
     if before > 0.0 { 1.0 - (after / before).sqrt() } else { 0.0 }
 }
 
-/// 95 % interval of a [`shrink`] whose logarithm of what is left scatters by `spread` over campaigns
-/// that are drawn again from so many poses. What is drawn again scatters less than what it was drawn
-/// from: the limits stand off by Student's deviate, and by the ratio of the variances.
-pub(crate) fn shrink_interval(shrink: f64, spread: f64, poses: usize) -> [f64; 2] {
-    let freedom = poses.saturating_sub(1).max(1) as f64;
-    let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
-    let off = t * spread * (1.0 + 1.0 / freedom).sqrt();
-    [off, -off].map(|off| 1.0 - (1.0 - shrink) * off.exp())
-}
-
 /// 95 % interval of the mean over rows of a difference, from its sum over each pose and the rows of
 /// each pose.
 pub(crate) fn mean_interval(differences: &[f64], rows: &[f64], seed: u64) -> [f64; 2] {
@@ -75,13 +63,9 @@ mod tests {
     }
 
     #[test]
-    fn an_even_shrink_is_certain() {
-        assert_eq!(shrink_interval(shrink(112.0, 28.0), 0.0, 3), [0.5, 0.5]);
-        // Student's t of 9 degrees of freedom.
-        let [low, high] = shrink_interval(0.5, 0.1, 10);
-        let off = 2.262_157 * 0.1 * (10.0_f64 / 9.0).sqrt();
-        assert!((low - (1.0 - 0.5 * off.exp())).abs() < 1e-6, "{low}");
-        assert!((high - (1.0 - 0.5 / off.exp())).abs() < 1e-6, "{high}");
+    fn half_of_a_gap_is_a_quarter_of_its_squares() {
+        assert_eq!(shrink(112.0, 28.0), 0.5);
+        assert_eq!(shrink(0.0, 0.0), 0.0);
         assert!(excludes_zero([0.5, 0.5]) && excludes_zero([-2.0, -1.0]));
     }
 }

@@ -7,9 +7,10 @@ use super::outcome::Held;
 use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
-use crate::diagnose::report::{Finding, Observability, Residual, Shrink, Unexplained};
+use crate::diagnose::report::{Finding, Observability, Residual, Unexplained};
 use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
 use crate::gap::Statistics;
+use crate::shrink::Shrink;
 
 /// Findings that are taken out, one after the other.
 const MOST_OUT: usize = 8;

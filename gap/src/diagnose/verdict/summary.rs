@@ -2,17 +2,18 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::bootstrap::{shrink, shrink_interval};
+use super::bootstrap::shrink;
 use super::certainty::Certainty;
 use super::outcome::Shrinking;
 use super::refitted::Refitted;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
-use crate::diagnose::report::{Cover, Finding, NuisanceReport, Shrink};
+use crate::diagnose::report::{Cover, Finding, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::ParameterReport;
 use crate::gap::rms;
+use crate::shrink::{Shrink, interval};
 
 impl Search<'_, '_> {
     /// Each group with what it takes of the gap, and its rivals, still without its numbers. `before`
@@ -57,7 +58,7 @@ impl Search<'_, '_> {
             before: rms(before),
             after: rms(after),
             shrink,
-            shrink_ci95: shrink_interval(shrink, spread, self.folds.blocks()),
+            shrink_ci95: interval(shrink, spread, self.folds.blocks()),
         }
     }
 

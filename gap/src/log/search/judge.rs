@@ -1,15 +1,12 @@
-//! What the findings are worth: intervals, what is left on unseen time, what else would do.
+//! What the findings are worth: whether each is more than accident beside the others, and what else would do.
 
-use nalgebra::DMatrix;
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::along::is_along;
 use super::blocks::Blocks;
-use super::candidates::{Ground, without_each};
-use super::fit::{Fitted, Links, Term, weights};
+use super::candidates::Ground;
+use super::fit::{Fitted, Links, Term};
 use super::stock::Stock;
-use super::sums::{Solver, quadratic, sum};
 use super::{Asked, CHANCE, Round, is_worse};
 use crate::log::effects::{LINKS, Spot};
 
@@ -137,55 +134,4 @@ impl Asked {
         let squares = best.clone();
         Judged { chance: self.chances[own], squares, rivals: rivals.collect(), term }
     }
-}
-
-/// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.
-pub struct Unseen {
-    /// Root mean square of each joint's rows that were held out; 0 of a joint that has none.
-    pub sizes: Vec<f64>,
-    /// Half the width of each column's interval.
-    pub half_widths: Vec<f64>,
-}
-
-impl Unseen {
-    /// Of a fit told in these sizes.
-    pub fn of(stock: &Stock<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
-        let sums = stock.sums(blocks);
-        let (columns, _) = fit.bordered();
-        let products = sums.products(&columns, &columns, &weights(sizes));
-        let values = without_each(&products, blocks);
-        let joints = sizes.len();
-        let size = |joint: usize| {
-            let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
-            let own = sums.products(&columns, &columns, &alone);
-            let left = own.iter().zip(&blocks.fold);
-            let left = left.map(|(own, fold)| quadratic(own, &values[*fold].clone().push(-1.0)));
-            let rows = stock.rows_of(blocks, joint);
-            if rows > 0.0 { (left.sum::<f64>() / rows).sqrt() } else { 0.0 }
-        };
-        Unseen {
-            sizes: (0..joints).into_par_iter().map(size).collect(),
-            half_widths: half_widths(&products, &fit.values),
-        }
-    }
-}
-
-/// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
-/// Student's t of as many.
-pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
-    let n = values.len();
-    let count = products.len() as f64;
-    let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };
-    let mut left = values.to_vec();
-    left.iter_mut().for_each(|x| *x = -*x);
-    left.push(1.0);
-    let pulls: Vec<_> = products
-        .iter()
-        .map(|product| product.rows(0, n) * nalgebra::DVector::from_column_slice(&left))
-        .collect();
-    let solver = Solver::of(&whole.view((0, 0), (n, n)).into_owned());
-    let solved = solver.solve(&DMatrix::from_columns(&pulls));
-    let t = StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0));
-    let t = t.map_or(f64::INFINITY, |t| t.inverse_cdf(0.975)) * (count / (count - 1.0)).sqrt();
-    (0..n).map(|k| t * solved.row(k).norm()).collect()
 }

@@ -19,6 +19,7 @@ pub mod ripples;
 pub mod springs;
 pub mod stock;
 pub mod sums;
+pub mod unseen;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -30,7 +30,7 @@ pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> V
     };
     let squares: Vec<Vec<f64>> = (0..blocks.folds).into_par_iter().map(of_fold).collect();
     let size = |joint: usize| {
-        let rows = stock.rows_of(blocks, joint);
+        let rows: f64 = stock.rows_of(blocks, joint).iter().sum();
         let sum: f64 = squares.iter().map(|fold| fold[joint]).sum();
         if rows > 0.0 { (sum / rows).sqrt() } else { 0.0 }
     };

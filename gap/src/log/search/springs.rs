@@ -4,9 +4,10 @@
 use nalgebra::DMatrix;
 
 use super::fit::{minimum, weights};
-use super::judge::{Verdict, half_widths};
+use super::judge::Verdict;
 use super::stock::Stock;
 use super::sums::sum;
+use super::unseen::half_widths;
 use crate::log::effects::{DROOP, ELASTICITY, LogEffect, Spot};
 use crate::log::model::{Acting, Model};
 use crate::log::scene::Domain;

@@ -200,16 +200,16 @@ impl<'a> Stock<'a> {
         }
     }
 
-    /// Rows of a joint that count and are in some block.
-    pub fn rows_of(&self, blocks: &Blocks, joint: usize) -> f64 {
+    /// Rows of a joint that count, of each block.
+    pub fn rows_of(&self, blocks: &Blocks, joint: usize) -> Vec<f64> {
         let of = |block: &Block| {
             let (first, last) = (block.grains.start, block.grains.end - 1);
             let head = &self.grains[first].head;
             let start = if block.purged { head.end } else { head.start };
             let counts = &self.counts[joint][start..self.grains[last].rows.end];
-            counts.iter().filter(|counts| **counts).count()
+            counts.iter().filter(|counts| **counts).count() as f64
         };
-        blocks.all.iter().map(of).sum::<usize>() as f64
+        blocks.all.iter().map(of).collect()
     }
 
     /// Root mean square of what columns with these values, −1 of the left side, leave of each joint.

@@ -1,0 +1,137 @@
+//! What a fit leaves of rows that its values have not seen, 95 % intervals of its values, and how far what
+//! it leaves scatters from one log to another.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::blocks::Blocks;
+use super::candidates::without_each;
+use super::fit::{Fitted, minimum, weights};
+use super::stock::Stock;
+use super::sums::{Solver, quadratic, sum};
+use crate::dice::{Dice, Stream};
+
+/// Pairs of logs: a standard deviation of so many is known to 3 %.
+const DRAWS: usize = 500;
+
+/// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.
+pub struct Unseen {
+    /// Root mean square of each joint's rows that were held out; 0 of a joint that has none.
+    pub sizes: Vec<f64>,
+    /// Half the width of each column's interval.
+    pub half_widths: Vec<f64>,
+    /// Products of the columns and of what they are fitted to, of each block, as they are fitted.
+    products: Vec<DMatrix<f64>>,
+    joints: Vec<Joint>,
+}
+
+/// What is left of a joint.
+struct Joint {
+    /// Squares of each block, held out.
+    squares: Vec<f64>,
+    /// Rows of each block.
+    rows: Vec<f64>,
+    /// Products of the columns over all blocks.
+    whole: DMatrix<f64>,
+}
+
+impl Joint {
+    /// Mean square of the blocks, each so many times; `None` of no rows.
+    fn mean(&self, times: &[f64]) -> Option<f64> {
+        let sum = |of: &[f64]| of.iter().zip(times).map(|(x, times)| x * times).sum::<f64>();
+        let rows = sum(&self.rows);
+        (rows > 0.0).then(|| sum(&self.squares) / rows)
+    }
+}
+
+impl Unseen {
+    /// Of a fit told in these sizes.
+    pub fn of(stock: &Stock<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
+        let sums = stock.sums(blocks);
+        let (columns, _) = fit.bordered();
+        let products = sums.products(&columns, &columns, &weights(sizes));
+        let values: Vec<_> =
+            without_each(&products, blocks).into_iter().map(|values| values.push(-1.0)).collect();
+        let count = sizes.len();
+        let of_joint = |joint: usize| {
+            let alone: Vec<f64> = (0..count).map(|j| f64::from(u8::from(j == joint))).collect();
+            let own = sums.products(&columns, &columns, &alone);
+            let left = own.iter().zip(&blocks.fold);
+            Joint {
+                squares: left.map(|(own, fold)| quadratic(own, &values[*fold])).collect(),
+                rows: stock.rows_of(blocks, joint),
+                whole: sum(own.iter()).unwrap_or_default(),
+            }
+        };
+        let joints: Vec<Joint> = (0..count).into_par_iter().map(of_joint).collect();
+        let once = vec![1.0; blocks.all.len()];
+        Unseen {
+            sizes: joints.iter().map(|joint| joint.mean(&once).unwrap_or(0.0).sqrt()).collect(),
+            half_widths: half_widths(&products, &fit.values),
+            products,
+            joints,
+        }
+    }
+
+    /// Standard deviation of the logarithm of what is left over what `before` leaves of the same blocks, the
+    /// joints' mean in these sizes, of one log against another: this one too is but one of those that might
+    /// have been. Blocks are drawn again, once for those that are fitted and once for those on which the gap is
+    /// measured.
+    pub fn spread(&self, before: &Unseen, sizes: &[f64], seed: u64) -> f64 {
+        let count = self.products.len();
+        let mut dice = Dice::new(seed, Stream::Logs);
+        let mut drawn = || {
+            let mut times = vec![0.0; count];
+            (0..count).for_each(|_| times[dice.below(count)] += 1.0);
+            times
+        };
+        let draws: Vec<[Vec<f64>; 2]> = (0..DRAWS).map(|_| [drawn(), drawn()]).collect();
+        let log = |[fitted, measured]: &[Vec<f64>; 2]| {
+            let left = |of: &Unseen| of.left(fitted, measured, sizes).max(f64::MIN_POSITIVE).ln();
+            left(self) - left(before)
+        };
+        let logs: Vec<f64> = draws.par_iter().map(log).collect();
+        (2.0 * DVector::from_vec(logs).variance()).sqrt()
+    }
+
+    /// What is left, the joints' sum in these sizes, where the blocks are fitted and measured so many times.
+    /// How values of other blocks change it is told by all blocks, how it scatters among blocks by those that
+    /// were held out: together these are sums of numbers, where products of every block in every draw would take
+    /// longer than the search.
+    fn left(&self, fitted: &[f64], measured: &[f64], sizes: &[f64]) -> f64 {
+        let n = self.products.first().map_or(0, DMatrix::nrows);
+        let mut products = DMatrix::zeros(n, n);
+        for (product, times) in self.products.iter().zip(fitted).filter(|(_, times)| **times > 0.0)
+        {
+            products.zip_apply(product, |sum, x| *sum += times * x);
+        }
+        let values = DVector::from_vec(minimum(&products)).push(-1.0);
+        let of_joint = |(joint, size): (&Joint, &f64)| {
+            let squares: f64 = joint.squares.iter().sum();
+            let Some(mean) = joint.mean(measured).filter(|_| squares > 0.0) else { return 0.0 };
+            (quadratic(&joint.whole, &values) / squares * mean).sqrt() / size
+        };
+        self.joints.iter().zip(sizes).map(of_joint).sum()
+    }
+}
+
+/// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
+/// Student's t of as many.
+pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
+    let n = values.len();
+    let count = products.len() as f64;
+    let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };
+    let mut left = values.to_vec();
+    left.iter_mut().for_each(|x| *x = -*x);
+    left.push(1.0);
+    let pulls: Vec<_> = products
+        .iter()
+        .map(|product| product.rows(0, n) * nalgebra::DVector::from_column_slice(&left))
+        .collect();
+    let solver = Solver::of(&whole.view((0, 0), (n, n)).into_owned());
+    let solved = solver.solve(&DMatrix::from_columns(&pulls));
+    let t = StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0));
+    let t = t.map_or(f64::INFINITY, |t| t.inverse_cdf(0.975)) * (count / (count - 1.0)).sqrt();
+    (0..n).map(|k| t * solved.row(k).norm()).collect()
+}
