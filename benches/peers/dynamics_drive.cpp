@@ -3,7 +3,6 @@
 // the peers, how many times stiffarm's that is: the least, the median and the most over the rounds.
 //
 //   dynamics DIRECTORY
-#include <ctime>
 #include <functional>
 
 #include "links.hpp"
@@ -88,13 +87,6 @@ Way way(const Arm &arm, const char *output, const char *peer, size_t size, const
 }
 
 const auto as_it_is = [](const std::vector<double> &found) { return found; };
-
-// Nanoseconds of this process on a processor: other programs do not disturb them as much as the clock's.
-double processor_time() {
-    timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
 
 void compete(const Arm &arm, const char *output, std::vector<Way> ways) {
     for (int round = 0; round <= ROUNDS; ++round) {
