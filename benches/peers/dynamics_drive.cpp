@@ -1,14 +1,11 @@
-// The equations of motion of a UR10 and a Panda by stiffarm's C, CasADi's C and Pinocchio: each result compared with
-// the textbook's, then timed by turns, all of them in each of 41 rounds. Prints the median nanoseconds a call and, of
+// The equations of motion of a UR10 and a Panda by stiffarm's C, CasADi's C, Pinocchio and the C that CppADCodeGen prints
+// of Pinocchio: each result compared with the textbook's, then timed by turns, all of them in each of 41 rounds. Prints the median nanoseconds a call and, of
 // the peers, how many times stiffarm's that is: the least, the median and the most over the rounds.
 //
 //   dynamics DIRECTORY
-#include <ctime>
 #include <functional>
-#include <iterator>
-#include <sstream>
 
-#include "drive.hpp"
+#include "links.hpp"
 
 extern "C" {
 #include "panda.h"
@@ -24,6 +21,18 @@ extern "C" {
 CASADI_ARM(ur10)
 CASADI_ARM(panda)
 #endif
+#ifdef CPPADCG
+#define CPPADCG_FUNCTION(name) void name(const double *, double *);
+#define CPPADCG_ARM(arm)                                                                                       \
+    CPPADCG_FUNCTION(arm##_inverse_dynamics_cppadcg)                                                           \
+    CPPADCG_FUNCTION(arm##_bias_cppadcg)                                                                       \
+    CPPADCG_FUNCTION(arm##_mass_matrix_cppadcg)                                                                \
+    CPPADCG_FUNCTION(arm##_forward_dynamics_cppadcg)                                                           \
+    CPPADCG_FUNCTION(arm##_torque_regressor_cppadcg)                                                           \
+    CPPADCG_FUNCTION(arm##_derivatives_cppadcg)
+CPPADCG_ARM(ur10)
+CPPADCG_ARM(panda)
+#endif
 }
 
 #ifdef PINOCCHIO
@@ -32,8 +41,6 @@ CASADI_ARM(panda)
 #include <pinocchio/algorithm/regressor.hpp>
 #include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
-#include <pinocchio/multibody.hpp>
-namespace pin = pinocchio;
 #endif
 
 namespace {
@@ -45,25 +52,6 @@ struct Way {
     std::string peer;
     std::function<void()> run;
     std::vector<double> times;
-};
-
-struct Arm {
-    std::string name;
-    int n;
-    std::string directory;
-    std::vector<double> states;
-    std::vector<std::vector<double>> links;
-
-    Arm(const std::string &directory, const std::string &name, int n)
-        : name(name), n(n), directory(directory), states(read(directory + "/" + name + ".states")) {
-        std::ifstream file(directory + "/" + name + ".links");
-        for (std::string line; std::getline(file, line);) {
-            std::istringstream words(line);
-            links.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
-        }
-    }
-    size_t calls() const { return states.size() / (3 * n); }
-    std::vector<double> expected(const std::string &output) const { return read(directory + "/" + name + "." + output); }
 };
 
 // `call(state, out)` writes one result of `size` numbers. What is compared with the textbook's `expected` is what
@@ -100,13 +88,6 @@ Way way(const Arm &arm, const char *output, const char *peer, size_t size, const
 
 const auto as_it_is = [](const std::vector<double> &found) { return found; };
 
-// Nanoseconds of this process on a processor: other programs do not disturb them as much as the clock's.
-double processor_time() {
-    timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
 void compete(const Arm &arm, const char *output, std::vector<Way> ways) {
     for (int round = 0; round <= ROUNDS; ++round) {
         for (Way &way : ways) {
@@ -127,27 +108,6 @@ void compete(const Arm &arm, const char *output, std::vector<Way> ways) {
     }
     std::printf("\n");
 }
-
-#ifdef PINOCCHIO
-pin::Model model_of(const Arm &arm) {
-    pin::Model model;
-    const auto about_x = [](double angle) {
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
-    };
-    model.gravity.linear() << arm.links[0][0], arm.links[0][1], arm.links[0][2];
-    pin::JointIndex parent = 0;
-    for (int i = 1; i <= arm.n; ++i) {
-        const double *x = arm.links[i].data();
-        const pin::SE3 place(about_x(x[3]), Eigen::Vector3d(x[0], x[1], x[2]));
-        parent = model.addJoint(parent, pin::JointModelRZ(), place, "joint" + std::to_string(i));
-        Eigen::Matrix3d tensor;
-        tensor << x[8], x[9], x[10], x[9], x[11], x[12], x[10], x[12], x[13];
-        model.appendBodyToJoint(parent, pin::Inertia(x[4], Eigen::Vector3d(x[5], x[6], x[7]), tensor),
-                                pin::SE3::Identity());
-    }
-    return model;
-}
-#endif
 
 template <int N, class Kernels>
 void all(const Arm &arm, const Kernels &kernels) {
@@ -253,6 +213,16 @@ void all(const Arm &arm, const Kernels &kernels) {
         return whole;
     });
 #endif
+#ifdef CPPADCG
+    for (int k = 0; k < COUNT; ++k) {
+        const auto call = kernels.cppadcg[k];
+        if (k == 4) {
+            ways[k].push_back(way(arm, names[k], "pinocchio+cppadcg", sizes[k], expected[0], call, product));
+        } else {
+            ways[k].push_back(way(arm, names[k], "pinocchio+cppadcg", sizes[k], expected[k], call, as_it_is));
+        }
+    }
+#endif
     for (int k = 0; k < COUNT; ++k) compete(arm, names[k], std::move(ways[k]));
 }
 
@@ -266,6 +236,14 @@ void all(const Arm &arm, const Kernels &kernels) {
 #else
 #define CASADI_KERNELS(arm)
 #endif
+#ifdef CPPADCG
+#define CPPADCG_KERNELS(arm)                                                                                    \
+    void (*cppadcg[6])(const double *, double *) = {                                                            \
+        arm##_inverse_dynamics_cppadcg, arm##_bias_cppadcg,             arm##_mass_matrix_cppadcg,              \
+        arm##_forward_dynamics_cppadcg, arm##_torque_regressor_cppadcg, arm##_derivatives_cppadcg};
+#else
+#define CPPADCG_KERNELS(arm)
+#endif
 #define KERNELS(arm, joints)                                                                                    \
     struct {                                                                                                    \
         decltype(&arm##_inverse_dynamics) inverse_dynamics = arm##_inverse_dynamics;                            \
@@ -274,14 +252,10 @@ void all(const Arm &arm, const Kernels &kernels) {
         decltype(&arm##_forward_dynamics) forward_dynamics = arm##_forward_dynamics;                            \
         decltype(&arm##_torque_regressor) torque_regressor = arm##_torque_regressor;                            \
         static void derivatives(const double *x, double *out) {                                                 \
-            constexpr int n = joints;                                                                           \
-            arm##_posture_t posture;                                                                            \
-            arm##_posture(x, &posture);                                                                         \
-            arm##_given_inverse_dynamics_by_joints(&posture, x + n, x + 2 * n, out);                            \
-            arm##_given_inverse_dynamics_by_rates(&posture, x + n, out + n * n);                                \
-            arm##_given_mass_matrix(&posture, out + 2 * n * n);                                                 \
+            arm##_torque_derivatives(x, x + joints, x + 2 * joints, (arm##_torque_derivatives_t *)out);         \
         }                                                                                                       \
         CASADI_KERNELS(arm)                                                                                     \
+        CPPADCG_KERNELS(arm)                                                                                    \
     } arm##_kernels;
 
 }  // namespace

@@ -8,8 +8,8 @@
 #   benches/peers/run.sh                 # what is installed
 #   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (the others)
 #
-# Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's and Pinocchio by turns, and
-# stiffarm's Rust beside the crates dynibo and featherstone; and the fit of base parameters alone beside Pinocchio's regressor
+# Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's, Pinocchio and the C that
+# CppADCodeGen prints of Pinocchio by turns, and stiffarm's Rust beside the crates dynibo and featherstone; and the fit of base parameters alone beside Pinocchio's regressor
 # and FIGAROH.
 #
 # A peer that is not installed is skipped with a sentence. EIGEN is the folder of Eigen's headers. FLAGS and RUSTFLAGS choose the target; the
@@ -28,7 +28,7 @@ eigen=${EIGEN:-/usr/include/eigen3}
 
 if [ "${1:-}" = --install ]; then
     apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
-    "$python" -m pip install --quiet casadi pin figaroh symforce wrenfold
+    "$python" -m pip install --quiet casadi pin cmeel-cppad cmeel-cppadcodegen figaroh symforce wrenfold
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -113,6 +113,14 @@ if "$python" -c 'import casadi' 2>/dev/null; then
     "$python" dynamics_peer.py "$work"
     gcc "${flags[@]}" -c "$work/dynamics_casadi.c" -o "$work/dynamics_casadi.o"
     with+=(-DCASADI "$work/dynamics_casadi.o")
+fi
+if [ ${#pinocchio[@]} -gt 0 ] && [ -e "$prefix/include/cppad/cg.hpp" ]; then
+    g++ -std=c++17 -I. dynamics_cppadcg.cpp "${pinocchio[@]}" -lcppad_lib -o "$work/dynamics_cppadcg"
+    "$work/dynamics_cppadcg" "$work"
+    gcc "${flags[@]}" -c "$work/dynamics_cppadcg.c" -o "$work/dynamics_cppadcg.o"
+    with+=(-DCPPADCG "$work/dynamics_cppadcg.o")
+else
+    say "Pinocchio with CppADCodeGen is skipped: the Python packages cmeel-cppad and cmeel-cppadcodegen are not installed"
 fi
 g++ -std=c++17 "${flags[@]}" -I. -I"$work" dynamics_drive.cpp "$work/ur10.o" "$work/panda.o" "${with[@]}" \
     "${pinocchio[@]}" -o "$work/dynamics"

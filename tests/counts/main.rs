@@ -31,10 +31,17 @@ fn every_pass_saves_operations_somewhere_and_costs_none_anywhere() {
         Passes { sums: false, ..Passes::ALL },
         Passes { runs: false, ..Passes::ALL },
         Passes { parallel: false, ..Passes::ALL },
+        Passes { bodies: false, ..Passes::ALL },
     ];
-    let mut saved = [false; 4];
+    let mut saved = [false; 5];
+    let outputs = [
+        Output::Jacobian,
+        Output::Compliance,
+        Output::ComplementaryStiffness,
+        Output::InverseDynamicsByRates,
+    ];
     for arm in ["lin_planar", "kuka_kr240", "ur10", "stanford"].map(sprung) {
-        for output in [Output::Jacobian, Output::Compliance, Output::ComplementaryStiffness] {
+        for output in outputs {
             let all = derive(&arm, &[output]).ops().cost();
             for (passes, saved) in off.into_iter().zip(&mut saved) {
                 let without = derive_with(&arm, &[output], passes).ops().cost();
@@ -43,7 +50,7 @@ fn every_pass_saves_operations_somewhere_and_costs_none_anywhere() {
             }
         }
     }
-    assert_eq!(saved, [true; 4]);
+    assert_eq!(saved, [true; 5]);
 }
 
 #[test]
@@ -60,6 +67,14 @@ fn counts_are_reviewed() {
             |output: &Output| output.is_on_request() && (moves(&robot) || !output.is_of_motion());
         for output in Output::EACH.into_iter().filter(told) {
             line(&mut table, output.name(), &robot, &[output]);
+        }
+        if moves(&robot) {
+            let of_torques = [
+                Output::InverseDynamicsByJoints,
+                Output::InverseDynamicsByRates,
+                Output::MassMatrix,
+            ];
+            line(&mut table, "the torques' derivatives", &robot, &of_torques);
         }
     }
     insta::assert_snapshot!(table);

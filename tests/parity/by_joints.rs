@@ -112,7 +112,8 @@ fn every_arm(states: usize) {
         let (outputs, generated) = (&outputs, &generated);
         let subject = Subject { outputs, arm: &arm, beyond: None, generated, single: None };
         for line in parity::agreement(&subject, states, 5, &|_| {}).lines {
-            println!("{} {} {:.1?}", entry.id, line.output.name(), line.worst);
+            let worst = line.worst.map(|worst| worst.map_or("-".into(), |x| format!("{x:.1e}")));
+            println!("{} {} {}", entry.id, line.output.name(), worst.join(" "));
             assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
         }
     }

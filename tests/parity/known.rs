@@ -1,7 +1,7 @@
 //! Every arm of the collection.
 
-use stiffarm::kernels::Output;
 use stiffarm::kernels::parity::{self, Subject};
+use stiffarm::kernels::{Output, has};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
@@ -68,4 +68,38 @@ fn slices_of_the_wrong_length_are_refused() {
     let small = arm.kernels.evaluate(Output::Jacobian, &[0.0; 6], &[0.0; 6], &mut out);
     assert_eq!(small, Err(Error::Length));
     assert_eq!(out, [0.0; 12], "nothing is written on an error");
+}
+
+/// The accelerations that torques are told to have need these torques: `M (q̈ − M⁻¹ (τ − b)) = 0`, relative to what is
+/// summed there, for the solve is as exact as its matrix.
+#[test]
+fn forward_dynamics_gives_the_motion_back() {
+    fn left<const N: usize, A>(arm: &A) -> f64
+    where
+        A: has::InverseDynamics<N> + has::ForwardDynamics<N> + has::MassMatrix<N>,
+    {
+        let mut draws = Draws::new(41);
+        let mut worst = 0.0_f64;
+        for _ in 0..COUNT {
+            let [q, rates, accelerations]: [[f64; N]; 3] =
+                core::array::from_fn(|_| core::array::from_fn(|_| 3.0 * draws.unit()));
+            let posture = arm.posture(&q);
+            let torques = arm.inverse_dynamics(&posture, &rates, &accelerations);
+            let back = arm.forward_dynamics(&posture, &rates, &torques).expect("masses move");
+            let mass = arm.mass_matrix(&posture);
+            let row = |j: usize, of: &dyn Fn(usize) -> f64| -> f64 {
+                (0..N).map(|i| mass[i][j] * of(i)).sum()
+            };
+            for j in 0..N {
+                let off = row(j, &|i| back[i] - accelerations[i]).abs();
+                let size = (0..N).map(|i| (mass[i][j] * accelerations[i]).abs()).sum::<f64>();
+                let most = torques.iter().fold(size, |most, torque| most.max(torque.abs()));
+                worst = worst.max(off / most);
+            }
+        }
+        worst
+    }
+    let worst = [left(&stiffarm_robots::ur10::Robot), left(&stiffarm_robots::panda::Robot)];
+    println!("{:.1e} {:.1e}", worst[0], worst[1]);
+    assert!(worst.iter().all(|left| *left <= 1e-12), "{worst:?}");
 }

@@ -56,6 +56,20 @@ proptest! {
         }
     }
 
+    /// In one function, where what they have in common decides how they are derived.
+    #[test]
+    fn derivatives_of_torques_agree_together(table in table(1..=9), seed in any::<u64>()) {
+        let (arm, q, wrench) = drawn(&table, seed);
+        let both = [Output::InverseDynamicsByJoints, Output::InverseDynamicsByRates];
+        let got = table.by(&derive(&table.robot(), &both), &q, &wrench).expect("nothing is solved");
+        for (output, got) in both.into_iter().zip(got.chunks(arm.dof().pow(2))) {
+            let expected = arm.evaluate(output, &q[..output.state(arm.dof())], &wrench);
+            let expected = expected.expect("nothing is solved");
+            let worst = relative(got, &expected, floor(&arm, output, &q, &wrench));
+            prop_assert!(worst <= 1e-11, "{} {worst:e}\n{}", output.name(), table.text);
+        }
+    }
+
     #[test]
     fn the_working_frame_does_not_matter(
         table in table(1..=9), cut in 0usize..40, seed in any::<u64>()
@@ -73,7 +87,7 @@ proptest! {
 
     #[test]
     fn passes_change_nothing_but_the_cost(
-        table in table(1..=9), off in 0usize..5, output in 0..Output::EACH.len(), seed in any::<u64>()
+        table in table(1..=9), off in 0usize..6, output in 0..Output::EACH.len(), seed in any::<u64>()
     ) {
         let (arm, q, wrench) = drawn(&table, seed);
         let robot = table.robot();
@@ -82,6 +96,7 @@ proptest! {
             1 => Passes { sums: false, ..Passes::ALL },
             2 => Passes { runs: false, ..Passes::ALL },
             3 => Passes { parallel: false, ..Passes::ALL },
+            4 => Passes { bodies: false, ..Passes::ALL },
             _ => Passes::NONE,
         };
         let output = Output::EACH[output];

@@ -12,13 +12,18 @@ pub struct Passes {
     pub runs: bool,
     /// Adds up the parts of the compliance that joints with one axis have in common.
     pub parallel: bool,
+    /// Tries to derive how torques change by values and rates in closed form, by what each joint carries as one
+    /// body, and not from the graph of the torques; taken where it costs less.
+    pub bodies: bool,
 }
 
 impl Passes {
     /// Everything.
-    pub const ALL: Passes = Passes { frame: true, sums: true, runs: true, parallel: true };
+    pub const ALL: Passes =
+        Passes { frame: true, sums: true, runs: true, parallel: true, bodies: true };
     /// Nothing: base axes, one angle per joint, every translation turned by itself.
-    pub const NONE: Passes = Passes { frame: false, sums: false, runs: false, parallel: false };
+    pub const NONE: Passes =
+        Passes { frame: false, sums: false, runs: false, parallel: false, bodies: false };
 }
 
 impl Default for Passes {

@@ -34,7 +34,7 @@ pub fn derive_each(robot: &Robot, sets: &[Vec<Output>]) -> Vec<Program> {
 
 /// Derives `outputs` with the working frame at boundary `cut`, twists from the axes of the frames.
 pub fn derive_in(robot: &Robot, outputs: &[Output], cut: usize) -> Program {
-    derive_by(robot, outputs, Way { cut, passes: Passes { runs: false, ..Passes::ALL } })
+    derive_by(robot, outputs, Way { cut, ..Way::PLAIN })
 }
 
 /// One way to work things out: in which frame, and twists run by run or not.
@@ -45,8 +45,14 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    /// In base axes, twists from the axes of the frames.
-    pub const PLAIN: Way = Way { cut: 0, passes: Passes { runs: false, ..Passes::ALL } };
+    /// In base axes, twists from the axes of the frames, derivatives of torques from their graph.
+    pub const PLAIN: Way =
+        Way { cut: 0, passes: Passes { runs: false, bodies: false, ..Passes::ALL } };
+
+    /// The same with derivatives of torques in closed form.
+    pub fn by_bodies(self) -> Way {
+        Way { passes: Passes { bodies: true, ..self.passes }, ..self }
+    }
 
     /// Boundary of the working frame.
     pub fn cut(self) -> usize {
@@ -59,9 +65,22 @@ impl Way {
     }
 }
 
-/// The cheapest way for each set: every frame is laid out once, with all outputs in it. A long derivative is
-/// worked out where what is differentiated costs least.
+/// The cheapest way for each set.
 fn best_ways(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
+    let mut ways = best_frames(robot, sets, passes);
+    for (set, way) in sets.iter().zip(&mut ways) {
+        let by_motion = |output: &Output| output.is_of_motion() && output.is_on_request();
+        let cost = |way| derive_by(robot, set, way).ops().cost();
+        if passes.bodies && set.iter().any(by_motion) && cost(way.by_bodies()) < cost(*way) {
+            *way = way.by_bodies();
+        }
+    }
+    ways
+}
+
+/// The frame in which each set costs least: every one is laid out once, with all outputs in it. A long derivative is
+/// worked out where what is differentiated costs least.
+fn best_frames(robot: &Robot, sets: &[&[Output]], passes: Passes) -> Vec<Way> {
     let like = |set: &&[Output]| set.iter().map(|output| output.worked_out_like()).collect();
     let sets: Vec<Vec<Output>> = sets.iter().map(like).collect();
     // What every link has worked out in its own axes costs the same wherever the chain is laid out from.
@@ -95,6 +114,7 @@ pub(crate) fn cheapest(
 ) -> Vec<Way> {
     let cuts = if passes.frame { Chain::cuts(robot) } else { vec![0] };
     let stride = if robot.dof() <= EXHAUSTIVE { 1 } else { cuts.len().div_ceil(4) };
+    let passes = Passes { bodies: false, ..passes };
     let plain = Passes { runs: false, ..passes };
     let mut best = vec![(u32::MAX, Way { cut: 0, passes: plain }); sets];
     // The first of equals stays: the frame nearest the base. Run by run is for the functions whose frame it is

@@ -38,7 +38,9 @@ impl Function {
         let first = laid_out(Way::PLAIN).map_err(refused)?;
         let cost = |way| laid_out(way).map_or(u32::MAX, |function| function.ops().cost());
         let ways = cheapest(robot, 1, Passes::ALL, |way| vec![cost(way)]);
-        Ok(ways.first().and_then(|way| laid_out(*way).ok()).unwrap_or(first))
+        let found = ways.first().map(|way| [*way, way.by_bodies()]);
+        let best = found.and_then(|ways| ways.into_iter().min_by_key(|way| cost(*way)));
+        Ok(best.and_then(|way| laid_out(way).ok()).unwrap_or(first))
     }
 
     fn of(

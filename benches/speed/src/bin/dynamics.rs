@@ -9,7 +9,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_bench::arms::{self, FILES, textbook};
 use stiffarm_bench::lanes::by_eight;
 use stiffarm_bench::timing::{Candidate, medians};
-use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::emit::{COptions, Precision, Sines};
+use stiffarm_codegen::program::{Formulas, Module, Term};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_draws::Draws;
 use stiffarm_kernels::Output;
@@ -95,8 +96,9 @@ fn write<const M: usize>(directory: &Path, id: &str, states: &[[f64; M]]) -> Res
     let (robot, _) = Robot::from_toml(text, id)?;
     let robot = Robot { outputs: OUTPUTS.to_vec(), ..robot };
     let name = id.to_owned();
-    let kernels =
-        c(&robot, &COptions { name, precision: Precision::F64, sines: Sines::Polynomial })?;
+    let kernels = Module::new(&robot)
+        .function("torque_derivatives", "How the torques of a motion change", torque_derivatives)?
+        .c(&COptions { name, precision: Precision::F64, sines: Sines::Polynomial })?;
     std::fs::write(directory.join(format!("{id}.h")), kernels.header)?;
     std::fs::write(directory.join(format!("{id}.c")), kernels.source)?;
     let arm = textbook(id);
@@ -115,6 +117,19 @@ fn write<const M: usize>(directory: &Path, id: &str, states: &[[f64; M]]) -> Res
         numbers(output.name(), &results)?;
     }
     Ok(())
+}
+
+/// By joint values, rates and accelerations, which have much in common.
+fn torque_derivatives(f: &Formulas<'_>) {
+    let n = f.joints().len();
+    for (name, unit, output) in [
+        ("by_joints", "N·m/rad", Output::InverseDynamicsByJoints),
+        ("by_rates", "N·m·s/rad", Output::InverseDynamicsByRates),
+        ("by_accelerations", "kg·m²", Output::MassMatrix),
+    ] {
+        let columns: Vec<Vec<Term<'_>>> = f.output(output).chunks(n).map(<[_]>::to_vec).collect();
+        f.result(name, unit, output.sentence(), columns);
+    }
 }
 
 /// A line for gravity and one for each link, in the axes of its joint, z along it: where the joint stands in those of

@@ -2,6 +2,7 @@
 
 use super::line::Link;
 use super::moments::Moments;
+use super::newton_euler::Load;
 use crate::expr::{Expr, Graph, Vec3};
 
 /// `M`, n×n column-major, rotors apart. Where joint j alone accelerates, by one unit, all beyond it moves as
@@ -20,14 +21,10 @@ pub(super) fn mass_matrix(g: &mut Graph, links: &[Link]) -> Vec<Expr> {
         let across = [&own, &run].map(|body| g.add(body.second[0][0], body.second[1][1]));
         let across = g.add(across[0], across[1]);
         run = run.with(g, &in_run);
-        let mut load = unit_load(link, &run, across);
-        for (i, inner) in links.iter().enumerate().take(k + 1).rev() {
-            let along = if inner.slide.is_some() { load.0[2] } else { load.1[2] };
-            mass[k * n + i] = inner.signed(along);
+        let load = unit_load(link, &run, across);
+        for (i, load) in carried(g, links, &levers, k, load).into_iter().enumerate() {
+            mass[k * n + i] = links[i].borne(load);
             mass[i * n + k] = mass[k * n + i];
-            if i > 0 {
-                load = carried(g, links, &levers, i, load);
-            }
         }
         run = run.moved(g, levers[k]);
         if link.begins {
@@ -56,7 +53,7 @@ pub(super) fn levers(g: &mut Graph, links: &[Link]) -> Vec<Vec3> {
 
 /// Force on, and moment about the origin of, a body that a joint accelerates by one unit; the run's axes. Of its second
 /// moments those along two axes across the joint's add up to `across`.
-fn unit_load(link: &Link, body: &Moments, across: Expr) -> (Vec3, Vec3) {
+pub(super) fn unit_load(link: &Link, body: &Moments, across: Expr) -> Load {
     let [x, y, _] = body.first;
     let s = body.second;
     let (force, moment) = match link.slide {
@@ -66,14 +63,29 @@ fn unit_load(link: &Link, body: &Moments, across: Expr) -> (Vec3, Vec3) {
     (force.map(|c| link.signed(c)), moment.map(|c| link.signed(c)))
 }
 
-/// A load about the origin of link `k`, in its run's axes, as the link before bears it in its run's.
-fn carried(
+/// A load about the origin of link `k` as that and all links before bear it, each about its origin in its run's axes.
+pub(super) fn carried(
     g: &mut Graph,
     links: &[Link],
     levers: &[Vec3],
     k: usize,
-    (force, moment): (Vec3, Vec3),
-) -> (Vec3, Vec3) {
+    load: Load,
+) -> Vec<Load> {
+    let mut loads = vec![load; k + 1];
+    for i in (0..k).rev() {
+        loads[i] = inwards(g, links, levers, i + 1, loads[i + 1]);
+    }
+    loads
+}
+
+/// From link `k` to the one before.
+fn inwards(
+    g: &mut Graph,
+    links: &[Link],
+    levers: &[Vec3],
+    k: usize,
+    (force, moment): Load,
+) -> Load {
     let link = &links[k];
     let lever = g.cross3(levers[k], force);
     let moment = g.add3(moment, lever);

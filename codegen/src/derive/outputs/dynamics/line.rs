@@ -4,7 +4,8 @@
 //! that they are the sums that the pose is made of. A link's origin may lie anywhere on the axis that it
 //! turns about: translations along the axes of a run are left to its end, and behind the last joint to nobody.
 
-use super::moments::{Moments, turned};
+use super::moments::{Moments, turned, turned_matrix};
+use super::newton_euler::Load;
 use crate::derive::chain::{Chain, beam_mass, expression, length};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3};
 use crate::number::Number;
@@ -59,6 +60,14 @@ impl Lean {
     }
 }
 
+impl Lean {
+    /// A matrix, as [vectors](Lean::outwards).
+    pub fn matrix(&self, g: &mut Graph, matrix: &[Vec3; 3]) -> [Vec3; 3] {
+        let matrix = turned_matrix(g, &self.0[1], 1, matrix);
+        turned_matrix(g, &self.0[0], 0, &matrix)
+    }
+}
+
 /// The frame of a link's row, in which the table tells its mass.
 pub(super) struct RowFrame {
     /// Of its axes in the link's.
@@ -97,6 +106,18 @@ impl Link {
     pub fn moments_in_run(&self, g: &mut Graph, moments: &Moments) -> Moments {
         let turned = moments.turned(g, &self.turn, 2);
         if self.opposite { turned.over() } else { turned }
+    }
+
+    /// A matrix of the link's axes in the run's.
+    pub fn matrix_in_run(&self, g: &mut Graph, matrix: &[Vec3; 3]) -> [Vec3; 3] {
+        let turned = turned_matrix(g, &self.turn, 2, matrix);
+        let sign = |i: usize, x: Expr| x.signed(self.opposite && i > 0);
+        core::array::from_fn(|i| core::array::from_fn(|j| sign(i, sign(j, turned[i][j]))))
+    }
+
+    /// What the joint bears of a load about its origin, in the run's axes.
+    pub fn borne(&self, (force, moment): Load) -> Expr {
+        self.signed(if self.slide.is_some() { force[2] } else { moment[2] })
     }
 
     /// `-x` if the link is opposite to its run.

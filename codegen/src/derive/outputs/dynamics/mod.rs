@@ -1,5 +1,6 @@
 //! The equations of motion, each link in its own axes: what a motion costs, joint by joint.
 
+mod bodies;
 mod composite;
 mod line;
 mod moments;
@@ -40,6 +41,10 @@ fn bias(chain: &mut Chain) -> Derived {
 
 /// ∂τ/∂q_i, n×n.
 fn by_joints(chain: &mut Chain) -> Derived {
+    if chain.passes.bodies {
+        let [by_joints, _] = by_bodies(chain);
+        return by_joints.into();
+    }
     let accelerations = symbols(chain, Symbol::Acceleration);
     let torques = torques(chain, accelerations);
     by(chain, &torques, Symbol::Joint)
@@ -47,9 +52,30 @@ fn by_joints(chain: &mut Chain) -> Derived {
 
 /// ∂τ/∂q̇_i, n×n: that of the bias, for M q̈ has no rate in it.
 fn by_rates(chain: &mut Chain) -> Derived {
+    if chain.passes.bodies {
+        let [_, by_rates] = by_bodies(chain);
+        return by_rates.into();
+    }
     let none = vec![Expr::ZERO; chain.dof()];
     let torques = torques(chain, none);
     by(chain, &torques, Symbol::Rate)
+}
+
+/// Both, each in closed form.
+fn by_bodies(chain: &mut Chain) -> [Vec<Expr>; 2] {
+    let (rates, accelerations) =
+        (symbols(chain, Symbol::Rate), symbols(chain, Symbol::Acceleration));
+    let gravity = gravity(chain);
+    let links = line(chain);
+    let motion = Motion { rates: &rates, accelerations: &accelerations, gravity };
+    let [by_joints, mut by_rates] = bodies::derivatives(&mut chain.g, &links, &motion);
+    let n = chain.dof();
+    for k in 0..n {
+        let own = &mut by_rates[k * n + k];
+        let viscous = viscous(chain, k);
+        *own = chain.g.add(*own, viscous);
+    }
+    [by_joints, by_rates]
 }
 
 fn by(chain: &mut Chain, torques: &[Expr], symbol: fn(usize) -> Symbol) -> Derived {
@@ -134,12 +160,17 @@ fn take_rotor(chain: &mut Chain, link: &mut Link, rotor: Expr) -> Expr {
 
 /// `coulomb · sign(q̇) + viscous · q̇`.
 fn friction(chain: &mut Chain, joint: usize, rate: Expr) -> Expr {
-    let drive = chain.robot.joints[joint].drive.clone();
-    let [dry, viscous] = [drive.coulomb, drive.viscous]
-        .map(|c| c.map_or(Expr::ZERO, |c| expression(&mut chain.g, &c)));
+    let dry = chain.robot.joints[joint].drive.coulomb.as_ref();
+    let dry = dry.map_or(Expr::ZERO, |c| expression(&mut chain.g, c));
+    let viscous = viscous(chain, joint);
     let sign = if dry.is_zero() { Expr::ZERO } else { chain.g.sign(rate) };
     let (dry, viscous) = (chain.g.mul(dry, sign), chain.g.mul(viscous, rate));
     chain.g.add(dry, viscous)
+}
+
+fn viscous(chain: &mut Chain, joint: usize) -> Expr {
+    let viscous = chain.robot.joints[joint].drive.viscous.as_ref();
+    viscous.map_or(Expr::ZERO, |c| expression(&mut chain.g, c))
 }
 
 /// The rotor's inertia as the joint feels it, `gear² J`.

@@ -127,3 +127,24 @@ fn turned_second(g: &mut Graph, turn: &Turn, k: usize, m: [Vec3; 3]) -> [Vec3; 3
     (all[i][j], all[j][i]) = (ij, ij);
     all
 }
+
+/// `R D Rᵀ` of a turn about axis `k`, as [second moments](turned_second) are turned.
+pub(super) fn turned_matrix(g: &mut Graph, turn: &Turn, k: usize, m: &[Vec3; 3]) -> [Vec3; 3] {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let (s, c) = turn.sin_cos(g);
+    let (difference, both) = (g.sub(m[i][i], m[j][j]), g.add(m[i][j], m[j][i]));
+    let (across, along) = (g.mul(s, difference), g.mul(c, both));
+    let h = g.add(across, along);
+    let (sh, ch) = (g.mul(s, h), g.mul(c, h));
+    let (ii, jj, ij, ji) = match (s.is_zero(), c.is_zero()) {
+        (true, _) => (m[i][i], m[j][j], m[i][j], m[j][i]),
+        (_, true) => (m[j][j], m[i][i], -m[j][i], -m[i][j]),
+        _ => (g.sub(m[i][i], sh), g.add(m[j][j], sh), g.sub(ch, m[j][i]), g.sub(ch, m[i][j])),
+    };
+    let mut all = [[Expr::ZERO; 3]; 3];
+    all[k] = turned(g, turn, k, m[k]);
+    let column = turned(g, turn, k, m.map(|row| row[k]));
+    (all[i][k], all[j][k]) = (column[i], column[j]);
+    (all[i][i], all[j][j], all[i][j], all[j][i]) = (ii, jj, ij, ji);
+    all
+}

@@ -18,7 +18,7 @@ pub(super) struct Motion<'m> {
 }
 
 /// Force and moment on a link.
-type Load = (Vec3, Vec3);
+pub(super) type Load = (Vec3, Vec3);
 
 /// A link's angular velocity and acceleration, and the acceleration of its origin.
 #[derive(Clone, Copy, Default)]
@@ -96,17 +96,29 @@ fn sum(g: &mut Graph, products: &[(Expr, Expr)]) -> Expr {
 pub(super) fn newton_euler(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Vec<Expr> {
     let levers = levers(g, links);
     let states = outwards(g, links, motion);
-    let load = |(link, state): (&Link, &State)| {
+    let borne = loads(g, links, &states, &levers);
+    links.iter().zip(borne).map(|(link, load)| link.borne(load)).collect()
+}
+
+/// What each joint bears of its link and of all beyond, about its origin in its run's axes.
+pub(super) fn loads(
+    g: &mut Graph,
+    links: &[Link],
+    states: &[(State, State)],
+    levers: &[Vec3],
+) -> Vec<Load> {
+    let load = |(link, (state, _)): (&Link, &(State, State))| {
         let field = Field::new(g, state.spin, state.spin_rate);
         field.load(g, link, state.acceleration)
     };
-    let loads: Vec<Load> = links.iter().zip(&states).map(load).collect();
-    inwards(g, links, &loads, &levers)
+    let loads: Vec<Load> = links.iter().zip(states).map(load).collect();
+    inwards(g, links, &loads, levers)
 }
 
-/// How each link moves, in its own axes.
-pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Vec<State> {
-    let mut states: Vec<State> = Vec::new();
+/// How each link moves, in its own axes; and the link that carries its run, but with the acceleration of the link's own
+/// origin, in the run's.
+pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Vec<(State, State)> {
+    let mut states: Vec<(State, State)> = Vec::new();
     // A base that is thrown upwards weighs its links down.
     let acceleration = motion.gravity.map(|c| -c);
     // The link before the run in the run's axes, and the rates about the run's z.
@@ -114,7 +126,7 @@ pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Ve
     let mut field = Field::default();
     let mut turning = [Expr::ZERO; 2];
     for (k, link) in links.iter().enumerate() {
-        let last = states.last().copied().unwrap_or(run);
+        let last = states.last().map_or(run, |(of_link, _)| *of_link);
         let carried = field.times(g, link.offset);
         if link.begins {
             let at = g.add3(last.acceleration, carried);
@@ -153,7 +165,7 @@ pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Ve
             run.acceleration = g.add3(run.acceleration, in_run);
             at = g.add3(at, slid);
         }
-        states.push(State { spin, spin_rate, acceleration: at });
+        states.push((State { spin, spin_rate, acceleration: at }, run));
         let i = k + 1;
         for (v, name) in [(spin, "w"), (spin_rate, "dw"), (at, "a")] {
             g.name3(v, &format!("{name}{i}"));
@@ -163,8 +175,8 @@ pub(super) fn outwards(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> Ve
 }
 
 /// What each joint bears of its link and of all beyond.
-fn inwards(g: &mut Graph, links: &[Link], loads: &[Load], levers: &[Vec3]) -> Vec<Expr> {
-    let mut torques = vec![Expr::ZERO; links.len()];
+fn inwards(g: &mut Graph, links: &[Link], loads: &[Load], levers: &[Vec3]) -> Vec<Load> {
+    let mut borne = loads.to_vec();
     let none = ([Expr::ZERO; 3], [Expr::ZERO; 3]);
     // Of the run beyond, about the origin and in the axes of the link that carries it; of the run's links
     // beyond, in its axes.
@@ -177,8 +189,7 @@ fn inwards(g: &mut Graph, links: &[Link], loads: &[Load], levers: &[Vec3]) -> Ve
         run = (g.add3(run.0, here[0]), g.add3(run.1, here[1]));
         g.name3(run.0, &format!("f{}", k + 1));
         g.name3(run.1, &format!("n{}", k + 1));
-        let along = if link.slide.is_some() { run.0[2] } else { run.1[2] };
-        torques[k] = link.signed(along);
+        borne[k] = run;
         // About the origin of the link before.
         let lever = g.cross3(levers[k], run.0);
         run.1 = g.add3(run.1, lever);
@@ -189,5 +200,5 @@ fn inwards(g: &mut Graph, links: &[Link], loads: &[Load], levers: &[Vec3]) -> Ve
             run = none;
         }
     }
-    torques
+    borne
 }

@@ -56,7 +56,7 @@ pub(super) fn regressor(g: &mut Graph, links: &[Link], motion: &Motion<'_>) -> V
             of_link.map(|v| link.row.lean.inwards(g, v))
         });
         let of_row: Vec<Twist> = of_row.collect();
-        for (force, moment) in unit_loads(g, link, &states[k]) {
+        for (force, moment) in unit_loads(g, link, &states[k].0) {
             columns.extend(of_row.iter().map(|twist| {
                 let (pushed, turned) = (g.dot3(force, twist.v), g.dot3(moment, twist.z));
                 g.add(pushed, turned)
