@@ -47,8 +47,8 @@ impl Column {
     }
 }
 
-/// What a model asks of each joint's drive at every fine sample, in the unit of the rows. Not what was
-/// measured: a torque always explains itself.
+/// What a model asks of each joint's drive at every fine sample, in the unit of the rows, and how late it has
+/// servos follow. Not what was measured: a torque always explains itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loads {
     /// Its rigid links.
@@ -59,6 +59,8 @@ pub struct Loads {
     pub known: Vec<Vec<f64>>,
     /// Numbers of the links, ten each, that ask the same as the rigid links.
     pub numbers: Vec<f64>,
+    /// How late commands are followed, s; of position rows.
+    pub delay: f64,
 }
 
 /// A log as the effects see it.
@@ -72,7 +74,7 @@ pub struct Scene<'a> {
     pub domain: Domain,
     /// Where the torque is measured; `None` of position rows.
     pub side: Option<TorqueSide>,
-    /// What a simple model asks of the drives: rigid links, Coulomb and viscous friction.
+    /// What a simple model asks of the drives: rigid links, Coulomb and viscous friction; and a servo's delay.
     pub loads: &'a Loads,
     /// Speeds below which a joint counts as standing, one per joint, rad/s or m/s.
     pub still: &'a [f64],

@@ -41,12 +41,10 @@ fn delay_droop_and_play_are_told_apart() {
         finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}")).parameters[0].value
     };
     assert_eq!(found.findings[0].effect, "latency", "{found:#?}");
-    // At a reversal the joint stands until it meets the other tooth, where the effect is still the last
-    // way's: about 0.2 s (the root of four half widths over 0.8 rad/s²) of every 2 s.
     for (effect, place, expected, part) in [
         ("latency", "the interface", DELAY, 0.02),
         ("servo_droop", "joint 1", COMPLIANCE, 0.02),
-        ("backlash", "joint 2", HALF_WIDTH, 0.15),
+        ("backlash", "joint 2", HALF_WIDTH, 0.02),
     ] {
         let value = value(effect, place);
         assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");

@@ -60,6 +60,21 @@ fn a_droop_that_nothing_explains_is_left_over() {
     assert!(flagged >= 90, "{flagged} of 100");
 }
 
+/// Readings of joint 2 that count from another zero than its commands, by half of the noise: nothing in the catalogue
+/// does that.
+#[test]
+fn a_zero_that_is_wrong_is_left_over() {
+    let is_told = |seed: &u64| {
+        let mut log = recorded(*seed, 0.01, 0.0);
+        let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
+        q[1].iter_mut().for_each(|q| *q += 0.5 * NOISE);
+        let left = diagnosed(&log, *seed).unexplained.depends_on;
+        left.iter().any(|rest| rest.place == "joint 2" && rest.of == "mean")
+    };
+    let flagged = SEEDS.filter(is_told).count();
+    assert!(flagged >= 90, "{flagged} of 100");
+}
+
 /// 5 of 100, and two standard errors; of noise that forgets at once, and of noise as slow as the motion.
 #[test]
 fn where_nothing_is_left_nothing_is_told() {

@@ -80,7 +80,7 @@ impl LogEffect for Latency {
 }
 
 /// The commands of so long ago, by straight lines; at the beginning of a span its first.
-fn ago(scene: &Scene<'_>, joint: usize, delay: f64) -> Vec<f64> {
+pub(super) fn ago(scene: &Scene<'_>, joint: usize, delay: f64) -> Vec<f64> {
     let commands = &scene.signals.command[joint];
     let back = delay / scene.signals.period;
     let mut then = Vec::with_capacity(commands.len());

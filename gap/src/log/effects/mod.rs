@@ -237,6 +237,9 @@ pub(super) const COULOMB: &dyn LogEffect = &coulomb_friction::CoulombFriction;
 pub(super) const VISCOUS: &dyn LogEffect = &viscous_friction::ViscousFriction;
 pub(super) const OFFSET: &dyn LogEffect = &torque_offset::TorqueOffset;
 
+/// What the simple model of servos has.
+pub(super) const LATENCY: &dyn LogEffect = &latency::Latency;
+
 /// What a log has a joint's spring as: in rows of commands, and of torques.
 pub(super) const DROOP: &dyn LogEffect = &servo_droop::ServoDroop;
 pub(super) const ELASTICITY: &dyn LogEffect = &joint_elasticity::JointElasticity;

@@ -5,7 +5,7 @@ use stiffarm_kernels::generic::Arm;
 use super::fit::{Fitted, Links};
 use super::ripples;
 use super::stock::{Mixed, Stock};
-use crate::log::effects::{COULOMB, LogEffect, OFFSET, Spot, VISCOUS};
+use crate::log::effects::{COULOMB, LATENCY, LogEffect, OFFSET, Spot, VISCOUS};
 use crate::log::model::Acting;
 use crate::log::read::TorqueSide;
 use crate::log::rigid::Base;
@@ -35,7 +35,7 @@ pub struct Case<'a> {
     pub loaded: &'a [Option<[f64; 10]>],
 }
 
-/// A simple model of the drives.
+/// A simple model of the drives, or of how late servos follow.
 #[derive(Clone, Debug, Default)]
 pub struct Simple {
     /// Of the rigid links' columns.
@@ -44,32 +44,35 @@ pub struct Simple {
     friction: Vec<[f64; 2]>,
     /// Ripples of each joint that stand out, in periods per radian or metre.
     pub ripples: Vec<Vec<f64>>,
+    /// Between the commands and the servos, s.
+    delay: f64,
 }
 
 /// An effect at a place, and values about which it is asked for.
 pub type Wanted = (&'static dyn LogEffect, Spot, Vec<Vec<f64>>);
 
 impl Simple {
-    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows
-    /// nothing.
+    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows a
+    /// delay.
     pub fn of(case: &Case<'_>, seed: u64) -> Simple {
         let joints = case.signals.joints();
         let nothing = Simple {
             values: vec![0.0; case.base.map_or(0, |base| base.columns.len())],
             friction: vec![[0.0; 2]; joints],
             ripples: vec![Vec::new(); joints],
+            delay: 0.0,
         };
+        let thinned = case.signals.t.len().div_ceil(ENOUGH);
+        let sizes = vec![1.0; joints];
         if case.kind.0 == Domain::Position {
-            return nothing;
+            return Simple { delay: delay(case, &nothing, thinned), ..nothing };
         }
         let effects = [COULOMB, VISCOUS, OFFSET];
         let spots = (0..joints).map(Spot::Joint);
         let wanted: Vec<Wanted> =
             spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]]))).collect();
-        let thinned = case.signals.t.len().div_ceil(ENOUGH);
         let stock = Stock::of(case, &nothing, &wanted, thinned);
         let terms = (0..stock.offers.len()).map(|offer| stock.term(offer, 0)).collect::<Vec<_>>();
-        let sizes = vec![1.0; joints];
         let rough = Fitted::of(&stock, &terms, &Links::Free, &sizes);
         let fit = Fitted::of(&stock, &terms, &Links::Free, &rough.sizes(&stock));
         let values = |effect: usize| fit.terms.iter().skip(effect).step_by(3).map(|t| t.values[0]);
@@ -80,8 +83,23 @@ impl Simple {
                 .collect(),
             ripples: ripples::found(&stock, &fit.sampled(&stock), seed),
             values: fit.values[..stock.base].to_vec(),
+            delay: 0.0,
         }
     }
+}
+
+/// How late all servos follow, the whole of it, known or not.
+fn delay(case: &Case<'_>, nothing: &Simple, thinned: usize) -> f64 {
+    let case = Case { known: &[], ..*case };
+    let loads = Loads::default();
+    let probes = LATENCY.probes(&case.scene(nothing, case.signals, &loads), Spot::Interface);
+    let stock = Stock::of(&case, nothing, &[(LATENCY, Spot::Interface, probes)], thinned);
+    let sizes = stock.sizes(&[stock.left(&Links::Free, &[])], &[1.0]);
+    let fits = (0..stock.offers[0].entries.len()).map(|entry| {
+        let fit = Fitted::of(&stock, &[stock.term(0, entry)], &Links::Free, &sizes);
+        (fit.sizes(&stock).iter().map(|size| size.ln()).sum::<f64>(), fit.terms[0].values[0])
+    });
+    fits.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, delay)| delay.max(0.0))
 }
 
 impl Case<'_> {
@@ -175,6 +193,7 @@ impl Case<'_> {
     fn loads(&self, simple: &Simple, rigid: &[Column], signals: &Signals, run: usize) -> Loads {
         let nothing = || vec![vec![0.0; signals.t.len()]; signals.joints()];
         let mut loads = Loads { rigid: nothing(), known: nothing(), ..Loads::default() };
+        loads.delay = simple.delay;
         let Some(base) = self.base else { return loads };
         let add = |to: &mut [Vec<f64>], values: &[f64]| {
             for (column, value) in rigid.iter().zip(values) {

@@ -68,12 +68,15 @@ pub(super) fn foretold(
         places
     };
     let places: Vec<Vec<At>> = quantities.iter().map(|p| places(p)).collect();
+    // The mean before all else, which the parts of everything have in them.
+    let is_mean = |places: &&Vec<At>| Means::of(left, places, blocks.folds).gain() > 0.0;
+    let own = quantities.iter().zip(&places).filter(|(parts, _)| parts.of == Of::Mean);
+    let mut by: Vec<Of> = own.filter(|(_, places)| is_mean(places)).map(|_| Of::Mean).collect();
     let counted = || left.iter().flatten();
     let mean = counted().sum::<f64>() / counted().count().max(1) as f64;
     let beyond =
         |(left, fold): (&Option<f64>, &Option<usize>)| fold.and(*left).map(|left| left - mean);
     let mut beside: Vec<Option<f64>> = left.iter().zip(&folds).map(beyond).collect();
-    let mut by = Vec::new();
     for _ in 0..STEPS {
         let means = places.iter().map(|places| Means::of(&beside, places, blocks.folds));
         let asked = means.enumerate().map(|(k, means)| (means.gain(), k, means));

@@ -1,8 +1,8 @@
 //! On what it depends that is left.
 //!
 //! What is left is sorted by joint value, speed, load and time into parts of equally many rows. A mean of
-//! a part that chance does not make says that something is still to be found there: under the signs of
-//! whole blocks the largest of all joints and quantities is seldom as large.
+//! a part, or of all rows, that chance does not make says that something is still to be found there: under the signs
+//! of whole blocks the largest of all joints and quantities is seldom as large.
 
 mod foretold;
 mod quantity;
@@ -15,7 +15,7 @@ use super::stock::Stock;
 use super::{CHANCE, judge::Verdict};
 use crate::dice::{Dice, Stream};
 use foretold::foretold;
-use quantity::{Of, PARTS, Parts};
+use quantity::{Of, Parts};
 
 /// Random signs.
 const FLIPS: usize = 999;
@@ -89,16 +89,17 @@ fn beyond_chance(
     let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
     let size = |sorted: &Sorted, signs: &DMatrix<f64>| -> Vec<f64> {
         let pulls = signs * &sorted.sums;
-        pulls.row_iter().map(|row| row.norm_squared()).collect()
+        let parts = sorted.sums.ncols() as f64;
+        pulls.row_iter().map(|row| normal(row.norm_squared(), parts)).collect()
     };
-    let mut largest = vec![0.0_f64; FLIPS];
+    let mut largest = vec![f64::NEG_INFINITY; FLIPS];
     for sorted in &all {
         let sizes = size(sorted, &signs);
         largest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
     }
     let told = |sorted: &Sorted| {
         let found = size(sorted, &DMatrix::repeat(1, count, 1.0))[0];
-        let as_good = largest.iter().filter(|x| **x >= found * (1.0 - 1e-12)).count();
+        let as_good = largest.iter().filter(|x| **x >= found - 1e-9).count();
         let chance = (1 + as_good) as f64 / (FLIPS + 1) as f64;
         let (joint, of) = (sorted.joint, sorted.of.named(sorted.joint));
         (sorted.of, Rest { joint, of, share: sorted.share, chance })
@@ -107,6 +108,13 @@ fn beyond_chance(
         all.iter().map(told).filter(|(_, rest)| rest.chance <= CHANCE).collect();
     rests.sort_by(|a, b| b.1.share.total_cmp(&a.1.share));
     rests
+}
+
+/// A sum of so many squares of normal numbers as one normal number, so that a mean's one is held against sums of more
+/// (Wilson & Hilferty 1931).
+fn normal(squares: f64, count: f64) -> f64 {
+    let spread = 2.0 / (9.0 * count);
+    ((squares / count).cbrt() - (1.0 - spread)) / spread.sqrt()
 }
 
 fn sorted(
@@ -124,9 +132,12 @@ fn sorted(
         return None;
     }
     let all = || rows.iter().flatten();
-    let mean = all().map(|(.., left)| left).sum::<f64>() / all().count() as f64;
+    let mean = match parts.of {
+        Of::Mean => 0.0,
+        _ => all().map(|(.., left)| left).sum::<f64>() / all().count() as f64,
+    };
     let whole: f64 = all().map(|(.., left)| (left - mean).powi(2)).sum();
-    let mut sums = DMatrix::<f64>::zeros(blocks.all.len(), PARTS);
+    let mut sums = DMatrix::<f64>::zeros(blocks.all.len(), rows.len());
     let mut explained = 0.0;
     for (p, part) in rows.iter().enumerate() {
         for (block, sign, left) in part {

@@ -22,6 +22,8 @@ pub(super) enum Of {
     BrakingSpeed,
     BrakingLoad,
     BrakingTime,
+    /// On nothing: it is there all the time.
+    Mean,
 }
 
 impl Of {
@@ -29,7 +31,7 @@ impl Of {
     fn all(joints: usize) -> impl Iterator<Item = Of> {
         let each = (0..joints).flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
         let braking = [Of::BrakingSpeed, Of::BrakingLoad, Of::BrakingTime];
-        [Of::Load, Of::Time].into_iter().chain(braking).chain(each)
+        [Of::Mean, Of::Load, Of::Time].into_iter().chain(braking).chain(each)
     }
 
     /// Of a joint.
@@ -47,6 +49,7 @@ impl Of {
             Of::BrakingSpeed => "speed, against the motion".to_owned(),
             Of::BrakingLoad => "load, against the motion".to_owned(),
             Of::BrakingTime => "time, against the motion".to_owned(),
+            Of::Mean => "mean".to_owned(),
         }
     }
 }
@@ -55,7 +58,8 @@ impl Of {
 pub(super) struct Parts {
     pub(super) joint: usize,
     pub(super) of: Of,
-    /// Equally many rows each: their place in the sample, and the sign that what is left has there.
+    /// Equally many rows each, or all in one of a mean: their place in the sample, and the sign that what is left has
+    /// there.
     pub(super) rows: Vec<Vec<(usize, f64)>>,
 }
 
@@ -101,6 +105,7 @@ impl Rows {
             Of::Time | Of::BrakingTime => self.t[k],
             Of::BrakingSpeed => self.qd[joint][k].abs(),
             Of::BrakingLoad => self.loads[joint][k].abs(),
+            Of::Mean => 0.0,
         }
     }
 }
@@ -134,14 +139,15 @@ pub(super) fn all(stock: &Stock<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]) ->
         let mut sorted: Vec<(f64, usize)> = counts.map(|k| (rows.value(joint, of, k), k)).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (first, last) = (sorted.first()?.0, sorted.last()?.0);
+        let parts = if of == Of::Mean { 1 } else { PARTS };
         // What is the same everywhere would be sorted by its place in the log.
-        if sorted.len() < PARTS || first == last {
+        if sorted.len() < PARTS || (first == last && of != Of::Mean) {
             return None;
         }
-        let edge = |part: usize| sorted.len() * part / PARTS;
+        let edge = |part: usize| sorted.len() * part / parts;
         let row = |(_, k): &(f64, usize)| (*k, rows.sign(joint, of, *k));
         let part = |part| sorted[edge(part)..edge(part + 1)].iter().map(row).collect();
-        Some(Parts { joint, of, rows: (0..PARTS).map(part).collect() })
+        Some(Parts { joint, of, rows: (0..parts).map(part).collect() })
     };
     let joints = left.len();
     let asked = (0..joints).flat_map(|joint| Of::all(joints).map(move |of| (joint, of)));
