@@ -57,6 +57,12 @@ pub trait Effect: Sync {
         scene.moved(self.carrier(spot), &motions)
     }
 
+    /// Its values after a small step of what the block is told by. Numbers add up; displacements of one frame
+    /// follow one another, else a fit would not find one that turns it far.
+    fn stepped(&self, _: Spot, values: &[f64], step: &[f64]) -> Vec<f64> {
+        values.iter().zip(step).map(|(value, step)| value + step).collect()
+    }
+
     // Its forms.
 
     /// What its forms at one place are.

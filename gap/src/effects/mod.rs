@@ -23,8 +23,11 @@ mod scene;
 mod tests;
 mod told;
 
+use nalgebra::Vector6;
 pub use stiffarm_codegen::robot::beyond::Quantity;
 use stiffarm_kernels::generic::Arm;
+
+use crate::displacement::Displacement;
 
 pub use about::About;
 pub(crate) use at_place::{at_place, cannot_act, did_you_mean};
@@ -49,6 +52,12 @@ fn displacement([length, angle]: [Quantity; 2]) -> Vec<Parameter> {
         Parameter::free(name, if k < 3 { length } else { angle }).usually(0.05)
     };
     SIX.into_iter().enumerate().map(one).collect()
+}
+
+/// One displacement of a frame and then, in the frame that it leads to, another; six numbers each.
+fn one_after_other(first: &[f64], then: &[f64]) -> Vec<f64> {
+    let [first, then] = [first, then].map(|v| Displacement::new(&Vector6::from_column_slice(v)));
+    first.then(&then).vector().iter().copied().collect()
 }
 
 /// Names of a displacement's components.

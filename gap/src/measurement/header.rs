@@ -231,16 +231,17 @@ fn sigma(heads: &[Head], family: Family, kind: Kind) -> Option<(&Head, String)> 
 
 fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mistakes) {
     let needed = if layout.readings { layout.motions.len() } else { 0 };
-    for joint in 0..needed {
-        if heads.iter().any(|h| h.role == Some(Role::Reading(joint))) {
-            continue;
-        }
+    let is_missing = |joint: &usize| !heads.iter().any(|h| h.role == Some(Role::Reading(*joint)));
+    let missing: Vec<usize> = (0..needed).filter(is_missing).collect();
+    if missing.is_empty() {
+        return;
+    }
+    let extra = heads.iter().filter(|h| h.role == Some(Role::Extra));
+    let near: Vec<_> = extra.filter_map(|h| Some((nearest_name(&h.name, layout)?, h))).collect();
+    for joint in missing {
         let missing = format!("q{}", joint + 1);
-        let meant = |h: &&Head| {
-            h.role == Some(Role::Extra)
-                && nearest_name(&h.name, layout).as_deref() == Some(missing.as_str())
-        };
-        let suggestion = heads.iter().find(meant).map(|h| h.name.clone());
+        let meant = near.iter().find(|(near, _)| *near == missing);
+        let suggestion = meant.map(|(_, head)| head.name.clone());
         mistakes.add(line, None, Fault::MissingJoint { missing, suggestion });
     }
 }

@@ -121,9 +121,12 @@ pub(crate) fn nearest<'a>(
     found: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
-    let reach = if found.chars().count() >= 6 { 2 } else { 1 };
+    let long = found.chars().count();
+    let reach = if long >= 6 { 2 } else { 1 };
     candidates
         .into_iter()
+        // An edit changes a length by one at most: nothing is compared in vain with a name of megabytes.
+        .filter(|c| c.chars().count().abs_diff(long) <= reach)
         .filter_map(|c| {
             let distance = if c.eq_ignore_ascii_case(found) {
                 0
@@ -131,7 +134,7 @@ pub(crate) fn nearest<'a>(
                 strsim::damerau_levenshtein(found, c)
             };
             // Two short names that share no letter are no misspelling of each other.
-            let related = distance == 0 || distance < found.chars().count().max(c.len());
+            let related = distance == 0 || distance < long.max(c.len());
             (distance <= reach && related).then_some((distance, c))
         })
         .min_by_key(|(distance, _)| *distance)

@@ -53,8 +53,9 @@ impl Reality {
             }
             chain.weight(joint.com, joint.mass * self.gravity);
         }
-        let translation = origin(&self.tool) * situation.growth;
-        chain.fixed(from_parts(&rotation(&self.tool), &translation) * tool_mount);
+        // What is mounted on the arm grows with it, however much of it the robot file knows.
+        let tool = self.tool * tool_mount;
+        chain.fixed(from_parts(&rotation(&tool), &(origin(&tool) * situation.growth)));
         chain.fixed(displaced(&situation.tool_frame));
         let w = &situation.wrench;
         chain.force = Vector3::new(w[0], w[1], w[2]);

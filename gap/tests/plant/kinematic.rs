@@ -238,6 +238,14 @@ fn lengths_grow_and_scales_are_off() {
         let found = measured(&arm, &["thermal_growth=12ppm/K"], &design);
         same_pose(&found[0], &arm.pose(&Q), ROUNDING);
         same_pose(&found[1], &grown.pose(&q), ROUNDING);
+        // A target on the tool that nobody knows grows with it.
+        let mount = Isometry3::translation(0.05, -0.08, 0.03);
+        grown.tool = arm.tool * mount;
+        grown.tool.translation.vector *= factor;
+        let plant = plant(&arm, &["thermal_growth=12ppm/K"]);
+        let mounted = plant.with_frames(frames(Isometry3::identity(), mount));
+        let found = mounted.measure(&design, EXACT, 0).unwrap();
+        same_pose(&found.rows[1].measured, &grown.pose(&q), ROUNDING);
         let scaled = one(&arm, &["instrument_scale=50ppm"], reading(&Q, [0.0; 6]));
         let mut expected = arm.pose(&Q);
         expected.translation.vector *= 1.0 + 50e-6;

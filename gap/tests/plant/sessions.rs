@@ -94,6 +94,29 @@ fn each_session_has_its_base_and_all_have_one_arm() {
     assert!(one.diagnosis.gap.before.position_rms > 0.1);
 }
 
+/// Between the sessions the target was taken off and put on in another way.
+#[test]
+fn a_target_that_was_put_on_anew_is_a_jump_between_sessions() {
+    let arm = loaded(Convention::Standard);
+    let design = design(&arm, &["mon", "tue"], 14);
+    let after = design.rows.len() / 2;
+    let jump = format!("slip@tool:after={after},x=0.12,y=-0.11,z=0.03,rx=1.05,ry=1.1,rz=-0.3");
+    let first = frames(bases()[0], Isometry3::translation(0.01, 0.02, -0.01));
+    let plant = plant(&arm, &[&jump, "joint_compliance@joint 2=4e-6"]);
+    let plant = plant.with_sessions(&first, bases()[1..].to_vec());
+    let data = plant.measure(&design, NOISE, 1).expect("measured");
+    let d = found(&arm, &data, Nuisance::ALL.to_vec()).diagnosis;
+    let names: Vec<_> = d.findings.iter().map(|f| (f.effect, f.place.as_str())).collect();
+    assert_eq!(names, [("slip", "tool"), ("joint_compliance", "joint 2")]);
+    let values: Vec<f64> = d.findings[0].parameters.iter().map(|p| p.value).collect();
+    // 42 rows a side, of six numbers to 20 µm each, and the arm within 2 m.
+    let told = [after as f64, 0.12, -0.11, 0.03, 1.05, 1.1, -0.3];
+    assert!(values.iter().zip(told).all(|(v, t)| (v - t).abs() < 1e-4), "{values:?}");
+    let held_out = d.gap.after.position_rms;
+    assert!(held_out < 1.2 * 3f64.sqrt() * NOISE.position, "{:?}", d.gap);
+    assert!((0.9..=1.0).contains(&(d.gap.fitted.position_rms / held_out)), "{:?}", d.gap);
+}
+
 #[test]
 fn a_session_of_few_poses_is_refused_by_name() {
     let arm = loaded(Convention::Standard);

@@ -112,6 +112,11 @@ impl<'a> Problem<'a> {
         let seen = |number: usize| -> Result<(Reading, f64), DiagnoseError> {
             let (row, when) = (&data.rows[number], moments.at(number));
             let line = row.line;
+            let too_large = || DiagnoseError::TooLarge { file: file(), line };
+            let is_small = |x: &f64| x.abs() < LARGEST;
+            if !row.q.iter().chain(&row.measured).all(is_small) {
+                return Err(too_large());
+            }
             let [x, y, z] = row.offset.unwrap_or_default();
             let sim = |load: Vector6<f64>| {
                 Sim::of(data.kind, Isometry3::translation(x, y, z), None, |loaded| {
@@ -127,9 +132,8 @@ impl<'a> Problem<'a> {
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
             let sim = sim.seen_from(origin(data.kind, row));
             let tool = sim.loaded.tool.translation.vector;
-            let numbers = row.q.iter().chain(sim.loaded.torque.iter()).chain(tool.iter());
-            if !numbers.chain(row.measured.iter()).all(|x| x.abs() < LARGEST) {
-                return Err(DiagnoseError::TooLarge { file: file(), line });
+            if !sim.loaded.torque.iter().chain(tool.iter()).all(is_small) {
+                return Err(too_large());
             }
             Ok((sim.reading(), tool.norm()))
         };

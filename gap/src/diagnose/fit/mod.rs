@@ -19,4 +19,4 @@ pub(crate) use align::{aligned, rigid};
 pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
-pub(crate) use refit::{Fit, block, normal_equations, refit, squares, step, strain};
+pub(crate) use refit::{Fit, block, normal_equations, refit, refit_below, squares, step, strain};

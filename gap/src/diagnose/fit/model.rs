@@ -304,11 +304,12 @@ impl Model {
         for (point, step) in all.zip(points.chunks_exact(3)) {
             *point += Vector3::from_column_slice(step);
         }
-        let mut steps = effects.iter();
+        let mut effects = effects;
         for found in &mut model.found {
-            for (value, least) in found.values.iter_mut().zip(&found.least) {
-                *value = (*value + steps.next().unwrap_or(&0.0)).max(*least);
-            }
+            let (step, others) = effects.split_at(found.values.len());
+            effects = others;
+            let next = found.effect.stepped(found.spot, &found.values, step);
+            found.values = next.iter().zip(&found.least).map(|(v, least)| v.max(*least)).collect();
         }
         model
     }

@@ -26,6 +26,10 @@ const MOST_HALVINGS: usize = 8;
 /// nobody sees. Data as they are take some ten.
 const MOST_PREDICTED: usize = 60;
 
+/// A fit that is to come below something has no hope of it once so many steps as long as the next would
+/// not lead there: near its end each promises a tenth of the one before, or less.
+const HOPE: f64 = 10.0;
+
 /// A step that promises less than this part of the squares, and less than this number of units of
 /// noise, is the last.
 const LAST: f64 = 1e-9;
@@ -56,6 +60,17 @@ pub(crate) fn refit(
     near: Option<&[Sim]>,
     weights: &Vector6<f64>,
 ) -> Result<Fit, DiagnoseError> {
+    refit_below(problem, model, near, weights, f64::INFINITY)
+}
+
+/// The same, given up where squares and strain have no hope of coming `below` something.
+pub(crate) fn refit_below(
+    problem: &Problem<'_>,
+    model: Model,
+    near: Option<&[Sim]>,
+    weights: &Vector6<f64>,
+    below: f64,
+) -> Result<Fit, DiagnoseError> {
     let predicted = model.predict(problem, near)?;
     let mut fit = Fit { model, predicted: Arc::new(predicted) };
     if fit.model.parameters(problem) == 0 {
@@ -72,7 +87,7 @@ pub(crate) fn refit(
             break;
         }
         let (step, promised) = step(problem, &fit, weights);
-        if promised <= LAST * (1.0 + now) {
+        if promised <= LAST * (1.0 + now) || now - HOPE * promised > below {
             break;
         }
         let mut part = 1.0;

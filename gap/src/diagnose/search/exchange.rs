@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Basis, Fit, Fitted, Model, squares, strain};
+use crate::diagnose::fit::{Basis, Fit, Fitted, Model};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::{Candidate, Kept};
 
@@ -35,7 +35,7 @@ impl Search<'_, '_> {
         let fitted = now.fit.model.parameters(self.problem);
         let variance = self.scale(now).variance(self.left(now), fitted);
         if let Some(index) = self.superfluous(now, variance)
-            && let Some(fit) = self.with(now, &[index], Vec::new(), -f64::INFINITY)?
+            && let Some(fit) = self.with(now, &[index], Vec::new(), f64::INFINITY)?
         {
             return Ok(Some(fit));
         }
@@ -107,12 +107,7 @@ impl Search<'_, '_> {
             return Ok((Some(lead), None));
         }
         let refined = self.refined(now, without, best, &screen).into_iter().collect();
-        let fit = self.with(now, without, refined, -f64::INFINITY)?;
-        let evidence = |fit: &Fit| {
-            let left = squares(self.problem, &fit.predicted.gaps, &now.weights);
-            (left + strain(self.problem, &fit.model)) / variance + its
-        };
-        Ok((None, fit.filter(|fit| evidence(fit) < own)))
+        Ok((None, self.with(now, without, refined, (own - its) * variance)?))
     }
 
     /// The effect that costs most beyond what it explains beside all the others, if one does.

@@ -4,7 +4,7 @@
 use super::evidence::{Flips, Scale};
 use crate::diagnose::data::{Folds, Noise, Problem};
 use crate::diagnose::fit::{
-    Basis, Fit, Fitted, Model, Predicted, principal, refit, squares, strain,
+    Basis, Fit, Fitted, Model, Predicted, principal, refit, refit_below, squares, strain,
 };
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
@@ -25,6 +25,9 @@ const SMALL: usize = 4;
 /// Orders of periodic errors that are added with the best one: they hardly touch each other, and a
 /// real gear has many.
 const MOST_ORDERS: usize = 5;
+
+/// The part of the fall that the linear fit promises which the exact one has to keep.
+const KEPT: f64 = 0.5;
 
 /// Candidates that are tried in turn when the exact fit does not follow the linear one.
 const MOST_TRIED: usize = 3;
@@ -266,8 +269,8 @@ impl Search<'_, '_> {
                     }
                 }
             }
-            let expected = one.score.drop;
-            if let Some(fit) = self.with(now, &[], added, expected)? {
+            let below = self.left(now) - KEPT * one.score.drop;
+            if let Some(fit) = self.with(now, &[], added, below)? {
                 return Ok(Some(fit));
             }
         }
@@ -286,14 +289,14 @@ impl Search<'_, '_> {
         (0..self.problem.arm.dof()).map(of_joint).collect()
     }
 
-    /// The model without the effects `out` and with another; `None` if the exact fit does not
-    /// follow what the linear one promised, or an end was asked for before it was done.
+    /// The model without the effects `out` and with another; `None` if squares and strain of the exact fit
+    /// do not come `below` something, or an end was asked for before it was done.
     pub(super) fn with(
         &self,
         now: &Explained,
         out: &[usize],
         added: Vec<Fitted>,
-        expected: f64,
+        below: f64,
     ) -> Result<Option<Fit>, DiagnoseError> {
         let mut model = now.fit.model.clone();
         for &index in out.iter().rev() {
@@ -304,16 +307,16 @@ impl Search<'_, '_> {
             (self.progress)(Stage::Try(kept, one.effect.identifier(), one.spot.place));
         }
         model.found.extend(added);
-        let before = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let near = &now.fit.predicted.sims;
+        let fitted = |model| refit_below(self.problem, model, Some(near), &now.weights, below);
         // An arm that finds no rest with the values of the linear fit begins from none.
-        let fit = refit(self.problem, model.clone(), Some(near), &now.weights).or_else(|_| {
+        let fit = fitted(model.clone()).or_else(|_| {
             model.found[kept..].iter_mut().for_each(|added| added.values.fill(0.0));
-            refit(self.problem, model, Some(near), &now.weights)
+            fitted(model)
         });
         let Some(fit) = fit.ok().filter(|_| !self.stopped()) else { return Ok(None) };
-        let after = squares(self.problem, &fit.predicted.gaps, &now.weights);
-        Ok((before - after >= 0.5 * expected).then_some(fit))
+        let left = squares(self.problem, &fit.predicted.gaps, &now.weights);
+        Ok((left + strain(self.problem, &fit.model) <= below).then_some(fit))
     }
 
     /// The model with every effect as a whole: a form that leaves out numbers is as likely as the

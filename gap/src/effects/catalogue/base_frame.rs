@@ -6,6 +6,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::displacement::Displacement;
 use crate::effects::{
     About, Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, displacement,
+    one_after_other,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment};
@@ -49,6 +50,10 @@ impl Effect for BaseFrame {
 
     fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
         motions.push(1.0);
+    }
+
+    fn stepped(&self, _: Spot, values: &[f64], step: &[f64]) -> Vec<f64> {
+        one_after_other(values, step)
     }
 
     fn idle(&self) -> &'static str {

@@ -8,7 +8,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::displacement::Displacement;
 use crate::effects::{
     About, Carrier, Depends, Draw, Effect, Forms, Parameter, Place, Quantity, Scene, Spot, Told,
-    displacement,
+    displacement, one_after_other,
 };
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
@@ -48,18 +48,22 @@ impl Effect for Slip {
         vec![Place::Base, Place::Tool]
     }
 
-    /// Where rows of another pose begin; of many, an even choice that a search then refines.
+    /// Where rows of another pose begin, and between sessions; of many, an even choice that a search
+    /// then refines.
     fn forms(&self, _: &Arm, _: Place, data: &Measurements) -> Vec<usize> {
-        let mut inner: Vec<usize> = Vec::new();
+        let (mut inner, mut between) = (Vec::new(), Vec::new());
         let mut first = 0;
         for rows in data.sessions() {
             let within = LEAST.max(1)..(rows.len() + 1).saturating_sub(LEAST);
             let begins = within.filter(|k| rows[*k].group != rows[k - 1].group);
+            between.extend((first > 0).then_some(first));
             inner.extend(begins.map(|k| first + k));
             first += rows.len();
         }
         let every = inner.len().div_ceil(MOST).max(1);
-        inner.into_iter().skip(every / 2).step_by(every).collect()
+        between.extend(inner.into_iter().skip(every / 2).step_by(every));
+        between.sort_unstable();
+        between
     }
 
     fn forms_are(&self) -> Forms {
@@ -88,6 +92,13 @@ impl Effect for Slip {
 
     fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
         motions.push(f64::from(is_after(scene.when, spot)));
+    }
+
+    fn stepped(&self, spot: Spot, values: &[f64], step: &[f64]) -> Vec<f64> {
+        match spot.place {
+            Place::Tool => one_after_other(step, values),
+            _ => one_after_other(values, step),
+        }
     }
 
     fn idle(&self) -> &'static str {

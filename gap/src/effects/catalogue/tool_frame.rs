@@ -5,6 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{
     About, Carrier, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told, displacement,
+    one_after_other,
 };
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
@@ -47,6 +48,10 @@ impl Effect for ToolFrame {
 
     fn motions(&self, _: &Scene<'_>, _: Spot, motions: &mut Vec<f64>) {
         motions.push(1.0);
+    }
+
+    fn stepped(&self, _: Spot, values: &[f64], step: &[f64]) -> Vec<f64> {
+        one_after_other(step, values)
     }
 
     fn idle(&self) -> &'static str {
