@@ -87,12 +87,10 @@ fn forward_dynamics_gives_the_motion_back() {
             let torques = arm.inverse_dynamics(&posture, &rates, &accelerations);
             let back = arm.forward_dynamics(&posture, &rates, &torques).expect("masses move");
             let mass = arm.mass_matrix(&posture);
-            let row = |j: usize, of: &dyn Fn(usize) -> f64| -> f64 {
-                (0..N).map(|i| mass[i][j] * of(i)).sum()
-            };
-            for j in 0..N {
-                let off = row(j, &|i| back[i] - accelerations[i]).abs();
-                let size = (0..N).map(|i| (mass[i][j] * accelerations[i]).abs()).sum::<f64>();
+            for column in &mass {
+                let row = |of: &dyn Fn(usize) -> f64| -> f64 { (0..N).map(of).sum() };
+                let off = row(&|i| column[i] * (back[i] - accelerations[i])).abs();
+                let size = row(&|i| (column[i] * accelerations[i]).abs());
                 let most = torques.iter().fold(size, |most, torque| most.max(torque.abs()));
                 worst = worst.max(off / most);
             }
