@@ -8,11 +8,11 @@ use stiffarm_codegen::robot::{Effect as Table, Entry, Quantity as Given};
 use super::effects::{CATALOGUE, LogEffect, Spot};
 use super::model::Acting;
 use super::scene::Domain;
-use crate::effects::{self, KnownError, Quantity, advice, si};
+use crate::effects::{self as files, KnownError, Quantity, advice, si};
 
 /// Whether a table is of motion. Arms have no more joints than places are compared with.
 pub fn is_of_motion(table: &Table) -> bool {
-    effect(table).is_some() && spot(table, MOST).is_some()
+    effects(table).next().is_some() && spot(table, MOST).is_some()
 }
 
 /// More joints no table has.
@@ -25,7 +25,7 @@ const MOST: usize = 64;
 pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting>, KnownError> {
     let mut terms = Vec::new();
     for table in tables {
-        let Some(effect) = effect(table).filter(|effect| effect.domain() == rows) else { continue };
+        let Some(effect) = effects(table).find(|e| e.domain() == rows) else { continue };
         let spot = spot(table, joints).ok_or_else(|| {
             let (found, id) = (&table.place.value, &table.id.value);
             let places: Vec<String> = Spot::all(joints).iter().map(Spot::to_string).collect();
@@ -67,18 +67,19 @@ fn number(entry: &Entry<Given>, unit: &str) -> Result<f64, KnownError> {
 pub fn table(term: &Acting) -> Table {
     let numbers = term.effect.numbers().iter().zip(&term.values);
     let numbers = numbers.map(|((key, _), value)| (*key, Given::Si(*value)));
-    effects::table(term.effect.identifier(), &term.spot, numbers)
+    files::table(term.effect.identifier(), &term.spot, numbers)
 }
 
-/// The effect of a table: that of its identifier which has all its keys.
-fn effect(table: &Table) -> Option<&'static dyn LogEffect> {
+/// The effects of a table: those of its identifier that have all its keys, one for torques and one for positions of
+/// a latency.
+fn effects(table: &Table) -> impl Iterator<Item = &'static dyn LogEffect> {
     let has =
         |effect: &dyn LogEffect, key: &str| effect.numbers().iter().any(|(name, _)| *name == key);
-    let is = |effect: &&&'static dyn LogEffect| {
+    let is = move |effect: &&'static dyn LogEffect| {
         effect.identifier() == table.id.value
-            && table.numbers.iter().all(|entry| has(**effect, &entry.key))
+            && table.numbers.iter().all(|entry| has(*effect, &entry.key))
     };
-    CATALOGUE.iter().find(is).copied()
+    CATALOGUE.iter().copied().filter(is)
 }
 
 /// The place that is printed so.
@@ -109,6 +110,10 @@ mod tests {
         let found = said(backlash, Domain::Position);
         assert_eq!(found, Ok(vec![("joint 2".to_owned(), vec![0.5e-3])]));
         assert_eq!(said(backlash, Domain::Torque), Ok(Vec::new()));
+        let latency = "id = \"latency\"\nplace = \"the interface\"\ndelay = 0.1\n";
+        for rows in [Domain::Torque, Domain::Position] {
+            assert_eq!(said(latency, rows), Ok(vec![("the interface".to_owned(), vec![0.1])]));
+        }
         let viscous = "id = \"viscous_friction\"\nplace = \"joint 1\"\nviscous = ";
         let found = said(&format!("{viscous}12\n"), Domain::Torque);
         assert_eq!(found, Ok(vec![("joint 1".to_owned(), vec![12.0])]));

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::along::is_along;
+use super::along::{is_along, with_along};
 use super::blocks::Blocks;
 use super::candidates::Ground;
 use super::fit::{Fitted, Links, Term};
@@ -58,9 +58,11 @@ pub struct Verdict {
 }
 
 /// Judges each term beside the others, and drops those that are not told from accident, or have become
-/// what no such thing is, one after the other.
+/// what no such thing is, one after the other. What stands beside another on any such arm is tried once more
+/// without them.
 pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
     let (mut fit, mut sizes) = (last.fit.clone(), last.sizes.clone());
+    let mut tried = false;
     loop {
         // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
         let correlation = fit.correlation(stock);
@@ -94,7 +96,15 @@ pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> V
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
         match worst {
-            None => return Verdict { findings: all, fit, sizes, correlation, blocks },
+            None => {
+                let terms = with_along(stock, fit.terms.clone(), offers);
+                if tried || terms.len() == fit.terms.len() {
+                    return Verdict { findings: all, fit, sizes, correlation, blocks };
+                }
+                tried = true;
+                fit = Fitted::of(stock, &terms, &fit.links, &sizes);
+                sizes = fit.sizes(stock);
+            }
             Some(worst) => {
                 let mut terms = fit.terms.clone();
                 let gone = terms.remove(worst);
