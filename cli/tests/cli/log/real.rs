@@ -77,7 +77,10 @@ fn of_a_tx40s_torques_less_than_a_tenth_is_left() {
     let found = diagnosed(&[&tx40(&folder), &data("tx40.csv")]);
     assert!(left(&found) < 0.096, "{}", left(&found));
     // The wrist's coupling, and no other.
-    numbers(&found, "joint_coupling", "joints 5 + 6");
+    let coupling = numbers(&found, "joint_coupling", "joints 5 + 6");
+    for (value, published) in [(coupling[1], 0.616), (coupling[2], 1.95)] {
+        assert!((value / published - 1.0).abs() < 0.05, "{value}, published {published}");
+    }
     let list = found["findings"].as_array().expect("a list");
     assert_eq!(list.iter().filter(|f| f["effect"] == "joint_coupling").count(), 1, "{found:#}");
 }

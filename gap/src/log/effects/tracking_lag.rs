@@ -35,4 +35,9 @@ impl LogEffect for TrackingLag {
         let (qd, qdd) = (&scene.signals.qd[joint], &scene.signals.qdd[joint]);
         vec![scene.column(joint, |k| -qd[k]), scene.column(joint, |k| -qdd[k])]
     }
+
+    /// A servo does not go ahead of what it follows; its inertia may be too small to have a sign.
+    fn may_be(&self, values: &[f64]) -> bool {
+        values[0] >= 0.0
+    }
 }
