@@ -41,14 +41,16 @@ fn delay_droop_and_play_are_told_apart() {
         finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}")).parameters[0].value
     };
     assert_eq!(found.findings[0].effect, "latency", "{found:#?}");
+    // What drags the joint through its play is late by a delay that was fitted alone, and has some milliseconds of the play
+    // in it: at 0.5 rad/s a few thousandths of a radian, in the tenth of the time that reversals take.
     for (effect, place, expected, part) in [
         ("latency", "the interface", DELAY, 0.02),
         ("servo_droop", "joint 1", COMPLIANCE, 0.02),
-        ("backlash", "joint 2", HALF_WIDTH, 0.02),
+        ("backlash", "joint 2", HALF_WIDTH, 0.04),
     ] {
         let value = value(effect, place);
         assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");
     }
     // What else is told is of those reversals: the three leave next to nothing.
-    assert!(found.findings[2].held_out_after < 0.05, "{found:#?}");
+    assert!(found.findings[2].held_out_after < 0.02, "{found:#?}");
 }

@@ -105,7 +105,7 @@ fn a_small_arm_is_late_then_droops() {
     );
     // The play of all servos takes a part of it.
     let delay = numbers(&found, "latency", "the interface")[0];
-    assert!((0.09..0.11).contains(&delay), "{delay}");
+    assert!((0.08..0.11).contains(&delay), "{delay}");
     assert_eq!(list.iter().filter(|f| f["effect"] == "backlash").count(), 5, "{found:#}");
     assert_eq!(found["evidence"]["held_out_by"], "run");
     let gaps = found["gap"].as_array().expect("a list");
