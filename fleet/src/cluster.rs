@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ballista_core::RuntimeProducer;
+use ballista_core::config::TaskSchedulingPolicy;
 use ballista_core::error::Result;
 use ballista_core::registry::BallistaFunctionRegistry;
 use ballista_core::utils::{default_config_producer, default_session_builder};
@@ -19,13 +20,19 @@ use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::arms::Arms;
 use crate::codec::{Logical, Physical};
+use crate::once::Once;
 use crate::session::register;
 use crate::stores::environment;
 
-/// Seconds between an executor's signs of life, and those after which it counts as dead: on a machine that has no time
-/// for it, or waits for its disk, they have been seen to stay away for more than eight.
-const SIGN_OF_LIFE: u64 = 2;
+/// Seconds between looks for executors that are silent, and those of silence after which one counts as dead: a busy one
+/// asks for work every five, and on a machine that has no time for it has been seen to stay away for more than eight.
+const LOOK: u64 = 2;
 const DEAD_AFTER: u64 = 30;
+
+/// Executors ask for work, as many tasks as they have cores free. Were they sent it, the scheduler would count their free
+/// cores itself, and lose those of tasks that it takes back when another executor is lost (apache/datafusion-ballista,
+/// issue 2418 for tasks of a cancelled job): the survivors would never be sent anything again.
+const POLICY: TaskSchedulingPolicy = TaskSchedulingPolicy::PullStaged;
 
 /// What has to be known of an address that others reach.
 pub fn warning(bind: IpAddr) -> Option<String> {
@@ -47,8 +54,9 @@ pub async fn scheduler(address: SocketAddr, arms: Arc<Arms>) -> Result<()> {
         external_host: address.ip().to_string(),
         bind_port: address.port(),
         executor_timeout_seconds: DEAD_AFTER,
-        expire_dead_executor_interval_seconds: SIGN_OF_LIFE,
+        expire_dead_executor_interval_seconds: LOOK,
         no_executors_grace_period_seconds: 4 * DEAD_AFTER,
+        scheduling_policy: POLICY,
         ..SchedulerConfig::default()
     };
     let config = config.with_override_session_builder(Arc::new(move |config: SessionConfig| {
@@ -64,6 +72,8 @@ pub async fn scheduler(address: SocketAddr, arms: Arc<Arms>) -> Result<()> {
         ..config
     };
     let cluster = BallistaCluster::new_from_config(&config).await?;
+    let cluster =
+        BallistaCluster::new(cluster.cluster_state(), Arc::new(Once(cluster.job_state())));
     start_server(cluster, address, Arc::new(config)).await
 }
 
@@ -106,7 +116,7 @@ impl Executor {
             scheduler_connect_timeout_seconds: 30,
             vcores: self.cores,
             work_dir: self.work.map(|work| work.display().to_string()),
-            executor_heartbeat_interval_seconds: SIGN_OF_LIFE,
+            task_scheduling_policy: POLICY,
             override_function_registry: Some(Arc::new(functions)),
             override_runtime_producer: Some(runtime),
             override_logical_codec: Some(Arc::new(Logical::default())),

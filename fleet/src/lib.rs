@@ -14,6 +14,7 @@ pub mod csv;
 pub mod files;
 pub mod functions;
 pub mod grid;
+pub mod once;
 pub mod output;
 pub mod question;
 pub mod report;

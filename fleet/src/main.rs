@@ -253,7 +253,9 @@ impl Work {
     }
 }
 
+/// What a part of a cluster tells as it runs: warnings, or what `RUST_LOG` asks for.
 fn listening(what: &str, address: SocketAddr) {
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("warn")).init();
     eprintln!("{what} on {address}");
     if let Some(warning) = cluster::warning(address.ip()) {
         eprintln!("warning: {warning}");

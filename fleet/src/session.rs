@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ballista::prelude::SessionContextExt;
+use ballista_core::config::BALLISTA_ADAPTIVE_PLANNER_ENABLED;
 use ballista_core::extension::SessionConfigExt;
 use datafusion::common::{Result, exec_datafusion_err, plan_datafusion_err};
 use datafusion::execution::SessionStateBuilder;
@@ -64,8 +65,11 @@ impl Engine {
     /// The cluster is not there, or a table cannot be read.
     pub async fn session(&self, arms: &Arc<Arms>, tables: &[Table]) -> Result<SessionContext> {
         let mut config = match &self.cluster {
+            // A plan that adapts as it goes cannot redo what a lost executor had made (Ballista 55: "Can't find active
+            // stage to update stage outputs"): the query would hang.
             Some(_) => SessionConfig::new_with_ballista()
-                .with_ballista_logical_extension_codec(Arc::new(Logical::default())),
+                .with_ballista_logical_extension_codec(Arc::new(Logical::default()))
+                .set_bool(BALLISTA_ADAPTIVE_PLANNER_ENABLED, false),
             None => SessionConfig::new(),
         };
         // A table's files are those of all its folders.
