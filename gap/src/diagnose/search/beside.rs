@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Vector6};
 
 use super::first::First;
 use super::forward::{Explained, Search};
-use super::lingering::Lingering;
+use super::lingering::{Lingering, by_steps};
 use crate::diagnose::fit::{Fit, normal_equations};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen, Wanted};
@@ -58,25 +58,26 @@ impl<'s> Search<'s, '_> {
         fit: &Fit,
         (fall, rank): (f64, usize),
     ) -> Result<f64, DiagnoseError> {
+        let problem = self.problem;
         let white = |(row, gap): (usize, Vector6<f64>)| {
-            gap.component_mul(&self.problem.weights(row, &now.weights))
+            gap.component_mul(&problem.weights(row, &now.weights))
         };
-        let left: Vec<_> = fit.predicted.gaps.iter().copied().enumerate().map(white).collect();
-        let mut patterns = Vec::new();
+        let left = || fit.predicted.gaps.iter().copied().enumerate().map(white);
+        let mean = problem.data.rows.iter().map(|_| Vector6::repeat(1.0));
+        let mut told = vec![by_steps(problem, left()), by_steps(problem, mean)];
         for (index, found) in fit.model.found.iter().enumerate() {
             if found.effect.depends().follows_time() {
                 let mut without = fit.model.clone();
                 without.found[index].values.fill(0.0);
-                let without = without.predict(self.problem, Some(&fit.predicted.sims))?;
+                let without = without.predict(problem, Some(&fit.predicted.sims))?;
                 let both = without.gaps.iter().zip(&fit.predicted.gaps);
-                patterns.push(both.map(|(a, b)| a - b).enumerate().map(white).collect());
+                let moved = both.map(|(without, with)| without - with);
+                told.push(by_steps(problem, moved.enumerate().map(white)));
             }
         }
-        let Some(errors) = Lingering::worst(self.problem, &left, &patterns) else {
-            return Ok(1.0);
-        };
-        let squares = left.iter().map(Vector6::norm_squared).sum();
-        let variance = self.scale(now).variance(squares, fit.model.parameters(self.problem));
+        let Some(errors) = Lingering::worst(&problem.measured, &told) else { return Ok(1.0) };
+        let squares = left().map(|gap| gap.norm_squared()).sum();
+        let variance = self.scale(now).variance(squares, fit.model.parameters(problem));
         let tried = self.candidates.iter().filter(|c| c.follows_time()).count();
         Ok(errors.chance(fall, rank, variance, tried))
     }

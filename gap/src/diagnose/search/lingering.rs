@@ -54,17 +54,16 @@ struct Likely {
 }
 
 impl Lingering {
-    /// The kind whose errors make most of a slow pattern, of what is left beside all that follows time;
-    /// both in units of the noise. `None` of fewer steps than can tell.
-    pub(super) fn worst(
-        problem: &Problem<'_>,
-        left: &[Vector6<f64>],
-        patterns: &[Vec<Vector6<f64>>],
-    ) -> Option<Self> {
+    /// The kind, among the components that are `measured`, whose errors make most of a slow pattern. `told`
+    /// is [`by_steps`] what is left beside all that follows time, a mean, and what each such effect does, in
+    /// units of the noise. `None` of fewer steps than can tell.
+    pub(super) fn worst(measured: &[usize], told: &[Vec<Vector6<f64>>]) -> Option<Self> {
+        let series = |component: &usize| {
+            Series::from_fn(told.len(), told[0].len(), |what, step| told[what][step][*component])
+        };
         let kinds = [0..3, 3..6].map(|kind| {
-            let measured = problem.measured.iter().filter(|c| kind.contains(*c));
-            let all: Vec<Series> = measured.map(|c| series(problem, *c, left, patterns)).collect();
-            Self::of(&all)
+            let own = measured.iter().filter(|component| kind.contains(*component));
+            Self::of(&own.map(series).collect::<Vec<_>>())
         });
         kinds.into_iter().flatten().max_by(|a, b| a.variance.total_cmp(&b.variance))
     }
@@ -159,26 +158,21 @@ fn likeliest(all: &[Series]) -> (Memory, Likely) {
     best.filter(|(_, it)| it.unlikely + enough < none.1.unlikely).unwrap_or(none)
 }
 
-/// A component at steps of time. A step of many rows counts as many, in units of one row's noise.
-fn series(
+/// What is told of each row at steps of time. A step of many rows counts as many, in units of one row's noise.
+pub(super) fn by_steps(
     problem: &Problem<'_>,
-    component: usize,
-    left: &[Vector6<f64>],
-    patterns: &[Vec<Vector6<f64>>],
-) -> Series {
+    of_rows: impl Iterator<Item = Vector6<f64>>,
+) -> Vec<Vector6<f64>> {
     let visits = problem.visits.count();
     let count = visits.min(MOST_STEPS);
-    let mut sums = Series::zeros(2 + patterns.len(), count);
-    for (row, left) in left.iter().enumerate().filter(|(row, _)| problem.fits[*row]) {
-        let mut sum = sums.column_mut(problem.visits.of_row[row] * count / visits);
-        sum[0] += left[component];
-        sum[1] += 1.0;
-        for (k, pattern) in patterns.iter().enumerate() {
-            sum[2 + k] += pattern[row][component];
-        }
+    let mut sums = vec![(Vector6::zeros(), 0.0); count];
+    for (row, it) in of_rows.enumerate().filter(|(row, _)| problem.fits[*row]) {
+        let (sum, rows) = &mut sums[problem.visits.of_row[row] * count / visits];
+        *sum += it;
+        *rows += 1.0;
     }
-    let there = sums.column_iter().filter(|sum| sum[1] > 0.0);
-    DMatrix::from_columns(&there.map(|sum| sum / sum[1].sqrt()).collect::<Vec<_>>())
+    let there = sums.into_iter().filter(|(_, rows)| *rows > 0.0);
+    there.map(|(sum, rows): (Vector6<f64>, f64)| sum / rows.sqrt()).collect()
 }
 
 #[cfg(test)]
