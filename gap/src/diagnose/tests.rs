@@ -316,32 +316,40 @@ fn rows_weigh_by_their_own_precision() {
     assert!(told < mixed / 2.0, "{told} {mixed}");
 }
 
-/// Errors that linger from row to row look like what follows time, and are no reason for it; a jump
-/// that is more than they are is found all the same.
+/// What is found among effects that follow time and the compliance of joints, of which the second has 4e-6:
+/// errors of the position of 33 µm keep a part `stays` from row to row, and jump.
+fn found_in_time(poses: usize, seed: u64, stays: f64, jump: f64) -> Vec<&'static str> {
+    let mut data = data(poses, [0.0, 4e-6, 0.0], 0.0, seed);
+    let mut noise = data::generator(seed, data::Stream::Signs);
+    let fresh = 3.3e-5 * (1.0 - stays * stays).sqrt();
+    let mut error = Vector3::from_fn(|_, _| 3.3e-5 * normal(&mut noise));
+    let after = 7 * data.rows.len() / 12;
+    for (k, row) in data.rows.iter_mut().enumerate() {
+        error = error * stays + Vector3::from_fn(|_, _| fresh * normal(&mut noise));
+        let off = error + Vector3::x() * if k < after { 0.0 } else { jump };
+        let own = row.measured.fixed_rows::<3>(0) + off;
+        row.measured.fixed_rows_mut::<3>(0).copy_from(&own);
+        let turn = Vector3::from_fn(|_, _| 2e-5 * normal(&mut noise));
+        let own = row.measured.fixed_rows::<3>(3) + turn;
+        row.measured.fixed_rows_mut::<3>(3).copy_from(&own);
+    }
+    let effects = ["slip", "drift", "settling_lag", "joint_compliance"].map(str::to_owned).to_vec();
+    let options = Options { effects: Some(effects), ..Options::default() };
+    let mut d = diagnose(&bent(), &data, &options).unwrap();
+    d.findings.drain(..).map(|f| f.effect).collect()
+}
+
+/// Errors that linger from row to row look like what follows time, and are no reason for it, however long
+/// they do; a jump that is more than they are is found all the same, and so is what does not follow time.
 #[test]
 fn what_follows_time_is_more_than_errors_that_linger() {
-    let campaign = |seed: u64, jump: f64| {
-        let mut data = data(60, [0.0; 3], 0.0, seed);
-        let mut noise = data::generator(seed, data::Stream::Signs);
-        let mut error = Vector3::zeros();
-        for (k, row) in data.rows.iter_mut().enumerate() {
-            error = error * 0.8 + Vector3::from_fn(|_, _| 2e-5 * normal(&mut noise));
-            let off = error + Vector3::x() * if k < 70 { 0.0 } else { jump };
-            let own = row.measured.fixed_rows::<3>(0) + off;
-            row.measured.fixed_rows_mut::<3>(0).copy_from(&own);
-            let turn = Vector3::from_fn(|_, _| 2e-5 * normal(&mut noise));
-            let own = row.measured.fixed_rows::<3>(3) + turn;
-            row.measured.fixed_rows_mut::<3>(3).copy_from(&own);
-        }
-        let effects = ["slip", "drift", "settling_lag"].map(str::to_owned).to_vec();
-        let options = Options { effects: Some(effects), ..Options::default() };
-        let mut d = diagnose(&bent(), &data, &options).unwrap();
-        d.findings.drain(..).map(|f| f.effect).collect::<Vec<_>>()
-    };
-    let alarms = (0..10).filter(|seed| !campaign(*seed, 0.0).is_empty()).count();
-    // One in twenty is allowed; three of ten are then one in eighty-seven.
-    assert!(alarms < 3, "{alarms} of 10");
-    assert!((0..4).all(|seed| campaign(seed, 5e-4).contains(&"slip")));
+    for (poses, stays) in [(60, 0.8), (90, 0.97)] {
+        let found: Vec<_> = (0..10).map(|seed| found_in_time(poses, seed, stays, 0.0)).collect();
+        let alarms = found.iter().filter(|found| found[..] != ["joint_compliance"]).count();
+        // One in twenty is allowed; three of ten are then one in eighty-seven.
+        assert!(alarms < 3, "{found:?} at {stays}");
+    }
+    assert!((0..4).all(|seed| found_in_time(60, seed, 0.8, 5e-4).contains(&"slip")));
 }
 
 #[test]

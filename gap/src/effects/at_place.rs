@@ -39,11 +39,16 @@ fn unknown_effect(found: &str, known: &[&dyn Effect]) -> String {
 pub(crate) fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
     let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
     let name = effect.identifier();
+    let which = match effect.acts_at() {
+        "" => String::new(),
+        which => format!(", which acts at {which}"),
+    };
     if places.is_empty() {
-        return format!("{} has no place for {name}", arm.name);
+        return format!("{} has no place for {name}{which}", arm.name);
     }
     let near = did_you_mean(nearest(found, places.iter().map(String::as_str)));
-    format!("found the place `{found}`, expected one of {} for {name}{near}", places.join(", "))
+    let places = places.join(", ");
+    format!("found the place `{found}`, expected one of {places} for {name}{which}{near}")
 }
 
 fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {

@@ -23,6 +23,11 @@ pub trait Effect: Sync {
     /// Where on this arm it may act.
     fn places(&self, arm: &Arm) -> Vec<Place>;
 
+    /// What such a place has that others lack; empty where all have it.
+    fn acts_at(&self) -> &'static str {
+        ""
+    }
+
     /// Its parameters; all zero is no effect.
     fn parameters(&self, arm: &Arm, spot: Spot) -> Vec<Parameter>;
 

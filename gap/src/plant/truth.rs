@@ -59,9 +59,12 @@ impl Truth {
     /// value that is no number of the right kind.
     pub fn parse(text: &str, arm: &Arm) -> Result<Truth, TruthError> {
         let wrong = |fault: String| TruthError { text: text.trim().to_owned(), fault };
-        let end = text.find([':', '=']).ok_or_else(|| {
-            wrong("found no `=`, expected a size: `backlash@joint 2=0.3 mrad`".to_owned())
-        })?;
+        let Some(end) = text.find([':', '=']) else {
+            let (effect, place) = at_place(text, arm, effects()).map_err(wrong)?;
+            let (names, name) = (effect.names(arm, place), effect.identifier());
+            let numbers = format!("`{name}@{place}:NAME=VALUE,…`");
+            return Err(wrong(format!("found no `=`, expected a size for {names}: {numbers}")));
+        };
         let (head, size) = text.split_at(end);
         let (effect, place) = at_place(head, arm, effects()).map_err(wrong)?;
         let numbers = Numbers { effect, place, arm };

@@ -1,7 +1,6 @@
 //! Which poses are held out together, and which rows are resampled or flipped together.
 
 use super::rng::{Stream, generator, shuffled};
-use super::visits::Visits;
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::measurement::Measurements;
 
@@ -15,14 +14,8 @@ const USUAL: usize = 10;
 /// cost and memory stay linear.
 const MOST_BLOCKS: usize = 64;
 
-/// Stretches of time: as many as give enough sign patterns, and as long as errors that linger last.
-const MOST_STRETCHES: usize = 32;
-
 /// Stretches of time that are held out by themselves.
 const FIFTHS: usize = 5;
-
-/// Visits of a stretch, at least.
-const LEAST_VISITS: usize = 3;
 
 /// A division of the rows into blocks, and of the blocks into folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,14 +49,6 @@ impl Folds {
         }
         let block_of_row = data.rows.iter().map(|row| block_of_pose[row.group]).collect();
         Ok(Folds { count, block_of_row, of_block })
-    }
-
-    /// Stretches of time instead of poses, each a fold of its own: visits that follow each other.
-    pub(crate) fn in_time(visits: &Visits) -> Folds {
-        let all = visits.count();
-        let count = (all / LEAST_VISITS).clamp(1, MOST_STRETCHES);
-        let block_of_row = visits.of_row.iter().map(|visit| visit * count / all).collect();
-        Folds { count, block_of_row, of_block: (0..count).collect() }
     }
 
     /// A fold of each fifth of the poses, in the order in which they were first measured; `None` of several
@@ -150,20 +135,6 @@ mod tests {
         assert_eq!(folds.blocks(), MOST_BLOCKS);
         assert_eq!((folds.block_of_row[0], folds.block_of_row[999]), (0, MOST_BLOCKS - 1));
         assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
-    }
-
-    #[test]
-    fn stretches_of_time_split_no_visit() {
-        // A hundred poses, read twice each; then all of them again.
-        let mut all = data(100);
-        all.rows = all.rows.iter().flat_map(|row| [row.clone(), row.clone()]).collect();
-        all.rows.extend(all.rows.clone());
-        let folds = Folds::in_time(&Visits::of(&all));
-        assert_eq!((folds.blocks(), folds.count), (MOST_STRETCHES, MOST_STRETCHES));
-        assert!(folds.block_of_row.is_sorted());
-        assert!(folds.block_of_row.chunks_exact(2).all(|pair| pair[0] == pair[1]));
-        assert!(folds.rows_of_blocks().iter().all(|rows| [12, 14].contains(&rows.len())));
-        assert_eq!(Folds::in_time(&Visits::of(&data(2))).blocks(), 1);
     }
 
     #[test]

@@ -1,16 +1,16 @@
 //! Candidates beside a model: gathered in one pass over the data for each fit, and asked as often as
 //! is needed, with some of the model taken out or not.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector6};
 
-use super::evidence::Flips;
 use super::first::First;
 use super::forward::{Explained, Search};
-use crate::diagnose::data::Folds;
-use crate::diagnose::fit::normal_equations;
-use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen, Wanted};
+use super::lingering::{Lingering, by_steps};
+use crate::diagnose::fit::{Fit, normal_equations};
+use crate::diagnose::options::DiagnoseError;
+use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen, Wanted};
 
 impl<'s> Search<'s, '_> {
     /// All candidates beside the model, gathered when first asked for.
@@ -50,19 +50,55 @@ impl<'s> Search<'s, '_> {
         Gathered::new(&wanted, self.folds, &now.weights)
     }
 
-    /// The chance that the best of what follows time explains as much as `best` of a gap whose signs
-    /// are flipped by stretches of time, beside the model without some of its effects: errors that
-    /// linger stay together in it, as they do not where signs are flipped by poses.
-    pub(crate) fn chance_in_time(&self, now: &Explained, without: &[usize], best: &Score) -> f64 {
+    /// The chance that errors that linger as long as what `fit` leaves make as large a fall of the squares
+    /// as an effect that follows time, which has `rank` numbers of its own.
+    pub(crate) fn chance_in_time(
+        &self,
+        now: &Explained,
+        fit: &Fit,
+        (fall, rank): (f64, usize),
+    ) -> Result<f64, DiagnoseError> {
+        let problem = self.problem;
+        let white = |(row, gap): (usize, Vector6<f64>)| {
+            gap.component_mul(&problem.weights(row, &now.weights))
+        };
+        let left = || fit.predicted.gaps.iter().copied().enumerate().map(white);
+        let mean = problem.data.rows.iter().map(|_| Vector6::repeat(1.0));
+        let mut told = vec![by_steps(problem, left()), by_steps(problem, mean)];
+        for (index, found) in fit.model.found.iter().enumerate() {
+            if found.effect.depends().follows_time() {
+                let mut without = fit.model.clone();
+                without.found[index].values.fill(0.0);
+                let without = without.predict(problem, Some(&fit.predicted.sims))?;
+                let both = without.gaps.iter().zip(&fit.predicted.gaps);
+                let moved = both.map(|(without, with)| without - with);
+                told.push(by_steps(problem, moved.enumerate().map(white)));
+            }
+        }
+        let Some(errors) = Lingering::worst(&problem.measured, &told) else { return Ok(1.0) };
+        let squares = left().map(|gap| gap.norm_squared()).sum();
+        let variance = self.scale(now).variance(squares, fit.model.parameters(problem));
+        let tried = self.candidates.iter().filter(|c| c.follows_time()).count();
+        Ok(errors.chance(fall, rank, variance, tried))
+    }
+
+    /// A fit with the best of what follows time added, be it significant or not.
+    pub(super) fn with_more_in_time(
+        &self,
+        now: &Explained,
+        fit: &Fit,
+    ) -> Result<Option<Fit>, DiagnoseError> {
         let ordered: Vec<Candidate> =
             self.candidates.iter().filter(|c| c.follows_time()).cloned().collect();
-        let folds = &Folds::in_time(&self.problem.visits);
-        let by_time = Search { folds, candidates: &ordered, ..*self };
-        let gathered = by_time.gather(now, &[], &ordered);
-        let screen =
-            by_time.screen_of(now, &gathered, Kept { without, ..Kept::default() }, &ordered);
-        let tried: Vec<usize> = (0..ordered.len()).collect();
-        Flips::new(&screen, &tried, &self.scale(now), self.options.seed).chance(best)
+        let in_time = Search { candidates: &ordered, ..*self };
+        let begun = Explained { fit: fit.clone(), gathered: OnceLock::new(), ..*now };
+        let screen = in_time.screen(&begun, Kept { whole: true, ..Kept::default() });
+        let ranked = in_time.ranked(&screen, &begun);
+        let best = ranked.first().and_then(|one| in_time.refined(&begun, &[], one, &screen));
+        match best {
+            Some(best) => in_time.with(&begun, &[], vec![best], f64::INFINITY),
+            None => Ok(None),
+        }
     }
 
     /// All candidates beside what is kept of the model.

@@ -107,7 +107,11 @@ impl Search<'_, '_> {
             return Ok((Some(lead), None));
         }
         let refined = self.refined(now, without, best, &screen).into_iter().collect();
-        Ok((None, self.with(now, without, refined, (own - its) * variance)?))
+        let Some(fit) = self.with(now, without, refined, (own - its) * variance)? else {
+            return Ok((None, None));
+        };
+        let lingers = self.lingers(now, &fit, screen.left(), best)?;
+        Ok((None, (!lingers).then_some(fit)))
     }
 
     /// The effect that costs most beyond what it explains beside all the others, if one does.

@@ -231,8 +231,18 @@ impl Search<'_, '_> {
         let (resolved, found) = (self.resolved(), &now.fit.model.found);
         let told =
             ranked.iter().filter(|r| screen.candidates[r.candidate].is_apart(&resolved, found));
-        let mut flips = None;
-        for one in told.clone().take(MOST_TRIED) {
+        let (mut flips, mut tries) = (None, 0);
+        let mut lingering: Vec<&Candidate> = Vec::new();
+        for one in told.clone() {
+            let candidate = &screen.candidates[one.candidate];
+            // What errors that linger explain stands in the way of no other.
+            if lingering.iter().any(|other| other.is_same(candidate)) {
+                continue;
+            }
+            if tries == MOST_TRIED {
+                break;
+            }
+            tries += 1;
             let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
             let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
             if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
@@ -240,10 +250,7 @@ impl Search<'_, '_> {
             }
             let flips =
                 flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
-            let follows_time = screen.candidates[one.candidate].follows_time();
-            if flips.chance(&one.score) > SIGNIFICANT
-                || (follows_time && self.chance_in_time(now, &[], &one.score) > SIGNIFICANT)
-            {
+            if flips.chance(&one.score) > SIGNIFICANT {
                 continue;
             }
             let refined = self.refined(now, &[], one, &screen);
@@ -270,11 +277,38 @@ impl Search<'_, '_> {
                 }
             }
             let below = self.left(now) - KEPT * one.score.drop;
-            if let Some(fit) = self.with(now, &[], added, below)? {
+            let Some(fit) = self.with(now, &[], added, below)? else { continue };
+            if !self.lingers(now, &fit, self.left(now), one)? {
                 return Ok(Some(fit));
             }
+            lingering.push(candidate);
+            tries -= 1;
         }
         Ok(None)
+    }
+
+    /// Whether the last effect of a fit follows time and explains no more of what was `left` without it than
+    /// errors that linger do.
+    pub(super) fn lingers(
+        &self,
+        now: &Explained,
+        fit: &Fit,
+        left: f64,
+        one: &Ranked,
+    ) -> Result<bool, DiagnoseError> {
+        if !self.candidates[one.candidate].follows_time() {
+            return Ok(false);
+        }
+        let with = squares(self.problem, &fit.predicted.gaps, &now.weights)
+            + strain(self.problem, &fit.model);
+        let explained = (left - with, one.score.rank);
+        if self.chance_in_time(now, fit, explained)? <= SIGNIFICANT {
+            return Ok(false);
+        }
+        // While something else that follows time is missing, what is left lingers for it. To look once more
+        // is another question that chance may answer.
+        let Some(more) = self.with_more_in_time(now, fit)? else { return Ok(true) };
+        Ok(2.0 * self.chance_in_time(now, &more, explained)? > SIGNIFICANT)
     }
 
     /// How far orders of a periodic error must be from each other for the range of each joint to tell

@@ -58,6 +58,10 @@ impl Effect for Counterbalance {
         level.map(|joint| Place::Joint(joint + 1)).collect()
     }
 
+    fn acts_at(&self) -> &'static str {
+        "joints that turn about a level axis"
+    }
+
     fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
         ["cos", "sin"].map(|key| Parameter::free(key, Quantity::Moment)).to_vec()
     }

@@ -38,6 +38,10 @@ impl Effect for LinkCom {
         links(arm).into_iter().filter(has_mass).collect()
     }
 
+    fn acts_at(&self) -> &'static str {
+        "links whose `mass` is in the robot file"
+    }
+
     fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
         AXES.map(|name| Parameter::free(name, Quantity::Length).usually(0.1)).to_vec()
     }

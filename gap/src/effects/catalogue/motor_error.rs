@@ -64,6 +64,10 @@ impl Effect for MotorError {
         (1..=arm.dof()).filter(geared).map(Place::Joint).collect()
     }
 
+    fn acts_at(&self) -> &'static str {
+        "joints that turn and whose `gear`, ten or more, is in the robot file"
+    }
+
     fn forms_are(&self) -> Forms {
         Forms::Searched { key: "order", quantity: Quantity::PerTurn, steps: STEPS }
     }
