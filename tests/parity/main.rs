@@ -16,6 +16,7 @@ mod fixtures;
 mod found;
 mod known;
 mod lanes;
+mod logged;
 mod payload;
 mod places;
 mod random;

@@ -119,6 +119,21 @@ mod tests {
         assert_eq!(found, Ok(vec![("joint 1".to_owned(), vec![12.0])]));
     }
 
+    /// Each is refused as what it is, none as something unknown.
+    #[test]
+    fn no_kernel_is_made_of_any() {
+        let text =
+            "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1\n";
+        let (robot, _) = Robot::from_toml(text, "arm.toml").expect("a robot");
+        for effect in CATALOGUE {
+            let values = vec![0.5; effect.numbers().len()];
+            let effects = vec![table(&Acting { effect, spot: Spot::Joint(0), values })];
+            let wrong = Robot { effects, ..robot.clone() }.with_effects().expect_err("no kernel");
+            let message = &wrong[0].message;
+            assert!(message.starts_with("no kernel is made of the "), "{message}");
+        }
+    }
+
     #[test]
     fn what_is_wrong_is_said_with_its_line() {
         let id = "id = \"coulomb_friction\"\nplace = ";

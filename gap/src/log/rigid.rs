@@ -4,6 +4,8 @@
 //! the tensor of inertia about the origin of the row's frame. Not all of them are seen, whatever the motion:
 //! the [`Base`] is a set of columns that the others are sums of.
 
+pub mod works;
+
 use nalgebra::{DMatrix, Isometry3, Matrix3, Vector3};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Convention, Motion};

@@ -145,6 +145,11 @@ impl<'a> Scene<'a> {
         Column::of(joint, self.signals.filtered(&fine))
     }
 
+    /// The column of one joint of what does nothing there: a log of a million samples has many.
+    pub fn nothing(&self, joint: usize) -> Column {
+        Column::of(joint, vec![0.0; self.signals.rows()])
+    }
+
     /// Which way a joint moves at a fine sample.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
         self.signals.qd[joint][k].signum()

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stiffarm_gap::log::{Log, LogError, Names, Opened, Signal, TorqueSide};
+use stiffarm_gap::log::{Log, LogError, Names, Opened, Signal};
 use stiffarm_kernels::Motion;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/logs");
@@ -47,7 +47,10 @@ fn agree(log: &Log, signals: &[Signal]) {
 fn columns_of_ours_stand_in_parquet() {
     let log = read("own.parquet", &names()).unwrap();
     agree(&log, &[Signal::Q, Signal::Torque]);
-    assert_eq!((log.side, log.runs[0].name.as_str()), (Some(TorqueSide::Link), "first"));
+    assert_eq!(
+        (log.side, log.runs[0].name.as_str()),
+        (Some(stiffarm_gap::log::TorqueSide::Link), "first")
+    );
     assert_eq!(log.unknown, ["note"]);
     let damaged = &log.damaged[0];
     assert_eq!((damaged.row, damaged.line), ("row", 13));

@@ -2,9 +2,10 @@
 //!
 //! [`Robot::with_effects`] takes into the table's own entries what these hold (zeros, lengths, springs, frames,
 //! masses) and keeps the rest as [`Beyond`]. An effect that no function of posture, load, side of
-//! approach and warming can tell is refused where it stands.
+//! approach and warming can tell is refused where it stands, and so is one of the arm in motion.
 
 mod fold;
+mod motion;
 mod place;
 mod quantity;
 mod read;

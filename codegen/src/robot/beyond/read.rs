@@ -3,6 +3,7 @@
 use super::super::model::{Effect, Entry, Joint, Motion, Quantity as Given, Robot, Value};
 use super::super::suggest::closest;
 use super::fold::has_centre;
+use super::motion::is_of_motion;
 use super::{EffectError, Place, Quantity};
 use crate::number::Number;
 
@@ -139,12 +140,17 @@ const REFUSED: &[(&str, &str)] = &[
     ("geometry", "it is the table itself"),
 ];
 
+/// The same of any other effect of motion.
+const IN_MOTION: &str = "it is of the arm in motion, of which rows hold `coulomb`, `viscous`, `rotor_inertia` and bodies";
+
 impl Found {
     /// Reads a table of `robot`, which has no symbols.
     pub fn read(table: &Effect, robot: &Robot) -> Result<Found, EffectError> {
         let name = &table.id.value;
         let place = &table.place.value;
-        if let Some((_, because)) = REFUSED.iter().find(|(id, _)| id == name) {
+        let motion = is_of_motion(table).then_some(IN_MOTION);
+        let refused = REFUSED.iter().find(|(id, _)| id == name).map(|(_, because)| *because);
+        if let Some(because) = refused.or(motion) {
             let name = name.replace('_', " ");
             let message = format!("no kernel is made of the {name} at {place}: {because}");
             let help = "take the [[effect]] out of a copy of the file to go on without it";

@@ -41,12 +41,13 @@ impl LogEffect for Presliding {
     fn columns(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
         let (joint, [torque, distance]) = (joint(spot), [values[0], values[1]]);
         let here = bristles(scene, joint, distance);
+        let built = scene.column(joint, |k| here[k] - scene.sign(joint, k));
+        if torque == 0.0 {
+            return vec![built, scene.nothing(joint)];
+        }
         let [less, more] = [1.0 - STEP, 1.0 + STEP].map(|by| bristles(scene, joint, by * distance));
         let slope = torque / (2.0 * STEP * distance);
-        vec![
-            scene.column(joint, |k| here[k] - scene.sign(joint, k)),
-            scene.column(joint, |k| slope * (more[k] - less[k])),
-        ]
+        vec![built, scene.column(joint, |k| slope * (more[k] - less[k]))]
     }
 
     fn bends(&self) -> bool {
@@ -55,6 +56,9 @@ impl LogEffect for Presliding {
 
     fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
         let joint = joint(spot);
+        if values[0] == 0.0 {
+            return scene.nothing(joint);
+        }
         let here = bristles(scene, joint, values[1]);
         scene.column(joint, |k| values[0] * (here[k] - scene.sign(joint, k)))
     }

@@ -35,9 +35,10 @@ impl LogEffect for Stribeck {
         let (size, speed) = (values[0], values[1]);
         let fall = |k: usize| (-(scene.signals.qd[joint][k] / speed).powi(2)).exp();
         let by_speed = |k: usize| 2.0 * (scene.signals.qd[joint][k]).powi(2) / speed.powi(3);
+        let slope = |k: usize| size * by_speed(k) * fall(k) * scene.sign(joint, k);
         vec![
             scene.column(joint, |k| fall(k) * scene.sign(joint, k)),
-            scene.column(joint, |k| size * by_speed(k) * fall(k) * scene.sign(joint, k)),
+            if size == 0.0 { scene.nothing(joint) } else { scene.column(joint, slope) },
         ]
     }
 
@@ -46,6 +47,9 @@ impl LogEffect for Stribeck {
     }
 
     fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
+        if values[0] == 0.0 {
+            return scene.nothing(joint(spot));
+        }
         let mut column = self.columns(scene, spot, values).swap_remove(0);
         let rows = column.parts.iter_mut().flat_map(|(_, rows)| rows);
         rows.for_each(|x| *x *= values[0]);

@@ -38,7 +38,7 @@ impl LogEffect for TorqueRipple {
         let (joint, order) = (joint(spot), values[0]);
         let q = &scene.signals.q[joint];
         let wave = |of: fn(f64) -> f64| scene.column(joint, |k| of(order * q[k]));
-        vec![scene.column(joint, |_| 0.0), wave(f64::cos), wave(f64::sin)]
+        vec![scene.nothing(joint), wave(f64::cos), wave(f64::sin)]
     }
 
     fn bends(&self) -> bool {
@@ -47,6 +47,9 @@ impl LogEffect for TorqueRipple {
 
     fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
         let (joint, [order, cos, sin]) = (joint(spot), [values[0], values[1], values[2]]);
+        if [cos, sin] == [0.0; 2] {
+            return scene.nothing(joint);
+        }
         let q = &scene.signals.q[joint];
         scene.column(joint, |k| cos * (order * q[k]).cos() + sin * (order * q[k]).sin())
     }

@@ -12,6 +12,9 @@ use crate::dice::{Dice, Stream};
 /// Random signs; the smallest chance that they tell is one in so many.
 const FLIPS: usize = 999;
 
+/// So many candidates are asked at once.
+const TOGETHER: usize = 32;
+
 /// So many of the candidates that take most of what is left are held out; the others take less.
 const HELD_OUT: usize = 24;
 
@@ -117,7 +120,7 @@ impl<'s> Ground<'s> {
     ) -> Self {
         let (columns, _) = fit.bordered();
         let weights = weights(sizes);
-        let products = sums.products(&columns, &columns, &weights);
+        let products = sums.squares(&columns, &weights);
         let fits: Vec<Known> = parts(&products, blocks).iter().map(Known::of).collect();
         let squares = products.iter().zip(&blocks.fold).map(|(product, fold)| {
             let values = fits.get(fold + 1).map_or(&fits[0].values, |fit| &fit.values);
@@ -170,7 +173,7 @@ impl<'s> Ground<'s> {
             count: entry.columns.len(),
             bends: entry.done.is_some(),
             cross: self.sums.products(&self.columns, &all, &self.weights),
-            own: self.sums.products(&all, &all, &self.weights),
+            own: self.sums.squares(&all, &self.weights),
         }
     }
 
@@ -225,12 +228,13 @@ impl<'s> Ground<'s> {
         let mut dice = Dice::new(seed, Stream::Visits);
         let count = self.products.len();
         let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
+        let own = DMatrix::repeat(1, count, 1.0);
         let found: Vec<f64> =
-            candidates.iter().map(|c| c.sizes(&DMatrix::repeat(1, count, 1.0))[0]).collect();
+            candidates.iter().map(|c| largest(core::slice::from_ref(c), &own)[0]).collect();
         let nothing = || DVector::zeros(FLIPS);
         let largest = candidates
-            .par_iter()
-            .map(|candidate| candidate.sizes(&signs))
+            .par_chunks(TOGETHER)
+            .map(|some| largest(some, &signs))
             .reduce(nothing, |a, b| a.sup(&b));
         let chance = |found: &f64| {
             // Signs that are all one are the data's own: of few blocks they come often.
@@ -251,18 +255,26 @@ impl Candidate {
     pub fn takes(&self) -> f64 {
         self.gain / self.things()
     }
+}
 
-    /// By how much its blocks pull together under signs, one a row: 1 on average where they do not.
-    fn sizes(&self, signs: &DMatrix<f64>) -> DVector<f64> {
-        let mut largest = DVector::zeros(signs.nrows());
-        for scores in &self.scores {
-            let pulls = signs * scores;
-            for (size, row) in largest.iter_mut().zip(pulls.row_iter()) {
-                *size = f64::max(*size, row.norm_squared());
-            }
+/// By how much the blocks of that candidate pull together that does most, under signs, one a row: 1 on average where
+/// they do not.
+fn largest(candidates: &[Candidate], signs: &DMatrix<f64>) -> DVector<f64> {
+    let scores: Vec<&DMatrix<f64>> = candidates.iter().flat_map(|c| &c.scores).collect();
+    let count = scores.iter().map(|scores| scores.ncols()).sum();
+    // Side by side: a product of many columns is blocked, many of a few are not.
+    let all = scores.iter().flat_map(|scores| scores.iter().copied());
+    let pulls = signs * DMatrix::from_iterator(signs.ncols(), count, all);
+    let mut largest = DVector::zeros(signs.nrows());
+    let mut from = 0;
+    for scores in scores {
+        let own = pulls.columns(from, scores.ncols());
+        from += scores.ncols();
+        for (size, row) in largest.iter_mut().zip(own.row_iter()) {
+            *size = f64::max(*size, row.norm_squared());
         }
-        largest
     }
+    largest
 }
 
 fn total(products: &[DMatrix<f64>]) -> DMatrix<f64> {

@@ -9,6 +9,7 @@ use crate::log::effects::{COULOMB, LATENCY, LogEffect, OFFSET, Spot, VISCOUS};
 use crate::log::model::Acting;
 use crate::log::read::TorqueSide;
 use crate::log::rigid::Base;
+use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
 use crate::log::signal::Signals;
 
@@ -232,18 +233,20 @@ fn loaded(base: &Base, load: &[f64; 10]) -> Vec<f64> {
 
 /// What a unit of each base parameter asks of the joints at the fine samples.
 fn rigid_columns(arm: &Arm, base: &Base, signals: &Signals) -> Vec<Column> {
-    let fine = signals.t.len();
-    let at = |of: &[Vec<f64>], k: usize| of.iter().map(|x| x[k]).collect::<Vec<f64>>();
+    let (fine, n) = (signals.t.len(), arm.dof());
+    let works = Works::of(arm);
     let mut columns: Vec<Vec<Vec<f64>>> =
         base.columns.iter().map(|c| vec![Vec::with_capacity(fine); c / 10 + 1]).collect();
+    let (mut motion, mut asks) = ([(); 3].map(|()| vec![0.0; n]), vec![0.0; 10 * n * n]);
     for k in 0..fine {
-        let [q, rates, accelerations] = [&signals.q, &signals.qd, &signals.qdd].map(|of| at(of, k));
-        let regressor = arm.torque_regressor(&q, &rates, &accelerations);
+        for (at, of) in motion.iter_mut().zip([&signals.q, &signals.qd, &signals.qdd]) {
+            at.iter_mut().zip(of).for_each(|(at, joint)| *at = joint[k]);
+        }
+        works.regressor(motion.each_ref().map(Vec::as_slice), &mut asks);
         for (column, index) in columns.iter_mut().zip(&base.columns) {
             // A link's inertia is felt by its own joint and those below.
-            for (joint, values) in column.iter_mut().enumerate() {
-                values.push(regressor[(joint, *index)]);
-            }
+            let own = &asks[n * index..];
+            column.iter_mut().zip(own).for_each(|(values, asks)| values.push(*asks));
         }
     }
     let column = |joints: Vec<Vec<f64>>| Column { parts: joints.into_iter().enumerate().collect() };

@@ -81,7 +81,7 @@ impl Fitted {
         let left = stock.left(links, terms);
         let mut all = columns.clone();
         all.push(left.clone());
-        let products = stock.whole().products(&all, &all, &weights(sizes));
+        let products = stock.whole().squares(&all, &weights(sizes));
         let products = sum(products.iter()).unwrap_or_else(|| DMatrix::zeros(all.len(), all.len()));
         let values = minimum(&products);
         let mut found = values[base..].iter();

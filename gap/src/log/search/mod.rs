@@ -104,15 +104,21 @@ impl Round {
         let fit = Fitted::of(stock, &fit.terms, links, &fit.sizes(stock));
         let sizes = fit.sizes(stock);
         let correlation = fit.correlation(stock);
-        let ask = |correlation: &[f64], offers: &[usize]| {
+        let divided = |correlation: &[f64]| {
             let longest = correlation.iter().copied().fold(0.0, f64::max);
-            let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
-            let sums = stock.sums(&blocks);
-            let asked = Asked::of(stock, &fit, &sizes, (&blocks, &sums), offers, seed);
-            (blocks, asked)
+            Blocks::of(&stock.grains, stock.case.signals, longest)
         };
-        let (blocks, asked) = ask(&correlation, offers);
+        let ask = |blocks: &Blocks| {
+            let sums = stock.sums(blocks);
+            Asked::of(stock, &fit, &sizes, (blocks, &sums), offers, seed)
+        };
+        let blocks = divided(&correlation);
+        let asked = ask(&blocks);
+        let finest = divided(&[]).all.len();
         let round = Round { fit: fit.clone(), sizes: sizes.clone(), correlation, blocks, asked };
+        if round.blocks.all.len() == finest {
+            return round;
+        }
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
         // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
         // what takes less, and would be taken for it bit by bit.
@@ -122,10 +128,11 @@ impl Round {
         for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
             let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
-            let (blocks, mut asked) = ask(&correlation, offers);
+            let blocks = divided(&correlation);
             if blocks.all.len() <= round.blocks.all.len() {
                 continue;
             }
+            let mut asked = ask(&blocks);
             for (chance, candidate) in asked.chances.iter_mut().zip(&asked.candidates) {
                 // Each look is another question that chance may answer (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;

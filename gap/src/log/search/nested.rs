@@ -22,7 +22,7 @@ pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> V
         let values = nalgebra::DVector::from_vec(values);
         let left = |joint: usize| {
             let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
-            let products = sums.products(&columns, &columns, &alone);
+            let products = sums.squares(&columns, &alone);
             let own = products.iter().zip(&blocks.fold).filter(|(_, of)| **of == fold);
             own.map(|(product, _)| quadratic(product, &values)).sum()
         };

@@ -1,7 +1,8 @@
 //! Ripples that stand out of what a simple model leaves.
 //!
 //! Of hundreds of orders some always look large: one stands out if, under the signs of whole blocks, the
-//! largest of all orders is seldom as large.
+//! largest of all orders is seldom as large, and the more seldom the more joints are asked (Bonferroni). What stood out
+//! by accident would be asked as if nobody had sought it.
 
 use core::f64::consts::PI;
 
@@ -66,7 +67,8 @@ fn of_joint(stock: &Stock<'_>, joint: usize, left: &[Option<f64>], seed: u64) ->
     let signs = DMatrix::from_fn(count, FLIPS, |_, _| dice.sign());
     let mut largest: Vec<f64> = pulls(&signs).column_iter().map(|c| c.max()).collect();
     largest.sort_by(f64::total_cmp);
-    let limit = largest[((1.0 - CHANCE) * FLIPS as f64) as usize];
+    let chance = CHANCE / signals.joints() as f64;
+    let limit = largest[((1.0 - chance) * FLIPS as f64) as usize];
     let sizes = pulls(&DMatrix::repeat(count, 1, 1.0));
     // Of those that stand out the strongest.
     let strength = |k: usize| sums.iter().map(|s| s.row(k).sum().powi(2)).sum::<f64>();

@@ -59,10 +59,10 @@ impl Springs {
         }
         columns.push(fit.left.clone());
         let weights = weights(&verdict.sizes);
-        let whole = stock.whole().products(&columns, &columns, &weights);
+        let whole = stock.whole().squares(&columns, &weights);
         let n = columns.len();
         let products = sum(whole.iter()).unwrap_or_else(|| DMatrix::zeros(n, n));
-        let blocks = stock.sums(&verdict.blocks).products(&columns, &columns, &weights);
+        let blocks = stock.sums(&verdict.blocks).squares(&columns, &weights);
         // What was found is told as it was fitted; what was not, beside that.
         let own: Vec<usize> = (0..fitted).chain([n - 1]).collect();
         let of = |k: &[usize]| {

@@ -8,13 +8,13 @@
 use core::ops::Range;
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::blocks::{Block, Blocks, correlation_time};
 use super::case::{Case, Simple, Wanted};
 use super::grains::{Grain, grains};
-use super::sums::{Sums, quadratic};
+use super::sums::Sums;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::signal::Signals;
 
@@ -214,16 +214,12 @@ impl<'a> Stock<'a> {
 
     /// Root mean square of what columns with these values, −1 of the left side, leave of each joint.
     pub fn sizes(&self, columns: &[Mixed], values: &[f64]) -> Vec<f64> {
-        let joints = self.joints.len();
-        let values = DVector::from_column_slice(values);
         let size = |joint: usize| {
-            let weights: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
-            let products = self.whole.products(columns, columns, &weights);
-            let sum: f64 = products.iter().map(|product| quadratic(product, &values)).sum();
+            let sum = self.whole.square(joint, columns, values);
             // A joint without rows has no size: it is told in one.
             if sum > 0.0 { (sum / self.used[joint]).sqrt() } else { 1.0 }
         };
-        (0..joints).into_par_iter().map(size).collect()
+        (0..self.joints.len()).into_par_iter().map(size).collect()
     }
 
     /// What columns with these values are at the rows of the sample, of each joint; a hole where a row
@@ -378,7 +374,8 @@ fn bring(
                     }
                     let at = |k: usize, c: usize| parts[c].1[used[k] - rows.start + before];
                     let matrix = DMatrix::from_fn(used.len(), parts.len(), at);
-                    *sum += matrix.tr_mul(&matrix);
+                    // By the blocked product, which a transposed factor as it stands would not get.
+                    sum.gemm(1.0, &matrix.transpose(), &matrix, 1.0);
                 }
             }
             let kept = rows.clone().filter(|row| row % every == 0);

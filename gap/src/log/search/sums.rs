@@ -27,6 +27,24 @@ impl Sums {
         others: &[Mixed],
         weights: &[f64],
     ) -> Vec<DMatrix<f64>> {
+        self.summed(columns, others, weights, |_, _| true)
+    }
+
+    /// Products of some columns with each other, of each block.
+    pub fn squares(&self, columns: &[Mixed], weights: &[f64]) -> Vec<DMatrix<f64>> {
+        let mut all = self.summed(columns, columns, weights, |column, other| column >= other);
+        all.iter_mut().for_each(DMatrix::fill_upper_triangle_with_lower_triangle);
+        all
+    }
+
+    /// Products of those pairs that are wanted, by their indices.
+    fn summed(
+        &self,
+        columns: &[Mixed],
+        others: &[Mixed],
+        weights: &[f64],
+        is_wanted: impl Fn(usize, usize) -> bool,
+    ) -> Vec<DMatrix<f64>> {
         let mut all = vec![DMatrix::zeros(columns.len(), others.len()); self.runs.len()];
         for ((joint, at), weight) in self.joints.iter().zip(&self.at).zip(weights) {
             if *weight == 0.0 {
@@ -39,7 +57,8 @@ impl Sums {
                     continue;
                 }
                 for other in others.iter().filter(|c| is_there(c)) {
-                    for column in columns.iter().filter(|c| is_there(c)) {
+                    let wanted = columns.iter().filter(|c| is_wanted(c.index, other.index));
+                    for column in wanted.filter(|c| is_there(c)) {
                         let mut total = 0.0;
                         for (b, more) in &other.of {
                             let stored = product.column(*b);
@@ -52,6 +71,23 @@ impl Sums {
             }
         }
         all
+    }
+}
+
+impl Sums {
+    /// The square of a joint's sum of some columns with these values, over all blocks.
+    pub fn square(&self, joint: usize, columns: &[Mixed], values: &[f64]) -> f64 {
+        let at = &self.at[joint];
+        let in_block = |(product, run): (&DMatrix<f64>, &usize)| {
+            let mut stored = DVector::zeros(product.nrows());
+            let is_there = |column: &Mixed| column.run.is_none_or(|own| own == *run);
+            for (column, value) in columns.iter().zip(values).filter(|(c, _)| is_there(c)) {
+                let own = column.of.iter().filter_map(|(id, x)| Some((at[*id]?, x)));
+                own.for_each(|(k, x)| stored[k] += x * value);
+            }
+            quadratic(product, &stored)
+        };
+        self.joints[joint].iter().zip(&self.runs).map(in_block).sum()
     }
 }
 

@@ -50,13 +50,13 @@ impl Unseen {
     pub fn of(stock: &Stock<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
         let sums = stock.sums(blocks);
         let (columns, _) = fit.bordered();
-        let products = sums.products(&columns, &columns, &weights(sizes));
+        let products = sums.squares(&columns, &weights(sizes));
         let values: Vec<_> =
             without_each(&products, blocks).into_iter().map(|values| values.push(-1.0)).collect();
         let count = sizes.len();
         let of_joint = |joint: usize| {
             let alone: Vec<f64> = (0..count).map(|j| f64::from(u8::from(j == joint))).collect();
-            let own = sums.products(&columns, &columns, &alone);
+            let own = sums.squares(&columns, &alone);
             let left = own.iter().zip(&blocks.fold);
             Joint {
                 squares: left.map(|(own, fold)| quadratic(own, &values[*fold])).collect(),

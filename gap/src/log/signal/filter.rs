@@ -60,24 +60,31 @@ impl LowPass {
         let before = x[1..=margin].iter().rev().map(|v| 2.0 * first - v);
         let after = x[x.len() - 1 - margin..x.len() - 1].iter().rev().map(|v| 2.0 * last - v);
         let mut y: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();
-        for _ in 0..2 {
-            self.sections.iter().for_each(|section| section.run(&mut y));
-            y.reverse();
+        let start = y[0];
+        self.pass(start, y.iter_mut());
+        let end = y[y.len() - 1];
+        self.pass(end, y.iter_mut().rev());
+        y.truncate(margin + x.len());
+        y.drain(..margin);
+        y
+    }
+
+    /// Once through both sections, from rest at a value. They go along together: each waits for its own last value alone,
+    /// so that a processor has both in hand at once.
+    fn pass<'y>(&self, start: f64, values: impl Iterator<Item = &'y mut f64>) {
+        let [mut first, mut second] = self.sections.map(|section| (section, [start; 4]));
+        for value in values {
+            *value = second.0.next(&mut second.1, first.0.next(&mut first.1, *value));
         }
-        y[margin..margin + x.len()].to_vec()
     }
 }
 
 impl Section {
-    fn run(&self, y: &mut [f64]) {
-        let start = y.first().copied().unwrap_or(0.0);
-        let (mut x1, mut x2, mut y1, mut y2) = (start, start, start, start);
-        for value in y {
-            let x = *value;
-            let out = self.b * (x + 2.0 * x1 + x2) - self.a[0] * y1 - self.a[1] * y2;
-            (x2, x1, y2, y1) = (x1, x, y1, out);
-            *value = out;
-        }
+    /// What comes out as this goes in; the last two of each are what is remembered.
+    fn next(&self, [x1, x2, y1, y2]: &mut [f64; 4], x: f64) -> f64 {
+        let out = (self.b * (x + 2.0 * *x1 + *x2) - self.a[1] * *y2) - self.a[0] * *y1;
+        (*x2, *x1, *y2, *y1) = (*x1, x, *y1, out);
+        out
     }
 }
 

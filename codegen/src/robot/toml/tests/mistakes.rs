@@ -248,6 +248,11 @@ fn kernels_are_of_what_posture_and_load_decide() {
             "5:1 no kernel is made of the settling lag at joint 1: it depends on the move before, which a \
              set-point does not tell",
         ),
+        (
+            "id = \"joint_coupling\"\nplace = \"joints 5 + 6\"\nviscous = 0.6\ncoulomb = 1.9",
+            "5:1 no kernel is made of the joint coupling at joints 5 + 6: it is of the arm in motion, of which rows \
+             hold `coulomb`, `viscous`, `rotor_inertia` and bodies",
+        ),
         ("id = \"backlsh\"\nplace = \"joint 1\"", "6:6 unknown effect `backlsh`"),
         ("id = \"backlash\"\nplace = \"joint 2\"", "7:9 `joint 2` is no place of backlash"),
         (
