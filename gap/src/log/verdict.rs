@@ -20,9 +20,10 @@ use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Fitted, Links, Term};
-use super::search::judge::{Judged, Verdict, judged};
+use super::search::judge::{Judged, Verdict};
 use super::search::nested::nested;
 use super::search::rest::rests;
+use super::search::settle::settled;
 use super::search::springs::Springs;
 use super::search::stock::{Mixed, Stock};
 use super::search::unseen::Unseen;
@@ -120,11 +121,12 @@ pub fn diagnosed_with(
     let mut again = 0;
     let verdict = loop {
         let offers: Vec<usize> = (0..stock.offers.len()).collect();
-        let last = search::search(&stock, &terms, &links, &offers, options.seed, &mut |round| {
+        let mut each = |round: &Round| {
             each(round.fit.terms.len());
             history.borrow_mut().note(&stock, &told, round);
-        });
-        let verdict = judged(&stock, &last, &offers, options.seed);
+        };
+        let last = search::search(&stock, &terms, &links, &offers, options.seed, &mut each);
+        let verdict = settled(&stock, &last, &offers, options.seed, &mut each);
         if again == AGAIN || !moved_on(&stock, &verdict.fit.terms) {
             break verdict;
         }

@@ -16,6 +16,7 @@ pub mod judge;
 pub mod nested;
 pub mod rest;
 pub mod ripples;
+pub mod settle;
 pub mod springs;
 pub mod stock;
 pub mod sums;

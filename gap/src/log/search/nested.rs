@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::blocks::Blocks;
 use super::fit::Links;
-use super::judge::judged;
 use super::search;
+use super::settle::settled;
 use super::stock::Stock;
 use super::sums::quadratic;
 
@@ -18,7 +18,7 @@ pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> V
     let of_fold = |fold: usize| -> Vec<f64> {
         let seen = stock.without(blocks, fold);
         let last = search(&seen, &[], links, &offers, seed, &mut |_| {});
-        let (columns, values) = judged(&seen, &last, &offers, seed).fit.bordered();
+        let (columns, values) = settled(&seen, &last, &offers, seed, &mut |_| {}).fit.bordered();
         let values = nalgebra::DVector::from_vec(values);
         let left = |joint: usize| {
             let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();

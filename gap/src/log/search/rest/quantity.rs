@@ -1,6 +1,8 @@
 //! On what a rest may depend: rows sorted by a quantity into parts of equally many.
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
+use stiffarm_kernels::generic::Arm;
 
 use super::super::fit::Fitted;
 use super::super::stock::{Mixed, Stock};
@@ -16,6 +18,9 @@ pub(super) enum Of {
     Speed(usize),
     Acceleration(usize),
     Load,
+    /// What would hang on the joint if the weights of the robot file pulled along an axis of the base: that goes with
+    /// several angles at once, and with each of them alone perhaps not.
+    Weight(usize),
     Time,
     /// What brakes has the sign of the motion: a rest with that sign may depend on the speed's size, the load's, or
     /// the time.
@@ -31,7 +36,8 @@ impl Of {
     fn all(joints: usize) -> impl Iterator<Item = Of> {
         let each = (0..joints).flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
         let braking = [Of::BrakingSpeed, Of::BrakingLoad, Of::BrakingTime];
-        [Of::Mean, Of::Load, Of::Time].into_iter().chain(braking).chain(each)
+        let weights = (0..3).map(Of::Weight);
+        [Of::Mean, Of::Load, Of::Time].into_iter().chain(braking).chain(each).chain(weights)
     }
 
     /// Of a joint.
@@ -45,6 +51,7 @@ impl Of {
             Of::Speed(k) => of("speed", k),
             Of::Acceleration(k) => of("acceleration", k),
             Of::Load => "load".to_owned(),
+            Of::Weight(axis) => format!("weights along the base's {}", ["x", "y", "z"][axis]),
             Of::Time => "time".to_owned(),
             Of::BrakingSpeed => "speed, against the motion".to_owned(),
             Of::BrakingLoad => "load, against the motion".to_owned(),
@@ -71,6 +78,8 @@ struct Rows {
     t: Vec<f64>,
     /// What each joint carries.
     loads: Vec<Vec<f64>>,
+    /// What it would carry if weights pulled along the base's axes.
+    weights: [Vec<Vec<f64>>; 3],
 }
 
 impl Rows {
@@ -84,9 +93,15 @@ impl Rows {
         let q = joints(&signals.q);
         let loads = match stock.case.kind.0 {
             Domain::Torque => asked(stock, fit),
-            Domain::Position => weights(stock, &q),
+            Domain::Position => weights(stock.case.arm, &q),
         };
-        Rows { q, qd: joints(&signals.qd), qdd: joints(&signals.qdd), t: at(&signals.t), loads }
+        let arm = stock.case.arm;
+        let weights = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
+            let gravity = axis * arm.gravity.norm();
+            weights(&Arm { gravity, ..arm.clone() }, &q)
+        });
+        let (qd, qdd, t) = (joints(&signals.qd), joints(&signals.qdd), at(&signals.t));
+        Rows { q, qd, qdd, t, loads, weights }
     }
 
     fn sign(&self, joint: usize, of: Of, k: usize) -> f64 {
@@ -102,6 +117,7 @@ impl Rows {
             Of::Speed(of) => self.qd[of][k],
             Of::Acceleration(of) => self.qdd[of][k],
             Of::Load => self.loads[joint][k],
+            Of::Weight(axis) => self.weights[axis][joint][k],
             Of::Time | Of::BrakingTime => self.t[k],
             Of::BrakingSpeed => self.qd[joint][k].abs(),
             Of::BrakingLoad => self.loads[joint][k].abs(),
@@ -121,11 +137,12 @@ fn asked(stock: &Stock<'_>, fit: &Fitted) -> Vec<Vec<f64>> {
 }
 
 /// What the weights of the robot file do to each joint: a servo holds them by its error.
-fn weights(stock: &Stock<'_>, q: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut weights = vec![Vec::with_capacity(stock.rows.len()); q.len()];
-    for k in 0..stock.rows.len() {
+fn weights(arm: &Arm, q: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let rows = q.first().map_or(0, Vec::len);
+    let mut weights = vec![Vec::with_capacity(rows); q.len()];
+    for k in 0..rows {
         let posture: Vec<f64> = q.iter().map(|q| q[k]).collect();
-        let torques = stock.case.arm.weight_torque(&posture);
+        let torques = arm.weight_torque(&posture);
         weights.iter_mut().zip(torques.iter()).for_each(|(of, x)| of.push(*x));
     }
     weights
