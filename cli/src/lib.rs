@@ -46,6 +46,7 @@ use inside::{Ended, Host};
 pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
+pub use terminal::whole::Whole;
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Yellow.on_default().bold())

@@ -1,14 +1,16 @@
 //! `stiffarm-fleet`: what it does says `--help`.
 
+use std::io::Write as _;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{Parser, Subcommand};
+use stiffarm_cli::Whole;
 use stiffarm_fleet::arms::Arms;
 use stiffarm_fleet::cluster::{self, Executor};
-use stiffarm_fleet::output::{self, Format, Whole};
+use stiffarm_fleet::output::{self, Format};
 use stiffarm_fleet::report::{self, Columns, Fleet};
 use stiffarm_fleet::sentence::of_engine;
 use stiffarm_fleet::session::{Engine, Table};
@@ -203,14 +205,16 @@ impl Report {
             one_robot: self.robot,
             options: self.options,
         };
+        // Before the work: where nothing can be written, none is to be done.
+        let unwritten = |error| output::wrong(&self.out, &error);
+        let mut whole = Whole::new(&self.out).map_err(unwritten)?;
         let (engine, arms) = self.on.parts();
         let wrong = |error| engine.told(of_engine(&error));
         let session = engine.session(&arms, &self.on.tables).await.map_err(wrong)?;
         let campaigns = report::campaigns(&session, &table.name, &columns).await.map_err(wrong)?;
         let page = report::html(&table.name, &Fleet::of(&campaigns));
         let page = page.map_err(|error| format!("cannot make the page: {error}"))?;
-        let whole = Whole::new(&self.out)?;
-        whole.write(&page)
+        whole.write_all(page.as_bytes()).and_then(|()| whole.finish()).map_err(unwritten)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Results as text: as they come, and never half a file.
 
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use arrow::array::RecordBatch;
 use arrow::csv;
@@ -12,7 +12,7 @@ use arrow::util::pretty::pretty_format_batches;
 use clap::ValueEnum;
 use datafusion::execution::SendableRecordBatchStream;
 use futures::StreamExt;
-use tempfile::NamedTempFile;
+use stiffarm_cli::Whole;
 
 use crate::sentence::of_engine;
 
@@ -39,49 +39,15 @@ pub async fn write(
     let Some(path) = path else {
         return written(result, format, io::stdout()).await.map(|_| ());
     };
-    let whole = Whole::new(path)?;
-    let out = whole.part.as_file();
-    written(result, format, out).await.map_err(|said| format!("{}: {said}", path.display()))?;
-    whole.finish()
+    let wrong = |error: io::Error| wrong(path, &error);
+    let mut whole = Whole::new(path).map_err(wrong)?;
+    let said = |said| format!("{}: {said}", path.display());
+    written(result, format, &mut whole).await.map_err(said)?;
+    whole.finish().map_err(wrong)
 }
 
-/// A file that is there when it is whole.
-pub struct Whole {
-    path: PathBuf,
-    part: NamedTempFile,
-}
-
-impl Whole {
-    /// The file to be.
-    ///
-    /// # Errors
-    /// A sentence: nothing can be written there.
-    pub fn new(path: &Path) -> Result<Whole, String> {
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let part = NamedTempFile::new_in(folder).map_err(|error| wrong(path, &error))?;
-        Ok(Whole { path: path.to_owned(), part })
-    }
-
-    /// Writes all of it.
-    ///
-    /// # Errors
-    /// A sentence: it cannot be written.
-    pub fn write(mut self, text: &str) -> Result<(), String> {
-        self.part.write_all(text.as_bytes()).map_err(|error| wrong(&self.path, &error))?;
-        self.finish()
-    }
-
-    fn finish(self) -> Result<(), String> {
-        self.part.as_file().sync_all().map_err(|error| wrong(&self.path, &error))?;
-        let put = self.part.persist(&self.path);
-        put.map(|_| ()).map_err(|error| wrong(&self.path, &error.error))
-    }
-}
-
-fn wrong(path: &Path, error: &io::Error) -> String {
+/// A file that cannot be written, as a sentence.
+pub fn wrong(path: &Path, error: &io::Error) -> String {
     format!("cannot write {}: {error}", path.display())
 }
 

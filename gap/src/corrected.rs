@@ -47,6 +47,9 @@ pub fn corrected(robot: &Robot, diagnosed: &Diagnosed) -> Corrected {
         diagnosis.nuisances.iter().any(is_one)
     };
     file.place_frames(Nuisance::ALL.map(is_fitted));
+    if diagnosis.hangs_as_measured {
+        file.place_gravity();
+    }
     let mut known = explanation.known().to_vec();
     let found = explanation.found();
     let entries: Vec<String> = found.iter().map(|found| file.put(found, &mut known)).collect();

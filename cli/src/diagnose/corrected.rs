@@ -97,6 +97,9 @@ impl<'a> Corrections<'a> {
         let mut lines = vec!["Put in, with 95 % intervals:".to_owned()];
         lines.extend(found.outcomes.iter().map(line));
         lines.extend(diagnosis.nuisances.iter().map(frame));
+        if diagnosis.hangs_as_measured {
+            lines.push("  gravity: down as the measuring frame stands, in gravity".to_owned());
+        }
         if lines.len() == 1 {
             lines.push("  nothing".to_owned());
         }

@@ -10,7 +10,7 @@ use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
 use super::worst::worst;
 use super::{Report, embedded, method};
-use crate::screen::chance;
+use crate::screen::{chance, loads};
 
 /// Places or rivals that are named one by one.
 const MOST: usize = 8;
@@ -53,6 +53,7 @@ struct Page<'a> {
     hidden: &'a [String],
     covers: Vec<String>,
     frames: Vec<Frame>,
+    loads: &'a str,
     rivals: Vec<Compared<'a>>,
     method: &'static str,
     facts: Vec<(&'static str, String)>,
@@ -153,6 +154,7 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         hidden: &report.words.hidden,
         covers: covers(report),
         frames: found.nuisances.iter().map(frame).collect(),
+        loads: loads(found),
         rivals: rivals(report),
         method: method::METHOD,
         facts: method::facts(report),

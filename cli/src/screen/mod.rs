@@ -13,6 +13,7 @@ mod unit;
 mod words;
 
 pub use finding::chance;
+pub use notes::loads;
 pub use size::Size;
 
 use stiffarm_gap::diagnose::Rival;

@@ -1,5 +1,6 @@
 //! Where the gap lies, what a diagnosis leaves open, what could not be seen, what was not read.
 
+use stiffarm_gap::Diagnosis;
 use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
 
 use super::{MOST, Screen, WIDTH, percent, words};
@@ -26,6 +27,14 @@ const LINGERS: f64 = 0.2;
 /// A part that is everything is none.
 const MOST_OF_IT: f64 = 0.995;
 
+/// Whose axes loads and gravity were told in, where that is not the convention.
+pub fn loads(found: &Diagnosis) -> &'static str {
+    match found.hangs_as_measured {
+        true => "they and gravity stand in the measuring frame's axes, −z down: these data say so",
+        false => "",
+    }
+}
+
 impl Screen<'_> {
     /// The remarks below the findings, each with its name in front; `above` lines stand before
     /// them.
@@ -42,6 +51,7 @@ impl Screen<'_> {
             note("Where", &places),
             note("Goes with", &listed(&parts, MOST + 2)),
             note("Fitted along", &self.frames()),
+            note("Loads", loads(self.found)),
             note("Left out", &self.left_out()),
             note("Check", &self.checked()),
             note("Residual", &self.odd()),

@@ -8,3 +8,4 @@ pub mod output;
 pub mod progress;
 pub mod snippet;
 pub mod text;
+pub mod whole;

@@ -1,13 +1,13 @@
 //! Where results go: standard output, or a file that is never half-written.
 
-use std::fs::{self, File, Permissions};
+use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Command};
-use tempfile::NamedTempFile;
 
 use super::failure::{Failure, reason};
+use super::whole::Whole;
 use crate::inside::{host, owner};
 
 /// Where a result goes: a file, or standard output for `-`.
@@ -112,49 +112,8 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes beside the file, then renames. What is no plain file (`/dev/null`, a pipe) is written to.
 fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // Behind a link the file itself is replaced, not the link.
-    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let before = fs::metadata(&path).ok();
-    if let Some(before) = &before {
-        if before.is_dir() {
-            return Err(io::Error::from(ErrorKind::IsADirectory));
-        }
-        if !before.is_file() {
-            return File::options().write(true).open(&path)?.write_all(bytes);
-        }
-        // A file that must not be written to must not be replaced either.
-        File::options().append(true).open(&path)?;
-    }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut beside = beside(folder)?;
-    beside.write_all(bytes)?;
-    if let Some(before) = before {
-        beside.as_file().set_permissions(before.permissions())?;
-    }
-    beside.persist(&path)?;
-    Ok(())
-}
-
-fn beside(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".stiffarm-");
-    // Readable like any new file; by default a temporary one is its owner's alone.
-    let permissions = readable();
-    if let Some(permissions) = permissions {
-        builder.permissions(permissions);
-    }
-    builder.tempfile_in(folder)
-}
-
-#[cfg(unix)]
-fn readable() -> Option<Permissions> {
-    use std::os::unix::fs::PermissionsExt as _;
-    Some(Permissions::from_mode(0o666))
-}
-
-#[cfg(not(unix))]
-fn readable() -> Option<Permissions> {
-    None
+    let mut whole = Whole::new(path)?;
+    whole.write_all(bytes)?;
+    whole.finish()
 }

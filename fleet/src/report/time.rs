@@ -19,10 +19,10 @@ pub struct Change {
 /// What became of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Found now, not then.
-    Came(f64),
-    /// Found then, not now.
-    Went(f64),
+    /// Found now, not then: its value and 95 % interval.
+    Came(f64, [f64; 2]),
+    /// Found then, not now: the same of then.
+    Went(f64, [f64; 2]),
     /// Found both times, and the difference is told from zero.
     Changed {
         /// Then and now.
@@ -46,7 +46,10 @@ pub fn changes(campaigns: &[Campaign]) -> (Vec<Change>, usize) {
         };
         for (what, now) in &now {
             let Some(then) = then.get(what) else {
-                changes.push(change(what, Kind::Came(now.value)));
+                // A number of it that is nothing is no news.
+                if now.value != 0.0 {
+                    changes.push(change(what, Kind::Came(now.value, now.ci95)));
+                }
                 continue;
             };
             compared += 1;
@@ -57,8 +60,8 @@ pub fn changes(campaigns: &[Campaign]) -> (Vec<Change>, usize) {
                 changes.push(change(what, Kind::Changed { values, difference }));
             }
         }
-        let went = then.iter().filter(|(what, _)| !now.contains_key(what));
-        changes.extend(went.map(|(what, then)| change(what, Kind::Went(then.value))));
+        let went = then.iter().filter(|(what, of)| of.value != 0.0 && !now.contains_key(what));
+        changes.extend(went.map(|(what, then)| change(what, Kind::Went(then.value, then.ci95))));
     }
     (changes, compared)
 }
@@ -68,8 +71,12 @@ impl Change {
     pub fn said(&self) -> String {
         let unit = &self.what.unit;
         match self.kind {
-            Kind::Came(now) => format!("came: {} {unit}", short(now)),
-            Kind::Went(then) => format!("went: was {} {unit}", short(then)),
+            Kind::Came(now, [low, high]) => {
+                format!("came: {} {unit} [{} to {}]", short(now), short(low), short(high))
+            }
+            Kind::Went(then, [low, high]) => {
+                format!("went: was {} {unit} [{} to {}]", short(then), short(low), short(high))
+            }
             Kind::Changed { values: [then, now], difference: [low, high] } => format!(
                 "{} → {} {unit}, by {} [{} to {}]",
                 short(then),

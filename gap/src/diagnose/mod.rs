@@ -54,7 +54,7 @@ use crate::measurement::Measurements;
 pub use crate::shrink::Shrink;
 use crate::spring::Joined;
 use data::{Folds, Precision, Problem};
-use fit::Model;
+use fit::{Axes, Model};
 use search::{Explained, Search};
 use sums::Candidate;
 
@@ -117,7 +117,7 @@ pub fn diagnose_with(
         .map(|name| verdict::Rival::read(data, name))
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
-    let model = fit::aligned(&problem)?;
+    let mut model = fit::aligned(&problem)?;
     sums::scale_elastic(&mut candidates, &problem, &model)?;
     let (mut known, mut left_out, mut round) = (None, Vec::new(), 0);
     let looked = loop {
@@ -128,9 +128,15 @@ pub fn diagnose_with(
         let fit = options.keep_all || fits == problem.fits;
         let settled = fit && precision.is_near(&problem.precision, SAME_PRECISION);
         let ends = settled || round == MOST_ROUNDS || search.stopped();
+        let hung = if ends { search.hung_as_measured(&looked.explained)? } else { None };
         // The last fit is that of the rows that are told.
         if !options.keep_all && (fit || !ends) {
             (problem.fits, left_out) = (fits, out);
+        }
+        if hung.is_some() {
+            model.axes = Axes::Measuring;
+            (known, round) = (hung, 0);
+            continue;
         }
         if ends {
             break looked;
@@ -183,6 +189,7 @@ pub fn diagnose_with(
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
         geometry_along: problem.along.is_some(),
+        hangs_as_measured: explained.fit.model.axes == Axes::Measuring,
         covers: verdict::cover(&problem),
         rivals: (!options.rivals.is_empty()).then_some(compared),
         stopped: options.stop.is_asked(),

@@ -56,6 +56,10 @@ pub struct Diagnosis {
     /// Whether zeros, lengths and twists of the table were fitted along, and are no finding.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub geometry_along: bool,
+    /// Whether loads and gravity were taken to be told in the measuring frame's axes, −z down, since the data say so, and
+    /// not in the arm's.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub hangs_as_measured: bool,
     /// Where the data has been: predictions elsewhere are extrapolation.
     pub covers: Cover,
     /// Other models' predictions against this one's; only if they were asked for.

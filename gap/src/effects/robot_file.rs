@@ -73,6 +73,11 @@ impl<'a> RobotFile<'a> {
         }
     }
 
+    /// Lets gravity pull as it does in the arm that was diagnosed.
+    pub fn place_gravity(&mut self) {
+        self.robot.gravity = <[f64; 3]>::from(self.arm.gravity).map(decimals);
+    }
+
     /// Puts a measured point where it was found, tool frame, m.
     pub fn place_marker(&mut self, name: &str, at: [f64; 3]) {
         let translation = Some(at.map(decimals));

@@ -10,12 +10,14 @@
 //! room solves its least squares with these two.
 
 mod align;
+mod axes;
 mod basis;
 mod bounded;
 mod model;
 mod refit;
 
 pub(crate) use align::{aligned, rigid};
+pub(crate) use axes::Axes;
 pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};

@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
+use super::axes::Axes;
 use crate::diagnose::data::{LARGEST, Problem};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::sums::Candidate;
@@ -41,6 +42,8 @@ pub(crate) struct Model {
     pub(crate) arm: Arm,
     /// Where the base stands in the measuring frame of each session.
     pub(crate) bases: Vec<Isometry3<f64>>,
+    /// Whose axes loads and gravity are told in.
+    pub(crate) axes: Axes,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
     /// Where the unknown points are from which distances are measured, measuring frame, m.
@@ -73,6 +76,7 @@ impl Model {
         Self {
             arm: problem.arm.clone(),
             bases: vec![problem.arm.base; problem.sessions.len()],
+            axes: Axes::Arm,
             markers: vec![Vector3::zeros(); problem.markers.len()],
             centres: vec![Vector3::zeros(); problem.centres.len()],
             found: along.into_iter().collect(),
@@ -90,6 +94,7 @@ impl Model {
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
         actual.base = self.bases[problem.session_of[row]];
+        self.axes.tell(&mut actual);
         problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
             found.effect.alter(&mut actual, data, when, found.spot, &found.values);

@@ -56,6 +56,7 @@ impl Explanation {
         // Of several bases none is the arm's.
         if let [base] = after.bases[..] {
             arm.base = base;
+            arm.gravity = after.axes.gravity(&base, &arm.gravity);
         }
         Self {
             nominal: problem.arm.clone(),

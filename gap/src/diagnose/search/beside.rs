@@ -50,13 +50,13 @@ impl<'s> Search<'s, '_> {
         Gathered::new(&wanted, self.folds, &now.weights)
     }
 
-    /// The chance that errors that linger as long as what `fit` leaves make as large a fall of the squares
-    /// as an effect that follows time, which has `rank` numbers of its own.
+    /// The chance that errors that linger as long as what `fit` leaves make as much of a pattern as what an effect that
+    /// follows time does, which is `asked` for, all its forms.
     pub(crate) fn chance_in_time(
         &self,
         now: &Explained,
         fit: &Fit,
-        (fall, rank): (f64, usize),
+        asked: &[usize],
     ) -> Result<f64, DiagnoseError> {
         let problem = self.problem;
         let white = |(row, gap): (usize, Vector6<f64>)| {
@@ -65,21 +65,25 @@ impl<'s> Search<'s, '_> {
         let left = || fit.predicted.gaps.iter().copied().enumerate().map(white);
         let mean = problem.data.rows.iter().map(|_| Vector6::repeat(1.0));
         let mut told = vec![by_steps(problem, left()), by_steps(problem, mean)];
-        for (index, found) in fit.model.found.iter().enumerate() {
-            if found.effect.depends().follows_time() {
-                let mut without = fit.model.clone();
-                without.found[index].values.fill(0.0);
-                let without = without.predict(problem, Some(&fit.predicted.sims))?;
-                let both = without.gaps.iter().zip(&fit.predicted.gaps);
-                let moved = both.map(|(without, with)| without - with);
-                told.push(by_steps(problem, moved.enumerate().map(white)));
-            }
+        let found = &fit.model.found;
+        let follows = |k: &usize| found[*k].effect.depends().follows_time();
+        let others = (0..found.len()).filter(|k| !asked.contains(k) && follows(k));
+        let each = others.map(|k| vec![k]);
+        for forms in std::iter::once(asked.to_vec()).chain(each) {
+            let mut without = fit.model.clone();
+            forms.iter().for_each(|k| without.found[*k].values.fill(0.0));
+            let without = without.predict(problem, Some(&fit.predicted.sims))?;
+            let both = without.gaps.iter().zip(&fit.predicted.gaps);
+            let moved = both.map(|(without, with)| without - with);
+            told.push(by_steps(problem, moved.enumerate().map(white)));
         }
-        let Some(errors) = Lingering::worst(&problem.measured, &told) else { return Ok(1.0) };
         let squares = left().map(|gap| gap.norm_squared()).sum();
         let variance = self.scale(now).variance(squares, fit.model.parameters(problem));
+        let errors = Lingering::of(&problem.measured, &told, variance);
+        let Some(errors) = errors else { return Ok(1.0) };
+        let rank = asked.iter().map(|k| found[*k].values.len()).sum();
         let tried = self.candidates.iter().filter(|c| c.follows_time()).count();
-        Ok(errors.chance(fall, rank, variance, tried))
+        Ok(errors.chance(rank, tried))
     }
 
     /// A fit with the best of what follows time added, be it significant or not.

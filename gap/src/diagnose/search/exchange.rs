@@ -110,7 +110,7 @@ impl Search<'_, '_> {
         let Some(fit) = self.with(now, without, refined, (own - its) * variance)? else {
             return Ok((None, None));
         };
-        let lingers = self.lingers(now, &fit, screen.left(), best)?;
+        let lingers = self.lingers(now, &fit, best)?;
         Ok((None, (!lingers).then_some(fit)))
     }
 

@@ -278,7 +278,7 @@ impl Search<'_, '_> {
             }
             let below = self.left(now) - KEPT * one.score.drop;
             let Some(fit) = self.with(now, &[], added, below)? else { continue };
-            if !self.lingers(now, &fit, self.left(now), one)? {
+            if !self.lingers(now, &fit, one)? {
                 return Ok(Some(fit));
             }
             lingering.push(candidate);
@@ -287,28 +287,24 @@ impl Search<'_, '_> {
         Ok(None)
     }
 
-    /// Whether the last effect of a fit follows time and explains no more of what was `left` without it than
-    /// errors that linger do.
+    /// Whether the last effect of a fit follows time and explains no more than errors that linger do.
     pub(super) fn lingers(
         &self,
         now: &Explained,
         fit: &Fit,
-        left: f64,
         one: &Ranked,
     ) -> Result<bool, DiagnoseError> {
         if !self.candidates[one.candidate].follows_time() {
             return Ok(false);
         }
-        let with = squares(self.problem, &fit.predicted.gaps, &now.weights)
-            + strain(self.problem, &fit.model);
-        let explained = (left - with, one.score.rank);
-        if self.chance_in_time(now, fit, explained)? <= SIGNIFICANT {
+        let asked = [fit.model.found.len() - 1];
+        if self.chance_in_time(now, fit, &asked)? <= SIGNIFICANT {
             return Ok(false);
         }
         // While something else that follows time is missing, what is left lingers for it. To look once more
         // is another question that chance may answer.
         let Some(more) = self.with_more_in_time(now, fit)? else { return Ok(true) };
-        Ok(2.0 * self.chance_in_time(now, &more, explained)? > SIGNIFICANT)
+        Ok(2.0 * self.chance_in_time(now, &more, &asked)? > SIGNIFICANT)
     }
 
     /// How far orders of a periodic error must be from each other for the range of each joint to tell

@@ -7,7 +7,7 @@
 //! `forward` adds one effect after the other: the one with the most evidence (`evidence`: what it
 //! explains against what its parameters cost, and the chance that noise explains as much), if it
 //! shrinks the held-out gap. `refined` places a jump in time, `lingering` tells what follows time
-//! from errors that linger, `exchange` takes back or replaces what came too early. All ask the sums that were gathered [`beside`](Search::screen) the model. What
+//! from errors that linger, `hung` whose axes loads are told in, `exchange` takes back or replaces what came too early. All ask the sums that were gathered [`beside`](Search::screen) the model. What
 //! is gathered [`First`], before anything is found, also tells what the data could show.
 
 mod beside;
@@ -15,6 +15,7 @@ mod evidence;
 mod exchange;
 mod first;
 mod forward;
+mod hung;
 mod lingering;
 mod refined;
 
