@@ -151,7 +151,7 @@ fn every_effect_is_written_as_it_was_fitted() {
         "bearing_compliance@joint 2:tilt_x=3e-6,tilt_y=3e-6",
         "link_compliance@link 3:bending=1e-5,torsion=1e-5",
         "link_weight@link 2=15",
-        "base_compliance:rock_x=3e-6,rock_y=3e-6,give=3e-7,rock_z=2e-6",
+        "base_compliance:rock_x=3e-6,rock_y=3e-6,give=3e-7",
         "wrench_scale=0.3",
         "payload_com:x=0.1,y=0.1,z=0.1",
         "friction_hysteresis@joint 2=2e-6",

@@ -43,7 +43,6 @@ const LAWS: [(&dyn Effect, Law); 32] = [
     (&BaseCompliance, |arm, t| {
         arm.rock[0] += t.value("rock_x");
         arm.rock[1] += t.value("rock_y");
-        arm.rock[2] += t.value("rock_z");
         arm.give += t.value("give");
     }),
     (&WrenchScale, |arm, t| arm.wrench_scale += t.value("scale")),

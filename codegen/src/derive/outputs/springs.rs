@@ -78,8 +78,8 @@ pub(super) fn springs(
         Elastic::Beyond(Beyond::Base(each)) => {
             let [x, y, z] = chain.axes(0);
             let place = Place::at(Point::Boundary(0), 0);
-            let [rock_x, rock_y, give, rock_z] = each.map(|n| chain.g.number(n));
-            let all = [(x, true, rock_x), (y, true, rock_y), (z, true, rock_z)];
+            let [rock_x, rock_y, give] = each.map(|n| chain.g.number(n));
+            let all = [(x, true, rock_x), (y, true, rock_y)];
             let all = all.into_iter().chain([x, y, z].map(|axis| (axis, false, give)));
             let springs = place.springs(chain, levers, all);
             (place, springs)

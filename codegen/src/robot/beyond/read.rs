@@ -104,7 +104,6 @@ const EFFECTS: &[(&str, At, Option<&str>, &[Key])] = &[
             ("rock_x", [AnglePerMoment; 2], true),
             ("rock_y", [AnglePerMoment; 2], true),
             ("give", [LengthPerForce; 2], true),
-            ("rock_z", [AnglePerMoment; 2], true),
         ],
     ),
     ("thermal_growth", At::Arm, None, &[("expansion", [PerKelvin; 2], false)]),

@@ -1,7 +1,7 @@
-//! The foundation gives under load: it rocks about x and y by the moment about the base's origin, turns about z by it, and
+//! The foundation gives under load: it rocks about x and y by the moment about the base's origin, and
 //! shifts by the force.
 //!
-//! Its turn about z is as joint 1's compliance, so that a form has none; under loads that hardly change only the
+//! Its turn about z is joint 1's compliance and is left to that. Under loads that hardly change only the
 //! rocking shows, which is a form of its own.
 
 use nalgebra::{Matrix6xX, Vector6};
@@ -11,11 +11,11 @@ use crate::effects::{About, Draw, Effect, Group, Parameter, Place, Quantity, Sce
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 
-/// The forms: all of it, rocking alone, rocking and shift; and how many of the numbers each has.
+/// The forms: rocking and shift, rocking alone.
 const WHOLE: usize = 0;
-const NUMBERS: [usize; 3] = [4, 2, 3];
+const ROCKING: usize = 1;
 
-/// Rocking about the base's x and y per moment, shift per force, and turn about z per moment.
+/// Rocking about the base's x and y per moment, and shift per force.
 #[derive(Clone, Copy, Debug)]
 pub struct BaseCompliance;
 
@@ -26,12 +26,12 @@ impl Effect for BaseCompliance {
 
     fn about(&self) -> About {
         About {
-            reality: "The foundation gives under load: it rocks about x and y and turns about z by the moment \
-                      about the base's origin, and shifts by the force.",
+            reality: "The foundation gives under load: it rocks about x and y by the moment about \
+                      the base's origin, and shifts by the force.",
             signature: "The whole arm moves as one, by the load's moment about the base, however \
                         the arm stands.",
-            confused_with: "`bearing_compliance` at joint 1, which turns with the joint; compliance of joint 1, which is \
-                            the turn about z; under loads that hardly change only the rocking shows.",
+            confused_with: "`bearing_compliance` at joint 1, which turns with the joint; under \
+                            loads that hardly change only the rocking shows.",
             separated_by: "One load with joint 1 turned through its range: the bearing's tilt \
                            turns along, the rocking does not.",
         }
@@ -46,20 +46,19 @@ impl Effect for BaseCompliance {
             Parameter::at_least("rock_x", Quantity::AnglePerMoment, 0.0),
             Parameter::at_least("rock_y", Quantity::AnglePerMoment, 0.0),
             Parameter::at_least("give", Quantity::LengthPerForce, 0.0),
-            Parameter::at_least("rock_z", Quantity::AnglePerMoment, 0.0),
         ];
-        all.truncate(NUMBERS[spot.form]);
+        all.truncate(if spot.form == ROCKING { 2 } else { 3 });
         all
     }
 
     fn forms(&self, _: &Arm, _: Place, _: &Measurements) -> Vec<usize> {
-        (0..NUMBERS.len()).collect()
+        vec![WHOLE, ROCKING]
     }
 
     fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
-        let [x, y, give, z] = std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
+        let (x, y, give) = (v[0], v[1], v.get(2).copied().unwrap_or(0.0));
         let law = move |w: &Vector6<f64>| {
-            Vector6::new(give * w[0], give * w[1], give * w[2], x * w[3], y * w[4], z * w[5])
+            Vector6::new(give * w[0], give * w[1], give * w[2], x * w[3], y * w[4], 0.0)
         };
         actual.laws.push((Site::Base, Box::new(law)));
     }
@@ -67,8 +66,8 @@ impl Effect for BaseCompliance {
     fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
         let w = scene.state.load(Site::Base);
         let shift = Vector6::new(w[0], w[1], w[2], 0.0, 0.0, 0.0);
-        let [x, y, z] = [3, 4, 5].map(|k| Vector6::ith(k, w[k]));
-        scene.carried(Site::Base, &[x, y, shift, z][..NUMBERS[spot.form]])
+        let all = [Vector6::ith(3, w[3]), Vector6::ith(4, w[4]), shift];
+        scene.carried(Site::Base, &all[..if spot.form == ROCKING { 2 } else { 3 }])
     }
 
     fn idle(&self) -> &'static str {
