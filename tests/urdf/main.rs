@@ -270,6 +270,7 @@ fn what_is_no_serial_chain_is_refused() {
         (good.replace("axis xyz=\"0 0 1\"", "axis xyz=\"0 0 0\""), "has no direction"),
         (good.replace("child link=\"fore\"", "child link=\"four\""), "its child is `four`"),
         (good.replace("link name=\"fore\"", "link name=\"hand\""), "two links are called `hand`"),
+        (good.replace("name=\"elbow\"", "name=\"wrist\""), "two joints are called `wrist`"),
         (good.replace("</robot>", ""), "this is no XML"),
         (good.replace("type=\"continuous\"", "type=\"turning\""), "this is no URDF"),
         ("<sdf/>".to_owned(), "found the element <sdf>"),

@@ -1,6 +1,6 @@
 //! Links and joints as a tree, and the way from a base link to a tip link.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::document::{Elements, Joint, Kind, Link};
 use super::refusal::{Place, Refusal};
@@ -31,8 +31,12 @@ impl<'a> Tree<'a> {
             }
         }
         let mut above: HashMap<&str, &Joint> = HashMap::new();
+        let mut names = HashSet::new();
         for joint in &robot.joints {
             let at = || Place::Joint(joint.name.clone());
+            if !names.insert(&joint.name) {
+                return Err(Refusal::new(format!("two joints are called `{}`", joint.name), at()));
+            }
             let (parent, child) = (joint.parent.as_str(), joint.child.as_str());
             for (role, name) in [("parent", parent), ("child", child)] {
                 if !below.contains_key(name) {
