@@ -98,6 +98,11 @@ pub trait Effect: Sync {
         false
     }
 
+    /// Whether it says where gravity points, which the measuring frame may say itself.
+    fn tilts_gravity(&self) -> bool {
+        false
+    }
+
     /// Whether each of its numbers is held to what makers tolerate.
     fn is_tolerated(&self) -> bool {
         false

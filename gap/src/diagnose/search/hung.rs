@@ -1,5 +1,7 @@
 //! Whose axes loads and gravity are told in, as far as the data say so.
 
+use nalgebra::Isometry3;
+
 use super::forward::{Explained, Search};
 use crate::diagnose::fit::{Axes, Model, refit_below, squares, strain};
 use crate::diagnose::options::DiagnoseError;
@@ -8,26 +10,30 @@ use crate::diagnose::options::DiagnoseError;
 /// noise makes others as much more likely in one of so many campaigns, or fewer.
 const ODDS: f64 = 20.0;
 
-/// What says itself that gravity is not where the robot file has it.
-const TILT: &str = "gravity_tilt";
+/// A base leans by no more, rad: what leans further stands in no frame that was levelled, or is meant to.
+const MOST_LEAN: f64 = 0.1;
 
 impl Search<'_, '_> {
     /// The same with loads and gravity in the measuring frame's axes, if the data are rather those of it than of the
     /// arm's. A tilt of gravity that was found is then not needed.
     pub(crate) fn hung_as_measured(&self, now: &Explained) -> Result<Option<Model>, DiagnoseError> {
         let (problem, model) = (self.problem, &now.fit.model);
+        let lean = |base: &Isometry3<f64>| {
+            let own = &problem.arm.gravity;
+            own.angle(&Axes::Measuring.gravity(base, own))
+        };
         let turned = model.bases.iter().any(|base| base.rotation.angle() > 0.0);
-        if model.axes == Axes::Measuring || !turned || problem.nominal.is_some() || self.stopped() {
+        let leans = turned && model.bases.iter().all(|base| lean(base) <= MOST_LEAN);
+        if model.axes == Axes::Measuring || !leans || problem.nominal.is_some() || self.stopped() {
             return Ok(None);
         }
         let (left, scale) = (self.left(now), self.scale(now));
         let variance = scale.variance(left, model.parameters(problem));
-        let tilts = |k: &usize| model.found[*k].effect.identifier() == TILT;
-        let tilt = (0..model.found.len()).find(tilts);
+        let tilt = model.found.iter().position(|found| found.effect.tilts_gravity());
         let cost = tilt.map_or(0.0, |k| self.cost_of(now, &scale, k));
         let mut other = model.clone();
         other.axes = Axes::Measuring;
-        other.found.retain(|found| found.effect.identifier() != TILT);
+        other.found.retain(|found| !found.effect.tilts_gravity());
         let below = left + variance * (cost - 2.0 * ODDS.ln());
         let fit = refit_below(problem, other, None, &now.weights, below);
         let fit = match fit {

@@ -95,8 +95,7 @@ impl Search<'_, '_> {
         let contenders: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
         let mut p_value = self.p_value(&screen, &contenders, &finding, now);
         if found[0].effect.depends().follows_time() {
-            let forms: Vec<usize> = group.iter().copied().collect();
-            p_value = p_value.max(self.chance_in_time(now, &now.fit, &forms)?);
+            p_value = p_value.max(self.chance_in_time(now, &now.fit, group)?);
         }
         let again = |candidate: usize| is_found(&screen.candidates[candidate]);
         let stability = self.stability(&screen, &contenders, now, &again);

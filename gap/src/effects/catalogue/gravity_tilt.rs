@@ -42,6 +42,10 @@ impl Effect for GravityTilt {
         }
     }
 
+    fn tilts_gravity(&self) -> bool {
+        true
+    }
+
     fn places(&self, arm: &Arm) -> Vec<Place> {
         if arm.gravity == Vector3::zeros() { Vec::new() } else { vec![Place::Base] }
     }
