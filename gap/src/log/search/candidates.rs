@@ -12,9 +12,6 @@ use crate::dice::{Dice, Stream};
 /// Random signs; the smallest chance that they tell is one in so many.
 const FLIPS: usize = 999;
 
-/// Ways of being large.
-const WAYS: usize = 2;
-
 /// So many candidates are asked at once.
 const TOGETHER: usize = 32;
 
@@ -53,7 +50,7 @@ pub struct Candidate {
     pub seen: bool,
     /// By how much it makes the squares smaller that are fitted.
     gain: f64,
-    /// How the blocks pull at its numbers, told so that the square of their sum is what it takes; of each entry.
+    /// How the blocks pull at its numbers, each told so that their squares add up to one; of each entry.
     scores: Vec<DMatrix<f64>>,
 }
 
@@ -218,36 +215,31 @@ impl<'s> Ground<'s> {
             let says = cross.columns(0, q).tr_mul(&residual) - along.tr_mul(&left);
             pulls.set_row(b, &(&root * says).transpose());
         }
-        pulls
+        let size = pulls.norm();
+        if size > 0.0 { pulls / size } else { pulls }
     }
 
     /// Of each candidate the chance that something unrelated looks as good among as many.
     ///
     /// Under the signs of whole blocks what is left is as likely as it is; the largest of all candidates
     /// under random signs is what each is held against (Westfall & Young 1993; signs by blocks:
-    /// Cameron, Gelbach & Miller 2008). It is asked in two ways, each of which counts (Bonferroni): what shows in a few
-    /// blocks never pulls as much as blocks could that are all alike, but takes far more.
+    /// Cameron, Gelbach & Miller 2008).
     pub fn chances(&self, candidates: &[Candidate], seed: u64) -> Vec<f64> {
         let mut dice = Dice::new(seed, Stream::Visits);
         let count = self.products.len();
         let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
         let own = DMatrix::repeat(1, count, 1.0);
-        let found: Vec<[f64; WAYS]> = candidates
-            .iter()
-            .map(|c| largest(core::slice::from_ref(c), &own).map(|size| size[0]))
-            .collect();
-        let nothing = || [(); WAYS].map(|()| DVector::zeros(FLIPS));
+        let found: Vec<f64> =
+            candidates.iter().map(|c| largest(core::slice::from_ref(c), &own)[0]).collect();
+        let nothing = || DVector::zeros(FLIPS);
         let largest = candidates
             .par_chunks(TOGETHER)
             .map(|some| largest(some, &signs))
-            .reduce(nothing, |a, b| [a[0].sup(&b[0]), a[1].sup(&b[1])]);
-        let chance = |found: &[f64; WAYS]| {
-            let ways = found.iter().zip(&largest).map(|(found, largest)| {
-                // Signs that are all one are the data's own: of few blocks they come often.
-                let as_good = largest.iter().filter(|size| **size >= found * (1.0 - 1e-12));
-                (1 + as_good.count()) as f64 / (FLIPS + 1) as f64
-            });
-            (WAYS as f64 * ways.fold(1.0, f64::min)).min(1.0)
+            .reduce(nothing, |a, b| a.sup(&b));
+        let chance = |found: &f64| {
+            // Signs that are all one are the data's own: of few blocks they come often.
+            let as_good = largest.iter().filter(|size| **size >= found * (1.0 - 1e-12)).count();
+            (1 + as_good) as f64 / (FLIPS + 1) as f64
         };
         found.iter().map(chance).collect()
     }
@@ -266,23 +258,20 @@ impl Candidate {
 }
 
 /// By how much the blocks of that candidate pull together that does most, under signs, one a row: 1 on average where
-/// they do not; and how much that candidate takes that takes most.
-fn largest(candidates: &[Candidate], signs: &DMatrix<f64>) -> [DVector<f64>; WAYS] {
+/// they do not.
+fn largest(candidates: &[Candidate], signs: &DMatrix<f64>) -> DVector<f64> {
     let scores: Vec<&DMatrix<f64>> = candidates.iter().flat_map(|c| &c.scores).collect();
     let count = scores.iter().map(|scores| scores.ncols()).sum();
     // Side by side: a product of many columns is blocked, many of a few are not.
     let all = scores.iter().flat_map(|scores| scores.iter().copied());
     let pulls = signs * DMatrix::from_iterator(signs.ncols(), count, all);
-    let mut largest = [(); WAYS].map(|()| DVector::<f64>::zeros(signs.nrows()));
+    let mut largest = DVector::zeros(signs.nrows());
     let mut from = 0;
     for scores in scores {
-        let (own, size) = (pulls.columns(from, scores.ncols()), scores.norm_squared());
+        let own = pulls.columns(from, scores.ncols());
         from += scores.ncols();
-        for (k, row) in own.row_iter().enumerate() {
-            let takes: f64 = row.norm_squared();
-            let together = if size > 0.0 { takes / size } else { 0.0 };
-            largest[0][k] = largest[0][k].max(together);
-            largest[1][k] = largest[1][k].max(takes);
+        for (size, row) in largest.iter_mut().zip(own.row_iter()) {
+            *size = f64::max(*size, row.norm_squared());
         }
     }
     largest
