@@ -127,7 +127,7 @@ mod tests {
         let under = Situation::under(Vector6::repeat(1.0));
         for (id, place, values) in [
             ("joint_hardening", "joint 1", &[1e-12][..]),
-            ("base_compliance", "base", &[1e-6, 1e-6, 1e-7]),
+            ("base_compliance", "base", &[1e-6, 1e-6, 1e-7, 0.0]),
             ("wrench_scale", "tool", &[0.1]),
         ] {
             let one = [known(id, place, 0, values)];

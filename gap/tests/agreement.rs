@@ -152,6 +152,7 @@ fn every_effect_is_written_as_it_was_fitted() {
         "link_compliance@link 3:bending=1e-5,torsion=1e-5",
         "link_weight@link 2=15",
         "base_compliance:rock_x=3e-6,rock_y=3e-6,give=3e-7",
+        "base_compliance:rock=3e-6,give=3e-7",
         "wrench_scale=0.3",
         "payload_com:x=0.1,y=0.1,z=0.1",
         "friction_hysteresis@joint 2=2e-6",

@@ -85,6 +85,11 @@ pub trait Effect: Sync {
         self.named_forms(arm, place)
     }
 
+    /// The form with all numbers of what this form leaves some out of.
+    fn whole(&self, _form: usize) -> usize {
+        0
+    }
+
     // Its verdict.
 
     /// With what it goes, for the parts of a gap; `None` if with none of them alone.

@@ -34,10 +34,10 @@ impl Reality {
         tool_mount: &nalgebra::Matrix4<f64>,
     ) -> Chain {
         let mut chain = Chain::default();
-        let [rock_x, rock_y] = self.rock;
-        if rock_x != 0.0 || rock_y != 0.0 || self.give != 0.0 {
-            let laws = vec![self.give, self.give, self.give, rock_x, rock_y];
-            chain.site(&[0, 1, 2, 3, 4], Law::Diagonal(laws));
+        if self.rock != Vector3::zeros() || self.give != 0.0 {
+            let [x, y, z] = self.rock.into();
+            let laws = vec![self.give, self.give, self.give, x, y, z];
+            chain.site(&[0, 1, 2, 3, 4, 5], Law::Diagonal(laws));
         }
         for (j, joint) in self.joints.iter().enumerate() {
             let row = RowOf {

@@ -41,8 +41,8 @@ const LAWS: [(&dyn Effect, Law); 32] = [
         *hangs += t.value("mass");
     }),
     (&BaseCompliance, |arm, t| {
-        arm.rock[0] += t.value("rock_x");
-        arm.rock[1] += t.value("rock_y");
+        let [x, y, all] = ["rock_x", "rock_y", "rock"].map(|name| t.value(name));
+        arm.rock += Vector3::new(x + all, y + all, all);
         arm.give += t.value("give");
     }),
     (&WrenchScale, |arm, t| arm.wrench_scale += t.value("scale")),

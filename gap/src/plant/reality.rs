@@ -24,8 +24,8 @@ pub(super) struct Reality {
     pub(super) base_frame: Vector6<f64>,
     /// The tool frame's displacement.
     pub(super) tool_frame: Vector6<f64>,
-    /// Of the foundation, about x and y, rad/(N·m).
-    pub(super) rock: [f64; 2],
+    /// Of the foundation, about its axes, rad/(N·m).
+    pub(super) rock: Vector3<f64>,
     /// Of the foundation, m/N.
     pub(super) give: f64,
     pub(super) wrench_scale: f64,
@@ -162,7 +162,7 @@ impl Reality {
             base: transform::of(&arm.base),
             base_frame: Vector6::zeros(),
             tool_frame: Vector6::zeros(),
-            rock: [0.0; 2],
+            rock: Vector3::zeros(),
             give: 0.0,
             wrench_scale: 0.0,
             payload: Vector3::zeros(),
@@ -205,7 +205,7 @@ impl Reality {
                 not_negative(&format!("{what} {}", j + 1), total)?;
             }
         }
-        not_negative("rocking compliance of the base", reality.rock[0].min(reality.rock[1]))?;
+        not_negative("rocking compliance of the base", reality.rock.min())?;
         not_negative("giving compliance of the base", reality.give)?;
         Ok(reality)
     }

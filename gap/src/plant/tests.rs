@@ -21,7 +21,7 @@ fn yielding(convention: Convention) -> (Arm, Reality) {
     arm.convention = convention;
     arm.joints[2].motion = stiffarm_kernels::Motion::Prismatic;
     let truths = [
-        "base_compliance:rock_x=2e-6,rock_y=3e-6,give=4e-7",
+        "base_compliance:rock_x=2e-6,rock_y=3e-6,give=4e-7,rock=1e-6",
         "bearing_compliance@joint 1:tilt_x=2e-6,tilt_y=1e-6",
         "bearing_compliance@joint 3:tilt_x=3e-6,tilt_y=2e-6",
         "link_compliance@link 1:bending=3e-6,torsion=4e-6",

@@ -139,7 +139,7 @@ fn a_corrected_arm_is_measured_with_what_its_file_says() {
     let design = design(1);
     let known = vec![
         fixture::known("joint_ratio", "joint 2", 0, &[0.01]),
-        fixture::known("base_compliance", "base", 0, &[4e-6, 3e-6, 1e-8]),
+        fixture::known("base_compliance", "base", 0, &[4e-6, 3e-6, 1e-8, 0.0]),
     ];
     let options = Options {
         known: known.clone(),

@@ -78,8 +78,8 @@ pub(super) fn springs(
         Elastic::Beyond(Beyond::Base(each)) => {
             let [x, y, z] = chain.axes(0);
             let place = Place::at(Point::Boundary(0), 0);
-            let [rock_x, rock_y, give] = each.map(|n| chain.g.number(n));
-            let all = [(x, true, rock_x), (y, true, rock_y)];
+            let [about_x, about_y, about_z, give] = each.map(|n| chain.g.number(n));
+            let all = [(x, true, about_x), (y, true, about_y), (z, true, about_z)];
             let all = all.into_iter().chain([x, y, z].map(|axis| (axis, false, give)));
             let springs = place.springs(chain, levers, all);
             (place, springs)

@@ -120,7 +120,11 @@ impl Beyond {
             "friction_hysteresis" => self.windup.push((joint, v[0])),
             "joint_hardening" => self.hardening.push((joint, v[0])),
             "bearing_compliance" => self.springs.push(Spring::Bearing(joint, [v[0], v[1]])),
-            "base_compliance" => self.springs.push(Spring::Base([v[0], v[1], v[2]])),
+            "base_compliance" => {
+                let [x, y, all] = [0, 1, 2].map(|k| found.values[k].1);
+                let turns = [x + all, y + all, all].map(number);
+                self.springs.push(Spring::Base([turns[0], turns[1], turns[2], v[3]]));
+            }
             "link_compliance" => self.springs.push(Spring::Link(joint, [v[0], v[1]])),
             "wrench_scale" => {
                 let scale = 1.0 + self.wrench_scale.to_f64();

@@ -64,8 +64,8 @@ pub enum Law {
 pub enum Spring {
     /// A joint tilts about the axes across its own, which do not turn with it: rad/(N·m) about x, y.
     Bearing(usize, [Number; 2]),
-    /// The base rocks about its x and y, rad/(N·m), and gives along all axes, m/N.
-    Base([Number; 3]),
+    /// The base turns about its axes, rad/(N·m), and gives along all of them, m/N.
+    Base([Number; 4]),
     /// A row's chord bends in both planes and twists: 1/EI and 1/GJ, 1/(N·m²).
     Link(usize, [Number; 2]),
 }

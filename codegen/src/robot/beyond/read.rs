@@ -103,6 +103,7 @@ const EFFECTS: &[(&str, At, Option<&str>, &[Key])] = &[
         &[
             ("rock_x", [AnglePerMoment; 2], true),
             ("rock_y", [AnglePerMoment; 2], true),
+            ("rock", [AnglePerMoment; 2], true),
             ("give", [LengthPerForce; 2], true),
         ],
     ),

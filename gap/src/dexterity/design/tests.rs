@@ -153,7 +153,7 @@ fn what_is_told_apart_is_what_least_squares_tell() {
     told_apart(&[]);
     told_apart(&[
         known("joint_ratio", "joint 3", 0, &[0.03]),
-        known("base_compliance", "base", 0, &[4e-8, 3e-8, 1e-9]),
+        known("base_compliance", "base", 0, &[4e-8, 3e-8, 1e-9, 0.0]),
         known("wrench_scale", "tool", 0, &[0.2]),
     ]);
 }

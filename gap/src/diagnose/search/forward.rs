@@ -354,9 +354,11 @@ impl Search<'_, '_> {
     pub(crate) fn whole(&self, now: Explained) -> Result<Explained, DiagnoseError> {
         let Explained { fit, weights, .. } = &now;
         let mut model = fit.model.clone();
-        let is_part = |f: &&mut Fitted| f.effect.forms_are() == Forms::One && f.spot.form > 0;
+        let is_part = |f: &&mut Fitted| {
+            f.effect.forms_are() == Forms::One && f.effect.whole(f.spot.form) != f.spot.form
+        };
         for found in model.found.iter_mut().filter(is_part) {
-            let spot = Spot { form: 0, ..found.spot };
+            let spot = Spot { form: found.effect.whole(found.spot.form), ..found.spot };
             let is_it = |c: &&Candidate| c.effect() == Some((found.effect, spot));
             let Some(whole) = self.candidates.iter().find(is_it) else { continue };
             let mut values = found.values.clone();

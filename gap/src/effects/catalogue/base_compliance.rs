@@ -1,8 +1,8 @@
-//! The foundation gives under load: it rocks about x and y by the moment about the base's origin, and
-//! shifts by the force.
+//! The foundation gives under load: it turns by the moment about the base's origin, and shifts by the force.
 //!
-//! Its turn about z is joint 1's compliance and is left to that. Under loads that hardly change only the
-//! rocking shows, which is a form of its own.
+//! It may turn about all axes alike. Or it rocks about x and y, each by its own; a turn about z of its own would be
+//! joint 1's compliance and is left to that. Under loads that hardly change only the turn shows, which are forms of
+//! their own.
 
 use nalgebra::{Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
@@ -11,11 +11,25 @@ use crate::effects::{About, Draw, Effect, Group, Parameter, Place, Quantity, Sce
 use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment, Site};
 
-/// The forms: rocking and shift, rocking alone.
-const WHOLE: usize = 0;
-const ROCKING: usize = 1;
+/// Its numbers.
+const ROCK_X: usize = 0;
+const ROCK_Y: usize = 1;
+const GIVE: usize = 2;
+const ROCK: usize = 3;
 
-/// Rocking about the base's x and y per moment, and shift per force.
+/// Those of each form: all, which a file may name, and of what is sought rocking about x and y and shift, rocking alone,
+/// a turn about all axes alike and shift, that turn alone.
+const FORMS: [&[usize]; 5] = [
+    &[ROCK_X, ROCK_Y, GIVE, ROCK],
+    &[ROCK_X, ROCK_Y, GIVE],
+    &[ROCK_X, ROCK_Y],
+    &[ROCK, GIVE],
+    &[ROCK],
+];
+const ROCKS: usize = 1;
+const TURNS: usize = 3;
+
+/// The turn about the base's axes per moment, and shift per force.
 #[derive(Clone, Copy, Debug)]
 pub struct BaseCompliance;
 
@@ -26,8 +40,8 @@ impl Effect for BaseCompliance {
 
     fn about(&self) -> About {
         About {
-            reality: "The foundation gives under load: it rocks about x and y by the moment about \
-                      the base's origin, and shifts by the force.",
+            reality: "The foundation gives under load: by the moment about the base's origin it rocks about x and y, \
+                      each by its own, or turns about all three axes alike, and it shifts by the force.",
             signature: "The whole arm moves as one, by the load's moment about the base, however \
                         the arm stands.",
             confused_with: "`bearing_compliance` at joint 1, which turns with the joint; under \
@@ -42,32 +56,39 @@ impl Effect for BaseCompliance {
     }
 
     fn parameters(&self, _: &Arm, spot: Spot) -> Vec<Parameter> {
-        let mut all = vec![
-            Parameter::at_least("rock_x", Quantity::AnglePerMoment, 0.0),
-            Parameter::at_least("rock_y", Quantity::AnglePerMoment, 0.0),
-            Parameter::at_least("give", Quantity::LengthPerForce, 0.0),
-        ];
-        all.truncate(if spot.form == ROCKING { 2 } else { 3 });
-        all
+        let parameter = |number: &usize| {
+            let turn = Quantity::AnglePerMoment;
+            let names = [
+                ("rock_x", turn),
+                ("rock_y", turn),
+                ("give", Quantity::LengthPerForce),
+                ("rock", turn),
+            ];
+            let (name, quantity) = names[*number];
+            Parameter::at_least(name, quantity, 0.0)
+        };
+        FORMS[spot.form].iter().map(parameter).collect()
     }
 
     fn forms(&self, _: &Arm, _: Place, _: &Measurements) -> Vec<usize> {
-        vec![WHOLE, ROCKING]
+        (ROCKS..FORMS.len()).collect()
     }
 
-    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, _: Spot, v: &[f64]) {
-        let (x, y, give) = (v[0], v[1], v.get(2).copied().unwrap_or(0.0));
-        let law = move |w: &Vector6<f64>| {
-            Vector6::new(give * w[0], give * w[1], give * w[2], x * w[3], y * w[4], 0.0)
-        };
+    fn whole(&self, form: usize) -> usize {
+        if form < TURNS { form.min(ROCKS) } else { TURNS }
+    }
+
+    fn alter(&self, actual: &mut Actual<'_>, _: &Row, _: &Moment, spot: Spot, v: &[f64]) {
+        let each: Vector6<f64> =
+            FORMS[spot.form].iter().zip(v).map(|(number, v)| *v * shape(*number)).sum();
+        let law = move |w: &Vector6<f64>| each.component_mul(w);
         actual.laws.push((Site::Base, Box::new(law)));
     }
 
     fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
         let w = scene.state.load(Site::Base);
-        let shift = Vector6::new(w[0], w[1], w[2], 0.0, 0.0, 0.0);
-        let all = [Vector6::ith(3, w[3]), Vector6::ith(4, w[4]), shift];
-        scene.carried(Site::Base, &all[..if spot.form == ROCKING { 2 } else { 3 }])
+        let all = FORMS[spot.form].iter().map(|number| w.component_mul(&shape(*number)));
+        scene.carried(Site::Base, &all.collect::<Vec<_>>())
     }
 
     fn idle(&self) -> &'static str {
@@ -78,13 +99,24 @@ impl Effect for BaseCompliance {
         Some(Group::Elastic)
     }
 
-    /// All of it: no foundation rocks alone.
+    /// As many turn about all axes alike as rock; none does so without a shift.
     fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {
-        let whole = self.parameters(from.arm, Spot { place: from.place, form: WHOLE });
+        let form = if from.sign() < 0.0 { ROCKS } else { TURNS };
+        let whole = self.parameters(from.arm, Spot { place: from.place, form });
         from.sizes(&whole, 1.0)
     }
 
     fn sentence(&self, _: &Told<'_>) -> String {
         "the foundation gives under load".to_owned()
+    }
+}
+
+/// What a unit of a number does to each component of a unit load.
+fn shape(number: usize) -> Vector6<f64> {
+    match number {
+        ROCK_X => Vector6::ith(3, 1.0),
+        ROCK_Y => Vector6::ith(4, 1.0),
+        GIVE => Vector6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+        _ => Vector6::new(0.0, 0.0, 0.0, 1.0, 1.0, 1.0),
     }
 }

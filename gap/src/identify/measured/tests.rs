@@ -268,7 +268,7 @@ fn springs_are_found_on_top_of_what_is_known() {
     let known = [
         known("joint_ratio", "joint 3", 0, &[0.02]),
         // About one axis: which of two turns comes first is a matter of definition.
-        known("base_compliance", "base", 0, &[4e-8, 0.0, 0.0]),
+        known("base_compliance", "base", 0, &[4e-8, 0.0, 0.0, 0.0]),
         known("joint_hardening", "joint 2", 0, &[2e-14]),
         known("wrench_scale", "tool", 0, &[0.05]),
     ];
