@@ -75,6 +75,20 @@ fn a_zero_that_is_wrong_is_left_over() {
     assert!(flagged >= 90, "{flagged} of 100");
 }
 
+/// An encoder with six waves a radian, half as large as the noise: of each part of the angle its mean is nothing.
+#[test]
+fn waves_that_nothing_explains_are_left_over() {
+    let is_told = |seed: &u64| {
+        let mut log = recorded(*seed, 0.01, 0.0);
+        let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
+        q[0].iter_mut().for_each(|q| *q += 0.5 * NOISE * 2.0_f64.sqrt() * (6.0 * *q).sin());
+        let left = diagnosed(&log, *seed).unexplained.depends_on;
+        left.iter().any(|rest| rest.place == "joint 1" && rest.of == "angle, finely")
+    };
+    let flagged = SEEDS.filter(is_told).count();
+    assert!(flagged >= 90, "{flagged} of 100");
+}
+
 /// 5 of 100, and two standard errors; of noise that forgets at once, and of noise as slow as the motion.
 #[test]
 fn where_nothing_is_left_nothing_is_told() {

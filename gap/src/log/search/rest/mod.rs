@@ -2,7 +2,8 @@
 //!
 //! What is left is sorted by joint value, speed, load and time into parts of equally many rows. A mean of
 //! a part, or of all rows, that chance does not make says that something is still to be found there: under the signs
-//! of whole blocks the largest of all joints and quantities is seldom as large.
+//! of whole blocks the largest of all joints and quantities is seldom as large. So do neighbours in a quantity's order
+//! that are alike, though they are of different times: of what comes and goes within a part.
 
 mod foretold;
 mod quantity;
@@ -16,6 +17,12 @@ use super::{CHANCE, judge::Verdict};
 use crate::dice::{Dice, Stream};
 use foretold::foretold;
 use quantity::{Of, Parts};
+
+/// Neighbours in a quantity's order that are held against each other.
+const NEAR: usize = 8;
+
+/// Below it a sum is as good as normal.
+const LEAST_SKEW: f64 = 0.01;
 
 /// Random signs.
 const FLIPS: usize = 999;
@@ -40,8 +47,33 @@ struct Sorted {
     joint: usize,
     of: Of,
     share: f64,
+    by: By,
+}
+
+/// What the signs of blocks are set to.
+enum By {
     /// Sums of what is left, of each block and part, told so that the squares of a part add up to one.
-    sums: DMatrix<f64>,
+    Means(DMatrix<f64>),
+    /// Products of neighbours in two blocks, told so that their squares add up to one; under signs of chance their sum
+    /// has the skewness of a sum of so many squares.
+    Neighbours(DMatrix<f64>, f64),
+}
+
+impl By {
+    /// How large it is under these signs, each row of all blocks, as a normal number.
+    fn sizes(&self, signs: &DMatrix<f64>) -> Vec<f64> {
+        match self {
+            By::Means(sums) => {
+                let (pulls, parts) = (signs * sums, sums.ncols() as f64);
+                pulls.row_iter().map(|row| normal(row.norm_squared(), parts)).collect()
+            }
+            By::Neighbours(products, count) => {
+                let pulls = signs * products;
+                let sums = pulls.row_iter().zip(signs.row_iter()).map(|(a, b)| a.dot(&b));
+                sums.map(|sum| normal(count + sum * (2.0 * count).sqrt(), *count)).collect()
+            }
+        }
+    }
 }
 
 /// On what a verdict's rest depends; the largest share first.
@@ -58,7 +90,8 @@ pub fn rests(stock: &Stock<'_>, verdict: &Verdict, seed: u64) -> Vec<Rest> {
     let (beside, by): (Left, Vec<Vec<Of>>) = (0..left.len())
         .into_par_iter()
         .map(|joint| {
-            let own: Vec<&Parts> = all.iter().filter(|parts| parts.joint == joint).collect();
+            let own: Vec<&Parts> =
+                all.iter().filter(|parts| parts.joint == joint && !parts.of.is_fine()).collect();
             foretold(stock, &left[joint], &own, &verdict.blocks)
         })
         .unzip();
@@ -87,18 +120,13 @@ fn beyond_chance(
     let count = blocks.all.len();
     let mut dice = Dice::new(seed, Stream::Visits);
     let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
-    let size = |sorted: &Sorted, signs: &DMatrix<f64>| -> Vec<f64> {
-        let pulls = signs * &sorted.sums;
-        let parts = sorted.sums.ncols() as f64;
-        pulls.row_iter().map(|row| normal(row.norm_squared(), parts)).collect()
-    };
     let mut largest = vec![f64::NEG_INFINITY; FLIPS];
     for sorted in &all {
-        let sizes = size(sorted, &signs);
+        let sizes = sorted.by.sizes(&signs);
         largest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
     }
     let told = |sorted: &Sorted| {
-        let found = size(sorted, &DMatrix::repeat(1, count, 1.0))[0];
+        let found = sorted.by.sizes(&DMatrix::repeat(1, count, 1.0))[0];
         let as_good = largest.iter().filter(|x| **x >= found - 1e-9).count();
         let chance = (1 + as_good) as f64 / (FLIPS + 1) as f64;
         let (joint, of) = (sorted.joint, sorted.of.named(sorted.joint));
@@ -137,6 +165,10 @@ fn sorted(
         _ => all().map(|(.., left)| left).sum::<f64>() / all().count() as f64,
     };
     let whole: f64 = all().map(|(.., left)| (left - mean).powi(2)).sum();
+    if parts.of.is_fine() {
+        let of = |(by, share)| Sorted { joint: parts.joint, of: parts.of, share, by };
+        return neighbours(&rows[0], blocks.all.len(), mean).map(of);
+    }
     let mut sums = DMatrix::<f64>::zeros(blocks.all.len(), rows.len());
     let mut explained = 0.0;
     for (p, part) in rows.iter().enumerate() {
@@ -150,5 +182,32 @@ fn sorted(
         part /= if size > 0.0 { size } else { 1.0 };
     }
     let share = explained / whole.max(f64::MIN_POSITIVE);
-    Some(Sorted { joint: parts.joint, of: parts.of, share, sums })
+    Some(Sorted { joint: parts.joint, of: parts.of, share, by: By::Means(sums) })
+}
+
+/// Rows that stand beside each other in a quantity's order but in different blocks have nothing in common but what
+/// depends finely on it (as von Neumann's ratio asks of rows in time); the part of the squares that does.
+fn neighbours(rows: &[(usize, f64, f64)], blocks: usize, mean: f64) -> Option<(By, f64)> {
+    let mut products = DMatrix::<f64>::zeros(blocks, blocks);
+    let mut squares = 0.0;
+    for near in 1..=NEAR {
+        for ((a, _, x), (b, _, y)) in rows.iter().zip(rows.iter().skip(near)) {
+            if a != b {
+                let (x, y) = (x - mean, y - mean);
+                products[(*a.min(b), *a.max(b))] += x * y;
+                squares += 0.5 * (x * x + y * y);
+            }
+        }
+    }
+    let size = products.norm();
+    let share = products.sum() / squares;
+    if size == 0.0 {
+        return None;
+    }
+    products /= size;
+    // The third moment of a form in signs, and the skewness √(8/n) of n squares.
+    let both = (&products + products.transpose()) * 0.5;
+    let skewness = 8.0 * (&both * &both).dot(&both);
+    let count = 8.0 / skewness.max(LEAST_SKEW).powi(2);
+    Some((By::Neighbours(products, count), share))
 }

@@ -27,6 +27,10 @@ pub(super) enum Of {
     BrakingSpeed,
     BrakingLoad,
     BrakingTime,
+    /// On the joint's angle or speed, as finely as the rows tell: a pattern that comes often within a part has no mean
+    /// in it.
+    FineAngle,
+    FineSpeed,
     /// On nothing: it is there all the time.
     Mean,
 }
@@ -36,8 +40,10 @@ impl Of {
     fn all(joints: usize) -> impl Iterator<Item = Of> {
         let each = (0..joints).flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
         let braking = [Of::BrakingSpeed, Of::BrakingLoad, Of::BrakingTime];
+        let fine = [Of::FineAngle, Of::FineSpeed];
         let weights = (0..3).map(Of::Weight);
-        [Of::Mean, Of::Load, Of::Time].into_iter().chain(braking).chain(each).chain(weights)
+        let own = [Of::Mean, Of::Load, Of::Time].into_iter().chain(braking).chain(fine);
+        own.chain(each).chain(weights)
     }
 
     /// Of a joint.
@@ -56,8 +62,15 @@ impl Of {
             Of::BrakingSpeed => "speed, against the motion".to_owned(),
             Of::BrakingLoad => "load, against the motion".to_owned(),
             Of::BrakingTime => "time, against the motion".to_owned(),
+            Of::FineAngle => "angle, finely".to_owned(),
+            Of::FineSpeed => "speed, finely".to_owned(),
             Of::Mean => "mean".to_owned(),
         }
+    }
+
+    /// Whether neighbours are held against each other, and not parts.
+    pub(super) fn is_fine(self) -> bool {
+        matches!(self, Of::FineAngle | Of::FineSpeed)
     }
 }
 
@@ -65,8 +78,8 @@ impl Of {
 pub(super) struct Parts {
     pub(super) joint: usize,
     pub(super) of: Of,
-    /// Equally many rows each, or all in one of a mean: their place in the sample, and the sign that what is left has
-    /// there.
+    /// Equally many rows each, in the quantity's order, or all in one of a mean and of neighbours: their place in the
+    /// sample, and the sign that what is left has there.
     pub(super) rows: Vec<Vec<(usize, f64)>>,
 }
 
@@ -114,6 +127,8 @@ impl Rows {
     fn value(&self, joint: usize, of: Of, k: usize) -> f64 {
         match of {
             Of::Angle(of) => self.q[of][k],
+            Of::FineAngle => self.q[joint][k],
+            Of::FineSpeed => self.qd[joint][k],
             Of::Speed(of) => self.qd[of][k],
             Of::Acceleration(of) => self.qdd[of][k],
             Of::Load => self.loads[joint][k],
@@ -156,7 +171,7 @@ pub(super) fn all(stock: &Stock<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]) ->
         let mut sorted: Vec<(f64, usize)> = counts.map(|k| (rows.value(joint, of, k), k)).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (first, last) = (sorted.first()?.0, sorted.last()?.0);
-        let parts = if of == Of::Mean { 1 } else { PARTS };
+        let parts = if of == Of::Mean || of.is_fine() { 1 } else { PARTS };
         // What is the same everywhere would be sorted by its place in the log.
         if sorted.len() < PARTS || (first == last && of != Of::Mean) {
             return None;
