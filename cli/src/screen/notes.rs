@@ -24,6 +24,9 @@ const ODD: f64 = 1e-3;
 const HEAVY: f64 = 1.0;
 const LINGERS: f64 = 0.2;
 
+/// Columns that are named of those that were not used.
+const MOST_UNUSED: usize = 12;
+
 /// A part that is everything is none.
 const MOST_OF_IT: f64 = 0.995;
 
@@ -202,7 +205,11 @@ impl Screen<'_> {
         });
         let unused = self.data.unused.iter().map(|c| format!("{} (not measured)", c.header));
         let all: Vec<String> = unknown.chain(unused).collect();
-        if all.is_empty() { String::new() } else { format!("columns {}", all.join(", ")) }
+        if all.is_empty() {
+            String::new()
+        } else {
+            format!("columns {}", listed(&all, MOST_UNUSED))
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use annotate_snippets::{AnnotationKind, Element, Level, Renderer, Snippet};
 use console::style;
 use stiffarm_codegen::robot::Located;
 
+use super::text::clipped;
 use crate::inside::host;
 
 /// Why a command could not do its work: exit status 2.
@@ -41,12 +42,12 @@ pub struct Remark {
 impl Failure {
     /// A sentence without advice.
     pub fn new(message: impl Into<String>) -> Failure {
-        Failure::Plain { message: message.into(), help: None }
+        Failure::Plain { message: clipped(&message.into()), help: None }
     }
 
     /// A sentence with advice.
     pub fn with_help(message: impl Into<String>, help: impl Into<String>) -> Failure {
-        Failure::Plain { message: message.into(), help: Some(help.into()) }
+        Failure::Plain { message: clipped(&message.into()), help: Some(help.into()) }
     }
 
     /// A file that could not be read or written.
@@ -105,6 +106,7 @@ impl Remark {
         span: Option<Range<usize>>,
     ) -> Remark {
         let span = span.filter(|s| s.start < text.len() && s.end <= text.len());
+        let message = clipped(&message);
         let message = if span.is_some() { message } else { format!("{file}: {message}") };
         let place = span.map(|span| (file.to_owned(), text.to_owned(), span));
         Remark { message, help, doubt: false, place }

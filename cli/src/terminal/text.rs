@@ -2,6 +2,9 @@
 
 use console::{measure_text_width, style};
 
+/// Of a quotation that is longer nobody reads all.
+const LONGEST_QUOTED: usize = 120;
+
 /// How a column is aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
@@ -130,6 +133,21 @@ pub fn listed(entries: &[String], most: usize) -> String {
     }
 }
 
+/// A sentence whose quotations, between `` ` ``, are cut where they are no longer read.
+pub fn clipped(message: &str) -> String {
+    let cut = |(k, part): (usize, &str)| {
+        let length = part.chars().count();
+        match k % 2 == 1 && length > LONGEST_QUOTED {
+            true => {
+                let head: String = part.chars().take(LONGEST_QUOTED / 2).collect();
+                format!("{head}… ({} characters)", thousands(length))
+            }
+            false => part.to_owned(),
+        }
+    };
+    message.split('`').enumerate().map(cut).collect::<Vec<_>>().join("`")
+}
+
 /// With thousands set apart.
 pub fn thousands(n: usize) -> String {
     let digits = n.to_string();
@@ -188,6 +206,14 @@ mod tests {
         assert_eq!(fixed(-0.004, 2), "0.00");
         assert_eq!(fixed(-0.006, 2), "−0.01");
         assert_eq!(fixed(12.0, 0), "12");
+    }
+
+    #[test]
+    fn long_quotations_are_cut() {
+        let asked = |found: &str| clipped(&format!("found `{found}`, expected `mm`"));
+        assert_eq!(asked("é".repeat(120).as_str()).chars().count(), 143);
+        let cut = format!("found `{}… (20,000 characters)`, expected `mm`", "é".repeat(60));
+        assert_eq!(asked("é".repeat(20_000).as_str()), cut);
     }
 
     #[test]
