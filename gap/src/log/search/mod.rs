@@ -233,14 +233,19 @@ pub fn search(
     }
 }
 
+/// How often chance leaves what does as well as a finding out of its set: the sets of 97 in 100 logs are to hold the
+/// truth.
+const LEFT_OUT: f64 = 0.01;
+
 /// Whether what one leaves of the blocks is told from what another leaves: the larger, by more than the
-/// blocks scatter, one-sided at 5 %.
+/// blocks scatter, one-sided.
 pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
     let differences: Vec<f64> = other.iter().zip(best).map(|(o, b)| o - b).collect();
     let n = differences.len() as f64;
     let mean = differences.iter().sum::<f64>() / n;
     let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
-    let limit = StudentsT::new(0.0, 1.0, n - 1.0).map_or(f64::INFINITY, |t| t.inverse_cdf(0.95));
+    let limit =
+        StudentsT::new(0.0, 1.0, n - 1.0).map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - LEFT_OUT));
     mean > limit * variance.sqrt()
 }
 
