@@ -209,7 +209,7 @@ fn tuning() {
 #[test]
 #[ignore = "takes minutes: see the head of this file"]
 fn kept_apart() {
-    let goals = all(80_001, 34);
+    let goals = all(90_001, 34);
     assert!(goals.cases >= 200);
     assert_eq!(goals.missed(), Vec::<String>::new(), "{goals}");
 }

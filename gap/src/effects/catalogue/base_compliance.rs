@@ -9,7 +9,7 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::effects::{About, Draw, Effect, Group, Parameter, Place, Quantity, Scene, Spot, Told};
 use crate::measurement::{Measurements, Row};
-use crate::simulate::{Actual, Moment, Site};
+use crate::simulate::{Actual, Moment, Site, equilibrium};
 
 /// Its numbers.
 const ROCK_X: usize = 0;
@@ -28,6 +28,10 @@ const FORMS: [&[usize]; 5] = [
 ];
 const ROCKS: usize = 1;
 const TURNS: usize = 3;
+
+/// Rows that are looked at, and the part of a moment that tips.
+const LOOKED_AT: usize = 64;
+const LEAST_TIPPED: f64 = 1e-6;
 
 /// The turn about the base's axes per moment, and shift per force.
 #[derive(Clone, Copy, Debug)]
@@ -70,8 +74,9 @@ impl Effect for BaseCompliance {
         FORMS[spot.form].iter().map(parameter).collect()
     }
 
-    fn forms(&self, _: &Arm, _: Place, _: &Measurements) -> Vec<usize> {
-        (ROCKS..FORMS.len()).collect()
+    /// Where no load tips the base a turn about all axes is joint 1's compliance, too.
+    fn forms(&self, arm: &Arm, _: Place, data: &Measurements) -> Vec<usize> {
+        (ROCKS..if is_tipped(arm, data) { FORMS.len() } else { TURNS }).collect()
     }
 
     fn whole(&self, form: usize) -> usize {
@@ -109,6 +114,17 @@ impl Effect for BaseCompliance {
     fn sentence(&self, _: &Told<'_>) -> String {
         "the foundation gives under load".to_owned()
     }
+}
+
+/// Whether a load of the rows, or weight, has a moment about the base's x or y.
+fn is_tipped(arm: &Arm, data: &Measurements) -> bool {
+    let tips = |row: &Row| {
+        let state = equilibrium(arm, &row.q, &row.wrench).ok()?;
+        let moment = state.load(Site::Base).fixed_rows::<3>(3).into_owned();
+        Some(moment.xy().norm() > LEAST_TIPPED * moment.norm())
+    };
+    let every = data.rows.len().div_ceil(LOOKED_AT).max(1);
+    data.rows.iter().step_by(every).any(|row| tips(row) == Some(true))
 }
 
 /// What a unit of a number does to each component of a unit load.

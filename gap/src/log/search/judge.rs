@@ -10,6 +10,10 @@ use super::stock::Stock;
 use super::{Asked, CHANCE, Round, is_worse};
 use crate::log::effects::{LINKS, Spot};
 
+/// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
+/// the best of unrelated things does not usually do as much.
+const RIVAL: f64 = 0.5;
+
 /// Rivals of one finding that are told.
 const RIVALS: usize = 5;
 
@@ -132,7 +136,7 @@ impl Asked {
             .filter(|k| {
                 let rival = &self.candidates[*k];
                 *k != own
-                    && self.chances[*k] <= CHANCE
+                    && self.chances[*k] <= RIVAL
                     && rival.term.effect.may_be(&rival.term.values)
                     && !is_worse(&rival.squares, best)
             })
