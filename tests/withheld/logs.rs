@@ -8,7 +8,8 @@
 //!
 //! Both move two arms in many ways, with noise of many sizes and colours, and print a line for each log
 //! in which something else was named; `LOGS_CASES=n` tries so many of each setting. The seeds of the
-//! second are those that nobody tunes by: it holds the goals, over 200 logs.
+//! second are those that nobody tunes by: it holds the goals, over 600 logs, of which 72 have an effect that the
+//! diagnosis does not know and could tell.
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::dice::{Dice, Stream};
@@ -178,16 +179,18 @@ fn strays(report: &LogReport) -> String {
     report.cases.iter().filter(is_stray).map(|case| line(&case)).collect()
 }
 
-fn all(seed: u64, cases: usize) -> Goals {
+fn all(seeds: &[u64], cases: usize) -> Goals {
     let cases = std::env::var("LOGS_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(cases);
     let only = std::env::var("LOGS_ONLY").ok();
     let mut reports = Vec::new();
-    for (k, setting) in settings().iter().enumerate() {
+    let settings = settings();
+    let each = |seed: &u64| settings.iter().zip((*seed..).step_by(100)).collect::<Vec<_>>();
+    for (setting, seed) in seeds.iter().flat_map(each) {
         if only.as_ref().is_some_and(|only| !setting.name.contains(only.as_str())) {
             continue;
         }
         let started = std::time::Instant::now();
-        let report = run(setting, cases, seed + 100 * k as u64);
+        let report = run(setting, cases, seed);
         println!("{} ({}), {:.0} s", setting.name, setting.robot, started.elapsed().as_secs_f64());
         print!("{}{}", Goals::of_logs(core::slice::from_ref(&report)), strays(&report));
         if !report.cannot_plant.is_empty() {
@@ -203,14 +206,14 @@ fn all(seed: u64, cases: usize) -> Goals {
 #[test]
 #[ignore = "takes minutes: see the head of this file"]
 fn tuning() {
-    all(1, 34);
+    all(&[1], 34);
 }
 
 #[test]
 #[ignore = "takes minutes: see the head of this file"]
 fn kept_apart() {
-    let goals = all(90_001, 34);
-    assert!(goals.cases >= 200);
+    let goals = all(&[70_001, 80_001, 90_001], 34);
+    assert!(goals.cases >= 600);
     assert_eq!(goals.missed(), Vec::<String>::new(), "{goals}");
 }
 

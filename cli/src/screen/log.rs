@@ -325,7 +325,9 @@ pub fn by_command(found: &LogDiagnosis) -> Option<String> {
 pub fn unexplained(found: &LogDiagnosis) -> Vec<String> {
     let mut told: Vec<(&str, Vec<String>)> = Vec::new();
     for rest in &found.unexplained.depends_on {
-        let part = format!("{} with its {}", percent(rest.share), rest.of);
+        // Of a million rows much less than that is no accident.
+        let share = if rest.share < 0.005 { "less than 1 %".into() } else { percent(rest.share) };
+        let part = format!("{share} with its {}", rest.of);
         match told.iter_mut().find(|(place, _)| *place == rest.place) {
             Some((_, parts)) => parts.push(part),
             None => told.push((&rest.place, vec![part])),
