@@ -75,7 +75,7 @@ fn a_zero_that_is_wrong_is_left_over() {
     assert!(flagged >= 90, "{flagged} of 100");
 }
 
-/// An encoder with six waves a radian, half as large as the noise: of each part of the angle its mean is nothing.
+/// An encoder with six waves a radian, half as large as the noise: neighbours in angle are alike.
 #[test]
 fn waves_that_nothing_explains_are_left_over() {
     let is_told = |seed: &u64| {

@@ -9,7 +9,7 @@ use crate::diagnose::fit::{
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
-use crate::effects::{Forms, Spot};
+use crate::effects::{Effect, Forms, Spot};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
 
@@ -354,13 +354,8 @@ impl Search<'_, '_> {
     pub(crate) fn whole(&self, now: Explained) -> Result<Explained, DiagnoseError> {
         let Explained { fit, weights, .. } = &now;
         let mut model = fit.model.clone();
-        let is_part = |f: &&mut Fitted| {
-            f.effect.forms_are() == Forms::One && f.effect.whole(f.spot.form) != f.spot.form
-        };
-        for found in model.found.iter_mut().filter(is_part) {
-            let spot = Spot { form: found.effect.whole(found.spot.form), ..found.spot };
-            let is_it = |c: &&Candidate| c.effect() == Some((found.effect, spot));
-            let Some(whole) = self.candidates.iter().find(is_it) else { continue };
+        for found in &mut model.found {
+            let Some((whole, spot)) = self.whole_of(found.effect, found.spot) else { continue };
             let mut values = found.values.clone();
             values.resize(whole.size, 0.0);
             *found = whole.fitted(spot, values).unwrap_or_else(|| found.clone());
@@ -371,6 +366,20 @@ impl Search<'_, '_> {
         let weights = *weights;
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
         self.settled(fit, weights)
+    }
+
+    /// The candidate that has all numbers of a form that leaves some out, and its form; `None` of one that is whole.
+    pub(crate) fn whole_of(
+        &self,
+        effect: &'static dyn Effect,
+        spot: Spot,
+    ) -> Option<(&Candidate, Spot)> {
+        let whole = Spot { form: effect.whole(spot.form), ..spot };
+        if effect.forms_are() != Forms::One || whole == spot {
+            return None;
+        }
+        let is_it = |c: &&Candidate| c.effect() == Some((effect, whole));
+        self.candidates.iter().find(is_it).map(|candidate| (candidate, whole))
     }
 
     /// The model without the effects `out` (ascending), fitted again.

@@ -3,7 +3,7 @@
 use crate::diagnose::report::{Part, Slice};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::{Candidate, Kept};
-use crate::effects::{Effect, Forms, Group, Spot};
+use crate::effects::Group;
 use crate::gap::rms;
 use crate::measurement::Row;
 use nalgebra::Vector6;
@@ -21,7 +21,7 @@ impl Search<'_, '_> {
         let of_part = |group: Group| -> Vec<Candidate> {
             let is_it = |c: &&Candidate| {
                 c.effect().is_some_and(|(effect, spot)| {
-                    effect.group() == Some(group) && !self.is_part(effect, spot)
+                    effect.group() == Some(group) && self.whole_of(effect, spot).is_none()
                 })
             };
             self.candidates.iter().filter(is_it).cloned().collect()
@@ -50,15 +50,6 @@ impl Search<'_, '_> {
         }
         parts.push(Part { part: "none of these", share: last / whole.max(f64::MIN_POSITIVE) });
         parts
-    }
-
-    /// Whether a candidate has all numbers of this one, and more.
-    fn is_part(&self, effect: &dyn Effect, spot: Spot) -> bool {
-        let whole = Spot { form: effect.whole(spot.form), ..spot };
-        let is_whole = |c: &Candidate| {
-            c.effect().is_some_and(|(e, s)| e.identifier() == effect.identifier() && s == whole)
-        };
-        effect.forms_are() == Forms::One && whole != spot && self.candidates.iter().any(is_whole)
     }
 
     /// Size of the gap before and after in slices of each joint's range, of load, direction and

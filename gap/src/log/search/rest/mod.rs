@@ -200,10 +200,10 @@ fn neighbours(rows: &[(usize, f64, f64)], blocks: usize, mean: f64) -> Option<(B
         }
     }
     let size = products.norm();
-    let share = products.sum() / squares;
     if size == 0.0 {
         return None;
     }
+    let share = products.sum() / squares;
     products /= size;
     // The third moment of a form in signs, and the skewness √(8/n) of n squares.
     let both = (&products + products.transpose()) * 0.5;
