@@ -44,6 +44,11 @@ pub enum ImportError {
     NotText { file: String, not: String },
     #[error("{file}: the workbook cannot be read: {reason}")]
     Workbook { file: String, reason: String },
+    #[error(
+        "{file}: found a workbook, expected text: this build of stiffarm reads no other, and one with \
+         the feature `xlsx` does: cargo install --path cli --features xlsx"
+    )]
+    NotBuilt { file: String },
     #[error("{file}: found no sheet `{sheet}`, expected one of {}", known.join(", "))]
     NoSheet { file: String, sheet: String, known: Vec<String> },
     #[error(

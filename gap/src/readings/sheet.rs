@@ -1,8 +1,5 @@
 //! Bytes into cells: text with whatever separates its cells, or a sheet of a workbook.
 
-use std::io::Cursor;
-
-use calamine::{Data, Reader, open_workbook_auto_from_rs};
 use csv::StringRecord;
 
 use super::{ImportError, Map, names};
@@ -76,7 +73,17 @@ impl Sheet {
         Ok(Table { file: self.file.clone(), header, units, rows: body, said })
     }
 
+    #[cfg(not(feature = "xlsx"))]
+    fn workbook(&self, _: &Map, _: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
+        Err(ImportError::NotBuilt { file: self.file.clone() })
+    }
+
+    #[cfg(feature = "xlsx")]
     fn workbook(&self, map: &Map, said: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
+        use std::io::Cursor;
+
+        use calamine::{Data, Reader, open_workbook_auto_from_rs};
+
         let wrong = |reason: calamine::Error| ImportError::Workbook {
             file: self.file.clone(),
             reason: reason.to_string(),

@@ -29,6 +29,16 @@ const MAGIC: [(&[u8], Format); 3] = [
 ];
 
 impl Format {
+    /// As a sentence has it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Format::Text => "a text",
+            Format::Parquet => "a Parquet file",
+            Format::Mcap => "an MCAP file",
+            Format::Rosbag2 => "a bag of ROS 2",
+        }
+    }
+
     /// Of a file that begins so.
     pub fn of(head: &[u8]) -> Format {
         let found = MAGIC.iter().find(|(magic, _)| head.starts_with(magic));
@@ -103,12 +113,7 @@ impl Log {
             #[cfg(feature = "rosbag2")]
             Format::Rosbag2 => super::rosbag2::read(&file, path, motions, names),
             #[allow(unreachable_patterns, reason = "with all features there is no other")]
-            other => Err(LogError::Unreadable {
-                file,
-                message: format!(
-                    "found a file of the kind {other:?}, which this build does not read"
-                ),
-            }),
+            other => Err(LogError::NotBuilt { file, kind: other.words(), feature: "logs" }),
         }
     }
 }

@@ -184,6 +184,11 @@ pub enum LogError {
     #[error("{file}: {message}")]
     Unreadable { file: String, message: String },
     #[error(
+        "{file}: found {kind}, expected text: this build of stiffarm reads no other, and one with the \
+         feature `{feature}` does: cargo install --path cli --features {feature}"
+    )]
+    NotBuilt { file: String, kind: &'static str, feature: &'static str },
+    #[error(
         "{file}: found the arm's joints in {topics}, expected them in one topic: say which with --topic"
     )]
     Topics { file: String, topics: String },
