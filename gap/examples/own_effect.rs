@@ -152,7 +152,7 @@ fn main() {
     let arm = arm();
     let found = diagnosed(&arm, &measured(&arm));
     for finding in &found.findings {
-        let effect = catalogue().named(finding.effect).expect("one of the catalogue");
+        let effect = catalogue().named(&finding.effect).expect("one of the catalogue");
         let (before, after) = (found.gap.before.position_rms, found.gap.after.position_rms);
         println!("{}", effect.sentence(&Told::plain(&finding.place, &finding.parameters)));
         println!("gap {:.0} → {:.0} µm", 1e6 * before, 1e6 * after);

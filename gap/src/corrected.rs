@@ -7,7 +7,8 @@
 use stiffarm_codegen::robot::Robot;
 
 use crate::diagnose::{Diagnosed, Nuisance, NuisanceReport};
-use crate::effects::{Catalogue, Known, KnownError, ParameterReport, RobotFile};
+use crate::effects::{Catalogue, Known, KnownError, RobotFile};
+use crate::report::{Parameter, Word};
 use crate::robot::{RobotError, arm};
 
 /// A robot with what was found in it, and where each number is.
@@ -23,11 +24,11 @@ pub struct Corrected {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Identifier of the effect.
-    pub effect: &'static str,
+    pub effect: Word,
     /// Where it acts.
     pub place: String,
     /// The number and its interval.
-    pub parameter: ParameterReport,
+    pub parameter: Parameter,
     /// The entries that hold it.
     pub entry: String,
 }
@@ -61,7 +62,7 @@ pub fn corrected(robot: &Robot, diagnosed: &Diagnosed) -> Corrected {
         };
         let entry = found.iter().position(is_of).map(|k| entries[k].clone());
         let each = finding.parameters.iter().map(|parameter| Outcome {
-            effect: finding.effect,
+            effect: finding.effect.clone(),
             place: finding.place.clone(),
             parameter: parameter.clone(),
             entry: entry.clone().unwrap_or_default(),

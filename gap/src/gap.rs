@@ -1,7 +1,7 @@
 //! The gap: measured minus simulated, row by row and component by component.
 
 use nalgebra::Vector6;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::measurement::{Measurements, Row};
 use crate::simulate::Reading;
@@ -25,7 +25,7 @@ pub fn row_gap(data: &Measurements, row: &Row, predicted: &Reading) -> Vector6<f
 }
 
 /// Size of a gap over rows. Position is the norm over the measured translations of a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Root mean square over rows, m.
     pub position_rms: f64,

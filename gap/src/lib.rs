@@ -33,6 +33,7 @@ pub mod pool;
 pub mod predicted;
 pub mod random;
 pub mod readings;
+pub mod report;
 pub mod robot;
 pub mod shrink;
 pub mod simulate;

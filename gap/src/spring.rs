@@ -5,10 +5,12 @@
 //! is the mean of the two by the inverse squares of their intervals, which is known better than
 //! either; where no one spring is, both are told.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::report::Word;
 
 /// What one kind of data tells of a joint's spring.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// The joint, from 0.
     #[serde(skip)]
@@ -22,12 +24,12 @@ pub struct Spring {
 }
 
 /// A spring that both kinds of data were asked for, and one of them found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joined {
     /// The joint, as places are named.
     pub place: String,
     /// `rad/(N·m)` or `m/N`.
-    pub unit: &'static str,
+    pub unit: Word,
     /// What the campaign tells.
     pub at_rest: Spring,
     /// What the log tells.
@@ -72,7 +74,7 @@ impl Joined {
             let in_motion = in_motion.iter().find(|s| s.joint == at_rest.joint)?;
             (at_rest.found || in_motion.found).then(|| Joined {
                 place: format!("joint {}", at_rest.joint + 1),
-                unit: if slides(at_rest.joint) { "m/N" } else { "rad/(N·m)" },
+                unit: if slides(at_rest.joint) { "m/N" } else { "rad/(N·m)" }.into(),
                 at_rest: *at_rest,
                 in_motion: *in_motion,
                 together: at_rest.and(in_motion),
@@ -104,7 +106,7 @@ mod tests {
         let in_motion = [0, 1, 2].map(|joint| Spring::new(joint, 2.0, 0.2, joint == 2));
         let joined = Joined::all(&at_rest, &in_motion, |joint| joint == 1);
         let [one] = &joined[..] else { panic!("{joined:?}") };
-        assert_eq!((one.place.as_str(), one.unit), ("joint 2", "m/N"));
+        assert_eq!((one.place.as_str(), &*one.unit), ("joint 2", "m/N"));
         assert!(one.together.is_some());
     }
 }

@@ -17,14 +17,18 @@ fn an_effect_of_ones_own_is_found_and_told() {
     let arm = arm();
     let found = diagnosed(&arm, &measured(&arm));
     let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
-    assert_eq!((finding.effect, finding.place.as_str()), ("taut_hose", "joint 2"));
+    assert_eq!((&*finding.effect, finding.place.as_str()), ("taut_hose", "joint 2"));
     let number = &finding.parameters[0];
-    assert_eq!((number.name.as_str(), number.unit), ("lag beyond 80°", "1"));
+    assert_eq!((&*number.name, &*number.unit), ("lag beyond 80°", "1"));
     assert!((number.ci95[0]..=number.ci95[1]).contains(&4e-4), "{number:?}");
-    let rivals = finding.alternatives.iter().filter(|a| !a.separable);
-    assert!(rivals.clone().all(|a| a.effect == "taut_hose"), "{:?}", rivals.collect::<Vec<_>>());
+    let rivals = finding.indistinguishable();
+    assert!(
+        finding.indistinguishable().all(|a| a.effect == "taut_hose"),
+        "{:?}",
+        rivals.collect::<Vec<_>>()
+    );
     assert!(serde_json::to_string(&found).unwrap().contains(r#""effect":"taut_hose""#));
-    let effect = catalogue().named(finding.effect).unwrap();
+    let effect = catalogue().named(&finding.effect).unwrap();
     let told = effect.sentence(&Told::plain(&finding.place, &finding.parameters));
     assert!(told.starts_with("the hose at joint 2 makes it lag beyond 80° by 4.0"), "{told}");
     let curve = effect.curve(&finding.parameters).unwrap();

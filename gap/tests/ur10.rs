@@ -85,10 +85,10 @@ fn the_gap_shrinks_to_a_quarter_and_holds_on_rows_that_were_not_used() {
     let places: Vec<&str> = d.findings.iter().filter(gears).map(|f| f.place.as_str()).collect();
     assert!(places.contains(&"joint 1") && places.contains(&"joint 2"), "{places:?}");
     // Rows that are off by more than makers tolerate may stand out of the calibration.
-    assert!(d.findings.iter().any(|f| ["geometry", "link_geometry"].contains(&f.effect)));
+    assert!(d.findings.iter().any(|f| ["geometry", "link_geometry"].contains(&&*f.effect)));
     // Gravity is the only load: what bends first is not told from what bends beside it.
     let load = ["link_compliance", "bearing_compliance", "base_compliance", "joint_compliance"];
-    let loaded = d.findings.iter().filter(|f| load.contains(&f.effect));
+    let loaded = d.findings.iter().filter(|f| load.contains(&&*f.effect));
     assert!(loaded.clone().count() > 0 && loaded.clone().any(|f| !f.alternatives.is_empty()));
     let unseen = |effect: &str| d.cannot_see.iter().any(|c| c.effect == effect);
     assert!(unseen("wrench_scale") && unseen("payload_com") && unseen("joint_offset"));

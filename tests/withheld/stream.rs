@@ -47,7 +47,7 @@ fn positions_that_are_late_are_named_first() {
         }
         let data = plant.measure(&path, NOISE, seed).expect("an arm that carries its weight");
         let found = diagnose(&arm, &data, &options).expect("data of this arm");
-        let named: Vec<_> = found.findings.iter().map(|f| f.effect).collect();
+        let named: Vec<_> = found.findings.iter().map(|f| &*f.effect).collect();
         assert!(!found.unexplained.present, "{delay}: {named:?}");
         if delay == 0.0 {
             assert!(named.is_empty(), "{named:?}");

@@ -3,30 +3,24 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use stiffarm_gap::Diagnosis;
-use stiffarm_gap::diagnose::{Finding, Shrink};
+use stiffarm_gap::report::{Diagnosis, Finding, Parameter, Word};
+use stiffarm_gap::shrink::Shrink;
 
 use super::provenance::Hashes;
 use crate::input::source;
 use crate::terminal::failure::Failure;
 
-/// What is read of the earlier diagnosis.
+/// An earlier diagnosis, and of what it was made where it says so.
 #[derive(Deserialize)]
 struct Last {
-    robot: String,
-    gap: LastGap,
-    findings: Vec<LastFinding>,
+    #[serde(flatten)]
+    report: Diagnosis,
     data_sha256: Option<String>,
     robot_sha256: Option<String>,
 }
 
-#[derive(Deserialize)]
-struct LastGap {
-    shrink: Reached,
-}
-
 /// The gap on rows that no fit has seen, m (rad without positions).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Reached {
     /// Root mean square without findings.
     pub before: f64,
@@ -35,21 +29,6 @@ pub struct Reached {
     /// 95 % interval of `1 − after/before`.
     #[serde(rename = "shrink_ci95")]
     pub shrink: [f64; 2],
-}
-
-#[derive(Deserialize)]
-struct LastFinding {
-    effect: String,
-    place: String,
-    parameters: Vec<LastParameter>,
-}
-
-#[derive(Deserialize)]
-struct LastParameter {
-    name: String,
-    value: f64,
-    unit: String,
-    ci95: [f64; 2],
 }
 
 /// What is different.
@@ -68,9 +47,9 @@ pub struct Compared {
     /// Now.
     pub now: Reached,
     /// Effects and places that only this one has.
-    pub came: Vec<(String, String)>,
+    pub came: Vec<(Word, String)>,
     /// Those that only the earlier one has.
-    pub went: Vec<(String, String)>,
+    pub went: Vec<(Word, String)>,
     /// The numbers of what both have.
     pub numbers: Vec<Number>,
 }
@@ -78,10 +57,10 @@ pub struct Compared {
 /// A number that both have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Number {
-    pub effect: String,
+    pub effect: Word,
     pub place: String,
-    pub name: String,
-    pub unit: &'static str,
+    pub name: Word,
+    pub unit: Word,
     /// Value then and now.
     pub values: [f64; 2],
     /// Their 95 % intervals.
@@ -98,51 +77,54 @@ impl Compared {
     pub fn with(file: &Path, found: &Diagnosis, now: &Hashes) -> Result<Compared, Failure> {
         let text = source::text(file)?;
         let name = file.display().to_string();
-        let last: Last = serde_json::from_str(&text).map_err(|error| {
-            Failure::with_help(
-                format!("{name}: {error}: expected a diagnosis (JSON)"),
-                "write one with stiffarm diagnose … --json",
-            )
-        })?;
+        let Last { report: last, data_sha256, robot_sha256 } = serde_json::from_str(&text)
+            .map_err(|error| {
+                Failure::with_help(
+                    format!("{name}: {error}: expected a diagnosis (JSON)"),
+                    "write one with stiffarm diagnose … --json",
+                )
+            })?;
         if last.robot != found.robot {
             return Err(Failure::new(format!(
                 "{name}: found a diagnosis of `{}`, expected one of `{}`",
                 last.robot, found.robot
             )));
         }
-        let known = |effect: &str, place: &str| {
-            last.findings.iter().find(|l| l.effect == effect && l.place == place)
+        let [then, now_found] = [&last.findings, &found.findings];
+        let in_both = now_found.iter().filter_map(|now| Some((same(then, now)?, now)));
+        let only = |these: &[Finding], others: &[Finding]| {
+            let only = these.iter().filter(|one| same(others, one).is_none());
+            only.map(|one| (one.effect.clone(), one.place.clone())).collect()
         };
-        let has = |l: &&LastFinding| {
-            found.findings.iter().any(|f| f.effect == l.effect && f.place == l.place)
-        };
-        let came = found.findings.iter().filter(|f| known(f.effect, &f.place).is_none());
-        let went = last.findings.iter().filter(|l| !has(l));
-        let numbers = found.findings.iter().filter_map(|f| Some((f, known(f.effect, &f.place)?)));
         Ok(Compared {
-            same_data: last.data_sha256.map(|hash| hash == now.data_sha256),
-            same_robot: last.robot_sha256.map(|hash| hash == now.robot_sha256),
-            last: last.gap.shrink,
+            same_data: data_sha256.map(|hash| hash == now.data_sha256),
+            same_robot: robot_sha256.map(|hash| hash == now.robot_sha256),
+            last: Reached::from(&last.gap.shrink),
             now: Reached::from(&found.gap.shrink),
-            came: came.map(|f| (f.effect.to_owned(), f.place.clone())).collect(),
-            went: went.map(|l| (l.effect.clone(), l.place.clone())).collect(),
-            numbers: numbers.flat_map(|(now, last)| numbers_of(last, now)).collect(),
+            came: only(now_found, then),
+            went: only(then, now_found),
+            numbers: in_both.flat_map(|(last, now)| numbers_of(last, now)).collect(),
             file: name,
         })
     }
 }
 
+/// The finding of the same effect at the same place.
+fn same<'a>(among: &'a [Finding], one: &Finding) -> Option<&'a Finding> {
+    among.iter().find(|other| other.is(&one.effect, &one.place))
+}
+
 /// The numbers of the same name and unit.
-fn numbers_of(last: &LastFinding, now: &Finding) -> Vec<Number> {
+fn numbers_of(last: &Finding, now: &Finding) -> Vec<Number> {
     let both = now.parameters.iter().filter_map(|p| {
-        let then = last.parameters.iter().find(|l| l.name == p.name && l.unit == p.unit)?;
-        Some((then, p))
+        let same = |l: &&Parameter| l.name == p.name && l.unit == p.unit;
+        Some((last.parameters.iter().find(same)?, p))
     });
     let each = both.map(|(then, p)| Number {
-        effect: now.effect.to_owned(),
+        effect: now.effect.clone(),
         place: now.place.clone(),
         name: p.name.clone(),
-        unit: p.unit,
+        unit: p.unit.clone(),
         values: [then.value, p.value],
         ci95: [then.ci95, p.ci95],
         changed: (p.value - then.value).abs() > half(then.ci95).hypot(half(p.ci95)),

@@ -159,7 +159,7 @@ pub fn exported(robot: &Robot, format: Format) -> Result<(String, Option<String>
 }
 
 fn line(outcome: &Outcome) -> String {
-    let (p, entry) = (&outcome.parameter, stands_in(outcome.effect, &outcome.entry));
+    let (p, entry) = (&outcome.parameter, stands_in(&outcome.effect, &outcome.entry));
     let [low, high] = p.ci95;
     let unit = if p.unit == "1" { String::new() } else { format!(" {}", p.unit) };
     let number = match low == high {

@@ -21,7 +21,7 @@ pub fn curves<'a>(
     }
     let curve = |finding: &'a Finding| {
         let Ok(Place::Joint(joint)) = finding.place.parse() else { return None };
-        let curve = catalogue.named(finding.effect)?.curve(&finding.parameters)?;
+        let curve = catalogue.named(&finding.effect)?.curve(&finding.parameters)?;
         let title = format!("{} at {}", finding.effect.replace('_', " "), finding.place);
         (curve.proportional || !displaced).then(|| Shaped { title, joint: joint - 1, curve })
     };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
-use stiffarm_gap::diagnose::Diagnosis;
+use stiffarm_gap::report::{CannotSee, Diagnosis, Hidden};
 
 use super::Report;
 use super::curves::curves;
@@ -84,8 +84,9 @@ fn gap(report: &Report<'_>) -> Table {
     for finding in &report.found.findings {
         let held = &finding.held_out;
         let mut row = vec![format!("{} at {}", finding.effect, finding.place).into()];
-        row.extend([held.before, held.after, held.shrink].map(number));
-        row.extend(held.shrink_ci95.map(number));
+        row.extend([held.before(), held.after()].map(number));
+        let shrink = held.shrink().map(|s| [s.shrink, s.shrink_ci95[0], s.shrink_ci95[1]]);
+        row.extend(shrink.into_iter().flatten().map(number));
         table.rows.push(row);
     }
     table
@@ -109,10 +110,10 @@ fn alternatives(report: &Report<'_>) -> Table {
         for other in &finding.alternatives {
             table.rows.push(vec![
                 name.as_str().into(),
-                other.effect.into(),
+                other.effect.as_ref().into(),
                 other.place.as_str().into(),
-                number(other.held_out_after),
-                other.separable.into(),
+                number(other.left.size()),
+                other.separable().into(),
             ]);
         }
     }
@@ -121,8 +122,12 @@ fn alternatives(report: &Report<'_>) -> Table {
 
 fn cannot_see(report: &Report<'_>) -> Table {
     let mut table = Table::new(&["effect", "place", "visible", "because"]);
-    let row = |one: &stiffarm_gap::diagnose::CannotSee| {
-        vec![one.effect.into(), one.place.as_str().into(), number(one.visible), one.because.into()]
+    let row = |one: &CannotSee| {
+        let visible = match one.why {
+            Hidden::AtRest { visible, .. } => number(visible),
+            Hidden::InMotion { .. } => Value::Null,
+        };
+        vec![(*one.effect).into(), one.place.as_str().into(), visible, one.because().into()]
     };
     table.rows = report.found.cannot_see.iter().map(row).collect();
     table
@@ -134,8 +139,8 @@ fn parameters(report: &Report<'_>) -> Table {
     for finding in &report.found.findings {
         for p in &finding.parameters {
             let mut row: Vec<Value> =
-                [finding.effect, &finding.place, &p.name].map(Value::from).to_vec();
-            row.extend([number(p.value), p.unit.into()]);
+                [&*finding.effect, &finding.place, &p.name].map(Value::from).to_vec();
+            row.extend([number(p.value), (*p.unit).into()]);
             row.extend(p.ci95.map(number));
             table.rows.push(row);
         }

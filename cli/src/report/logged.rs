@@ -6,8 +6,8 @@ use askama::Template;
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::log::model::{Explained, JointRows};
-use stiffarm_gap::log::report::Finding;
 use stiffarm_gap::log::{Domain, LogDiagnosis};
+use stiffarm_gap::report::Finding;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
@@ -16,7 +16,7 @@ use super::page::percent;
 use super::table::{Table, number, residual};
 use super::waterfall::{Step, Waterfall, waterfall};
 use super::words::Unit;
-use crate::screen::log as said;
+use crate::screen::{less, log as said};
 use crate::terminal::text::short;
 
 /// The scripts, one matter each.
@@ -100,7 +100,7 @@ struct Found {
     takes: String,
     chance: String,
     same: Vec<String>,
-    advice: Option<&'static str>,
+    advice: Option<String>,
 }
 
 /// What the scripts read.
@@ -117,7 +117,7 @@ struct Embedded<'a> {
 #[derive(Serialize)]
 struct Joint {
     name: String,
-    unit: &'static str,
+    unit: String,
     angle: &'static str,
     speed: &'static str,
     /// A stretch of time: t, what was to be explained, the rigid links, the whole model.
@@ -185,14 +185,13 @@ impl Logged<'_> {
             if self.found.rows == Domain::Torque { "rigid links alone" } else { "as logged" };
         let mut steps = vec![step(first.to_owned(), "whole", 0.0, before, part(before))];
         steps.extend(self.found.findings.iter().map(|f| {
-            let (from, to) = (f.held_out_after.min(f.held_out_before), f.held_out_before);
-            step(name(f), "removed", from, to, format!("to {}", part(f.held_out_after)))
+            let (from, to) = (f.held_out.after().min(f.held_out.before()), f.held_out.before());
+            step(name(f), "removed", from, to, format!("to {}", part(f.held_out.after())))
         }));
         let mut left = step("left, held out".to_owned(), "left", 0.0, after, part(after));
         if !self.found.findings.is_empty() {
-            let [low, high] = self.found.shrink.shrink_ci95;
-            left.interval = Some([before * (1.0 - high), before * (1.0 - low)]);
-            left.text = format!("{}, {}", left.text, said::less(&self.found.shrink));
+            left.interval = Some(self.found.shrink.after_ci95());
+            left.text = format!("{}, {}", left.text, less(&self.found.shrink));
         }
         steps.push(left);
         steps
@@ -201,7 +200,7 @@ impl Logged<'_> {
     fn joint(&self, index: usize) -> Joint {
         let (rows, times) = (&self.explained.joints[index], &self.explained.t);
         let gap = &self.found.gap[index];
-        let (unit, scale) = said::shown(gap.unit);
+        let (unit, scale) = said::shown(&gap.unit);
         let turns = self.arm.joints[index].motion == Motion::Revolute;
         let (angle, speed, q) =
             if turns { ("°", "rad/s", 180.0 / core::f64::consts::PI) } else { ("mm", "m/s", 1e3) };
@@ -229,7 +228,7 @@ impl Logged<'_> {
         });
         Joint {
             name: format!("joint {}", index + 1),
-            unit,
+            unit: unit.to_owned(),
             angle,
             speed,
             stretch: [
@@ -257,7 +256,7 @@ impl Logged<'_> {
     /// Friction against speed: what the friction's terms do and what is left, and the terms alone.
     fn friction(&self, rows: &JointRows, counted: &[usize], every: usize) -> [Vec<[Value; 2]>; 2] {
         let is_friction =
-            |k: usize| self.found.findings.get(k).is_some_and(|f| FRICTION.contains(&f.effect));
+            |k: usize| self.found.findings.get(k).is_some_and(|f| FRICTION.contains(&&*f.effect));
         let terms: Vec<&Vec<f64>> =
             rows.parts.iter().filter(|(k, _)| is_friction(*k)).map(|(_, part)| part).collect();
         if terms.is_empty() {
@@ -302,7 +301,7 @@ impl Logged<'_> {
         let told = if self.found.gap.iter().all(|g| g.nested.is_some()) { 6 } else { 5 };
         let mut gap = Table::new(&heads[..told]);
         for (k, g) in self.found.gap.iter().enumerate() {
-            let mut row = vec![Value::from(k + 1), g.unit.into()];
+            let mut row = vec![Value::from(k + 1), (*g.unit).into()];
             row.extend([g.size, g.before, g.after].into_iter().chain(g.nested).map(number));
             gap.rows.push(row);
         }
@@ -311,9 +310,9 @@ impl Logged<'_> {
         for f in &self.found.findings {
             for p in &f.parameters {
                 let mut row: Vec<Value> =
-                    vec![f.effect.into(), f.place.as_str().into(), p.name.into()];
+                    vec![(*f.effect).into(), f.place.as_str().into(), (*p.name).into()];
                 row.extend([p.value, p.ci95[0], p.ci95[1]].map(number));
-                row.extend([p.unit.as_str().into(), number(f.p_value)]);
+                row.extend([(*p.unit).into(), number(f.p_value)]);
                 findings.rows.push(row);
             }
         }
@@ -327,16 +326,16 @@ fn name(finding: &Finding) -> String {
 }
 
 fn finding(f: &Finding) -> Found {
-    let rival = |a: &stiffarm_gap::log::report::Alternative| {
-        let more = percent(a.leaves - 1.0);
+    let rival = |a: &stiffarm_gap::report::Alternative| {
+        let more = percent(a.left.size() - 1.0);
         format!("{} at {}, which leaves {more} more", a.effect.replace('_', " "), a.place)
     };
     Found {
         name: name(f),
         numbers: f.parameters.iter().map(said::number).collect(),
-        takes: format!("{:.1} → {:.1} %", 100.0 * f.held_out_before, 100.0 * f.held_out_after),
+        takes: format!("{:.1} → {:.1} %", 100.0 * f.held_out.before(), 100.0 * f.held_out.after()),
         chance: format!("p = {}", short(f.p_value)),
         same: f.alternatives.iter().map(rival).collect(),
-        advice: f.to_separate,
+        advice: f.advice().map(str::to_owned),
     }
 }

@@ -30,11 +30,11 @@ pub fn facts(report: &Report<'_>) -> Vec<(&'static str, String)> {
     let words = report.words;
     let mut sizes = Vec::new();
     if report.has_positions() {
-        let from = found.gap.noise.position_from.map_or("", noise_from);
+        let from = found.gap.noise.position_from.as_deref().map_or("", noise_from);
         sizes.push(format!("{} {from}", words.length.with_unit(found.gap.noise.position_rms)));
     }
     if data.kind.components()[3..].contains(&true) {
-        let from = found.gap.noise.rotation_from.map_or("", noise_from);
+        let from = found.gap.noise.rotation_from.as_deref().map_or("", noise_from);
         sizes.push(format!("{} {from}", words.angle.with_unit(found.gap.noise.rotation_rms)));
     }
     let nuisances: Vec<&str> = options.nuisances.iter().map(|n| Nuisance::identifier(*n)).collect();

@@ -10,7 +10,7 @@ use super::steps::steps;
 use super::waterfall::{Waterfall, waterfall};
 use super::worst::worst;
 use super::{Report, embedded, method};
-use crate::screen::{chance, loads};
+use crate::screen::{chance, less, loads};
 
 /// Places or rivals that are named one by one.
 const MOST: usize = 8;
@@ -39,7 +39,7 @@ struct Page<'a> {
     sentence: &'a str,
     waterfall: Waterfall,
     findings: Vec<Found<'a>>,
-    parts: Vec<(&'static str, String)>,
+    parts: Vec<(&'a str, String)>,
     places: Vec<Place<'a>>,
     unexplained: Option<Left<'a>>,
     acceptance: Option<&'a (bool, String)>,
@@ -136,7 +136,7 @@ pub fn html(report: &Report<'_>) -> Result<String, askama::Error> {
         sentence: &report.words.sentence,
         waterfall: waterfall(steps(report), report.main_unit()),
         findings: findings(report),
-        parts: found.parts.iter().map(|p| (p.part, percent(p.share))).collect(),
+        parts: found.parts.iter().map(|p| (&*p.part, percent(p.share))).collect(),
         places: places(&found.places),
         unexplained: unexplained.present.then(|| Left {
             size,
@@ -170,11 +170,11 @@ fn findings<'a>(report: &Report<'a>) -> Vec<Found<'a>> {
     let told = report.found.findings.iter().zip(&report.words.findings);
     let each = told.map(|(finding, told)| {
         let leaves = |a: &stiffarm_gap::diagnose::Alternative| {
-            let left = report.main_unit().with_unit(a.held_out_after);
+            let left = report.main_unit().with_unit(a.left.size());
             format!("{} at {}, which leaves {left}", a.effect.replace('_', " "), a.place)
         };
         let (same, other): (Vec<_>, Vec<_>) =
-            finding.alternatives.iter().partition(|a| !a.separable);
+            finding.alternatives.iter().partition(|a| !a.separable());
         Found {
             name: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
             said: capital(&told.said),
@@ -184,7 +184,7 @@ fn findings<'a>(report: &Report<'a>) -> Vec<Found<'a>> {
             more: same.len().saturating_sub(MOST),
             same: same.into_iter().take(MOST).map(leaves).collect(),
             next: other.first().map(|a| leaves(a)),
-            advice: finding.to_separate.as_deref(),
+            advice: finding.advice(),
         }
     });
     each.collect()
@@ -192,13 +192,12 @@ fn findings<'a>(report: &Report<'a>) -> Vec<Found<'a>> {
 
 fn shrink(report: &Report<'_>, finding: &Finding) -> (String, String) {
     let (held, unit) = (&finding.held_out, report.main_unit());
-    let [low, high] = held.shrink_ci95.map(percent);
-    let sizes = format!("{} → {}", unit.number(held.before), unit.with_unit(held.after));
-    (sizes, format!("{} less [{low} to {high}]", percent(held.shrink)))
+    let sizes = format!("{} → {}", unit.number(held.before()), unit.with_unit(held.after()));
+    (sizes, held.shrink().map_or_else(String::new, less))
 }
 
 fn evidence(finding: &Finding) -> (String, String) {
-    let again = percent(finding.stability);
+    let again = percent(finding.stability.unwrap_or_default());
     (chance(finding.p_value), format!("found again on {again} of random halves"))
 }
 

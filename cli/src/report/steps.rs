@@ -1,10 +1,11 @@
 //! The steps of a diagnosis from the gap to the noise.
 
-use stiffarm_gap::diagnose::Finding;
+use stiffarm_gap::report::Finding;
+use stiffarm_gap::shrink::Shrink;
 
 use super::Report;
 use super::waterfall::Step;
-use crate::screen::noise_from;
+use crate::screen::{less, noise_from};
 
 /// From the whole gap, finding by finding, to the noise.
 pub fn steps(report: &Report<'_>) -> Vec<Step> {
@@ -34,28 +35,22 @@ pub fn steps(report: &Report<'_>) -> Vec<Step> {
         let size = of.as_ref().map(|gap| main(gap.position_rms, gap.rotation_rms));
         steps.extend(size.map(|size| plain(label, "left", size)));
     }
-    steps.push(plain(&format!("noise, {}", noise_from(gap.noise.from)), "noise", noise));
+    steps.push(plain(&format!("noise, {}", noise_from(&gap.noise.from)), "noise", noise));
     steps
 }
 
 /// What a finding takes away, with the interval of what it leaves.
 fn taken(report: &Report<'_>, finding: &Finding) -> Step {
     let held = &finding.held_out;
-    let [low, high] = held.shrink_ci95;
-    let percent = |x: f64| format!("{:.0}", 100.0 * x).replacen('-', "−", 1);
+    let (before, after) = (held.before(), held.after());
+    let less = held.shrink().map_or_else(String::new, |shrink| format!(", {}", less(shrink)));
     let unit = report.main_unit();
     Step {
         label: format!("{} at {}", finding.effect.replace('_', " "), finding.place),
         class: "removed",
-        from: held.after.min(held.before),
-        to: held.after.max(held.before),
-        interval: Some([held.before * (1.0 - high), held.before * (1.0 - low)]),
-        text: format!(
-            "→ {}, {} % less [{} to {}]",
-            unit.with_unit(held.after),
-            percent(held.shrink),
-            percent(low),
-            percent(high)
-        ),
+        from: after.min(before),
+        to: after.max(before),
+        interval: held.shrink().map(Shrink::after_ci95),
+        text: format!("→ {}{less}", unit.with_unit(after)),
     }
 }

@@ -1,6 +1,6 @@
 //! This campaign against a tolerance, and against the last one.
 
-use stiffarm_gap::diagnose::{Finding, ParameterReport};
+use stiffarm_gap::report::{Finding, Parameter, Word};
 
 use super::{Screen, WIDTH, words};
 use crate::diagnose::Reached;
@@ -44,22 +44,22 @@ impl Screen<'_> {
             lines.push("they begin from different robot files".to_owned());
         }
         lines.push(self.reached(&compared.last, &compared.now));
-        let names = |each: &[(String, String)]| -> Vec<String> {
+        let names = |each: &[(Word, String)]| -> Vec<String> {
             each.iter().map(|(effect, place)| format!("{} at {place}", words(effect))).collect()
         };
         lines.extend(names(&compared.came).into_iter().map(|name| format!("new: {name}")));
         for ((effect, place), name) in compared.went.iter().zip(names(&compared.went)) {
             let hidden = &self.found.cannot_see;
-            let hidden = hidden.iter().find(|c| c.effect == effect && c.place == *place);
+            let hidden = hidden.iter().find(|c| c.effect == *effect && c.place == *place);
             let why = hidden.map_or_else(String::new, |c| {
-                format!(" (this data could not have shown it: {})", c.because)
+                format!(" (this data could not have shown it: {})", c.because())
             });
             lines.push(format!("no longer found: {name}{why}"));
         }
         for number in &compared.numbers {
             let of = |f: &&Finding| f.effect == number.effect && f.place == number.place;
             let Some(finding) = self.found.findings.iter().find(of) else { continue };
-            let named = |p: &&ParameterReport| p.name == number.name;
+            let named = |p: &&Parameter| p.name == number.name;
             let Some(now) = finding.parameters.iter().find(named) else { continue };
             let size = self.size(finding, now);
             let one = |k: usize| {

@@ -1,11 +1,11 @@
 //! The findings: how far each closes the gap, how large it is, what else it could be.
 
-use stiffarm_gap::diagnose::{Alternative, Finding, ParameterReport};
+use stiffarm_gap::report::{Alternative, Finding, Parameter};
 use stiffarm_kernels::Motion;
 
 use super::size::Size;
 use super::unit::{INCH, POUND};
-use super::{MOST, Screen, WIDTH, percent};
+use super::{MOST, Screen, WIDTH, less, percent};
 use crate::terminal::text::{
     bad, bold, decimals, dim, fixed, good, left_bar, listed, table, wrapped,
 };
@@ -48,15 +48,14 @@ impl Screen<'_> {
     /// `1  joint compliance at joint 2  1.23 → 0.21 mm  ██░░░░  83 % less [79 to 86]`.
     fn line(&self, number: usize, finding: &Finding) -> Vec<String> {
         let (held, shown) = (&finding.held_out, self.main());
-        let [low, high] = held.shrink_ci95.map(|x| fixed(100.0 * x, 0));
         let [whole, _] = self.rms();
         let part = |x: f64| if whole > 0.0 { x / whole } else { 0.0 };
         vec![
             number.to_string(),
-            good(Self::named(finding.effect, &finding.place)),
-            format!("{} → {}", shown.number(held.before), shown.with_unit(held.after)),
-            left_bar(part(held.before), part(held.after), NARROW),
-            format!("{} less [{low} to {high}]", percent(held.shrink)),
+            good(Self::named(&finding.effect, &finding.place)),
+            format!("{} → {}", shown.number(held.before()), shown.with_unit(held.after())),
+            left_bar(part(held.before()), part(held.after()), NARROW),
+            held.shrink().map_or_else(String::new, less),
         ]
     }
 
@@ -78,12 +77,12 @@ impl Screen<'_> {
             numbers.push(format!("and {rest} more"));
         }
         let mut text = paragraph(&numbers.join("; "));
-        let (p, again) = (chance(finding.p_value), percent(finding.stability));
+        let (p, again) = (chance(finding.p_value), percent(finding.stability.unwrap_or_default()));
         let mut evidence = format!("{p}, found again on {again} of halves");
         let (same, other): (Vec<_>, Vec<_>) =
-            finding.alternatives.iter().partition(|a| !a.separable);
-        let name = |a: &Alternative| Self::named(a.effect, &a.place);
-        let left = |a: &Alternative| self.main().with_unit(a.held_out_after);
+            finding.alternatives.iter().partition(|a| !a.separable());
+        let name = |a: &Alternative| Self::named(&a.effect, &a.place);
+        let left = |a: &Alternative| self.main().with_unit(a.left.size());
         if let (true, Some(next)) = (same.is_empty(), other.first()) {
             evidence.push_str(&format!("; next best: {} ({})", name(next), left(next)));
         }
@@ -94,14 +93,14 @@ impl Screen<'_> {
             let verdict = bad("this data cannot tell it from");
             text.push_str(&paragraph(&format!("{verdict}: {}", listed(&names, MOST))));
         }
-        if let Some(advice) = &finding.to_separate {
+        if let Some(advice) = finding.advice() {
             text.push_str(&paragraph(&format!("to tell them apart: {advice}")));
         }
         text
     }
 
     /// A number with its interval.
-    fn parameter(&self, finding: &Finding, p: &ParameterReport) -> String {
+    fn parameter(&self, finding: &Finding, p: &Parameter) -> String {
         let size = self.size(finding, p);
         if p.unit == "rows" {
             return format!("{} row {:.0}", p.name, p.value);
@@ -147,7 +146,7 @@ impl Screen<'_> {
     }
 
     /// Stiffness and compliance in pounds and inches, if the file has such units.
-    fn imperial(&self, finding: &Finding) -> Option<[Size; 2]> {
+    fn imperial(&self, finding: &Finding) -> Option<[Size<'static>; 2]> {
         let joint = self.spring(finding).filter(|_| self.pounds())?;
         let (names, si) = match joint.motion {
             Motion::Revolute => (["in·lbf/rad", "rad/(in·lbf)"], POUND * INCH),

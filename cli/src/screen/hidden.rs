@@ -11,21 +11,18 @@ impl Screen<'_> {
     pub(super) fn hidden(&self) -> Vec<String> {
         let mut reasons: Vec<(&str, Vec<Hidden<'_>>)> = Vec::new();
         for one in &self.found.cannot_see {
-            let found = |f: &stiffarm_gap::diagnose::Finding| {
-                (f.effect, &f.place) == (one.effect, &one.place)
-            };
-            if self.found.findings.iter().any(found) {
+            if self.found.findings.iter().any(|f| f.is(&one.effect, &one.place)) {
                 continue;
             }
-            let known = reasons.iter().position(|(because, _)| *because == one.because);
+            let known = reasons.iter().position(|(because, _)| *because == one.because());
             let at = known.unwrap_or_else(|| {
-                reasons.push((one.because, Vec::new()));
+                reasons.push((one.because(), Vec::new()));
                 reasons.len() - 1
             });
             let effects = &mut reasons[at].1;
             match effects.iter_mut().find(|(effect, _)| *effect == one.effect) {
                 Some((_, places)) => places.push(&one.place),
-                None => effects.push((one.effect, vec![&one.place])),
+                None => effects.push((&one.effect, vec![&one.place])),
             }
         }
         let text = |(because, effects): (&str, Vec<Hidden<'_>>)| {

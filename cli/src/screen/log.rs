@@ -1,10 +1,10 @@
 //! The diagnosis of a joint log on one screen.
 
-use stiffarm_gap::log::report::{Finding, JointGap, Parameter};
+use stiffarm_gap::log::report::JointGap;
 use stiffarm_gap::log::{Domain, LogDiagnosis};
-use stiffarm_gap::shrink::Shrink;
+use stiffarm_gap::report::{Alternative, Finding, Parameter};
 
-use super::{BAR, MOST, WIDTH, percent, words};
+use super::{BAR, MOST, WIDTH, less, percent, words};
 use crate::diagnose::LogCheck;
 use crate::input::quantity::counted;
 use crate::terminal::text::{
@@ -69,7 +69,7 @@ pub fn facts(found: &LogDiagnosis) -> String {
         (Domain::Torque, None) => "torques".to_owned(),
         (Domain::Position, _) => "positions against commands".to_owned(),
     };
-    let held = match evidence.held_out_by {
+    let held = match &*evidence.held_out_by {
         "run" => format!("each of {} runs held out in turn", evidence.folds),
         _ => format!("held out in {} folds of blocks", evidence.folds),
     };
@@ -100,7 +100,7 @@ fn nested_mean(found: &LogDiagnosis) -> Option<f64> {
 
 /// The same of each joint; empty where it was not run.
 pub fn nested(found: &LogDiagnosis) -> Vec<String> {
-    found.gap.iter().filter_map(|g| Some(short(shown(g.unit).1 * g.nested?))).collect()
+    found.gap.iter().filter_map(|g| Some(short(shown(&g.unit).1 * g.nested?))).collect()
 }
 
 /// What the model lacks, and what that leaves.
@@ -113,7 +113,7 @@ pub fn sentence(found: &LogDiagnosis) -> String {
              time that no fit has seen."
         );
     }
-    let name = |f: &Finding| format!("{} at {}", words(f.effect), f.place);
+    let name = |f: &Finding| format!("{} at {}", words(&f.effect), f.place);
     let mut told: Vec<String> = found.findings.iter().take(TOLD).map(name).collect();
     if let Some(more) = found.findings.len().checked_sub(TOLD).filter(|more| *more > 0) {
         told.push(counted(more, "more effect"));
@@ -141,14 +141,8 @@ pub fn sentence(found: &LogDiagnosis) -> String {
     text
 }
 
-/// How much less is left, with its interval.
-pub fn less(shrink: &Shrink) -> String {
-    let [low, high] = shrink.shrink_ci95.map(|x| fixed(100.0 * x, 0));
-    format!("{} less [{low} to {high}]", percent(shrink.shrink))
-}
-
 /// Position errors are told in what people read.
-pub fn shown(unit: &'static str) -> (&'static str, f64) {
+pub fn shown(unit: &str) -> (&str, f64) {
     match unit {
         "rad" => ("°", 180.0 / core::f64::consts::PI),
         "m" => ("mm", 1e3),
@@ -159,7 +153,7 @@ pub fn shown(unit: &'static str) -> (&'static str, f64) {
 /// Of each joint its name, its size, what is left before and after, and what part that is.
 pub fn gaps(found: &LogDiagnosis) -> Vec<[String; 5]> {
     let of = |(joint, gap): (usize, &JointGap)| {
-        let (name, factor) = shown(gap.unit);
+        let (name, factor) = shown(&gap.unit);
         let number = |x: f64| short(factor * x);
         [
             format!("joint {}", joint + 1),
@@ -206,9 +200,9 @@ fn findings(found: &LogDiagnosis) -> String {
     let line = |(k, f): (usize, &Finding)| {
         vec![
             (k + 1).to_string(),
-            good(format!("{} at {}", words(f.effect), f.place)),
-            format!("{} → {} %", part(f.held_out_before), part(f.held_out_after)),
-            left_bar(f.held_out_before, f.held_out_after, NARROW),
+            good(format!("{} at {}", words(&f.effect), f.place)),
+            format!("{} → {} %", part(f.held_out.before()), part(f.held_out.after())),
+            left_bar(f.held_out.before(), f.held_out.after(), NARROW),
         ]
     };
     let rows: Vec<Vec<String>> = found.findings.iter().enumerate().map(line).collect();
@@ -230,9 +224,9 @@ fn details(finding: &Finding) -> String {
     let numbers: Vec<String> = finding.parameters.iter().map(number).collect();
     let mut text = format!("     {}; p = {}", numbers.join("; "), short(finding.p_value));
     if !finding.alternatives.is_empty() {
-        let name = |a: &stiffarm_gap::log::report::Alternative| {
-            let more = percent(a.leaves - 1.0);
-            format!("{} at {} (leaves {more} more)", words(a.effect), a.place)
+        let name = |a: &Alternative| {
+            let more = percent(a.left.size() - 1.0);
+            format!("{} at {} (leaves {more} more)", words(&a.effect), a.place)
         };
         let names: Vec<String> = finding.alternatives.iter().map(name).collect();
         text.push_str(&format!(
@@ -242,7 +236,7 @@ fn details(finding: &Finding) -> String {
         ));
     }
     let mut text = wrapped(&text, WIDTH, 7);
-    if let Some(advice) = finding.to_separate {
+    if let Some(advice) = finding.advice() {
         text.push_str(&wrapped(&format!("     to tell them apart: {advice}"), WIDTH, 7));
     }
     text
@@ -300,7 +294,7 @@ pub fn by_command(found: &LogDiagnosis) -> Option<String> {
             format!(
                 "{} of {} at {}, {other} for {value} {}",
                 p.name,
-                words(f.effect),
+                words(&f.effect),
                 f.place,
                 p.unit
             )
@@ -343,12 +337,11 @@ pub fn unexplained(found: &LogDiagnosis) -> Vec<String> {
 pub fn hidden(found: &LogDiagnosis) -> Vec<String> {
     let mut told: Vec<(&str, &str, Vec<&str>)> = Vec::new();
     for hidden in &found.cannot_see {
-        let same = |t: &&mut (&str, &str, Vec<&str>)| {
-            (t.0, t.1) == (hidden.effect, hidden.reason.as_str())
-        };
+        let same =
+            |t: &&mut (&str, &str, Vec<&str>)| (t.0, t.1) == (&*hidden.effect, hidden.because());
         match told.iter_mut().find(same) {
             Some((.., places)) => places.push(&hidden.place),
-            None => told.push((hidden.effect, &hidden.reason, vec![hidden.place.as_str()])),
+            None => told.push((&hidden.effect, hidden.because(), vec![hidden.place.as_str()])),
         }
     }
     let line = |(effect, reason, places): (&str, &str, Vec<&str>)| {

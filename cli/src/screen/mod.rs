@@ -19,6 +19,7 @@ pub use size::Size;
 use stiffarm_gap::diagnose::Rival;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::shrink::Shrink;
 use stiffarm_gap::{Diagnosis, Measurements};
 use stiffarm_kernels::generic::Arm;
 
@@ -171,12 +172,12 @@ impl Screen<'_> {
         };
         let from = |source: &str| format!("noise, {}", noise_from(source));
         let (own, turned) = (Some(noise.position_rms), Some(noise.rotation_rms));
-        match (noise.position_from, noise.rotation_from) {
+        match (noise.position_from.as_deref(), noise.rotation_from.as_deref()) {
             (Some(position), Some(rotation)) if position != rotation => {
                 known(&from(position), own, None);
                 known(&from(rotation), None, turned);
             }
-            _ => known(&from(noise.from), own, turned),
+            _ => known(&from(&noise.from), own, turned),
         }
         if noise.visits_position_rms.is_some() || noise.visits_rotation_rms.is_some() {
             let name = "of it the arm's repeatability";
@@ -245,6 +246,12 @@ pub fn noise_from(source: &str) -> &'static str {
 /// `joint_compliance` as it is said.
 pub(crate) fn words(identifier: &str) -> String {
     identifier.replace('_', " ")
+}
+
+/// How much less is left, with its interval.
+pub fn less(shrink: &Shrink) -> String {
+    let [low, high] = shrink.shrink_ci95.map(|x| fixed(100.0 * x, 0));
+    format!("{} less [{low} to {high}]", percent(shrink.shrink))
 }
 
 fn percent(part: f64) -> String {

@@ -173,7 +173,7 @@ impl Screen<'_> {
     fn unexplained(&self) -> String {
         let left = &self.found.unexplained;
         if !left.present {
-            return match self.found.gap.noise.from {
+            return match &*self.found.gap.noise.from {
                 "residual" => String::new(),
                 _ => "nothing beyond the noise".to_owned(),
             };

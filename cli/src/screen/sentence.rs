@@ -46,11 +46,11 @@ impl Screen<'_> {
             shown.with_unit(after)
         );
         let noise = self.noise();
-        match self.found.gap.noise.from {
+        match &*self.found.gap.noise.from {
             "residual" => text.push('.'),
             _ => text.push_str(&format!("; the noise is {}.", shown.with_unit(noise))),
         }
-        let same = |f: &Finding| f.alternatives.iter().filter(|a| !a.separable).count();
+        let same = |f: &Finding| f.indistinguishable().count();
         let open: usize = found.iter().map(same).sum();
         if open > 0 {
             let which: Vec<String> = (1..=found.len())
@@ -83,7 +83,7 @@ impl Screen<'_> {
             return "There is no gap: the measurements are what the model predicts.".to_owned();
         }
         let left = &self.found.unexplained;
-        match (left.present, self.found.gap.noise.from) {
+        match (left.present, &*self.found.gap.noise.from) {
             (true, _) => {
                 let place = left.places.first().map_or_else(String::new, |p| {
                     format!(" It lies at {}, by all that this data shows.", p.place)

@@ -1,14 +1,14 @@
 //! Found numbers in the units that people use.
 
-use stiffarm_gap::diagnose::{Finding, ParameterReport};
+use stiffarm_gap::report::{Finding, Parameter};
 
 use super::Screen;
 use crate::terminal::text::short;
 
 /// A unit of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Size {
-    pub name: &'static str,
+pub struct Size<'a> {
+    pub name: &'a str,
     /// What one of it is in SI.
     pub si: f64,
 }
@@ -18,9 +18,9 @@ const SMALL: f64 = 2e-4;
 
 const HOUR: f64 = 3600.0;
 
-impl Size {
+impl<'a> Size<'a> {
     /// The unit for numbers up to `most`; one that is not known here stays as it is.
-    pub fn of(unit: &'static str, most: f64) -> Size {
+    pub fn of(unit: &'a str, most: f64) -> Size<'a> {
         let size = |name, si| Size { name, si };
         let by = |small, large| if most < SMALL { size(small, 1e-6) } else { size(large, 1e-3) };
         match unit {
@@ -60,14 +60,14 @@ impl Size {
 
 impl Screen<'_> {
     /// The unit for all numbers of a finding that have the unit of `p`.
-    pub(super) fn size(&self, finding: &Finding, p: &ParameterReport) -> Size {
+    pub(super) fn size<'a>(&self, finding: &Finding, p: &'a Parameter) -> Size<'a> {
         let alike = finding.parameters.iter().filter(|other| other.unit == p.unit);
         let most = alike.map(|other| other.value.abs()).fold(0.0, f64::max);
-        self.unit(finding, p.unit, most)
+        self.unit(finding, &p.unit, most)
     }
 
     /// The unit for numbers up to `most`, inches where the file has them.
-    pub(super) fn unit(&self, finding: &Finding, unit: &'static str, most: f64) -> Size {
+    pub(super) fn unit<'a>(&self, finding: &Finding, unit: &'a str, most: f64) -> Size<'a> {
         match unit {
             "m" => {
                 let shown = self.length(most, most);

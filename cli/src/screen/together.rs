@@ -30,7 +30,7 @@ pub fn text(said: &Said) -> String {
 pub fn cells(joined: &Joined) -> [String; 4] {
     let all = [Some(joined.at_rest), Some(joined.in_motion), joined.together];
     let most = all.iter().flatten().map(|s| s.value.abs()).fold(0.0, f64::max);
-    let size = Size::of(joined.unit, most);
+    let size = Size::of(&joined.unit, most);
     let shown = |spring: &Spring| {
         let digits = decimals(spring.half_width() / size.si, 2);
         let [value, half] = [spring.value, spring.half_width()].map(|x| fixed(x / size.si, digits));

@@ -133,7 +133,7 @@ mod tests {
         assert!((far(first) - 5e-3).abs() < 1e-4 && (far(second) - 4e-3).abs() < 1e-4);
         for d in [&without, &with] {
             let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-            assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+            assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
             let [low, high] = finding.parameters[0].ci95;
             assert!((low..=high).contains(&4e-6), "{low} {high}");
         }
@@ -156,7 +156,7 @@ mod tests {
             bad.rows[loaded].wrench *= factor;
             let found = diagnose(&bent(), &bad, &Options::default()).unwrap();
             let [finding] = &found.findings[..] else { panic!("{factor} {:?}", found.findings) };
-            assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+            assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
             let [out] = &found.left_out[..] else { panic!("{factor} {:?}", found.left_out) };
             assert_eq!(out.line, bad.rows[loaded].line);
             let no_rest = out.position.is_none();
@@ -190,7 +190,7 @@ mod tests {
         }
         let found = diagnose(&bent(), &data, &Options::default()).unwrap();
         let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
-        assert_eq!((finding.effect, finding.place.as_str()), ("geometry", "arm"));
+        assert_eq!((&*finding.effect, finding.place.as_str()), ("geometry", "arm"));
         assert!(found.gap.after.position_rms < 1.2 * found.gap.noise.position_rms);
         let mut along = Options::default();
         along.fit_along(&["geometry".to_owned()]).unwrap();

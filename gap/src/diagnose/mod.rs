@@ -25,7 +25,6 @@ mod options;
 mod prior;
 mod progress;
 mod promise;
-mod report;
 pub(crate) mod search;
 mod sight;
 mod sums;
@@ -36,21 +35,19 @@ mod verdict;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-pub use crate::effects::ParameterReport;
 pub(crate) use fit::rigid;
 use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use prior::Prior;
 pub use progress::{Stage, Stop};
 pub use promise::{Expected, Explanation, Prediction, Trust};
-pub use report::{
-    Alternative, Autocorrelation, CannotSee, Correlation, CorrelationMatrix, Cover, Diagnosis,
-    Finding, GapReport, Gauge, HeldOut, LeftOut, NoiseReport, Normality, NuisanceReport,
-    Observability, Part, Residual, Rival, Share, Slice, Unexplained, Worst,
-};
 
 use crate::gap::Statistics;
+// alias: old path
 use crate::measurement::Measurements;
+pub use crate::report::campaign as report;
+pub use crate::report::campaign::*;
+pub use crate::report::{Alternative, Parameter as ParameterReport};
 pub use crate::shrink::Shrink;
 use crate::spring::Joined;
 use data::{Folds, Precision, Problem};
@@ -167,7 +164,7 @@ pub fn diagnose_with(
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
         measurements: data.rows.len(),
-        held_out: HeldOut { folds: folds.count, grouped_by: "pose" },
+        held_out: HeldOut { folds: folds.count, grouped_by: "pose".into() },
         gap: GapReport {
             before: size,
             after: statistics,

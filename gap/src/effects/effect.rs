@@ -151,7 +151,7 @@ pub trait Effect: Sync {
 
     /// The unit in which its numbers of this SI unit are shown: of a plain number, of what to what
     /// it is.
-    fn shown_in(&self, unit: &'static str) -> &'static str {
+    fn shown_in<'a>(&self, unit: &'a str) -> &'a str {
         unit
     }
 

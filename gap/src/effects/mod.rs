@@ -44,7 +44,9 @@ pub use place::{Place, Spot};
 pub(crate) use robot_file::significant;
 pub use robot_file::{RobotFile, Row as RobotRow};
 pub use scene::Scene;
-pub use told::{ParameterReport, Told};
+pub use told::Told;
+// alias: old path
+pub use crate::report::Parameter as ParameterReport;
 
 /// The six numbers of a displacement.
 fn displacement([length, angle]: [Quantity; 2]) -> Vec<Parameter> {

@@ -1,19 +1,6 @@
 //! A finding, as its effect puts it into words.
 
-use serde::Serialize;
-
-/// One fitted number.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParameterReport {
-    /// What it is.
-    pub name: String,
-    /// Its value, added to what the robot file has.
-    pub value: f64,
-    /// Of the value.
-    pub unit: &'static str,
-    /// 95 % interval: least squares, the residual's variance, Student's t.
-    pub ci95: [f64; 2],
-}
+use crate::report::Parameter as ParameterReport;
 
 /// What was found, for a sentence.
 #[derive(Clone, Copy)]
@@ -24,13 +11,13 @@ pub struct Told<'a> {
     pub numbers: &'a [ParameterReport],
     /// Writes a value with its unit: the SI unit, the largest value that is to be shown in the same
     /// unit, the value.
-    pub write: &'a dyn Fn(&'static str, f64, f64) -> String,
+    pub write: &'a dyn Fn(&str, f64, f64) -> String,
 }
 
 impl<'a> Told<'a> {
     /// In plain SI, three digits.
     pub fn plain(place: &'a str, numbers: &'a [ParameterReport]) -> Self {
-        let write: &dyn Fn(&'static str, f64, f64) -> String = &|unit, _, value| match unit {
+        let write: &dyn Fn(&str, f64, f64) -> String = &|unit, _, value| match unit {
             "1" => format!("{value:.2e}"),
             "rows" => value.to_string(),
             _ => format!("{value:.2e} {unit}"),
@@ -51,12 +38,12 @@ impl<'a> Told<'a> {
     /// A number by its name, in its own unit; nothing if there is none.
     pub fn named(&self, name: &str) -> String {
         let number = self.numbers.iter().find(|p| p.name == name);
-        number.map_or_else(String::new, |p| (self.write)(p.unit, p.value.abs(), p.value))
+        number.map_or_else(String::new, |p| (self.write)(&p.unit, p.value.abs(), p.value))
     }
 
     /// A value in the unit of the first number.
     pub fn sized(&self, value: f64) -> String {
-        let unit = self.numbers.first().map_or("", |p| p.unit);
+        let unit = self.numbers.first().map_or("", |p| &*p.unit);
         (self.write)(unit, value.abs(), value)
     }
 
@@ -93,10 +80,11 @@ mod tests {
     #[test]
     fn numbers_are_found_by_name() {
         let number = |name: &str, value| ParameterReport {
-            name: name.to_owned(),
+            name: name.to_owned().into(),
             value,
-            unit: "m",
+            unit: "m".into(),
             ci95: [value; 2],
+            by_command: None,
         };
         let numbers = [number("x", -3e-3), number("y", 4e-3)];
         let told = Told::plain("base", &numbers);

@@ -18,7 +18,6 @@ pub mod model;
 pub mod options;
 pub mod pace;
 pub mod read;
-pub mod report;
 pub mod rigid;
 pub mod scene;
 pub mod search;
@@ -27,8 +26,10 @@ pub mod signal;
 mod verdict;
 
 pub use model::Model;
+// alias: old path
+pub use crate::report::LogDiagnosis;
+pub use crate::report::log as report;
 pub use options::{LogOptions, Refused};
 pub use read::{Format, Log, LogError, Names, Opened, Run, Signal, TorqueSide, is_log};
-pub use report::LogDiagnosis;
 pub use scene::Domain;
 pub use verdict::{diagnose, diagnosed, diagnosed_with};

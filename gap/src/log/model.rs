@@ -132,16 +132,16 @@ impl JointRows {
 }
 
 impl Explained {
-    /// The gap of each joint, in these units, before and after.
-    pub fn gap(&self, rows: Domain, units: &[&'static str]) -> Vec<JointGap> {
-        let of = |(joint, unit): (&JointRows, &&'static str)| JointGap {
-            unit,
+    /// The gap of each joint before and after, in the units of `like`.
+    pub fn gap(&self, rows: Domain, like: &[JointGap]) -> Vec<JointGap> {
+        let of = |(joint, like): (&JointRows, &JointGap)| JointGap {
+            unit: like.unit.clone(),
             size: joint.size(rows),
             before: joint.rms(|k| joint.without(k)),
             after: joint.rms(|k| joint.left(k)),
             nested: None,
         };
-        self.joints.iter().zip(units).map(of).collect()
+        self.joints.iter().zip(like).map(of).collect()
     }
 }
 

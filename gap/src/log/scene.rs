@@ -13,7 +13,7 @@ use super::rigid::diagonal;
 use super::signal::Signals;
 
 /// What the rows are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Domain {
     /// Torques, forces or currents of the joints.

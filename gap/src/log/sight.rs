@@ -2,10 +2,10 @@
 
 use super::effects::{Catalogue, LogEffect, Spot};
 use super::pace::Pace;
-use super::report::Hidden;
 use super::scene::{Domain, Loads};
 use super::search::case::{Case, Simple, Wanted};
 use super::search::judge::Verdict;
+use crate::report::{CannotSee, Hidden};
 
 /// What this log cannot show, and why: what no motion does, what the model as it was first showed nothing
 /// of, and what the log is too slow for.
@@ -17,10 +17,11 @@ pub fn hidden(
     wanted: &[Wanted],
     verdict: &Verdict,
     period: f64,
-) -> Vec<Hidden> {
+) -> Vec<CannotSee> {
     let mut hidden = Vec::new();
     let mut tell = |effect: &'static str, place: String, reason: &str| {
-        hidden.push(Hidden { effect, place, reason: reason.to_owned() });
+        let why = Hidden::InMotion { reason: reason.to_owned() };
+        hidden.push(CannotSee { effect: effect.into(), place, why });
     };
     if case.kind.0 == Domain::Torque && case.loaded.iter().all(Option::is_none) {
         tell(

@@ -11,10 +11,6 @@ use super::known;
 use super::model::{Acting, Model};
 use super::options::{LogOptions, Refused};
 use super::read::{Log, TorqueSide};
-use super::report::{
-    Alternative, Dependence, Evidence, Filter, Finding, JointGap, LogDiagnosis, Parameter,
-    Unexplained,
-};
 use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
@@ -31,6 +27,8 @@ use super::search::{self, Round, effective};
 use super::sight::hidden;
 use super::signal::Signals;
 use crate::measurement::Body;
+use crate::report::log::{Dependence, Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
+use crate::report::{Alternative, Finding, HeldOutGap, Left, Parameter};
 use crate::shrink::{Shrink, interval};
 
 /// A joint that is slower than this part of its largest speed counts as standing.
@@ -204,7 +202,7 @@ pub fn diagnosed_with(
             blocks: blocks.all.len(),
             block_length: blocks.length,
             long_enough: blocks.long_enough,
-            held_out_by: if blocks.by_run { "run" } else { "block" },
+            held_out_by: if blocks.by_run { "run" } else { "block" }.into(),
             folds: blocks.folds,
         },
         rigid_parameters: if links == Links::Free { stock.base } else { 0 },
@@ -363,7 +361,7 @@ impl Told<'_> {
     fn gap(&self, before: &[f64], after: &[f64], nested: Option<&[f64]>) -> Vec<JointGap> {
         let pairs = before.iter().zip(after).zip(&self.sizes);
         let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), &f64))| JointGap {
-            unit: self.gap_unit(joint),
+            unit: self.gap_unit(joint).into(),
             size: *size,
             before: *before,
             after: *after,
@@ -405,22 +403,26 @@ impl Told<'_> {
             let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
             let numbers = term.effect.numbers().iter().zip(&term.values).zip(&mut widths);
             Finding {
-                effect: name.0,
+                effect: name.0.into(),
                 place: term.spot.to_string(),
                 parameters: numbers
                     .map(|(((name, unit), value), width)| Parameter {
-                        name,
+                        name: (*name).into(),
                         value: *value,
-                        unit: self.unit(unit, term.spot),
+                        unit: self.unit(unit, term.spot).into(),
                         ci95: [value - width, value + width],
                         by_command: told_by_command.next(),
                     })
                     .collect(),
-                held_out_before: left[with - 1].1,
-                held_out_after: left[with].1,
+                held_out: HeldOutGap::InMotion {
+                    held_out_before: left[with - 1].1,
+                    held_out_after: left[with].1,
+                },
                 p_value: judged.chance,
+                stability: None,
                 alternatives: judged.rivals.iter().map(alternative).collect(),
-                to_separate: (!judged.rivals.is_empty()).then(|| term.effect.about().separated_by),
+                to_separate: (!judged.rivals.is_empty())
+                    .then(|| Some(term.effect.about().separated_by.to_owned())),
             }
         };
         verdict.findings.iter().map(&mut tell).collect()
@@ -428,5 +430,9 @@ impl Told<'_> {
 }
 
 fn alternative((term, leaves): &(Term, f64)) -> Alternative {
-    Alternative { effect: term.effect.identifier(), place: term.spot.to_string(), leaves: *leaves }
+    Alternative {
+        effect: term.effect.identifier().into(),
+        place: term.spot.to_string(),
+        left: Left::InMotion { leaves: *leaves },
+    }
 }

@@ -26,7 +26,7 @@ pub fn with_findings<'a>(
             .findings
             .iter()
             .map(|finding| {
-                let effect = catalogue.named(finding.effect)?;
+                let effect = catalogue.named(&finding.effect)?;
                 let place = finding.place.parse().ok()?;
                 let values = finding.parameters.iter().filter(|p| p.value != 0.0);
                 let values = values.map(|p| (p.name.to_string(), p.value)).collect();

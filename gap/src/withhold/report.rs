@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::Kind;
 use super::verdict::Verdict;
+use crate::report::Finding;
 
 /// The result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,6 +64,12 @@ pub struct Named {
 impl Named {
     pub(super) fn new(effect: impl ToString, place: &impl ToString) -> Named {
         Named { effect: effect.to_string(), place: place.to_string() }
+    }
+
+    /// A finding, and what the data do not distinguish from it.
+    pub(in crate::withhold) fn set(finding: &Finding) -> Vec<Named> {
+        let others = finding.indistinguishable().map(|a| Named::new(&a.effect, &a.place));
+        core::iter::once(Named::new(&finding.effect, &finding.place)).chain(others).collect()
     }
 }
 

@@ -26,20 +26,15 @@ pub struct Verdict {
 impl Verdict {
     /// Of a diagnosis.
     pub fn of(found: &Diagnosis) -> Verdict {
-        let set = |finding: &crate::diagnose::Finding| {
-            let rivals = finding.alternatives.iter().filter(|a| !a.separable);
-            let rivals = rivals.map(|a| Named::new(a.effect, &a.place));
-            core::iter::once(Named::new(finding.effect, &finding.place)).chain(rivals).collect()
-        };
         let shrink = match found.findings.as_slice() {
-            [only] => {
-                let [low, high] = only.held_out.shrink_ci95;
-                Some([only.held_out.shrink, low, high])
-            }
+            [only] => only.held_out.shrink().map(|held| {
+                let [low, high] = held.shrink_ci95;
+                [held.shrink, low, high]
+            }),
             _ => None,
         };
         Verdict {
-            sets: found.findings.iter().map(set).collect(),
+            sets: found.findings.iter().map(Named::set).collect(),
             unexplained: found.unexplained.present,
             unexplained_places: found.unexplained.places.iter().map(|s| s.place.clone()).collect(),
             after_position: found.gap.after.position_rms,

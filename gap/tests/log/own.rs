@@ -66,7 +66,7 @@ fn it_is_found_before_those_that_do_some_of_it() {
     let (found, model) =
         diagnosed_with(&arm(), &log, &options(), &|found| said.set(said.get().max(found))).unwrap();
     let first = &found.findings[0];
-    assert_eq!((first.effect, first.place.as_str()), ("widening_brake", "joint 2"), "{found:#?}");
+    assert_eq!((&*first.effect, first.place.as_str()), ("widening_brake", "joint 2"), "{found:#?}");
     let [low, high] = first.parameters[0].ci95;
     // Twice the interval, as of all that are planted.
     assert!((first.parameters[0].value - BRAKE).abs() < high - low, "{first:#?}");

@@ -130,10 +130,11 @@ fn friction_that_is_more_one_way_is_not_told_from_a_wrong_zero() {
     let found = diagnosed(&log);
     let is = |effect: &str, place: &str| effect == "asymmetric_friction" && place == "joint 2";
     let told = found.findings.iter().find(|f| {
-        is(f.effect, &f.place) || f.alternatives.iter().any(|other| is(other.effect, &other.place))
+        is(&f.effect, &f.place)
+            || f.alternatives.iter().any(|other| is(&other.effect, &other.place))
     });
     let told = told.unwrap_or_else(|| panic!("{found:#?}"));
-    assert!(["asymmetric_friction", "torque_offset"].contains(&told.effect), "{told:#?}");
+    assert!(["asymmetric_friction", "torque_offset"].contains(&&*told.effect), "{told:#?}");
     close(told.parameters[0].value, 0.8, 0.1);
 }
 
@@ -213,7 +214,7 @@ fn a_link_that_is_heavier_than_the_file_says_is_named() {
     });
     let options = LogOptions { band: Some(10.0), known_links: true, ..LogOptions::default() };
     let found = diagnose(&arm(), &log, &options).unwrap();
-    assert_eq!((found.findings[0].effect, &*found.findings[0].place), ("link_inertia", "link 2"));
+    assert_eq!((&*found.findings[0].effect, &*found.findings[0].place), ("link_inertia", "link 2"));
     close(numbers(&found, "link_inertia", "link 2")[0], 0.5, 0.1);
 }
 

@@ -52,5 +52,5 @@ fn delay_droop_and_play_are_told_apart() {
         assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");
     }
     // What else is told is of those reversals: the three leave next to nothing.
-    assert!(found.findings[2].held_out_after < 0.02, "{found:#?}");
+    assert!(found.findings[2].held_out.after() < 0.02, "{found:#?}");
 }

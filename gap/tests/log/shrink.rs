@@ -43,7 +43,7 @@ fn the_interval_holds_what_the_next_log_shows() {
     let one = |seed: u64| {
         let (found, model) = diagnosed(&arm(), &recorded(seed, friction), &options()).unwrap();
         let explained = model.explain(&arm(), &recorded(seed + 1, friction)).unwrap();
-        let gap = explained.gap(model.rows, &["N·m", "N·m"]);
+        let gap = explained.gap(model.rows, &found.gap);
         let left = |of: fn(&stiffarm_gap::log::report::JointGap) -> f64| {
             gap.iter().map(|gap| of(gap) / gap.size).sum::<f64>()
         };

@@ -27,7 +27,7 @@ fn found(arm: &Arm, data: &Measurements) -> Diagnosed {
 fn is_found(found: &Diagnosed) {
     let d = &found.diagnosis;
     let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
     let [low, high] = finding.parameters[0].ci95;
     assert!((low..=high).contains(&4e-6), "{low:e} {high:e}");
     let left = d.gap.after.position_rms / NOISE.position;

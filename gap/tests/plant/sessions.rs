@@ -62,7 +62,7 @@ fn each_session_has_its_base_and_all_have_one_arm() {
     let both = found(&arm, &data, Nuisance::ALL.to_vec());
     let d = &both.diagnosis;
     let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
     let [low, high] = finding.parameters[0].ci95;
     assert!((low..=high).contains(&4e-6), "{low:e} {high:e}");
     assert!(d.gap.after.position_rms < 1.2 * 3f64.sqrt() * NOISE.position, "{:?}", d.gap);
@@ -106,7 +106,7 @@ fn a_target_that_was_put_on_anew_is_a_jump_between_sessions() {
     let plant = plant.with_sessions(&first, bases()[1..].to_vec());
     let data = plant.measure(&design, NOISE, 1).expect("measured");
     let d = found(&arm, &data, Nuisance::ALL.to_vec()).diagnosis;
-    let names: Vec<_> = d.findings.iter().map(|f| (f.effect, f.place.as_str())).collect();
+    let names: Vec<_> = d.findings.iter().map(|f| (&*f.effect, f.place.as_str())).collect();
     assert_eq!(names, [("slip", "tool"), ("joint_compliance", "joint 2")]);
     let values: Vec<f64> = d.findings[0].parameters.iter().map(|p| p.value).collect();
     // 42 rows a side, of six numbers to 20 µm each, and the arm within 2 m.

@@ -51,7 +51,7 @@ pub struct Found {
     pub physical: bool,
     pub p_value: f64,
     /// How often it is found again on half of the poses.
-    pub stability: f64,
+    pub stability: Option<f64>,
     /// What the data does not tell from it.
     pub inseparable: Vec<Named>,
     /// Name, value and interval of each parameter.
@@ -93,7 +93,7 @@ pub struct Case {
     /// What the diagnosis takes the noise to be, rms, and from what.
     pub noise: f64,
     pub noise_rotation: f64,
-    pub noise_from: &'static str,
+    pub noise_from: String,
     pub unexplained: bool,
     /// `None` without findings, and where something happened in the first session alone.
     pub shrink: Option<Shrink>,
@@ -158,7 +158,7 @@ pub fn run(drawn: &Drawn) -> Case {
         floor_rotation: floor.rotation_rms,
         noise: 0.0,
         noise_rotation: 0.0,
-        noise_from: "",
+        noise_from: String::new(),
         unexplained: false,
         shrink: None,
         again: None,
@@ -213,7 +213,7 @@ impl Case {
         self.after_rotation = found.gap.after.rotation_rms;
         self.noise = found.gap.noise.position_rms;
         self.noise_rotation = found.gap.noise.rotation_rms;
-        self.noise_from = found.gap.noise.from;
+        self.noise_from = found.gap.noise.from.to_string();
         self.unexplained = found.unexplained.present;
         match again(drawn, diagnosed, &left_out) {
             Ok(again) => self.again = Some(again),
@@ -230,15 +230,14 @@ impl Case {
 }
 
 fn as_found(finding: &Finding) -> Found {
-    let rivals = finding.alternatives.iter().filter(|a| !a.separable);
     let parameters = finding.parameters.iter();
     Found {
-        what: Named::new(finding.effect, &finding.place),
-        physical: !GEOMETRY.contains(&finding.effect),
+        what: Named::new(&finding.effect, &finding.place),
+        physical: !GEOMETRY.contains(&&*finding.effect),
         p_value: finding.p_value,
         stability: finding.stability,
-        inseparable: rivals.map(|a| Named::new(a.effect, &a.place)).collect(),
-        parameters: parameters.map(|p| (p.name.clone(), p.value, p.ci95)).collect(),
+        inseparable: finding.indistinguishable().map(|a| Named::new(&a.effect, &a.place)).collect(),
+        parameters: parameters.map(|p| (p.name.to_string(), p.value, p.ci95)).collect(),
     }
 }
 

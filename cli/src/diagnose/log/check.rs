@@ -21,11 +21,10 @@ pub struct Check {
 impl Check {
     /// Of `other`, whose rows are as the model of a diagnosis has them.
     pub fn of(found: &LogDiagnosis, model: &Model, other: &Log, explained: &Explained) -> Check {
-        let units: Vec<&'static str> = found.gap.iter().map(|gap| gap.unit).collect();
         Check {
             files: other.files.clone(),
             samples: other.samples,
-            gap: explained.gap(model.rows, &units),
+            gap: explained.gap(model.rows, &found.gap),
             remarks: other.remarks(),
         }
     }

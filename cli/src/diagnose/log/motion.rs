@@ -229,9 +229,8 @@ impl Motion {
     /// its size, mean.
     pub(in super::super) fn beside(&self, springs: &[Spring]) -> Result<(Model, f64), Failure> {
         let model = self.model.beside(springs);
-        let units: Vec<&'static str> = self.found.gap.iter().map(|gap| gap.unit).collect();
         let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
-        let [_, left] = screen::left(&explained.gap(model.rows, &units));
+        let [_, left] = screen::left(&explained.gap(model.rows, &self.found.gap));
         Ok((model, left))
     }
 }

@@ -2,8 +2,8 @@
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::corrected::corrected;
-use stiffarm_gap::log::report::{Finding, Parameter};
 use stiffarm_gap::log::{Log, LogDiagnosis, Model};
+use stiffarm_gap::report::{Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{stands_in, without_own};
@@ -54,7 +54,7 @@ impl Written {
 }
 
 fn told<'a>(finding: &'a Finding, entry: &'a str) -> impl Iterator<Item = String> + 'a {
-    let entry = stands_in(finding.effect, entry);
+    let entry = stands_in(&finding.effect, entry);
     finding.parameters.iter().map(move |Parameter { name, value, unit, ci95, .. }| {
         let [low, high] = ci95;
         format!(

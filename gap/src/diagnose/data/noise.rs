@@ -34,7 +34,7 @@ pub(crate) enum Source {
 
 impl Source {
     /// As it is written.
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Source::Option => "option",
             Source::Repeats(_) => "repeats",
@@ -113,7 +113,7 @@ impl Noise {
     }
 
     /// The level of what the file measures first: positions, or rotations if it has no positions.
-    fn main(&self) -> &Level {
+    pub(crate) fn main(&self) -> &Level {
         if self.position.components > 0 { &self.position } else { &self.rotation }
     }
 
@@ -121,12 +121,12 @@ impl Noise {
         let is_there = |l: &Level| l.components > 0;
         let rms = |l: &Level, sd: f64| sd * (l.components as f64).sqrt();
         let visits = |l: &Level| l.visits.filter(|_| is_there(l)).map(|sd| rms(l, sd));
-        let from = |l: &Level| is_there(l).then(|| l.source.name());
+        let from = |l: &Level| is_there(l).then(|| l.source.name().into());
         let (position, rotation) = (&self.position, &self.rotation);
         NoiseReport {
             position_rms: rms(position, position.sd),
             rotation_rms: rms(rotation, rotation.sd),
-            from: self.main().source.name(),
+            from: self.main().source.name().into(),
             position_from: from(position),
             rotation_from: from(rotation),
             visits_position_rms: visits(position),
@@ -394,7 +394,10 @@ mod tests {
         let report = noise.report();
         // √(3² + 4² + 5²).
         assert!((report.position_rms - 1e-4 * 50_f64.sqrt()).abs() < 1e-12, "{report:?}");
-        assert_eq!((report.position_from, report.rotation_from), (Some("columns"), None));
+        assert_eq!(
+            (report.position_from.as_deref(), report.rotation_from),
+            (Some("columns"), None)
+        );
     }
 
     #[test]

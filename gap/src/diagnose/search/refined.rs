@@ -82,7 +82,7 @@ mod tests {
         let data = table(rows.collect(), kind);
         let options = Options { effects: Some(vec!["slip".to_owned()]), ..Options::default() };
         let found = diagnose(&arm, &data, &options).unwrap().findings;
-        assert_eq!((found[0].effect, found[0].place.as_str()), ("slip", "base"));
+        assert_eq!((&*found[0].effect, found[0].place.as_str()), ("slip", "base"));
         assert_eq!(found[0].parameters[0].value, after as f64);
     }
 
@@ -116,7 +116,7 @@ mod tests {
             let found = diagnose(&arm, &data, &options).unwrap().findings;
             let [finding] = &found[..] else { panic!("{text}: {found:?}") };
             let (effect, place) = (truth.effect.identifier(), truth.place.to_string());
-            assert_eq!((finding.effect, &finding.place), (effect, &place));
+            assert_eq!((&*finding.effect, &finding.place), (effect, &place));
             let first = &finding.parameters[0];
             assert!((first.value - number).abs() < within, "{text}: {first:?}");
             assert!((first.ci95[0]..=first.ci95[1]).contains(&number), "{text}: {first:?}");

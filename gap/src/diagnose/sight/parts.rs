@@ -45,10 +45,13 @@ impl Search<'_, '_> {
         for (group, columns) in Group::ALL.into_iter().zip(sizes) {
             along += columns;
             let left = left(along).min(last);
-            parts.push(Part { part: group.name(), share: (last - left) / whole });
+            parts.push(Part { part: group.name().into(), share: (last - left) / whole });
             last = left;
         }
-        parts.push(Part { part: "none of these", share: last / whole.max(f64::MIN_POSITIVE) });
+        parts.push(Part {
+            part: "none of these".into(),
+            share: last / whole.max(f64::MIN_POSITIVE),
+        });
         parts
     }
 

@@ -1,10 +1,10 @@
 //! What this data could show, before anything is fitted: what is left of each effect when the
 //! nuisances, and all of the arm's geometry, have taken up what they can.
 
-use crate::diagnose::report::CannotSee;
 use crate::diagnose::search::{Explained, First, OWN, Search};
 use crate::diagnose::sums::{Kept, Screen};
 use crate::effects::{Effect, Place};
+use crate::report::{CannotSee, Hidden};
 
 /// An effect that moves what is measured by less than this part of what it does at its strongest
 /// place is idle there.
@@ -68,7 +68,11 @@ fn entry(
     visible: f64,
     because: &'static str,
 ) -> CannotSee {
-    CannotSee { effect: effect.identifier(), place: place.to_string(), visible, because }
+    CannotSee {
+        effect: effect.identifier().into(),
+        place: place.to_string(),
+        why: Hidden::AtRest { visible, because: because.into() },
+    }
 }
 
 /// The best that any form of an effect does at a place.

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::outcome::Group;
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::report::Alternative;
 use crate::diagnose::search::{Explained, Flips, Ranked, Search};
 use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+use crate::report::{Alternative, Left};
 
 /// A rival whose evidence is less than the finding's by no more than this is not told from it: odds
 /// of about 20 to 1.
@@ -70,20 +70,22 @@ impl Search<'_, '_> {
                 evidence > EVEN && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
             let held_out = screen.held_out(&trained, Some(one.candidate));
             let alternative = Alternative {
-                effect: effect.identifier(),
+                effect: effect.identifier().into(),
                 place: spot.place.to_string(),
-                held_out_after: (held_out.plain / rows).sqrt(),
-                separable: apart,
+                left: Left::AtRest {
+                    held_out_after: (held_out.plain / rows).sqrt(),
+                    separable: apart,
+                },
             };
             let values = one.score.values.iter().copied().collect();
             Some((alternative, (candidate.clone(), values)))
         });
         let judged: Vec<(Alternative, (Candidate, Vec<f64>))> = judged.collect();
-        let nearest = judged.iter().find(|(rival, _)| !rival.separable).map(|(_, it)| it.clone());
+        let nearest = judged.iter().find(|(rival, _)| !rival.separable()).map(|(_, it)| it.clone());
         let mut alternatives: Vec<Alternative> =
             judged.into_iter().map(|(rival, _)| rival).collect();
         alternatives.sort_by(|a, b| {
-            (a.separable.cmp(&b.separable)).then(a.held_out_after.total_cmp(&b.held_out_after))
+            (a.separable().cmp(&b.separable())).then(a.left.size().total_cmp(&b.left.size()))
         });
         // What the finding explains, be it by several forms.
         let finding = Score {

@@ -9,10 +9,10 @@ use super::refitted::Refitted;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
-use crate::diagnose::report::{Cover, Finding, NuisanceReport};
+use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
-use crate::effects::ParameterReport;
 use crate::gap::rms;
+use crate::report::{Finding, HeldOutGap, Parameter};
 use crate::shrink::{Shrink, interval};
 
 impl Search<'_, '_> {
@@ -35,14 +35,16 @@ impl Search<'_, '_> {
             let to_separate =
                 rivals.nearest.as_ref().map(|rival| self.separating(now, group, rival));
             findings.push(Finding {
-                effect: first.effect.identifier(),
+                effect: first.effect.identifier().into(),
                 place: first.spot.place.to_string(),
                 parameters: Vec::new(),
-                held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
+                held_out: HeldOutGap::AtRest {
+                    held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
+                },
                 p_value: rivals.p_value,
-                stability: rivals.stability,
+                stability: Some(rivals.stability),
                 alternatives: rivals.alternatives,
-                to_separate,
+                to_separate: Some(to_separate),
             });
             last = after;
         }
@@ -63,11 +65,7 @@ impl Search<'_, '_> {
     }
 
     /// The values of each effect found, with 95 % intervals.
-    pub(super) fn intervals(
-        &self,
-        now: &Explained,
-        certainty: &Certainty,
-    ) -> Vec<Vec<ParameterReport>> {
+    pub(super) fn intervals(&self, now: &Explained, certainty: &Certainty) -> Vec<Vec<Parameter>> {
         let searched = self.half_with_searched(now);
         let beside = |at: usize| searched.get(at).copied().unwrap_or(0.0);
         let half = certainty.half.iter().enumerate().map(|(at, half)| half.max(beside(at)));
@@ -76,23 +74,25 @@ impl Search<'_, '_> {
         for (index, found) in now.fit.model.found.iter().enumerate() {
             let mut reports = Vec::new();
             if let Some(form) = found.effect.form_number() {
-                let (name, unit) = (form.name.into_owned(), form.quantity.unit());
+                let (name, unit) = (form.name, form.quantity.unit());
                 let value = found.effect.forms_are().number(found.spot.form);
                 let half = self.at_searched(now, index).map_or(0.0, beside);
-                reports.push(ParameterReport {
+                reports.push(Parameter {
                     name,
                     value,
-                    unit,
+                    unit: unit.into(),
                     ci95: [value - half, value + half],
+                    by_command: None,
                 });
             }
             let parameters = found.effect.parameters(self.problem.arm, found.spot);
             for ((parameter, &value), half) in parameters.iter().zip(&found.values).zip(&mut half) {
-                reports.push(ParameterReport {
-                    name: parameter.name.to_string(),
+                reports.push(Parameter {
+                    name: parameter.name.clone(),
                     value,
-                    unit: parameter.quantity.unit_by(self.problem.data.is_timed()),
+                    unit: parameter.quantity.unit_by(self.problem.data.is_timed()).into(),
                     ci95: [value - half, value + half],
+                    by_command: None,
                 });
             }
             all.push(reports);

@@ -92,10 +92,11 @@ mod tests {
     fn the_largest_tilt_is_that_of_the_turn() {
         let values = [3e-4, -1e-4, 0.5e-4, 2e-4];
         let number = |(name, value): (&str, f64)| ParameterReport {
-            name: name.to_owned(),
+            name: name.to_owned().into(),
             value,
-            unit: "rad",
+            unit: "rad".into(),
             ci95: [value; 2],
+            by_command: None,
         };
         let numbers: Vec<_> = NAMES.into_iter().zip(values).map(number).collect();
         let at = |k: i32| {

@@ -75,7 +75,7 @@ impl Effect for JointCoupling {
         format!("{} turns with {other}, by {}", told.place, told.sized(told.first()))
     }
 
-    fn shown_in(&self, unit: &'static str) -> &'static str {
+    fn shown_in<'a>(&self, unit: &'a str) -> &'a str {
         if unit == "1" { "rad/rad" } else { unit }
     }
 

@@ -130,8 +130,8 @@ impl Effect for LinkGeometry {
         let is_told = |ci: [f64; 2]| ci[0] > 0.0 || ci[1] < 0.0;
         let any = told.numbers.iter().any(|p| is_told(p.ci95));
         let shown = told.numbers.iter().filter(|p| !any || is_told(p.ci95));
-        let size = |value: f64, unit| (told.write)(unit, value.abs(), value);
-        let each = shown.map(|p| format!("{} in {}", size(p.value, p.unit), p.name));
+        let size = |value: f64, unit: &str| (told.write)(unit, value.abs(), value);
+        let each = shown.map(|p| format!("{} in {}", size(p.value, &p.unit), p.name));
         let each = each.collect::<Vec<_>>().join(", ");
         format!("the table's row of {} is off by {each}", told.place)
     }

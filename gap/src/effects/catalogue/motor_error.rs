@@ -114,7 +114,7 @@ impl Effect for MotorError {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         let [size, order] = [told.norm(&["cos", "sin"]), told.value("order")];
-        let unit = told.numbers.iter().find(|p| p.name == "cos").map_or("rad", |p| p.unit);
+        let unit = told.numbers.iter().find(|p| p.name == "cos").map_or("rad", |p| &*p.unit);
         let size = (told.write)(unit, size, size);
         format!("the motor's side of {} errs by {size} with {order} periods per turn", told.place)
     }

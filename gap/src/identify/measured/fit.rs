@@ -202,7 +202,7 @@ fn answer(
         noise: Noise {
             position: has(0..3).then_some(now.noise.position.sd),
             rotation: has(3..6).then_some(now.noise.rotation.sd),
-            from: now.noise.report().from,
+            from: now.noise.main().source.name(),
         },
         reduced_chi2: Some(left / freedom),
         scaled_condition: condition(&normal, &basis),

@@ -46,7 +46,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::doubts::beyond;
 
 /// Where along the drive the torque of a log is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TorqueSide {
     /// Of the motor, at the joint's side of its gear: friction and rotor are in it.

@@ -95,13 +95,9 @@ pub struct LogCase {
 impl LogVerdict {
     /// Of a diagnosis.
     pub fn of(found: &LogDiagnosis) -> LogVerdict {
-        let sets = found.findings.iter().map(|finding| {
-            let rivals = finding.alternatives.iter().map(|a| Named::new(a.effect, &a.place));
-            core::iter::once(Named::new(finding.effect, &finding.place)).chain(rivals).collect()
-        });
         let left = found.gap.iter().map(|g| g.after / g.size).sum::<f64>();
         LogVerdict {
-            sets: sets.collect(),
+            sets: found.findings.iter().map(Named::set).collect(),
             unexplained: found.unexplained.present,
             left: left / found.gap.len() as f64,
             after: found.gap.iter().map(|gap| gap.after).collect(),

@@ -1,17 +1,18 @@
-//! The diagnosis as it is written: field names and their order are the format's.
+//! What is reported of a campaign.
 
 use serde::{Deserialize, Serialize};
 
-use crate::effects::ParameterReport;
+use super::Word;
+pub use super::{CannotSee, Finding};
 use crate::gap::Statistics;
 use crate::measurement::Row;
 use crate::shrink::Shrink;
 
 /// A part of a range within which a value beyond it still counts as inside.
-pub(super) const EDGE: f64 = 1e-6;
+pub(crate) const EDGE: f64 = 1e-6;
 
 /// The result of a diagnosis. Serialised, it is the format's JSON; every number is finite.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnosis {
     /// The version that made it.
     pub stiffarm: String,
@@ -33,40 +34,40 @@ pub struct Diagnosis {
     /// What is left.
     pub unexplained: Unexplained,
     /// What is left, row by row; `None` where there is nothing.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual: Option<Residual>,
     /// How well the data tell the fitted numbers; `None` where none was fitted.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub observability: Option<Observability>,
     /// Numbers of the geometry that this data sees only together with others.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gauge: Vec<Gauge>,
     /// Rows that do not fit: neither fitted nor counted.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<LeftOut>,
     /// The gap taken apart by what it goes with; empty where the data are too few.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Part>,
     /// How large the gap is along each joint's range, by load, direction and time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by: Vec<Slice>,
     /// Frames that were fitted along, and are no findings.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub nuisances: Vec<NuisanceReport>,
     /// Whether zeros, lengths and twists of the table were fitted along, and are no finding.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub geometry_along: bool,
     /// Whether loads and gravity were taken to be told in the measuring frame's axes, −z down, since the data say so, and
     /// not in the arm's.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hangs_as_measured: bool,
     /// Where the data has been: predictions elsewhere are extrapolation.
     pub covers: Cover,
     /// Other models' predictions against this one's; only if they were asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rivals: Option<Vec<Rival>>,
     /// Whether it was told to stop before the search was at its end: there may be more to be found.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub stopped: bool,
 }
 
@@ -83,7 +84,7 @@ impl Diagnosis {
 }
 
 /// A number of the geometry that is one with others: only a sum of them is seen.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Gauge {
     /// `d of link 3`.
     pub parameter: String,
@@ -92,30 +93,30 @@ pub struct Gauge {
 }
 
 /// A row that does not fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOut {
     /// Its line in the file.
     pub line: u64,
     /// How far it is from what the model with the findings predicts, m; `None` where that model comes to
     /// no rest under its load.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub position: Option<f64>,
     /// The same of its rotation, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<f64>,
 }
 
 /// A part of the gap.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// With what it goes.
-    pub part: &'static str,
+    pub part: Word,
     /// Share of the mean square (whitened, held out), beside the parts before it.
     pub share: f64,
 }
 
 /// The gap on some of the rows.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Slice {
     /// Along what: `q2`, `load` (N), `s3`, `time` (s).
     pub of: String,
@@ -132,13 +133,13 @@ pub struct Slice {
 }
 
 /// A frame that was fitted along.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NuisanceReport {
     /// `base_frame`, `tool_frame`, a marker's name, or that of a point from which distances are
     /// measured (`centre` without one).
     pub name: String,
     /// The session whose base or point it is, where there are several.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub session: Option<String>,
     /// Where it is: the base and a distance's point in the measuring frame, the tool in the last frame,
     /// the marker in the tool frame; m.
@@ -173,29 +174,29 @@ impl Cover {
 }
 
 /// How measurements were held out.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HeldOut {
     /// Number of folds.
     pub folds: usize,
     /// What never stands on both sides of a fold.
-    pub grouped_by: &'static str,
+    pub grouped_by: Word,
 }
 
 /// What the model with all findings leaves, row by row.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Residual {
     /// Whether it is normal; `None` of too few numbers.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normality: Option<Normality>,
     /// Whether it lingers; `None` of too few numbers.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub autocorrelation: Option<Autocorrelation>,
     /// The rows that are left with the largest gaps, largest first.
     pub worst: Vec<Worst>,
 }
 
 /// The shape of what is left, in units of the noise.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Normality {
     /// The fourth moment over the square of the second, less 3: 0 of normal numbers, positive of
     /// heavy tails.
@@ -210,7 +211,7 @@ pub struct Normality {
 }
 
 /// What is left at one visit beside what is left at the next.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Autocorrelation {
     /// Correlation, −1 to 1.
     pub lag_1: f64,
@@ -219,12 +220,12 @@ pub struct Autocorrelation {
 }
 
 /// A row with a large gap.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     /// Its line in the file.
     pub line: u64,
     /// Its pose, where the file names it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<String>,
     /// Held-out gap without findings, m (rad without positions).
     pub before: f64,
@@ -233,7 +234,7 @@ pub struct Worst {
 }
 
 /// How well the data tell the fitted numbers from each other, frames and effects together.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observability {
     /// Numbers that were fitted.
     pub parameters: usize,
@@ -251,7 +252,7 @@ pub struct Observability {
 }
 
 /// Correlations of numbers with each other.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CorrelationMatrix {
     /// What the rows and columns are.
     pub of: Vec<String>,
@@ -260,7 +261,7 @@ pub struct CorrelationMatrix {
 }
 
 /// Two fitted numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Correlation {
     /// `compliance of joint_compliance at joint 2`.
     pub of: String,
@@ -271,7 +272,7 @@ pub struct Correlation {
 }
 
 /// The gap before and after, and the noise.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GapReport {
     /// Of the robot file as it is; with what is fitted along, each row by fits that have not seen it.
     pub before: Statistics,
@@ -285,17 +286,17 @@ pub struct GapReport {
     /// of the noise.
     pub fitted: Statistics,
     /// As `after`, the search run again for each fold on the others; only if it was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nested: Option<Statistics>,
     /// The same where each fold is a stretch of time: what a campaign tells of the next.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nested_in_time: Option<Statistics>,
     /// Of the measurement.
     pub noise: NoiseReport,
 }
 
 /// The noise of the measurement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoiseReport {
     /// Root mean square of the norm over the measured translations, m.
     pub position_rms: f64,
@@ -303,24 +304,24 @@ pub struct NoiseReport {
     pub rotation_rms: f64,
     /// `repeats`, `columns` (the file's own standard deviations), `option` or `residual`: of the
     /// positions, or of the rotations if there are no positions.
-    pub from: &'static str,
+    pub from: Word,
     /// The same of the positions, if there are any.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub position_from: Option<&'static str>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position_from: Option<Word>,
     /// The same of the rotations.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotation_from: Option<&'static str>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation_from: Option<Word>,
     /// The part of the positions' noise that comes and goes with visits: the arm's repeatability,
     /// root mean square, m; only where poses were read more than once and visited again.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visits_position_rms: Option<f64>,
     /// The same of the rotations, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visits_rotation_rms: Option<f64>,
 }
 
 /// What a place alone explains.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Share {
     /// The place.
     pub place: String,
@@ -329,58 +330,8 @@ pub struct Share {
     pub share: f64,
 }
 
-/// An effect at a place that explains the gap, or part of it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
-    /// Identifier of the effect.
-    pub effect: &'static str,
-    /// Where it acts.
-    pub place: String,
-    /// Its size, of the exact model.
-    pub parameters: Vec<ParameterReport>,
-    /// How far the gap shrinks.
-    pub held_out: Shrink,
-    /// The chance that the best of all places tried explains as much of a gap without cause.
-    pub p_value: f64,
-    /// Part of random halves of the poses in which the finding is the best explanation again.
-    pub stability: f64,
-    /// Every other candidate in the finding's place, beside the other findings: those that are not
-    /// told from it first.
-    pub alternatives: Vec<Alternative>,
-    /// The measurement that would tell the finding from the nearest inseparable alternative; `null`
-    /// if all are separable.
-    pub to_separate: Option<String>,
-}
-
-/// Another explanation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Alternative {
-    /// Identifier of the effect.
-    pub effect: &'static str,
-    /// Where it acts.
-    pub place: String,
-    /// As [`Shrink::after`], with this in place of the finding.
-    pub held_out_after: f64,
-    /// Whether resampling the poses tells the two apart in 95 % of cases.
-    pub separable: bool,
-}
-
-/// What this data could not have shown.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CannotSee {
-    /// Identifier of the effect.
-    pub effect: &'static str,
-    /// Where.
-    pub place: String,
-    /// What a unit of it does to the measured quantities (rms over rows), relative to the place of
-    /// the same effect at which that is largest.
-    pub visible: f64,
-    /// Why.
-    pub because: &'static str,
-}
-
 /// What is left of the gap.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Unexplained {
     /// Whether it is more than noise, or still depends on something.
     pub present: bool,
@@ -395,7 +346,7 @@ pub struct Unexplained {
 }
 
 /// Another model's predictions against this one's held-out ones.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
     /// The prefix of its columns.
     pub name: String,

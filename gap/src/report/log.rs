@@ -1,13 +1,14 @@
-//! What a log says, as data: all in SI.
+//! What is reported of a log, in SI.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::read::TorqueSide;
-use super::scene::Domain;
+use super::Word;
+pub use super::{CannotSee, Finding};
+use crate::log::{Domain, TorqueSide};
 use crate::shrink::Shrink;
 
 /// The diagnosis of a log.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LogDiagnosis {
     /// The version that wrote it.
     pub stiffarm: String,
@@ -18,7 +19,7 @@ pub struct LogDiagnosis {
     /// What the rows are.
     pub rows: Domain,
     /// Where the torque is measured; of torque rows only.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque_side: Option<TorqueSide>,
     /// Runs, samples as they were read, and those left out as damaged.
     pub runs: usize,
@@ -39,7 +40,7 @@ pub struct LogDiagnosis {
     /// In the order in which they were added.
     pub findings: Vec<Finding>,
     /// What this log cannot show, and why.
-    pub cannot_see: Vec<Hidden>,
+    pub cannot_see: Vec<CannotSee>,
     /// What no effect that was tried explains.
     pub unexplained: Unexplained,
     /// What was noticed of rows and clocks.
@@ -47,7 +48,7 @@ pub struct LogDiagnosis {
 }
 
 /// How the samples were filtered.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Filter {
     /// The usual step of the log, s.
     pub period: f64,
@@ -60,7 +61,7 @@ pub struct Filter {
 }
 
 /// How much is independent.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// Of what is left in each joint, s.
     pub correlation_time: Vec<f64>,
@@ -75,16 +76,16 @@ pub struct Evidence {
     /// Whether a block is at least five correlation times.
     pub long_enough: bool,
     /// What is held out at once: `run` or `block`.
-    pub held_out_by: &'static str,
+    pub held_out_by: Word,
     /// How often.
     pub folds: usize,
 }
 
 /// The gap of one joint.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointGap {
     /// `N·m`, `N`, `A`, `rad` or `m`.
-    pub unit: &'static str,
+    pub unit: Word,
     /// Standard deviation of its torque, or root mean square of its position error.
     pub size: f64,
     /// Root mean square of what is left without any finding, on time that no fit has seen.
@@ -92,72 +93,12 @@ pub struct JointGap {
     /// The same with the findings.
     pub after: f64,
     /// The same with what a search finds that has not seen that time either, where that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nested: Option<f64>,
 }
 
-/// An effect at a place.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
-    /// Its identifier.
-    pub effect: &'static str,
-    /// Where.
-    pub place: String,
-    /// Its numbers.
-    pub parameters: Vec<Parameter>,
-    /// Mean of all joints' gap, as a part of their sizes, before it was added, on unseen time.
-    pub held_out_before: f64,
-    /// The same with it.
-    pub held_out_after: f64,
-    /// The chance that something unrelated does as well, beside all other findings.
-    pub p_value: f64,
-    /// What would do instead, as far as these blocks tell.
-    pub alternatives: Vec<Alternative>,
-    /// What to record for them to be told apart; `None` where nothing else would do.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to_separate: Option<&'static str>,
-}
-
-/// A number of an effect.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Parameter {
-    /// Its name.
-    pub name: &'static str,
-    /// In its unit.
-    pub value: f64,
-    /// SI.
-    pub unit: String,
-    /// 95 % of it.
-    pub ci95: [f64; 2],
-    /// The same number with the commanded motion as instrument, of torques where one is logged.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub by_command: Option<f64>,
-}
-
-/// What would do instead of a finding.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Alternative {
-    /// Its identifier.
-    pub effect: &'static str,
-    /// Where.
-    pub place: String,
-    /// What it leaves on unseen time, for each that the finding leaves.
-    pub leaves: f64,
-}
-
-/// What cannot be seen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Hidden {
-    /// Its identifier.
-    pub effect: &'static str,
-    /// Where.
-    pub place: String,
-    /// Why.
-    pub reason: String,
-}
-
 /// What is left beyond accident.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unexplained {
     /// Whether there is any.
     pub present: bool,
@@ -166,7 +107,7 @@ pub struct Unexplained {
 }
 
 /// What is left of a joint as far as it depends on something.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dependence {
     /// Where.
     pub place: String,
