@@ -98,7 +98,10 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         return motion::run(args, quiet);
     }
     let effects = match &args.effects {
-        Some(names) => named::effects(&plant::effects(), names, "--effects: ")?,
+        Some(names) => {
+            let known: Vec<_> = plant::effects().into_iter().map(|e| (e.identifier(), e)).collect();
+            named::effects(&known, names, "--effects: ")?
+        }
         None => plant::effects(),
     };
     let multiple = args.multiple([8.0, 20.0])?;

@@ -10,13 +10,13 @@
 //! ```
 
 use stiffarm_gap::effects::{
-    Carrier, Catalogue, Curve, Effect, Forms, Group, Over, Parameter, ParameterReport, Place,
-    Quantity, Scene, Spot, Told,
+    At, AtRest, Catalogue, Curve, Facts, Forms, Group, Law, Moves, Over, Parameter,
+    ParameterReport, Place, Quantity, Spot, Told,
 };
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, Truth, blurred};
-use stiffarm_gap::simulate::{Actual, Moment};
+use stiffarm_gap::simulate::Moment;
 use stiffarm_gap::withhold::exact;
 use stiffarm_gap::{Diagnosis, Options, diagnose};
 use stiffarm_kernels::generic::Arm;
@@ -34,15 +34,21 @@ fn beyond(degrees: f64, q: f64) -> f64 {
     q - q.clamp(-taut, taut)
 }
 
-impl Effect for TautHose {
-    fn identifier(&self) -> &'static str {
-        "taut_hose"
+impl Law for TautHose {
+    fn facts(&self) -> &'static Facts {
+        const FACTS: &Facts = &Facts {
+            identifier: "taut_hose",
+            at: At::Joints,
+            moves: Moves::Joint,
+            idle: "the joint never turns so far that the hose is taut",
+            group: Some(Group::Constant),
+            ..Facts::NONE
+        };
+        FACTS
     }
+}
 
-    fn places(&self, arm: &Arm) -> Vec<Place> {
-        (1..=arm.dof()).map(Place::Joint).collect()
-    }
-
+impl AtRest for TautHose {
     fn forms_are(&self) -> Forms {
         Forms::Numbers("taut")
     }
@@ -56,24 +62,8 @@ impl Effect for TautHose {
         vec![Parameter::at_least("lag", Quantity::Ratio, 0.0).named(name)]
     }
 
-    fn alter(&self, actual: &mut Actual<'_>, row: &Row, _: &Moment, spot: Spot, values: &[f64]) {
-        actual.turn(spot.row(), -values[0] * beyond(spot.form as f64, row.q[spot.row()]));
-    }
-
-    fn carrier(&self, spot: Spot) -> Option<Carrier> {
-        Some(Carrier::Joint(spot.row()))
-    }
-
-    fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
-        motions.push(-beyond(spot.form as f64, scene.row.q[spot.row()]));
-    }
-
-    fn idle(&self) -> &'static str {
-        "the joint never turns so far that the hose is taut"
-    }
-
-    fn group(&self) -> Option<Group> {
-        Some(Group::Constant)
+    fn moves_by(&self, row: &Row, _: &Moment, spot: Spot, each: &mut dyn FnMut(f64)) {
+        each(-beyond(spot.form as f64, row.q[spot.row()]));
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

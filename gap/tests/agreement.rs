@@ -4,7 +4,7 @@
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::corrected::{corrected, folded};
 use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
-use stiffarm_gap::effects::{Catalogue, Effect};
+use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
@@ -175,7 +175,7 @@ fn every_effect_is_written_as_it_was_fitted() {
         let options = Options { effects: Some(vec![id.to_owned()]), ..Options::default() };
         let (found, gaps) = three(&robot(), &data, &options);
         let names: Vec<_> =
-            found.explanation.found().iter().map(|k| Effect::identifier(k.effect)).collect();
+            found.explanation.found().iter().map(|k| k.effect.identifier()).collect();
         assert!(names.contains(&id), "{truth}: {names:?}");
         agree(&found, &data, gaps, truth);
     }

@@ -6,7 +6,9 @@ use nalgebra::{Matrix6xX, Vector6};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use stiffarm_gap::effects::{Carrier, Catalogue, Parameter, Place, Quantity, Scene, Spot, Told};
+use stiffarm_gap::effects::{
+    At, AtRest, Catalogue, Facts, Law, Moves, Parameter, Place, Quantity, Scene, Spot,
+};
 use stiffarm_gap::measurement::Row;
 use stiffarm_gap::simulate::{Actual, Moment, Site};
 use stiffarm_kernels::generic::Arm;
@@ -47,17 +49,7 @@ pub struct Effect {
 /// The same for the catalogue, where it lives as long as the program.
 struct Own {
     function: Function,
-    at: At,
-    parameters: Vec<Parameter>,
-}
-
-/// What is moved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum At {
-    Joint,
-    Link,
-    Base,
-    Tool,
+    facts: Facts,
 }
 
 #[pymethods]
@@ -95,9 +87,18 @@ impl Effect {
             .parameters
             .iter()
             .map(|(name, unit)| Ok(Parameter::free(kept(name), quantity(unit)?)));
-        let parameters = parameters.collect::<PyResult<_>>()?;
+        let parameters: Vec<Parameter> = parameters.collect::<PyResult<_>>()?;
         let function = Function::new(py, &self.name, &self.change);
-        let own = Own { function, at: at(&self.place)?, parameters };
+        let at = at(&self.place)?;
+        let facts = Facts {
+            identifier: function.name,
+            parameters: Box::leak(parameters.into_boxed_slice()),
+            at,
+            moves: if at == At::Joints { Moves::Joint } else { Moves::Several },
+            idle: "its function is zero at every row",
+            ..Facts::NONE
+        };
+        let own = Own { function, facts };
         // Each is made once.
         Ok(catalogue.with(*self.made.get_or_init(|| Box::leak(Box::new(own)))))
     }
@@ -113,8 +114,8 @@ impl Effect {
 
 fn at(place: &str) -> PyResult<At> {
     match place {
-        "joint" => Ok(At::Joint),
-        "link" => Ok(At::Link),
+        "joint" => Ok(At::Joints),
+        "link" => Ok(At::Links),
         "base" => Ok(At::Base),
         "tool" => Ok(At::Tool),
         other => Err(PyValueError::new_err(format!(
@@ -152,11 +153,11 @@ impl Own {
                 number,
             };
             let found = change.call1((reading, PyArray1::from_slice(py, values)))?;
-            let numbers = match self.at {
-                At::Joint => vec![found.extract::<f64>()?],
+            let numbers = match self.facts.at {
+                At::Joints => vec![found.extract::<f64>()?],
                 _ => found.try_iter()?.map(|x| x?.extract()).collect::<PyResult<Vec<f64>>>()?,
             };
-            self.function.finite(&numbers, if self.at == At::Joint { 1 } else { 6 })?;
+            self.function.finite(&numbers, if self.facts.at == At::Joints { 1 } else { 6 })?;
             Ok(numbers)
         })
     }
@@ -164,10 +165,10 @@ impl Own {
     /// Its differences by each parameter about no effect, over a step of what is typical of it: exact of what is
     /// linear, and of second order else.
     fn slopes(&self, scene: &Scene<'_>, spot: Spot) -> impl Iterator<Item = Vec<f64>> {
-        self.parameters.iter().enumerate().map(move |(k, parameter)| {
+        self.facts.parameters.iter().enumerate().map(move |(k, parameter)| {
             let step = parameter.quantity.typical();
             let [ahead, behind] = [step, -step].map(|step| {
-                let mut values = vec![0.0; self.parameters.len()];
+                let mut values = vec![0.0; self.facts.parameters.len()];
                 values[k] = step;
                 self.moved(scene.row, scene.when, spot, &values)
             });
@@ -176,66 +177,48 @@ impl Own {
     }
 
     fn site(&self, spot: Spot) -> Site {
-        match self.at {
-            At::Joint => Site::Joint(spot.row()),
-            At::Link => Site::Link(spot.row()),
+        match self.facts.at {
+            At::Joints => Site::Joint(spot.row()),
+            At::Links => Site::Link(spot.row()),
             At::Base => Site::Base,
-            At::Tool => Site::Tool,
+            _ => Site::Tool,
         }
     }
 }
 
-impl stiffarm_gap::effects::Effect for Own {
-    fn identifier(&self) -> &'static str {
-        self.function.name
+impl Law for Own {
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
+}
 
-    fn places(&self, arm: &Arm) -> Vec<Place> {
-        match self.at {
-            At::Joint => (1..=arm.dof()).map(Place::Joint).collect(),
-            At::Link => (1..=arm.dof()).map(Place::Link).collect(),
-            At::Base => vec![Place::Base],
-            At::Tool => vec![Place::Tool],
-        }
-    }
-
+impl AtRest for Own {
+    /// As they were given, of joints that shift too.
     fn parameters(&self, _: &Arm, _: Spot) -> Vec<Parameter> {
-        self.parameters.clone()
+        self.facts.parameters.to_vec()
     }
 
     fn alter(&self, actual: &mut Actual<'_>, row: &Row, when: &Moment, spot: Spot, values: &[f64]) {
         let moved = self.moved(row, when, spot, values);
-        match self.at {
-            At::Joint => actual.turn(spot.row(), moved[0]),
+        match self.facts.at {
+            At::Joints => actual.turn(spot.row(), moved[0]),
             _ => *actual.fixed_at(self.site(spot)) += Vector6::from_column_slice(&moved),
         }
     }
 
-    fn carrier(&self, spot: Spot) -> Option<Carrier> {
-        (self.at == At::Joint).then(|| Carrier::Joint(spot.row()))
-    }
-
     fn motions(&self, scene: &Scene<'_>, spot: Spot, motions: &mut Vec<f64>) {
-        if self.at == At::Joint {
+        if self.facts.at == At::Joints {
             motions.extend(self.slopes(scene, spot).flatten());
         }
     }
 
     fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
-        if self.at == At::Joint {
+        if self.facts.at == At::Joints {
             let motions: Vec<f64> = self.slopes(scene, spot).flatten().collect();
             return scene.moved(self.carrier(spot), &motions);
         }
         let slopes: Vec<_> =
             self.slopes(scene, spot).map(|slope| Vector6::from_column_slice(&slope)).collect();
         scene.carried(self.site(spot), &slopes)
-    }
-
-    fn idle(&self) -> &'static str {
-        "its function is zero at every row"
-    }
-
-    fn sentence(&self, told: &Told<'_>) -> String {
-        format!("{} at {}", self.function.name.replace('_', " "), told.place)
     }
 }

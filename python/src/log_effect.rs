@@ -6,9 +6,9 @@ use std::sync::OnceLock;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use stiffarm_gap::effects::About;
+use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
 use stiffarm_gap::log::Domain;
-use stiffarm_gap::log::effects::{self, Catalogue, Number, Spot};
+use stiffarm_gap::log::effects::Catalogue;
 use stiffarm_gap::log::scene::{Column, Scene};
 
 use crate::arrays::numbers;
@@ -55,8 +55,7 @@ pub struct LogEffect {
 /// The same for the catalogue, where it lives as long as the program.
 struct Own {
     function: Function,
-    domain: Domain,
-    numbers: &'static [Number],
+    facts: Facts,
     /// Values about which it is sought; none where it is in proportion to them.
     about: Vec<Vec<f64>>,
 }
@@ -107,13 +106,21 @@ impl LogEffect {
         }
         // Each is made once.
         let own = self.made.get_or_init(|| {
-            let numbers = self.parameters.iter().map(|(name, unit)| (kept(name), kept(unit)));
-            Box::leak(Box::new(Own {
-                function: Function::new(py, &self.name, &self.change),
-                domain: self.domain,
-                numbers: Box::leak(numbers.collect()),
-                about: self.about.clone(),
-            }))
+            let function = Function::new(py, &self.name, &self.change);
+            let parameters = self.parameters.iter();
+            let parameters: Vec<Parameter> = parameters
+                .map(|(name, unit)| Parameter::free(kept(name), Quantity::In(kept(unit))))
+                .collect();
+            let facts = Facts {
+                identifier: function.name,
+                reality: "An effect of one's own.",
+                separated_by: "Motion in which its own function differs from the others.",
+                parameters: Box::leak(parameters.into_boxed_slice()),
+                rows: Some(self.domain),
+                bends: !self.about.is_empty(),
+                ..Facts::NONE
+            };
+            Box::leak(Box::new(Own { function, facts, about: self.about.clone() }))
         });
         Ok(catalogue.with(*own))
     }
@@ -188,7 +195,7 @@ impl Own {
 
     /// Differences by each number about some values, at all fine samples.
     fn slopes(&self, scene: &Scene<'_>, joint: usize, values: &[f64]) -> Vec<Vec<f64>> {
-        let count = self.numbers.len();
+        let count = self.facts.parameters.len();
         let from = if self.about.is_empty() { vec![0.0; count] } else { values.to_vec() };
         let steps: Vec<f64> = (0..count).map(|k| self.step(&from, k)).collect();
         let moved = |k: usize, by: f64| {
@@ -235,47 +242,21 @@ impl Own {
     }
 }
 
-fn joint(spot: Spot) -> usize {
-    match spot {
-        Spot::Joint(joint) => joint,
-        // Its places are joints.
-        _ => 0,
+impl Law for Own {
+    fn facts(&self) -> &Facts {
+        &self.facts
     }
 }
 
-impl effects::LogEffect for Own {
-    fn identifier(&self) -> &'static str {
-        self.function.name
-    }
-
-    fn about(&self) -> About {
-        About {
-            reality: "An effect of one's own.",
-            separated_by: "Motion in which its own function differs from the others.",
-            ..About::default()
-        }
-    }
-
-    fn domain(&self) -> Domain {
-        self.domain
-    }
-
-    fn numbers(&self) -> &'static [Number] {
-        self.numbers
-    }
-
+impl InMotion for Own {
     fn columns(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
-        let joint = joint(spot);
+        let joint = spot.row();
         let slopes = self.slopes(scene, joint, values);
         slopes.iter().map(|slope| scene.column(joint, |k| slope[k])).collect()
     }
 
-    fn bends(&self) -> bool {
-        !self.about.is_empty()
-    }
-
     fn value(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Column {
-        let joint = joint(spot);
+        let joint = spot.row();
         let rows = self.changes(scene, joint, &[values.to_vec()]);
         scene.column(joint, |k| rows[0][k])
     }
@@ -287,7 +268,7 @@ impl effects::LogEffect for Own {
     fn probes(&self, _: &Scene<'_>, _: Spot) -> Vec<Vec<f64>> {
         match self.bends() {
             true => self.about.clone(),
-            false => vec![vec![0.0; self.numbers.len()]],
+            false => vec![vec![0.0; self.facts.parameters.len()]],
         }
     }
 }

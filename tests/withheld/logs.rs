@@ -13,8 +13,8 @@
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::dice::{Dice, Stream};
+use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
-use stiffarm_gap::log::effects::CATALOGUE;
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
 use stiffarm_gap::withhold::logs::{LogCase, LogPlan, LogReport, withhold};
@@ -117,7 +117,7 @@ fn arm(id: &str) -> Arm {
 
 /// Effects that the diagnosis knows; of others nothing can be asked.
 fn known() -> Vec<&'static Law> {
-    let known = |law: &&Law| CATALOGUE.iter().any(|effect| effect.identifier() == law.name);
+    let known = |law: &&Law| IN_MOTION.iter().any(|effect| effect.identifier() == law.name);
     LAWS.iter().filter(known).collect()
 }
 

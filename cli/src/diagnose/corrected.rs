@@ -10,7 +10,6 @@ use stiffarm_gap::Measurements;
 use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
 use stiffarm_gap::effects;
-use stiffarm_gap::log::effects as motion;
 
 use crate::input::source::Source;
 use crate::report::capital;
@@ -122,8 +121,7 @@ pub fn without_own(robot: &mut Robot) -> Option<String> {
 
 /// Whether stiffarm knows an effect.
 pub fn is_known(id: &str) -> bool {
-    effects::Catalogue::default().named(id).is_some()
-        || motion::CATALOGUE.iter().any(|effect| effect.identifier() == id)
+    effects::Entry::all().iter().any(|effect| effect.is_called(id))
 }
 
 /// Where a number of an effect stands.

@@ -1,25 +1,23 @@
 //! Effects by their names.
 
-use stiffarm_gap::effects::Effect;
-
 use crate::terminal::failure::Failure;
 
 /// A name that differs by as many letters may be meant.
 const ALIKE: usize = 3;
 
-/// The effects of these names among those that are `known`; an error begins with `option`.
+/// What has these names among what is `known` by its name; an error begins with `option`.
 ///
 /// # Errors
 /// [`Failure`]: a name that none has, and which it may be.
-pub fn effects(
-    known: &[&'static dyn Effect],
+pub fn effects<T: Clone>(
+    known: &[(&'static str, T)],
     names: &[String],
     option: &str,
-) -> Result<Vec<&'static dyn Effect>, Failure> {
+) -> Result<Vec<T>, Failure> {
     let each = names.iter().map(|name| {
-        let found = known.iter().copied().find(|effect| effect.identifier() == name.trim());
-        found.ok_or_else(|| {
-            let known: Vec<&str> = known.iter().map(|effect| effect.identifier()).collect();
+        let found = known.iter().find(|(known, _)| *known == name.trim());
+        found.map(|(_, found)| found.clone()).ok_or_else(|| {
+            let known: Vec<&str> = known.iter().map(|(known, _)| *known).collect();
             let apart = |k: &&str| strsim::damerau_levenshtein(k, name);
             let near = known.iter().copied().min_by_key(apart).filter(|k| apart(k) <= ALIKE);
             let meant = near.map_or_else(String::new, |k| format!("; did you mean `{k}`?"));

@@ -1,7 +1,7 @@
 //! The withheld check of joint logs.
 
+use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
-use stiffarm_gap::log::effects::CATALOGUE;
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
 use stiffarm_gap::withhold::logs::{LogPlan, LogReport, withhold};
 
@@ -62,7 +62,7 @@ pub(super) fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 
 /// What is put in: those of such a log that the diagnosis knows, or those that are named.
 fn effects(names: Option<&[String]>, logged: Logged) -> Result<Vec<&'static Law>, Failure> {
-    let is_known = |law: &&Law| CATALOGUE.iter().any(|effect| effect.identifier() == law.name);
+    let is_known = |law: &&Law| IN_MOTION.iter().any(|effect| effect.identifier() == law.name);
     let known: Vec<&'static Law> =
         LAWS.iter().filter(|law| law.rows.contains(&logged.rows())).filter(is_known).collect();
     let Some(names) = names else { return Ok(known) };

@@ -2,7 +2,7 @@
 
 use super::prior::Prior;
 use super::progress::Stop;
-use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, ToolFrame};
+use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, Law, ToolFrame};
 use crate::measurement::nearest;
 use crate::spring::Spring;
 

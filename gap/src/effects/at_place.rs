@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Place};
+use super::{AtRest, Place};
 use crate::measurement::nearest;
 
 /// Reads `effect[@place]`; the place may be left out where there is only one.
@@ -12,8 +12,8 @@ use crate::measurement::nearest;
 pub(crate) fn at_place(
     text: &str,
     arm: &Arm,
-    known: impl IntoIterator<Item = &'static dyn Effect>,
-) -> Result<(&'static dyn Effect, Place), String> {
+    known: impl IntoIterator<Item = &'static dyn AtRest>,
+) -> Result<(&'static dyn AtRest, Place), String> {
     let (name, place) = match text.split_once('@') {
         Some((name, place)) => (name.trim(), Some(place.trim())),
         None => (text.trim(), None),
@@ -29,14 +29,14 @@ pub(crate) fn did_you_mean(near: Option<&str>) -> String {
     near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
 }
 
-fn unknown_effect(found: &str, known: &[&dyn Effect]) -> String {
+fn unknown_effect(found: &str, known: &[&dyn AtRest]) -> String {
     let all: Vec<&str> = known.iter().map(|effect| effect.identifier()).collect();
     let near = did_you_mean(nearest(found, all.iter().copied()));
     format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
 }
 
 /// Where it can act instead.
-pub(crate) fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String {
+pub(crate) fn cannot_act(effect: &dyn AtRest, found: &str, arm: &Arm) -> String {
     let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
     let name = effect.identifier();
     let which = match effect.acts_at() {
@@ -51,7 +51,7 @@ pub(crate) fn cannot_act(effect: &dyn Effect, found: &str, arm: &Arm) -> String 
     format!("found the place `{found}`, expected one of {places} for {name}{which}{near}")
 }
 
-fn read_place(effect: &dyn Effect, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
+fn read_place(effect: &dyn AtRest, found: Option<&str>, arm: &Arm) -> Result<Place, String> {
     let places = effect.places(arm);
     let Some(found) = found else {
         return match places.as_slice() {

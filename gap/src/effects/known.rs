@@ -4,7 +4,7 @@
 use stiffarm_codegen::robot::{self, Effect as Table, Entry, Quantity as Given};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Catalogue, Depends, Effect, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
+use super::{AtRest, Catalogue, Depends, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
 use crate::measurement::{Measurements, Row, nearest};
 use crate::simulate::{Actual, Moment};
 
@@ -15,7 +15,7 @@ const SESSION: &str = "session";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Known {
     /// What reality does.
-    pub effect: &'static dyn Effect,
+    pub effect: &'static dyn AtRest,
     /// Where, and in which form.
     pub spot: Spot,
     /// Values of its parameters there, SI.
@@ -158,7 +158,7 @@ pub(crate) fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-fn place(effect: &dyn Effect, table: &Table, arm: &Arm) -> Result<Place, KnownError> {
+fn place(effect: &dyn AtRest, table: &Table, arm: &Arm) -> Result<Place, KnownError> {
     let found = &table.place.value;
     let places = effect.places(arm);
     if let Some(place) = found.parse().ok().filter(|place| places.contains(place)) {
@@ -171,7 +171,7 @@ fn place(effect: &dyn Effect, table: &Table, arm: &Arm) -> Result<Place, KnownEr
 
 /// The form that stands beside the numbers, as [`Spot`] counts it.
 fn form(
-    effect: &dyn Effect,
+    effect: &dyn AtRest,
     place: Place,
     key: &str,
     table: &Table,

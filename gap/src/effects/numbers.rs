@@ -2,22 +2,22 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::{Effect, Forms, MOST_ORDERS, Parameter, Place, Spot};
+use super::{AtRest, Forms, MOST_ORDERS, Parameter, Place, Spot};
 
-impl core::fmt::Debug for dyn Effect + '_ {
+impl core::fmt::Debug for dyn AtRest + '_ {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(self.identifier())
     }
 }
 
 /// Effects are the same if they have one identifier.
-impl PartialEq for dyn Effect + '_ {
+impl PartialEq for dyn AtRest + '_ {
     fn eq(&self, other: &Self) -> bool {
         self.identifier() == other.identifier()
     }
 }
 
-impl dyn Effect + '_ {
+impl dyn AtRest + '_ {
     /// What stands for the form among the numbers of a finding: `after` of a jump.
     pub fn form_number(&self) -> Option<Parameter> {
         let Forms::Searched { key, quantity, .. } = self.forms_are() else { return None };

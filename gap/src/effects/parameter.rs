@@ -23,9 +23,9 @@ pub struct Parameter {
 
 impl Parameter {
     /// A parameter of which every value is physical.
-    pub fn free(key: &'static str, quantity: Quantity) -> Self {
+    pub const fn free(key: &'static str, quantity: Quantity) -> Self {
         Self {
-            name: key.into(),
+            name: Cow::Borrowed(key),
             key,
             quantity,
             least: f64::NEG_INFINITY,
@@ -35,13 +35,21 @@ impl Parameter {
     }
 
     /// A parameter that is at least `least`.
-    pub fn at_least(key: &'static str, quantity: Quantity, least: f64) -> Self {
-        Self { least, one_sided: true, ..Self::free(key, quantity) }
+    pub const fn at_least(key: &'static str, quantity: Quantity, least: f64) -> Self {
+        let mut parameter = Self::free(key, quantity);
+        (parameter.least, parameter.one_sided) = (least, true);
+        parameter
+    }
+
+    /// A parameter that is more than zero.
+    pub const fn positive(key: &'static str, quantity: Quantity) -> Self {
+        Self::at_least(key, quantity, f64::MIN_POSITIVE)
     }
 
     /// The same, with what is usual.
-    pub fn usually(self, usual: f64) -> Self {
-        Self { usual, ..self }
+    pub const fn usually(mut self, usual: f64) -> Self {
+        self.usual = usual;
+        self
     }
 
     /// The same with a name of its own among other forms of the effect.
@@ -50,7 +58,20 @@ impl Parameter {
     }
 
     /// The same, which arms have with one sign only though the other is no nonsense.
-    pub fn one_sided(self) -> Self {
-        Self { one_sided: true, ..self }
+    pub const fn one_sided(mut self) -> Self {
+        self.one_sided = true;
+        self
+    }
+
+    /// The same of a joint that shifts, where it turns.
+    pub fn of_shift(&self) -> Self {
+        let quantity = match self.quantity {
+            Quantity::Angle => Quantity::Length,
+            Quantity::AnglePerMoment => Quantity::LengthPerForce,
+            Quantity::AnglePerMomentCubed => Quantity::LengthPerForceCubed,
+            Quantity::AnglePerKelvin => Quantity::LengthPerKelvin,
+            other => other,
+        };
+        Self { quantity, ..self.clone() }
     }
 }

@@ -59,7 +59,7 @@ impl<'a> RobotFile<'a> {
             Place::Joint(_) | Place::Link(_) => {
                 format!("{entries} of {}", self.robot.joints[place.row()].name)
             }
-            Place::Base | Place::Tool | Place::Arm | Place::Instrument => entries.to_owned(),
+            _ => entries.to_owned(),
         })
     }
 

@@ -31,7 +31,7 @@ fn places_are_the_same_wherever_an_arm_stands() {
         let turn = Vector6::new(2.0, -1.0, 0.5, 1.1, -0.6, 2.0);
         let base = Displacement::new(&turn).transform() * arm.base;
         let moved = Arm { base, ..arm.clone() };
-        for effect in CATALOGUE {
+        for effect in AT_REST {
             assert_eq!(effect.places(&moved), effect.places(&arm), "{}", effect.identifier());
         }
     }
@@ -58,7 +58,7 @@ fn data(kind: Kind) -> Measurements {
 fn both(
     arm: &Arm,
     data: &Measurements,
-    effect: &dyn Effect,
+    effect: &dyn AtRest,
     spot: Spot,
 ) -> (Matrix6xX<f64>, Matrix6xX<f64>) {
     let (row, when) = (&data.rows[5], &moments(data)[5]);
@@ -110,7 +110,7 @@ fn every_block_is_the_derivative_of_the_exact_model() {
     for arm in arms() {
         for kind in [Kind::Pose { orientation: true }, displacement] {
             let data = data(kind);
-            for effect in CATALOGUE {
+            for effect in AT_REST {
                 for place in effect.places(&arm) {
                     let form = effect.forms(&arm, place, &data)[0];
                     let spot = Spot { place, form };
@@ -162,25 +162,34 @@ fn the_block_of_a_tilt_is_that_of_hanging_loads_too() {
 /// What is said of an effect is said whole: sentences, and no effect that there is not.
 #[test]
 fn every_effect_says_what_it_is() {
-    for effect in CATALOGUE {
-        let About { reality, signature, confused_with, separated_by } = effect.about();
+    let all = Entry::all();
+    for law in all.iter().flat_map(Entry::laws) {
+        let Facts { identifier, reality, signature, confused_with, separated_by, .. } =
+            *law.facts();
         for text in [reality, signature, confused_with, separated_by] {
-            assert!(text.ends_with('.') && !text.contains("  "), "{effect:?}: {text}");
+            assert!(text.ends_with('.') && !text.contains("  "), "{identifier}: {text}");
         }
-        let quoted = confused_with.split('`').skip(1).step_by(2);
-        for name in quoted {
-            let known = CATALOGUE.iter().any(|other| other.identifier() == name);
-            assert!(known && name != effect.identifier(), "{effect:?}: {name}");
+        assert!(!law.facts().formula.is_empty(), "{identifier}");
+        for name in confused_with.split('`').skip(1).step_by(2) {
+            let known = all.iter().any(|other| other.is_called(name));
+            assert!(known && name != identifier, "{identifier}: {name}");
         }
     }
 }
 
+/// An identifier belongs to one effect, and to one of its laws at rest, on torques or on positions at one place.
 #[test]
 fn identifiers_are_unique() {
-    let mut names: Vec<_> = CATALOGUE.iter().map(|e| e.identifier()).collect();
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), CATALOGUE.len());
+    let all = Entry::all();
+    for (k, entry) in all.iter().enumerate() {
+        let names = entry.laws().map(Law::identifier).chain([entry.identifier]);
+        let others = || all.iter().enumerate().filter(|(other, _)| *other != k);
+        for name in names {
+            assert!(others().all(|(_, other)| !other.is_called(name)), "{name}");
+        }
+    }
+    let count = AT_REST.len() + IN_MOTION.len();
+    assert_eq!(all.iter().map(|entry| entry.laws().count()).sum::<usize>(), count);
 }
 
 #[test]

@@ -5,10 +5,11 @@
 
 use stiffarm_codegen::robot::{Effect as Table, Entry, Quantity as Given};
 
-use super::effects::{CATALOGUE, LogEffect, Spot};
 use super::model::Acting;
 use super::scene::Domain;
-use crate::effects::{self as files, KnownError, Quantity, advice, si};
+use crate::effects::{
+    self as files, IN_MOTION, InMotion, KnownError, Parameter, Quantity, Spot, advice, si,
+};
 
 /// Whether a table is of motion. Arms have no more joints than places are compared with.
 pub fn is_of_motion(table: &Table) -> bool {
@@ -32,11 +33,11 @@ pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting
             let help = advice(found, places.iter().map(String::as_str));
             KnownError::new(&table.place.at, format!("`{found}` is no place of {id}"), help)
         })?;
-        let value = |(key, unit): &(&'static str, &'static str)| {
-            let entry = table.numbers.iter().find(|entry| entry.key == *key);
-            entry.map_or(Ok(0.0), |entry| number(entry, unit))
+        let value = |parameter: &Parameter| {
+            let entry = table.numbers.iter().find(|entry| entry.key == parameter.key);
+            entry.map_or(Ok(0.0), |entry| number(entry, parameter.quantity))
         };
-        let values: Vec<f64> = effect.numbers().iter().map(value).collect::<Result<_, _>>()?;
+        let values: Vec<f64> = effect.parameters().iter().map(value).collect::<Result<_, _>>()?;
         if !effect.may_be(&values) {
             let message = format!(
                 "found {values:?}, expected numbers that such a thing as {} may have",
@@ -50,12 +51,12 @@ pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting
 }
 
 /// A number in SI, or with its unit where it is of a kind of which others are known.
-fn number(entry: &Entry<Given>, unit: &str) -> Result<f64, KnownError> {
-    let kind = Quantity::ALL.iter().find(|quantity| quantity.unit() == unit);
-    match (&entry.value, kind) {
+fn number(entry: &Entry<Given>, quantity: Quantity) -> Result<f64, KnownError> {
+    match (&entry.value, quantity) {
         (Given::Si(value), _) if value.is_finite() => Ok(*value),
-        (Given::Text(_), Some(quantity)) => si(entry, *quantity),
-        (Given::Si(_) | Given::Text(_), _) => {
+        (Given::Text(_), quantity) if !matches!(quantity, Quantity::In(_)) => si(entry, quantity),
+        _ => {
+            let unit = quantity.unit();
             let message = format!("`{}` is no number in {unit}", entry.key);
             let help = format!("write it as a number without a unit, in {unit}");
             Err(KnownError::new(&entry.at, message, Some(help)))
@@ -65,21 +66,20 @@ fn number(entry: &Entry<Given>, unit: &str) -> Result<f64, KnownError> {
 
 /// The table that says a term.
 pub fn table(term: &Acting) -> Table {
-    let numbers = term.effect.numbers().iter().zip(&term.values);
-    let numbers = numbers.map(|((key, _), value)| (*key, Given::Si(*value)));
+    let numbers = term.effect.parameters().iter().zip(&term.values);
+    let numbers = numbers.map(|(parameter, value)| (parameter.key, Given::Si(*value)));
     files::table(term.effect.identifier(), &term.spot, numbers)
 }
 
 /// The effects of a table: those of its identifier that have all its keys, one for torques and one for positions of
 /// a latency.
-fn effects(table: &Table) -> impl Iterator<Item = &'static dyn LogEffect> {
-    let has =
-        |effect: &dyn LogEffect, key: &str| effect.numbers().iter().any(|(name, _)| *name == key);
-    let is = move |effect: &&'static dyn LogEffect| {
+fn effects(table: &Table) -> impl Iterator<Item = &'static dyn InMotion> {
+    let has = |effect: &dyn InMotion, key: &str| effect.parameters().iter().any(|p| p.key == key);
+    let is = move |effect: &&'static dyn InMotion| {
         effect.identifier() == table.id.value
             && table.numbers.iter().all(|entry| has(*effect, &entry.key))
     };
-    CATALOGUE.iter().copied().filter(is)
+    IN_MOTION.iter().copied().filter(is)
 }
 
 /// The place that is printed so.
@@ -125,9 +125,9 @@ mod tests {
         let text =
             "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1\n";
         let (robot, _) = Robot::from_toml(text, "arm.toml").expect("a robot");
-        for effect in CATALOGUE {
-            let values = vec![0.5; effect.numbers().len()];
-            let effects = vec![table(&Acting { effect, spot: Spot::Joint(0), values })];
+        for effect in IN_MOTION {
+            let values = vec![0.5; effect.parameters().len()];
+            let effects = vec![table(&Acting { effect, spot: Spot::of_joint(0), values })];
             let wrong = Robot { effects, ..robot.clone() }.with_effects().expect_err("no kernel");
             let message = &wrong[0].message;
             assert!(message.starts_with("no kernel is made of the "), "{message}");

@@ -229,7 +229,7 @@ impl Model {
             let before = rows.target.len() - count;
             let mut at = 0;
             for (k, term) in self.terms.iter().enumerate() {
-                let numbers = term.effect.numbers().len();
+                let numbers = term.effect.parameters().len();
                 let does = match case.carried(term.effect, term.spot) {
                     Some(mixed) => {
                         let mine = mixed.iter().zip(&term.values);

@@ -150,6 +150,24 @@ impl<'a> Scene<'a> {
         Column::of(joint, vec![0.0; self.signals.rows()])
     }
 
+    /// A joint's commands of so long ago, by straight lines; at the beginning of a span its first.
+    pub fn ago(&self, joint: usize, delay: f64) -> Vec<f64> {
+        let commands = &self.signals.command[joint];
+        let back = delay / self.signals.period;
+        let mut then = Vec::with_capacity(commands.len());
+        for span in &self.signals.spans {
+            let part = &commands[span.fine.clone()];
+            let last = (part.len() - 1) as f64;
+            then.extend((0..part.len()).map(|k| {
+                let at = (k as f64 - back).clamp(0.0, last);
+                let (before, within) = (at.floor() as usize, at.fract());
+                let after = (before + 1).min(part.len() - 1);
+                part[before] + within * (part[after] - part[before])
+            }));
+        }
+        then
+    }
+
     /// Which way a joint moves at a fine sample.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
         self.signals.qd[joint][k].signum()

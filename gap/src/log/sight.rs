@@ -5,6 +5,7 @@ use super::pace::Pace;
 use super::scene::{Domain, Loads};
 use super::search::case::{Case, Simple, Wanted};
 use super::search::judge::Verdict;
+use crate::effects::Place;
 use crate::report::{CannotSee, Hidden};
 
 /// What this log cannot show, and why: what no motion does, what the model as it was first showed nothing
@@ -26,7 +27,7 @@ pub fn hidden(
     if case.kind.0 == Domain::Torque && case.loaded.iter().all(Option::is_none) {
         tell(
             "torque_scale",
-            Spot::Arm.to_string(),
+            Spot::at(Place::Arm).to_string(),
             "with free masses all inertias and frictions grow with it, exactly: only a payload of \
              known mass tells",
         );
@@ -38,7 +39,7 @@ pub fn hidden(
         tell(effect.identifier(), "every joint".to_owned(), &reason);
     }
     let scale = |effect: &&dyn LogEffect, spot: &Spot| {
-        effect.identifier() == "torque_scale" && *spot == Spot::Arm
+        effect.identifier() == "torque_scale" && spot.place == Place::Arm
     };
     for (effect, spot) in unseen.iter().filter(|(e, s)| !scale(e, s)) {
         let reason = "what is fitted along does the same in this motion";

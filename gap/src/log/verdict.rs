@@ -146,7 +146,7 @@ pub fn diagnosed_with(
     };
     let nested = options.nested.then(|| nested(&stock, blocks, &links, options.seed));
     let rests = rests(&stock, &verdict, options.seed).into_iter().map(|rest| Dependence {
-        place: Spot::Joint(rest.joint).to_string(),
+        place: Spot::of_joint(rest.joint).to_string(),
         of: rest.of,
         share: rest.share,
         p_value: rest.chance,
@@ -340,12 +340,8 @@ impl Told<'_> {
 
     /// The unit of an effect's number at a spot.
     fn unit(&self, unit: &str, spot: Spot) -> String {
-        let slides = match spot {
-            Spot::Joint(joint) | Spot::Pair(joint, ..) => {
-                self.arm.joints[joint].motion == Motion::Prismatic
-            }
-            _ => false,
-        };
+        let joint = spot.joint().or(spot.pair().map(|[first, _]| first));
+        let slides = joint.is_some_and(|j| self.arm.joints[j].motion == Motion::Prismatic);
         let unit = match (slides, unit) {
             (true, "kg·m²") if !self.current => "kg".to_owned(),
             (true, unit) => unit.replace("N·m", "N").replace("rad", "m"),
@@ -401,15 +397,15 @@ impl Told<'_> {
             let name = (term.effect.identifier(), term.spot);
             // The first round that had it, and the one before.
             let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
-            let numbers = term.effect.numbers().iter().zip(&term.values).zip(&mut widths);
+            let numbers = term.effect.parameters().iter().zip(&term.values).zip(&mut widths);
             Finding {
                 effect: name.0.into(),
                 place: term.spot.to_string(),
                 parameters: numbers
-                    .map(|(((name, unit), value), width)| Parameter {
-                        name: (*name).into(),
+                    .map(|((parameter, value), width)| Parameter {
+                        name: parameter.key.into(),
                         value: *value,
-                        unit: self.unit(unit, term.spot).into(),
+                        unit: self.unit(parameter.quantity.unit(), term.spot).into(),
                         ci95: [value - width, value + width],
                         by_command: told_by_command.next(),
                     })
@@ -422,7 +418,7 @@ impl Told<'_> {
                 stability: None,
                 alternatives: judged.rivals.iter().map(alternative).collect(),
                 to_separate: (!judged.rivals.is_empty())
-                    .then(|| Some(term.effect.about().separated_by.to_owned())),
+                    .then(|| Some(term.effect.facts().separated_by.to_owned())),
             }
         };
         verdict.findings.iter().map(&mut tell).collect()

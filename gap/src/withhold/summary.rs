@@ -59,7 +59,7 @@ pub(super) fn report(
             let truth = plan.effects.iter().find(|e| e.identifier() == label.effect)?;
             Some((truth.identifier(), label, first(case)))
         })),
-        cannot_plant: hidden.into_iter().map(Effect::identifier).collect(),
+        cannot_plant: hidden.into_iter().map(|effect| effect.identifier()).collect(),
         failed: cases.iter().filter(|case| case.verdict.is_none()).count(),
         cases,
     }

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use stiffarm_gap::dice::{Dice, Stream};
-use stiffarm_gap::effects::About;
-use stiffarm_gap::log::effects::{LogEffect, Number, Spot};
+use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Domain, Scene};
 use stiffarm_gap::log::search::Round;
 use stiffarm_gap::log::search::case::{Case, Simple};
@@ -21,21 +20,20 @@ struct Unrelated;
 
 static UNRELATED: Unrelated = Unrelated;
 
-impl LogEffect for Unrelated {
-    fn identifier(&self) -> &'static str {
-        "unrelated"
+impl Law for Unrelated {
+    fn facts(&self) -> &'static Facts {
+        const FACTS: &Facts = &Facts {
+            identifier: "unrelated",
+            parameters: &[Parameter::free("size", Quantity::Ratio)],
+            ..Facts::TORQUE
+        };
+        FACTS
     }
+}
 
-    fn about(&self) -> About {
-        About::default()
-    }
-
+impl InMotion for Unrelated {
     fn spots(&self, _: &Scene<'_>) -> Vec<Spot> {
-        vec![Spot::Joint(0)]
-    }
-
-    fn numbers(&self) -> &'static [Number] {
-        &[("size", "1")]
+        vec![Spot::of_joint(0)]
     }
 
     fn columns(&self, scene: &Scene<'_>, _: Spot, _: &[f64]) -> Vec<Column> {
@@ -70,7 +68,7 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
         payloads: &[None],
         loaded: &[None],
     };
-    let wanted = [(&UNRELATED as &dyn LogEffect, Spot::Joint(0), vec![vec![0.0]])];
+    let wanted = [(&UNRELATED as &dyn InMotion, Spot::of_joint(0), vec![vec![0.0]])];
     let stock = Stock::of(&case, &Simple::default(), &wanted, 1);
     let round = Round::of(&stock, &[], &Links::Free, &[1.0], &[0], seed);
     (round.asked.chances[0], round.correlation[0])

@@ -12,12 +12,3 @@ mod rest;
 mod shrink;
 mod torque;
 mod written;
-
-/// The guide holds the catalogue as it is.
-#[test]
-fn the_guide_holds_the_catalogue() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/logs.md");
-    let guide = std::fs::read_to_string(path).expect("the guide");
-    let table = stiffarm_gap::log::effects::markdown();
-    assert!(guide.contains(&table), "put this into docs/logs.md:\n{table}");
-}

@@ -4,8 +4,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use stiffarm_gap::dice::{Dice, Stream};
-use stiffarm_gap::effects::About;
-use stiffarm_gap::log::effects::{Catalogue, LogEffect, Number, Spot};
+use stiffarm_gap::effects::{Facts, InMotion, Law, Laws, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Scene};
 use stiffarm_gap::log::{Log, LogOptions, Refused, Signal, diagnose, diagnosed_with};
 
@@ -20,21 +19,20 @@ const BRAKE: f64 = 6.0;
 /// A brake that holds the more the farther the joint is from zero, `brake · |q| sign(q̇)`.
 struct WideningBrake;
 
-impl LogEffect for WideningBrake {
-    fn identifier(&self) -> &'static str {
-        "widening_brake"
+impl Law for WideningBrake {
+    fn facts(&self) -> &'static Facts {
+        const FACTS: &Facts = &Facts {
+            identifier: "widening_brake",
+            parameters: &[Parameter::free("brake", Quantity::In("N·m/rad"))],
+            ..Facts::TORQUE
+        };
+        FACTS
     }
+}
 
-    fn about(&self) -> About {
-        About::default()
-    }
-
-    fn numbers(&self) -> &'static [Number] {
-        &[("brake", "N·m/rad")]
-    }
-
+impl InMotion for WideningBrake {
     fn columns(&self, scene: &Scene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
-        let Spot::Joint(joint) = spot else { return Vec::new() };
+        let joint = spot.row();
         vec![scene.column(joint, |k| scene.signals.q[joint][k].abs() * scene.sign(joint, k))]
     }
 }
@@ -56,7 +54,7 @@ fn recorded(seed: u64) -> Log {
 }
 
 fn options() -> LogOptions {
-    let catalogue = Catalogue::default().with(&WideningBrake);
+    let catalogue = Laws::<dyn InMotion>::default().with(&WideningBrake);
     LogOptions { band: Some(10.0), catalogue, ..LogOptions::default() }
 }
 

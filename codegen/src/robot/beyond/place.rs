@@ -18,14 +18,22 @@ pub enum Place {
     Arm,
     /// The measuring instrument.
     Instrument,
+    /// A motor that turns with the sum of two joints' values (1) or with their difference (−1).
+    Pair(usize, usize, i8),
+    /// What the tool holds in a run of a log.
+    Held(usize),
+    /// Between the controller and the arm.
+    Interface,
 }
 
 impl Place {
     /// Row of the table, from 0; the first for what is not at a row.
     pub fn row(self) -> usize {
         match self {
-            Place::Joint(number) | Place::Link(number) => number.saturating_sub(1),
-            Place::Base | Place::Tool | Place::Arm | Place::Instrument => 0,
+            Place::Joint(number) | Place::Link(number) | Place::Pair(number, ..) => {
+                number.saturating_sub(1)
+            }
+            _ => 0,
         }
     }
 }
@@ -39,11 +47,16 @@ impl fmt::Display for Place {
             Place::Tool => f.write_str("tool"),
             Place::Arm => f.write_str("arm"),
             Place::Instrument => f.write_str("instrument"),
+            Place::Pair(a, b, sum) => {
+                write!(f, "joints {a} {} {b}", if *sum > 0 { "+" } else { "−" })
+            }
+            Place::Held(run) => write!(f, "the tool in run {run}"),
+            Place::Interface => f.write_str("the interface"),
         }
     }
 }
 
-/// Reads what [`Place`] prints; spaces are as you like.
+/// Reads what [`Place`] prints of an arm at rest; spaces are as you like.
 impl FromStr for Place {
     type Err = ();
 

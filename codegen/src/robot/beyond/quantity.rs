@@ -44,10 +44,12 @@ macro_rules! quantities {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Quantity {
             $(#[doc = concat!("In ", $unit, ".")] $(#[$more])* $name,)*
+            /// In a unit of its own, of which no other is read.
+            In(&'static str),
         }
 
         impl Quantity {
-            /// All of them.
+            /// Those that have units of several sizes.
             pub const ALL: &[Quantity] = &[$(Quantity::$name),*];
 
             fn kind(self) -> Kind {
@@ -55,6 +57,7 @@ macro_rules! quantities {
                     $(Quantity::$name => {
                         ($unit, &$above[..], &$below[..], $power, $typical, $largest)
                     })*
+                    Quantity::In(unit) => (unit, &NONE[..], &NONE[..], 0, 1.0, ANY),
                 };
                 Kind { unit, above, below, power, typical, largest }
             }

@@ -49,7 +49,7 @@ impl Probe {
             Place::Link(number) => Site::Link(number - 1),
             Place::Joint(number) => Site::Joint(number - 1),
             Place::Tool => Site::Tool,
-            Place::Base | Place::Arm | Place::Instrument => Site::Base,
+            _ => Site::Base,
         };
         let whole = |part: f64| scene.carried(site, &units) * part;
         if let Some(carrier) = self.carrier() {

@@ -8,7 +8,9 @@ use stiffarm_kernels::generic::Arm;
 
 use super::Question;
 use crate::diagnose::fit::Fitted;
-use crate::effects::{Effect, JOINT_SPRING, Parameter, Place, Quantity, Scene, Spot};
+use crate::effects::{
+    At, AtRest, Facts, JOINT_SPRING, Law, Parameter, Place, Quantity, Scene, Spot,
+};
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -48,7 +50,7 @@ impl Unknown {
 
     /// The effect that adds to that, by `value`.
     pub(super) fn added(self, arm: &Arm, value: f64) -> Fitted {
-        let (effect, spot): (&'static dyn Effect, Spot) = match self {
+        let (effect, spot): (&'static dyn AtRest, Spot) = match self {
             Unknown::Joint(joint) => (JOINT_SPRING, Spot::at(Place::Joint(joint))),
             Unknown::Link(row) => (&LinkFlexibility, Spot::at(Place::Link(row))),
             Unknown::Base(form) => (&Foundation, Spot { place: Place::Base, form }),
@@ -78,11 +80,19 @@ impl fmt::Display for Unknown {
 /// A beam of the robot file is more flexible in all that it does, in proportion.
 struct LinkFlexibility;
 
-impl Effect for LinkFlexibility {
-    fn identifier(&self) -> &'static str {
-        "link_flexibility"
+impl Law for LinkFlexibility {
+    fn facts(&self) -> &'static Facts {
+        const FACTS: &Facts = &Facts {
+            identifier: "link_flexibility",
+            at: At::Links,
+            idle: "no load of this data reaches the link",
+            ..Facts::NONE
+        };
+        FACTS
     }
+}
 
+impl AtRest for LinkFlexibility {
     fn places(&self, arm: &Arm) -> Vec<Place> {
         let bends = |row: &usize| arm.joints[row - 1].beam.is_some();
         (1..=arm.dof()).filter(bends).map(Place::Link).collect()
@@ -108,24 +118,24 @@ impl Effect for LinkFlexibility {
         let gives = scene.state.displacement(site) * stiffer.unwrap_or(0.0);
         scene.carried(site, &[gives])
     }
-
-    fn idle(&self) -> &'static str {
-        "no load of this data reaches the link"
-    }
 }
 
 /// The foundation gives in one component of what acts on it, each form another.
 struct Foundation;
 
-impl Effect for Foundation {
-    fn identifier(&self) -> &'static str {
-        "foundation"
+impl Law for Foundation {
+    fn facts(&self) -> &'static Facts {
+        const FACTS: &Facts = &Facts {
+            identifier: "foundation",
+            at: At::Base,
+            idle: "no load of this data reaches the base",
+            ..Facts::NONE
+        };
+        FACTS
     }
+}
 
-    fn places(&self, _: &Arm) -> Vec<Place> {
-        vec![Place::Base]
-    }
-
+impl AtRest for Foundation {
     fn parameters(&self, _: &Arm, spot: Spot) -> Vec<Parameter> {
         let quantity =
             if spot.form < 3 { Quantity::LengthPerForce } else { Quantity::AnglePerMoment };
@@ -141,9 +151,5 @@ impl Effect for Foundation {
     fn block(&self, scene: &Scene<'_>, spot: Spot) -> Matrix6xX<f64> {
         let load = scene.state.load(Site::Base)[spot.form];
         scene.carried(Site::Base, &[Vector6::ith(spot.form, load)])
-    }
-
-    fn idle(&self) -> &'static str {
-        "no load of this data reaches the base"
     }
 }

@@ -6,14 +6,13 @@
 
 use super::fit::Term;
 use super::stock::Stock;
-use crate::log::effects::Spot;
 use crate::log::scene::Loads;
 
 use super::case::Simple;
 
 /// Whether a term stands beside another of these on any such arm.
 pub fn is_along(term: &Term, terms: &[Term]) -> bool {
-    let Spot::Joint(joint) = term.spot else { return false };
+    let Some(joint) = term.spot.joint() else { return false };
     let has = |other: &Term| {
         other.spot.pair().is_some_and(|pair| pair.contains(&joint))
             && other.effect.along().contains(&term.effect.identifier())

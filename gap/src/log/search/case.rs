@@ -5,6 +5,7 @@ use stiffarm_kernels::generic::Arm;
 use super::fit::{Fitted, Links};
 use super::ripples;
 use super::stock::{Mixed, Stock};
+use crate::effects::Place;
 use crate::log::effects::{COULOMB, LATENCY, LogEffect, OFFSET, Spot, VISCOUS};
 use crate::log::model::Acting;
 use crate::log::read::TorqueSide;
@@ -69,7 +70,7 @@ impl Simple {
             return Simple { delay: delay(case, &nothing, thinned), ..nothing };
         }
         let effects = [COULOMB, VISCOUS, OFFSET];
-        let spots = (0..joints).map(Spot::Joint);
+        let spots = (0..joints).map(Spot::of_joint);
         let wanted: Vec<Wanted> =
             spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]]))).collect();
         let stock = Stock::of(case, &nothing, &wanted, thinned);
@@ -93,8 +94,10 @@ impl Simple {
 fn delay(case: &Case<'_>, nothing: &Simple, thinned: usize) -> f64 {
     let case = Case { known: &[], ..*case };
     let loads = Loads::default();
-    let probes = LATENCY.probes(&case.scene(nothing, case.signals, &loads), Spot::Interface);
-    let stock = Stock::of(&case, nothing, &[(LATENCY, Spot::Interface, probes)], thinned);
+    let probes =
+        LATENCY.probes(&case.scene(nothing, case.signals, &loads), Spot::at(Place::Interface));
+    let stock =
+        Stock::of(&case, nothing, &[(LATENCY, Spot::at(Place::Interface), probes)], thinned);
     let sizes = stock.sizes(&[stock.left(&Links::Free, &[])], &[1.0]);
     let fits = (0..stock.offers[0].entries.len()).map(|entry| {
         let fit = Fitted::of(&stock, &[stock.term(0, entry)], &Links::Free, &sizes);

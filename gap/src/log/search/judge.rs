@@ -8,6 +8,7 @@ use super::candidates::Ground;
 use super::fit::{Fitted, Links, Term};
 use super::stock::Stock;
 use super::{Asked, CHANCE, Round, is_worse};
+use crate::effects::Place;
 use crate::log::effects::{LINKS, Spot};
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
@@ -39,7 +40,7 @@ impl Judged {
                 offer: usize::MAX,
                 entry: 0,
                 effect: LINKS,
-                spot: Spot::Arm,
+                spot: Spot::at(Place::Arm),
                 values: Vec::new(),
             };
             self.rivals.push((links, ratio.sqrt()));

@@ -39,7 +39,7 @@ impl Springs {
         let (mut columns, fitted) = (fit.columns.clone(), fit.columns.len());
         let mut asked = Vec::new();
         for offer in stock.offers.iter().filter(|offer| is_spring(offer.effect)) {
-            let Spot::Joint(joint) = offer.spot else { continue };
+            let Some(joint) = offer.spot.joint() else { continue };
             let terms = fit.terms.iter();
             let is_own = |t: &&super::fit::Term| is_spring(t.effect) && t.spot == offer.spot;
             let column = match terms.clone().find(is_own) {
@@ -133,7 +133,7 @@ impl Model {
         let lacking = held.iter().filter(|(_, column, _)| column >= fitted);
         model.terms.extend(lacking.map(|(joint, _, value)| Acting {
             effect: *effect,
-            spot: Spot::Joint(*joint),
+            spot: Spot::of_joint(*joint),
             values: vec![*value],
         }));
         model

@@ -7,8 +7,8 @@ use core::f64::consts::FRAC_PI_2;
 use nalgebra::Matrix3;
 
 use super::*;
+use crate::effects::IN_MOTION;
 use crate::fixture::rigid;
-use crate::log::effects::CATALOGUE;
 use crate::log::{Domain, Log, Names, Signal, TorqueSide};
 use crate::motion::{Fourier, Limits, State};
 
@@ -355,14 +355,16 @@ fn what_moves_no_mass_is_refused() {
 /// Names, rows and numbers are those of the catalogue, as far as it knows them.
 #[test]
 fn laws_are_called_as_in_the_catalogue() {
-    for effect in CATALOGUE {
+    for effect in IN_MOTION {
         let law = Law::named(effect.identifier());
         let Some(law) = law else { panic!("no law for {}", effect.identifier()) };
         let rows = if effect.domain() == Domain::Torque { Rows::Torque } else { Rows::Position };
         assert!(law.rows.contains(&rows), "{}", law.name);
         // An effect may have several forms; the plant has one of them.
-        let same = CATALOGUE.iter().filter(|other| other.identifier() == law.name);
-        let found: Vec<_> = same.map(|other| other.numbers().to_vec()).collect();
+        let same = IN_MOTION.iter().filter(|other| other.identifier() == law.name);
+        let found: Vec<Vec<(&str, &str)>> = same
+            .map(|other| other.parameters().iter().map(|p| (p.key, p.quantity.unit())).collect())
+            .collect();
         assert!(found.contains(&law.numbers.to_vec()), "{}: {found:?}", law.name);
     }
 }
