@@ -19,6 +19,9 @@ pub struct Args {
     /// Write the list as JSON to OUT (standard output if there is no OUT)
     #[arg(long, value_name = "OUT", num_args = 0..=1, default_missing_value = "-")]
     json: Option<Target>,
+    /// Print the JSON Schema of a robot file, for editors
+    #[arg(long, conflicts_with = "json")]
+    schema: bool,
 }
 
 /// One robot of the list.
@@ -40,6 +43,10 @@ struct Entry {
 /// # Errors
 /// [`Failure`] if the list cannot be written.
 pub fn run(args: &Args) -> Result<Verdict, Failure> {
+    if args.schema {
+        print(&Robot::json_schema())?;
+        return Ok(Verdict::Good);
+    }
     let ids = ARMS.iter().map(|arm| arm.id).chain(SYMBOLIC.iter().map(|arm| arm.id));
     let entries: Vec<Entry> = ids.map(entry).collect::<Result<_, _>>()?;
     match &args.json {

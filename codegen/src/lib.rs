@@ -11,10 +11,12 @@ pub mod emit;
 #[cfg(feature = "macro")]
 mod expand;
 pub mod expr;
+mod frontends;
 pub mod number;
 mod out_dir;
 pub mod program;
 pub mod robot;
+mod schema;
 
 #[cfg(feature = "macro")]
 pub use expand::expand;

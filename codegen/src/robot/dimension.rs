@@ -79,6 +79,14 @@ impl Dimension {
         }
     }
 
+    /// What the travel of a joint is measured as.
+    pub(crate) fn displacement(motion: Motion) -> Dimension {
+        match motion {
+            Motion::Revolute => Dimension::Angle,
+            Motion::Prismatic => Dimension::Length,
+        }
+    }
+
     /// The SI unit in which the table keeps the quantity; empty for a pure number.
     pub fn unit(self) -> &'static str {
         match self {

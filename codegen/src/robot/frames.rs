@@ -2,12 +2,10 @@
 
 use stiffarm_kernels::{Part, Side};
 
-use super::draft::{Cell, DraftNamedFrame, JointName};
-use super::model::{At, Joint, NamedFrame, Output, Robot};
+use super::model::{At, Output, Robot};
 use super::names::no_module;
 use super::problem::{Place, Problem, Report};
 use super::suggest::advice;
-use super::validate::frame;
 
 /// An output that is asked for: `jacobian`, or `jacobian at elbow`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -134,45 +132,10 @@ impl Robot {
 }
 
 /// Has generated of a robot what is asked for.
-pub(crate) fn ask<L: Place>(robot: &mut Robot, asked: &[Cell<Asked, L>], report: &mut Report<L>) {
-    // A table without a joint has its error already.
-    if robot.dof() == 0 {
-        return;
-    }
-    for Cell { value, at } in asked {
-        if let Some(Err(no)) = value.as_ref().map(|asked| robot.ask(asked)) {
+pub(crate) fn ask<L: Place>(robot: &mut Robot, asked: &[(Asked, L)], report: &mut Report<L>) {
+    for (asked, at) in asked {
+        if let Err(no) = robot.ask(asked) {
             report.error(Problem::new(at.clone(), no.message).help(no.help));
         }
     }
-}
-
-/// A named frame on one of the joints' links; `None` where that cannot be told, which is reported.
-pub(crate) fn named<L: Place>(
-    draft: &DraftNamedFrame<L>,
-    joints: &[Joint],
-    report: &mut Report<L>,
-) -> Option<NamedFrame> {
-    if let Some((message, help)) = draft.name.value.as_deref().and_then(no_module) {
-        report.error(Problem::new(draft.name.at.clone(), message).help(help));
-    }
-    let found = match draft.joint.value.as_ref()? {
-        JointName::Number(k) => k.checked_sub(1).filter(|row| *row < joints.len()),
-        JointName::Label(label) => joints.iter().position(|joint| joint.name == *label),
-    };
-    let Some(row) = found else {
-        let (told, labels) = match draft.joint.value.as_ref()? {
-            JointName::Number(k) => (format!("joint {k}"), Vec::new()),
-            JointName::Label(label) => {
-                (format!("`{label}`"), joints.iter().map(|joint| joint.name.as_str()).collect())
-            }
-        };
-        let message = format!("{told} is no joint of this arm");
-        let help = match (&draft.joint.value, joints.len()) {
-            (Some(JointName::Label(label)), _) => advice(label, &labels),
-            (_, n) => format!("its joints are 1 to {n}, or their names"),
-        };
-        report.error(Problem::new(draft.joint.at.clone(), message).help(help));
-        return None;
-    };
-    Some(NamedFrame { name: draft.name.value.clone()?, row, frame: frame(&draft.frame) })
 }

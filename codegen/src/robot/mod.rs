@@ -1,39 +1,34 @@
-//! The table: units, exact angles, TOML and token parsing, validation, into one [`Robot`].
+//! The model: what a robot file or an inline table says, with the grammar of its cells, in SI units and exact angles.
 //!
-//! A robot file ([`Robot::from_toml`]) and the macro's inline table (`parse_tokens`, feature `macro`) are read
-//! into one draft whose cells know their places, cell by cell with the same words and the same
-//! grammar, and one validator makes the [`Robot`]: the same mistake has the same message in both.
-//! With the feature `urdf` a [`Robot`] can be made of a URDF.
+//! What fields there are is told in `schema`, what a [`Robot`] is read from in `frontends`: the same mistake has the same
+//! message in a robot file ([`Robot::from_toml`]) and in the macro's table (`parse_tokens`, feature `macro`).
 
-mod angle;
+pub(crate) mod angle;
 pub mod beyond;
-mod decimal;
+pub(crate) mod decimal;
 mod diagnostic;
 mod dimension;
-mod draft;
-mod frames;
-#[cfg(all(test, feature = "macro"))]
-mod fuzz;
-mod inertia;
-mod lexeme;
+pub(crate) mod frames;
+pub(crate) mod inertia;
+pub(crate) mod lexeme;
 mod model;
-mod names;
+pub(crate) mod names;
 mod payload;
-mod pi;
-mod problem;
-mod quantity;
+pub(crate) mod pi;
+pub(crate) mod problem;
+pub(crate) mod quantity;
 mod section;
-mod space;
-mod suggest;
-mod symbols;
-#[cfg(feature = "macro")]
-mod tokens;
-mod toml;
-mod units;
-#[cfg(feature = "urdf")]
-pub mod urdf;
-mod validate;
+pub(crate) mod space;
+pub(crate) mod suggest;
+pub(crate) mod units;
 
+#[cfg(feature = "macro")]
+pub use crate::frontends::tokens::{
+    File, Invocation, Outline, Rejected, Source, SpannedError, parse_tokens,
+};
+#[cfg(feature = "urdf")]
+pub use crate::frontends::urdf;
+pub use crate::schema::Symbol;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused};
@@ -44,6 +39,3 @@ pub use model::{
 pub(crate) use names::is_keyword;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;
-pub use symbols::Symbol;
-#[cfg(feature = "macro")]
-pub use tokens::{File, Invocation, Outline, Rejected, Source, SpannedError, parse_tokens};

@@ -93,7 +93,7 @@ pub struct Drive {
 }
 
 /// A prismatic elastic beam.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beam {
     /// E, Pa.
     pub youngs_modulus: Value,
@@ -110,7 +110,7 @@ pub struct Beam {
 /// A cross-section: area and second moments. The beam's x runs along the chord between the two
 /// frame origins; z is the part of the previous joint's axis that is perpendicular to the chord
 /// (the plane in which that joint swings the link is then the x-y plane, bent about z).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// A, m².
     pub area: Value,
@@ -132,7 +132,7 @@ pub struct Frame {
 }
 
 /// A frame with a name, fixed in the frame of a row as a link's mass is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedFrame {
     /// Its name, which becomes a module's.
     pub name: String,
@@ -152,7 +152,7 @@ pub struct At {
 }
 
 /// A measured point on the tool.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marker {
     /// The name that measurement files use.
     pub name: String,
@@ -210,7 +210,7 @@ impl PartialEq for Spot {
 }
 
 /// A load that rows of data name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Payload {
     /// Its name.
     pub name: String,
@@ -280,6 +280,58 @@ impl Angle {
             Angle::Radians(n) => Some(n.to_f64()),
             Angle::Symbol(_) => None,
         }
+    }
+}
+
+impl Default for Robot {
+    /// A robot without joints, under standard gravity.
+    fn default() -> Self {
+        let down = Value::Number(Number::ratio(-980_665, 100_000));
+        Robot {
+            name: String::new(),
+            convention: Convention::Standard,
+            gravity: [Value::ZERO, Value::ZERO, down],
+            torque_side: None,
+            joints: Vec::new(),
+            base: Frame::default(),
+            tool: Frame::default(),
+            frames: Vec::new(),
+            markers: Vec::new(),
+            effects: Vec::new(),
+            beyond: Beyond::default(),
+            payloads: Vec::new(),
+            outputs: Vec::new(),
+            at: Vec::new(),
+        }
+    }
+}
+
+impl Default for Joint {
+    /// A revolute joint of which nothing is told.
+    fn default() -> Self {
+        Joint {
+            name: String::new(),
+            motion: Motion::Revolute,
+            theta: Angle::ZERO,
+            d: Value::ZERO,
+            a: Value::ZERO,
+            alpha: Angle::ZERO,
+            beta: Angle::ZERO,
+            stiffness: None,
+            mass: None,
+            com: [const { Value::ZERO }; 3],
+            inertia: None,
+            drive: Drive::default(),
+            limits: None,
+            source: None,
+            beam: None,
+        }
+    }
+}
+
+impl Default for Value {
+    fn default() -> Self {
+        Value::ZERO
     }
 }
 

@@ -1,9 +1,5 @@
 //! The names in a table: joints, markers and symbolic parameters.
 
-use std::collections::HashMap;
-
-use super::dimension::Dimension;
-use super::draft::Draft;
 use super::problem::{Place, Problem, Report};
 
 /// Names that a parameter cannot have because the generated code means something else by them.
@@ -12,61 +8,6 @@ const RESERVED: [(&str, &str); 3] = [
     ("w", "`w` is the wrench in the generated code"),
     ("pi", "`pi` is the number π"),
 ];
-
-/// Checks that names are unique where they must be, and that parameters can be fields of a struct.
-pub(crate) fn check<L: Place>(draft: &Draft<L>, report: &mut Report<L>) {
-    let joints = draft.joints.iter().filter_map(|j| j.name.as_ref());
-    unique("joint", joints.filter_map(|c| Some((c.value.as_deref()?, &c.at))), report);
-    let markers = draft.markers.iter();
-    unique("marker", markers.filter_map(|m| Some((m.name.value.as_deref()?, &m.name.at))), report);
-    let frames = draft.frames.iter();
-    unique("frame", frames.filter_map(|f| Some((f.name.value.as_deref()?, &f.name.at))), report);
-    let payloads = draft.payloads.iter();
-    unique(
-        "payload",
-        payloads.filter_map(|p| Some((p.name.value.as_deref()?, &p.name.at))),
-        report,
-    );
-    let texts =
-        [&draft.name].into_iter().flatten().chain(draft.joints.iter().flat_map(|j| &j.source));
-    texts
-        .filter_map(|c| Some((c.value.as_deref()?, &c.at)))
-        .for_each(|(t, at)| plain(t, at, report));
-    let mut seen: HashMap<&str, Dimension> = HashMap::new();
-    // The joint variable is misplaced wherever it stands; another name is refused once.
-    draft.each_symbol(&mut |name, dimension, at| match seen.get(name).filter(|_| name != "q") {
-        None => {
-            seen.insert(name, dimension);
-            if let Some((message, help)) = refused(name) {
-                report.error(Problem::new(at.clone(), message).help(help));
-            }
-        }
-        Some(first) if *first != dimension && refused(name).is_none() => {
-            let message =
-                format!("`{name}` is {first} where it first stands, and {dimension} here");
-            let help = "one parameter is one quantity: use two names";
-            report.error(Problem::new(at.clone(), message).help(help));
-        }
-        Some(_) => {}
-    });
-}
-
-fn unique<'a, L: Place + 'a>(
-    what: &str,
-    names: impl Iterator<Item = (&'a str, &'a L)>,
-    report: &mut Report<L>,
-) {
-    let mut seen: Vec<&str> = Vec::new();
-    for (name, at) in names {
-        if name.trim().is_empty() {
-            report.error(Problem::new(at.clone(), format!("a {what} without a name")));
-        } else if seen.contains(&name) {
-            report.error(Problem::new(at.clone(), format!("two {what}s are called `{name}`")));
-        }
-        plain(name, at, report);
-        seen.push(name);
-    }
-}
 
 /// A name stands in comments, messages and pages: a line break in it would be theirs.
 pub(crate) fn plain<L: Place>(text: &str, at: &L, report: &mut Report<L>) {
@@ -91,7 +32,7 @@ pub(crate) fn no_module(name: &str) -> Option<(String, &'static str)> {
 }
 
 /// Why a name cannot be a parameter's, and what to do.
-fn refused(name: &str) -> Option<(String, &'static str)> {
+pub(crate) fn refused(name: &str) -> Option<(String, &'static str)> {
     let help = "choose another name";
     if let Some((_, message)) = RESERVED.iter().find(|(reserved, _)| *reserved == name) {
         return Some(((*message).to_owned(), help));

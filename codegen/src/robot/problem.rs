@@ -2,15 +2,24 @@
 
 use core::ops::Range;
 
+use super::model::Spot;
+
 /// A place in the input: a byte range of a file, or a pair of token spans.
 pub(crate) trait Place: Clone {
     /// From the start of this place to the end of the other.
     fn to(&self, end: &Self) -> Self;
+
+    /// The same as the model keeps it: [`Spot`], whose line the reader of the file fills in.
+    fn spot(&self) -> Spot;
 }
 
 impl Place for Range<usize> {
     fn to(&self, end: &Self) -> Self {
         self.start.min(end.start)..self.end.max(end.end)
+    }
+
+    fn spot(&self) -> Spot {
+        Spot { span: self.clone(), line: 0 }
     }
 }
 
