@@ -129,7 +129,8 @@ fn plain_radians<L: Place>(number: Number, words: &[Lexeme<L>], whole: L) -> Dou
         let shown = format!("{sign}{}", show(words));
         let message = format!("{shown} radians is {turns:.1} turns: for degrees write {shown} deg");
         let doubt = Problem::new(whole, message);
-        return (angle, Some(doubt.help(format!("if radians are meant, write {shown} rad"))));
+        let doubt = doubt.help(format!("if radians are meant, write {shown} rad"));
+        return (angle, Some(doubt.cause("degrees")));
     }
     (angle, doubt)
 }

@@ -44,7 +44,8 @@ pub struct FileError {
 impl Located {
     /// A remark on what stands at a place of a file.
     pub fn at(path: &str, text: &str, spot: &Spot, message: String, help: Option<String>) -> Self {
-        Located::new(path, text, Problem { at: spot.span.clone(), message, help })
+        let problem = Problem { help, ..Problem::new(spot.span.clone(), message) };
+        Located::new(path, text, problem)
     }
 
     pub(crate) fn new(path: &str, text: &str, problem: Problem<Range<usize>>) -> Self {
@@ -70,17 +71,46 @@ impl Located {
         Located::new(path, text, Problem::new(0..0, message))
     }
 
-    /// Sorted by place; the same remark twice is one.
+    /// Sorted by place. The same remark twice is one, and so is what one habit has made many times: it is told at its
+    /// first place, with the lines of the others.
     pub(crate) fn all(
         path: &str,
         text: &str,
         mut problems: Vec<Problem<Range<usize>>>,
     ) -> Vec<Self> {
         problems.sort_by_key(|p| (p.at.start, p.at.end));
-        let mut located: Vec<_> =
-            problems.into_iter().map(|p| Located::new(path, text, p)).collect();
-        located.dedup();
-        located
+        let mut told: Vec<(&str, Located, Vec<usize>)> = Vec::new();
+        for problem in problems {
+            let cause = problem.cause;
+            let new = Located::new(path, text, problem);
+            let same = |(known, first, _): &&mut (&str, Located, _)| match cause {
+                "" => {
+                    known.is_empty() && (&first.message, &first.help) == (&new.message, &new.help)
+                }
+                cause => *known == cause,
+            };
+            match told.iter_mut().find(same) {
+                Some((_, first, lines)) if first.line != new.line => lines.push(new.line),
+                Some(_) => {}
+                None => told.push((cause, new, Vec::new())),
+            }
+        }
+        told.into_iter().map(|(_, first, lines)| first.repeated(lines)).collect()
+    }
+
+    /// The same remark on further lines.
+    fn repeated(mut self, mut lines: Vec<usize>) -> Self {
+        lines.dedup();
+        let numbers: Vec<String> = lines.iter().map(usize::to_string).collect();
+        if let Some((last, before)) = numbers.split_last() {
+            let lines = match before.is_empty() {
+                true => format!("line {last}"),
+                false => format!("lines {} and {last}", before.join(", ")),
+            };
+            let help = self.help.take().map(|help| help + "; ").unwrap_or_default();
+            self.help = Some(format!("{help}the same stands in {lines}"));
+        }
+        self
     }
 }
 

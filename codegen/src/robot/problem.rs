@@ -32,18 +32,25 @@ pub(crate) struct Problem<L> {
     pub message: String,
     /// How to mend it, where that is known.
     pub help: Option<String>,
+    /// What made it, where one habit makes many: a file tells these once. Empty for a mistake of its own.
+    pub cause: &'static str,
 }
 
 impl<L> Problem<L> {
     /// A mistake at a place.
     pub fn new(at: L, message: impl Into<String>) -> Self {
-        Problem { at, message: message.into(), help: None }
+        Problem { at, message: message.into(), help: None, cause: "" }
     }
 
     /// The same mistake with advice.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
+    }
+
+    /// One of many mistakes of a habit.
+    pub fn cause(self, cause: &'static str) -> Self {
+        Problem { cause, ..self }
     }
 }
 
@@ -87,10 +94,7 @@ mod tests {
         let mut report = Report::new();
         assert_eq!(report.keep(Ok::<_, Problem<Range<usize>>>(1)), Some(1));
         assert_eq!(report.keep::<i32>(Err(Problem::new(3..4, "no").help("yes"))), None);
-        assert_eq!(
-            report.errors,
-            [Problem { at: 3..4, message: "no".into(), help: Some("yes".into()) }]
-        );
+        assert_eq!(report.errors, [Problem::new(3..4, "no").help("yes")]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Reads single values; what does not fit is reported at its place and leaves nothing.
 
 use super::node::{Content, Node};
-use crate::robot::lexeme::Lexeme;
+use crate::robot::lexeme::{Lexeme, show};
 use crate::robot::names::plain;
 use crate::robot::problem::{Place, Problem, Report};
 use crate::robot::suggest::advice;
@@ -33,6 +33,8 @@ pub(crate) struct Reader<'r, L> {
     pub motion: Option<Motion>,
     /// The labels of the joints.
     pub labels: Vec<String>,
+    /// The arm's lengths that stand without a unit: as written, m, and where.
+    pub lengths: Vec<(String, f64, L)>,
 }
 
 /// What a cell is to hold.
@@ -47,7 +49,8 @@ pub(crate) struct Expected {
 impl<'r, L: Place> Reader<'r, L> {
     /// A reader of a language.
     pub fn new(language: Language, report: &'r mut Report<L>) -> Self {
-        Reader { language, report, uses: Vec::new(), motion: None, labels: Vec::new() }
+        let (uses, labels, lengths) = (Vec::new(), Vec::new(), Vec::new());
+        Reader { language, report, uses, motion: None, labels, lengths }
     }
 
     /// Reports a mistake with its advice.
@@ -118,7 +121,13 @@ impl<'r, L: Place> Reader<'r, L> {
         let value = self.report.keep(quantity::read(words, expected.dimension, &node.at))?;
         match &value {
             Value::Symbol(name) => self.parameter(name, node, expected).then_some(value),
-            Value::Number(_) => Some(value),
+            Value::Number(number) => {
+                let own = expected.dimension == Dimension::Length && expected.number.is_none();
+                if own && words.iter().all(|word| word.name().is_none()) {
+                    self.lengths.push((show(words), number.to_f64().abs(), node.at.clone()));
+                }
+                Some(value)
+            }
         }
     }
 

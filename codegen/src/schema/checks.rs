@@ -7,7 +7,7 @@ use super::read::{Record, TENSOR};
 use crate::number::Number;
 use crate::robot::inertia::unphysical;
 use crate::robot::names::{no_module, refused};
-use crate::robot::problem::Place;
+use crate::robot::problem::{Place, Problem};
 use crate::robot::{Dimension, Joint, Motion, Value};
 
 /// More joints than any arm has; a bound on the work that a file can ask for.
@@ -103,6 +103,22 @@ pub(super) fn beam<L: Place>(record: &Record<L>, reader: &mut Reader<'_, L>) {
     if let Some(at) = record.at("density").filter(|_| slides) {
         let message = "a density on a prismatic joint's beam: its length changes";
         reader.refuse(at, message, "give the link's `mass` and `com` instead");
+    }
+}
+
+/// Lengths of an arm that are told in metres. No arm is longer than the longest concrete pump, whose boom reaches 101 m:
+/// where numbers without a unit add up to more, they are millimetres.
+pub(super) fn size<L: Place>(reader: &mut Reader<'_, L>) {
+    const LONGEST: f64 = 101.0;
+    let lengths = core::mem::take(&mut reader.lengths);
+    let sum: f64 = lengths.iter().map(|(_, length, _)| length).sum();
+    let largest = lengths.into_iter().rev().max_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((shown, _, at)) = largest.filter(|_| sum > LONGEST) {
+        let message = format!(
+            "the lengths of this arm add up to {sum:.0} m, more than any has: for millimetres write {shown} mm"
+        );
+        let help = format!("a length without a unit is in metres; if these are, write {shown} m");
+        reader.report.warn(Problem::new(at, message).help(help));
     }
 }
 

@@ -58,6 +58,7 @@ pub(crate) fn read<L: Place>(root: &Node<L>, language: Language, report: &mut Re
     let mut robot = Robot::default();
     let record = reader.table(ROBOT, "a robot file", root, &mut robot);
     checks::parameters(&mut reader);
+    checks::size(&mut reader);
     if let Some(table) = root.table().filter(|_| robot.dof() > 0) {
         let outputs = table.get("outputs").map(|node| outputs(node, &mut reader));
         ask(&mut robot, &outputs.unwrap_or_default(), reader.report);

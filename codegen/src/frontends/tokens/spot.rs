@@ -70,7 +70,7 @@ impl SpannedError {
 
 impl From<Problem<Spot>> for SpannedError {
     fn from(problem: Problem<Spot>) -> Self {
-        let Problem { at, message, help } = problem;
+        let Problem { at, message, help, .. } = problem;
         SpannedError { span: at.start, end: at.end, message, help }
     }
 }

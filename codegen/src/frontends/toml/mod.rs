@@ -42,7 +42,7 @@ impl Robot {
         let (robot, warnings) = Robot::from_toml(text, path)?;
         let robot = robot.with_effects().map_err(|wrong| {
             let problem =
-                |e: EffectError| Problem { at: e.at.span, message: e.message, help: e.help };
+                |e: EffectError| Problem { help: e.help, ..Problem::new(e.at.span, e.message) };
             let errors = wrong.into_iter().map(problem).collect();
             FileError::new(path, text, Report { errors, ..Report::new() })
         })?;

@@ -21,7 +21,7 @@ pub fn invoked(
     (base, tip): (Option<&str>, Option<&str>),
 ) -> Result<(Robot, Vec<String>), Vec<Located>> {
     let told = |at: Option<Range<usize>>, message, help| {
-        let problem = Problem { at: at.unwrap_or(0..0), message, help };
+        let problem = Problem { help, ..Problem::new(at.unwrap_or(0..0), message) };
         vec![Located::new(path, text, problem)]
     };
     let refused = |refusal: Refusal| {

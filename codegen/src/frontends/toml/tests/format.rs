@@ -186,9 +186,42 @@ fn a_rounded_angle_is_a_warning() {
     let degrees = format!("{HEAD}{JOINT}limits = [-180, 180]\n");
     let (_, warnings) = Robot::from_toml(&degrees, "arm.toml").unwrap();
     assert_eq!(warnings[0].message, "-180 radians is 28.6 turns: for degrees write -180 deg");
-    assert_eq!(warnings.len(), 2);
+    assert_eq!(warnings.len(), 1);
     let exact = read(&format!("{HEAD}{JOINT}alpha = 1.5707963267948966\n"));
     assert_eq!(exact.joints[0].alpha, Angle::Pi(Ratio::new(1, 2)));
+}
+
+/// Degrees, millimetres, a key that is misspelt in each row: one habit is told once, where it first stands.
+#[test]
+fn a_habit_is_told_once() {
+    let warned = |rows: &str| {
+        let (_, warnings) = Robot::from_toml(&format!("{HEAD}{rows}"), "arm.toml").unwrap();
+        let shown = warnings.iter().map(|w| {
+            format!("{}:{} {} | {}", w.line, w.column, w.message, w.help.as_deref().unwrap_or(""))
+        });
+        shown.collect::<Vec<_>>()
+    };
+    let row = format!("{JOINT}alpha = 90\nlimits = [-180, 180]\n");
+    assert_eq!(
+        warned(&row.repeat(3)),
+        [
+            "5:9 90 radians is 14.3 turns: for degrees write 90 deg | if radians are meant, write 90 rad; \
+             the same stands in lines 6, 9, 10, 13 and 14"
+        ]
+    );
+    let row = format!("{JOINT}a = 350\nd = \"0.5 m\"\ncom = [100, 0, 0]\nmass = 3\n");
+    assert_eq!(
+        warned(&row.repeat(2)),
+        [
+            "5:5 the lengths of this arm add up to 900 m, more than any has: for millimetres write 350 mm | \
+             a length without a unit is in metres; if these are, write 350 m"
+        ]
+    );
+    assert_eq!(warned(&format!("{JOINT}a = \"350 m\"\nd = -60\n")), [""; 0]);
+    assert_eq!(
+        errors(&format!("{HEAD}{}", format!("{JOINT}alhpa = 0\n").repeat(2))),
+        ["5:1 unknown key `alhpa` in [[joint]] | did you mean `alpha`?; the same stands in line 8"]
+    );
 }
 
 #[test]

@@ -166,8 +166,8 @@ fn what_lies_beyond_the_table_is_pointed_at() {
              `docs/gap.md`",
             "6:9 a number stands where a string is expected | write place = \"joint 2\", \"link 3\", \
              \"base\", \"tool\", \"arm\"",
-            "7:7 a number in SI units, or a string with a number and its unit, is expected",
-            "8:7 a number in SI units, or a string with a number and its unit, is expected",
+            "7:7 a number in SI units, or a string with a number and its unit, is expected | \
+             the same stands in line 8",
         ]
     );
     assert_eq!(at("effect = 1\n").len(), 1);
