@@ -4,11 +4,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::{Log, Names, Signal};
 use stiffarm_gap::measurement::bytes;
 use stiffarm_gap::motion::{Course, Fourier, Limits, Sampled};
 use stiffarm_gap::plant::motion::{Logged, Recording, Side, Stage};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use crate::input::quantity;
@@ -171,9 +171,9 @@ impl Courses {
             return Err(Failure::new("--period: found 0 s, expected more"));
         }
         let limits = motion.limits(arm)?;
-        let mut dice = Dice::new(seed, Stream::Poses);
+        let mut rng = Rng::new(seed, Stream::Poses);
         let draw = |_| -> Box<dyn Course> {
-            Box::new(Fourier::draw(&limits, period, harmonics, &mut dice))
+            Box::new(Fourier::draw(&limits, period, harmonics, &mut rng))
         };
         Ok(Courses((0..record.runs).map(draw).collect()))
     }

@@ -15,7 +15,6 @@ pub mod compensate;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
-pub mod dice;
 pub mod displacement;
 pub mod doubts;
 pub mod effects;
@@ -31,9 +30,9 @@ pub mod performance;
 pub mod plant;
 pub mod pool;
 pub mod predicted;
-pub mod random;
 pub mod readings;
 pub mod report;
+pub mod rng;
 pub mod robot;
 pub mod shrink;
 pub mod simulate;
@@ -43,3 +42,5 @@ pub mod withhold;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
 pub use measurement::{Measurements, ReadError};
+#[doc(hidden)]
+pub use rng as dice; // alias: old path

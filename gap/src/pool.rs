@@ -149,11 +149,9 @@ fn between(arms: &[Estimate]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
 
     use super::*;
-    use crate::random::normal;
+    use crate::rng::{Rng, Stream};
 
     fn arms(values: &[f64], error: f64) -> Vec<Estimate> {
         values.iter().map(|value| Estimate { value: *value, error }).collect()
@@ -201,11 +199,11 @@ mod tests {
     /// and five times that is allowed.
     #[test]
     fn what_is_gained_is_what_the_theory_says() {
-        let mut dice = ChaCha8Rng::seed_from_u64(1);
+        let mut rng = Rng::new(1, Stream::Starts);
         let drawn: Vec<[f64; 2]> = (0..2000)
             .map(|_| {
-                let truth = 10.0 + normal(&mut dice);
-                [truth, truth + 2.0 * normal(&mut dice)]
+                let truth = 10.0 + rng.normal();
+                [truth, truth + 2.0 * rng.normal()]
             })
             .collect();
         let own = |[_, value]: &[f64; 2]| Estimate { value: *value, error: 2.0 };
@@ -219,11 +217,10 @@ mod tests {
     /// Arms that are like the others stand out at 5 % in one of twenty; one that is not, does.
     #[test]
     fn an_arm_stands_out_as_often_as_it_says() {
-        let mut dice = ChaCha8Rng::seed_from_u64(2);
+        let mut rng = Rng::new(2, Stream::Starts);
         let mut out = 0;
         for _ in 0..2000 {
-            let mut draw =
-                || Estimate { value: normal(&mut dice) + 0.5 * normal(&mut dice), error: 0.5 };
+            let mut draw = || Estimate { value: rng.normal() + 0.5 * rng.normal(), error: 0.5 };
             let pool = Pool::of(&[(); 12].map(|()| draw())).unwrap();
             out += usize::from(pool.p_value(draw()) < 0.05);
         }

@@ -12,11 +12,10 @@
 //! diagnosis does not know and could tell.
 
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::dice::{Dice, Stream};
-use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::withhold::logs::{LogCase, LogPlan, LogReport, withhold};
 use stiffarm_gap::withhold::{Kind, Named};
 use stiffarm_kernels::generic::Arm;
@@ -125,8 +124,8 @@ fn run(setting: &Setting, cases: usize, seed: u64) -> LogReport {
     let arm = arm(setting.robot);
     let limits = Limits::of(&arm, &[1.5], &[5.0]).expect("joints with limits");
     let course = |k: usize| {
-        let mut dice = Dice::new(seed + k as u64, Stream::Poses);
-        Fourier::draw(&limits, setting.period, setting.harmonics, &mut dice)
+        let mut rng = Rng::new(seed + k as u64, Stream::Poses);
+        Fourier::draw(&limits, setting.period, setting.harmonics, &mut rng)
     };
     let courses: Vec<Fourier> = (0..setting.runs).map(course).collect();
     let stages: Vec<Stage<'_>> =

@@ -10,12 +10,10 @@ mod steps;
 mod tests;
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::{CompensateError, finite};
-use crate::random::between;
+use crate::rng::{Rng, Stream};
 use crate::robot::ranges;
 use crate::whole::{Situation, Whole};
 
@@ -117,10 +115,10 @@ pub fn reach<'a>(
             return Ok(end.unwrap_or_else(|| nothing(arm, start)));
         }
     };
-    let mut random = ChaCha8Rng::seed_from_u64(search.seed);
+    let mut rng = Rng::new(search.seed, Stream::Starts);
     let mut reached: Option<(f64, steps::Point)> = None;
     for _ in 0..search.starts {
-        let from: Vec<f64> = bounds.iter().map(|b| between(&mut random, *b)).collect();
+        let from = rng.point(&bounds);
         let Some(end) = task.settle(&from) else { continue };
         let end = task.turned_back(end);
         if task.reached(&end) {

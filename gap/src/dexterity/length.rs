@@ -3,14 +3,12 @@
 
 use core::f64::consts::PI;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use super::search::climb;
 use super::{Best, DexterityError, best_length};
-use crate::random::between;
+use crate::rng::{Rng, Stream};
 use crate::robot::ranges;
 
 /// How to search.
@@ -65,13 +63,9 @@ pub fn characteristic_length(arm: &Arm, search: Search) -> Result<Characteristic
         *range = [-PI, PI];
     }
     let value = |q: &[f64]| best_length(arm, q).map_or(f64::NAN, |best| best.inverse_condition);
-    let mut random = ChaCha8Rng::seed_from_u64(search.seed);
+    let mut rng = Rng::new(search.seed, Stream::Starts);
     let ends: Vec<(Vec<f64>, f64)> = (0..search.starts)
-        .map(|_| {
-            let start: Vec<f64> =
-                bounds.iter().map(|within| between(&mut random, *within)).collect();
-            climb(&start, &bounds, value)
-        })
+        .map(|_| climb(&rng.point(&bounds), &bounds, value))
         .filter(|(_, height)| height.is_finite())
         .collect();
     let best = ends.iter().max_by(|a, b| a.1.total_cmp(&b.1));

@@ -111,10 +111,10 @@ impl Search<'_, '_> {
 mod tests {
     use super::super::tests::{data, normal};
     use super::LeftOut;
-    use crate::diagnose::data::{Stream, generator};
     use crate::diagnose::{Options, diagnose};
     use crate::fixture::bent;
     use crate::measurement::Kind;
+    use crate::rng::{Rng, Stream};
     use crate::simulate::simulate;
 
     #[test]
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn ordinary_calibration_is_one_finding_or_fitted_along() {
         let mut plant = bent();
-        let mut dice = generator(3, Stream::Signs);
+        let mut dice = Rng::new(3, Stream::Signs);
         for joint in &mut plant.joints {
             joint.theta += 5e-4 * normal(&mut dice);
             joint.alpha += 5e-4 * normal(&mut dice);

@@ -5,17 +5,15 @@ use crate::effects::Place;
 use crate::fixture::{bent, row, springy, table};
 use crate::measurement::{Kind, Row};
 use crate::report::{Hidden, Report};
+use crate::rng::{Rng, Stream};
 use crate::simulate::simulate;
 use nalgebra::{Isometry3, Vector3, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 
 const POSE: Kind = Kind::Pose { orientation: true };
 
 /// Roughly normal, standard deviation 1.
-pub(super) fn normal(generator: &mut ChaCha8Rng) -> f64 {
-    let uniform = |g: &mut ChaCha8Rng| (g.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    (0..12).map(|_| uniform(generator)).sum::<f64>() - 6.0
+pub(super) fn normal(generator: &mut Rng) -> f64 {
+    (0..12).map(|_| generator.unit()).sum::<f64>() - 6.0
 }
 
 /// `poses` poses, each measured twice, of a plant whose joint compliances are raised by `added`,
@@ -25,7 +23,7 @@ pub(super) fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measure
     for (joint, more) in plant.joints.iter_mut().zip(added) {
         joint.compliance += more;
     }
-    let mut generator = data::generator(seed, data::Stream::Folds);
+    let mut generator = Rng::new(seed, Stream::Folds);
     let mut rows = Vec::new();
     for group in 0..poses {
         let mut any = |scale: f64| scale * normal(&mut generator);
@@ -138,7 +136,7 @@ fn what_the_catalogue_does_not_have_is_unexplained_at_its_place() {
 #[test]
 fn unknown_frames_and_markers_are_fitted_and_never_findings() {
     let mut data = data(24, [0.0; 3], 0.0, 9);
-    let mut noise = data::generator(9, data::Stream::Signs);
+    let mut noise = Rng::new(9, Stream::Signs);
     let base = Isometry3::new(Vector3::new(2.0, -3.0, 0.7), Vector3::new(0.2, -0.1, 2.5));
     let turn = Vector3::new(0.0, 0.0, -1.2);
     let tool = Isometry3::new(Vector3::new(0.03, -0.02, 0.05), turn);
@@ -250,7 +248,7 @@ fn indistinct_joints_are_inseparable_and_a_measurement_is_proposed() {
     plant.joints[1].compliance += 5e-6;
     let components = [false, false, true, false, false, false];
     let kind = Kind::Displacement { components };
-    let mut generator = data::generator(2, data::Stream::Signs);
+    let mut generator = Rng::new(2, Stream::Signs);
     let rows = (0..16)
         .map(|group| {
             let t = group as f64;
@@ -290,7 +288,7 @@ fn the_users_own_simulator_is_corrected_like_the_arms() {
 fn rows_weigh_by_their_own_precision() {
     let sds = |group: usize| if group.is_multiple_of(2) { 1e-5 } else { 1e-4 };
     let mut mixed = data(60, [0.0, 4e-6, 0.0], 0.0, 11);
-    let mut noise = data::generator(3, data::Stream::Signs);
+    let mut noise = Rng::new(3, Stream::Signs);
     for row in &mut mixed.rows {
         let sd = sds(row.group);
         row.measured = row.measured.map(|x| x + sd * normal(&mut noise));
@@ -321,7 +319,7 @@ fn rows_weigh_by_their_own_precision() {
 /// errors of the position of 33 µm keep a part `stays` from row to row, and jump.
 fn found_in_time(poses: usize, seed: u64, stays: f64, jump: f64) -> Vec<String> {
     let mut data = data(poses, [0.0, 4e-6, 0.0], 0.0, seed);
-    let mut noise = data::generator(seed, data::Stream::Signs);
+    let mut noise = Rng::new(seed, Stream::Signs);
     let fresh = 3.3e-5 * (1.0 - stays * stays).sqrt();
     let mut error = Vector3::from_fn(|_, _| 3.3e-5 * normal(&mut noise));
     let after = 7 * data.rows.len() / 12;

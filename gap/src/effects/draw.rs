@@ -3,8 +3,8 @@
 use stiffarm_kernels::generic::Arm;
 
 use super::{Parameter, Place};
-use crate::dice::Dice;
 use crate::measurement::Measurements;
+use crate::rng::Rng;
 
 /// What an effect draws from.
 pub struct Draw<'a> {
@@ -14,13 +14,13 @@ pub struct Draw<'a> {
     pub place: Place,
     /// The session that is to be measured.
     pub session: &'a Measurements,
-    dice: &'a mut Dice,
+    rng: &'a mut Rng,
 }
 
 impl<'a> Draw<'a> {
     /// Of this arm, place and session.
-    pub fn new(arm: &'a Arm, place: Place, session: &'a Measurements, dice: &'a mut Dice) -> Self {
-        Draw { arm, place, session, dice }
+    pub fn new(arm: &'a Arm, place: Place, session: &'a Measurements, rng: &'a mut Rng) -> Self {
+        Draw { arm, place, session, rng }
     }
 
     /// A usual size for each parameter, divided by `over`: of the sign that arms have, else of either; a
@@ -29,9 +29,9 @@ impl<'a> Draw<'a> {
         let lone = parameters.len() == 1;
         let mut value = |p: &Parameter| {
             let part = match (p.one_sided, lone) {
-                (true, _) => self.dice.between(0.4, 1.0),
-                (false, true) => self.dice.sign(),
-                (false, false) => self.dice.normal(),
+                (true, _) => self.rng.between(0.4, 1.0),
+                (false, true) => self.rng.sign(),
+                (false, false) => self.rng.normal(),
             };
             p.quantity.typical() * part / over
         };
@@ -40,22 +40,22 @@ impl<'a> Draw<'a> {
 
     /// A number of mean 0 and variance 1.
     pub fn normal(&mut self) -> f64 {
-        self.dice.normal()
+        self.rng.normal()
     }
 
     /// −1 or 1.
     pub fn sign(&mut self) -> f64 {
-        self.dice.sign()
+        self.rng.sign()
     }
 
     /// Evenly from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.dice.between(low, high)
+        self.rng.between(low, high)
     }
 
     /// 0 to `n` − 1.
     pub fn below(&mut self, n: usize) -> usize {
-        self.dice.below(n)
+        self.rng.below(n)
     }
 
     /// The duration of the session, s, or the number of its rows.

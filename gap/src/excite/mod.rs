@@ -16,9 +16,9 @@ use stiffarm_kernels::generic::Arm;
 pub use basis::{Basis, norm};
 use columns::{Columns, Suspects};
 
-use crate::dice::{Dice, Stream};
 use crate::motion::{Fourier, Limits};
 use crate::plant::motion::{Law, Logged, MotionError, Spot};
+use crate::rng::{Rng, Stream};
 
 /// Motions of chance that the search begins with.
 const DRAWN: usize = 24;
@@ -122,12 +122,12 @@ pub enum ExciteError {
 /// [`ExciteError`].
 pub fn excite(plan: &Plan<'_>, done: &dyn Fn(f64)) -> Result<Excitation, ExciteError> {
     check(plan)?;
-    let mut dice = Dice::new(plan.seed, Stream::Poses);
+    let mut rng = Rng::new(plan.seed, Stream::Poses);
     let mut drawn = Vec::new();
     let all = (DRAWN + plan.tries) as f64;
     let mut suspects = Suspects::of(plan);
     for k in 0..DRAWN {
-        let course = Fourier::draw(plan.limits, plan.period, plan.harmonics, &mut dice);
+        let course = Fourier::draw(plan.limits, plan.period, plan.harmonics, &mut rng);
         drawn.push((Columns::of(plan, &suspects, &course)?, course));
         done((k + 1) as f64 / all);
     }
@@ -156,7 +156,7 @@ pub fn excite(plan: &Plan<'_>, done: &dyn Fn(f64)) -> Result<Excitation, ExciteE
     };
     let mut size = VARIED;
     for k in 0..plan.tries {
-        let other = course.varied(plan.limits, size, &mut dice);
+        let other = course.varied(plan.limits, size, &mut rng);
         let found = Columns::of(plan, &suspects, &other)?;
         let as_good = found.value(plan);
         if as_good > value {

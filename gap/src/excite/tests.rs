@@ -81,7 +81,7 @@ fn the_criterion_is_the_determinant() {
         tries: 0,
         seed: 1,
     };
-    let course = Fourier::draw(&limits, 10.0, 5, &mut Dice::new(4, Stream::Poses));
+    let course = Fourier::draw(&limits, 10.0, 5, &mut Rng::new(4, Stream::Poses));
     let columns = Columns::of(&plan, &Suspects::of(&plan), &course).unwrap();
     // What is left of both beyond other masses, by their angle and lengths.
     let [a, b] = [0, 1].map(|k| nalgebra::DVector::from_column_slice(&columns.beyond_of(k)));
@@ -143,8 +143,8 @@ fn intervals_shrink_on_simulated_logs() {
     let chosen: Vec<Vec<f64>> = (0..3).map(|seed| widths(&found.course, seed)).collect();
     let of_chance: Vec<Vec<f64>> = (0..6)
         .map(|seed| {
-            let mut dice = Dice::new(100 + seed, Stream::Poses);
-            widths(&Fourier::draw(&limits, 10.0, 5, &mut dice), seed)
+            let mut rng = Rng::new(100 + seed, Stream::Poses);
+            widths(&Fourier::draw(&limits, 10.0, 5, &mut rng), seed)
         })
         .collect();
     let mean = |all: &[Vec<f64>]| {

@@ -7,7 +7,7 @@ use core::f64::consts::{PI, TAU};
 
 use super::limits::Limits;
 use super::{Course, State};
-use crate::dice::Dice;
+use crate::rng::Rng;
 
 /// Samples of the highest harmonic's period where extremes are looked for. Of a trigonometric
 /// polynomial of degree N sampled at P points of its period the largest value is at most
@@ -34,10 +34,10 @@ struct Series {
 
 impl Fourier {
     /// A motion of chance that uses the limits, once through.
-    pub fn draw(limits: &Limits, period: f64, harmonics: usize, dice: &mut Dice) -> Fourier {
+    pub fn draw(limits: &Limits, period: f64, harmonics: usize, rng: &mut Rng) -> Fourier {
         let mut series = || Series {
-            middle: dice.between(-1.0, 1.0),
-            terms: (0..harmonics).map(|_| [dice.normal(), dice.normal()]).collect(),
+            middle: rng.between(-1.0, 1.0),
+            terms: (0..harmonics).map(|_| [rng.normal(), rng.normal()]).collect(),
         };
         let joints = (0..limits.rate.len()).map(|_| series()).collect();
         Fourier { period, periods: 1, joints }.within(limits)
@@ -49,19 +49,19 @@ impl Fourier {
     }
 
     /// Another motion like it: the terms of one joint differ by chance, about by `size` of their own.
-    pub fn varied(&self, limits: &Limits, size: f64, dice: &mut Dice) -> Fourier {
+    pub fn varied(&self, limits: &Limits, size: f64, rng: &mut Rng) -> Fourier {
         let mut varied = self.clone();
         for (series, [low, high]) in varied.joints.iter_mut().zip(&limits.position) {
             series.middle = 2.0 * (series.middle - low) / (high - low) - 1.0;
         }
-        let one = dice.below(self.joints.len());
+        let one = rng.below(self.joints.len());
         let series = &mut varied.joints[one];
         let squares = series.terms.iter().flatten().map(|x| x * x).sum::<f64>();
         let usual = (squares / (2.0 * series.terms.len() as f64)).sqrt();
         for x in series.terms.iter_mut().flatten() {
-            *x += size * usual * dice.normal();
+            *x += size * usual * rng.normal();
         }
-        series.middle = (series.middle + size * dice.normal()).clamp(-1.0, 1.0);
+        series.middle = (series.middle + size * rng.normal()).clamp(-1.0, 1.0);
         varied.within(limits)
     }
 
@@ -159,7 +159,7 @@ impl Course for Fourier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dice::Stream;
+    use crate::rng::Stream;
 
     fn limits() -> Limits {
         Limits {
@@ -173,10 +173,10 @@ mod tests {
     fn limits_are_held_between_the_samples_too_and_used() {
         let limits = limits();
         for seed in 0..40 {
-            let mut dice = Dice::new(seed, Stream::Poses);
-            let mut motion = Fourier::draw(&limits, 10.0, 5, &mut dice);
+            let mut rng = Rng::new(seed, Stream::Poses);
+            let mut motion = Fourier::draw(&limits, 10.0, 5, &mut rng);
             if seed % 2 == 1 {
-                motion = motion.varied(&limits, 0.5, &mut dice);
+                motion = motion.varied(&limits, 0.5, &mut rng);
             }
             let mut largest = [[0.0_f64; 3]; 3];
             for k in 0..20_011 {
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn rates_are_derivatives_and_the_ends_are_at_rest() {
-        let motion = Fourier::draw(&limits(), 8.0, 4, &mut Dice::new(1, Stream::Poses)).repeated(2);
+        let motion = Fourier::draw(&limits(), 8.0, 4, &mut Rng::new(1, Stream::Poses)).repeated(2);
         let step = 1e-5;
         for time in [0.3, 2.9, 7.1, 11.0] {
             let [before, at, after] = [-step, 0.0, step].map(|by| motion.at(time + by));

@@ -4,8 +4,8 @@
 use super::noise::Noise;
 use super::observe::Shown;
 use super::{Plant, PlantError, only};
-use crate::dice::{Dice, Stream};
 use crate::measurement::Measurements;
+use crate::rng::{Rng, Stream};
 
 /// An instrument whose errors are Student's t.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Plant {
         scatter: Scatter,
         seed: u64,
     ) -> Result<Campaign, PlantError> {
-        let mut visits = Dice::new(seed, Stream::Visits);
+        let mut visits = Rng::new(seed, Stream::Visits);
         let (mut visited, mut read) = (design.clone(), design.clone());
         for (real, told) in visited.rows.iter_mut().zip(&mut read.rows) {
             for (real, told) in real.q.iter_mut().zip(&mut told.q) {
@@ -61,11 +61,11 @@ impl Plant {
         }
         let exact = self.exact(&read)?;
         let mut measured = self.exact(&visited)?;
-        let mut dice = Dice::new(seed, Stream::Noise);
+        let mut rng = Rng::new(seed, Stream::Noise);
         let components = design.kind.components();
         for (row, told) in measured.rows.iter_mut().zip(&read.rows) {
             row.q.clone_from(&told.q);
-            let shown = Shown::of(&row.measured).by_instrument(instrument, &mut dice);
+            let shown = Shown::of(&row.measured).by_instrument(instrument, &mut rng);
             row.measured = only(shown.vector(), components);
         }
         Ok(Campaign { measured, exact })

@@ -40,9 +40,9 @@ pub use observe::Frames;
 pub use text::{csv, number, quoted};
 pub use truth::{Truth, TruthError};
 
-use crate::dice::{Dice, Stream};
 use crate::effects::Known;
 use crate::measurement::{Measurements, Row};
+use crate::rng::{Rng, Stream};
 use observe::{InOrder, Shown};
 use reality::Reality;
 
@@ -216,11 +216,11 @@ impl Plant {
 /// Measurements with noise added. Of a rotation of which only some components are measured, those
 /// are what is disturbed.
 pub fn blurred(exact: &Measurements, noise: Noise, seed: u64) -> Measurements {
-    let mut dice = Dice::new(seed, Stream::Noise);
+    let mut rng = Rng::new(seed, Stream::Noise);
     let components = exact.kind.components();
     let mut measured = exact.clone();
     for row in &mut measured.rows {
-        let whole = Shown::of(&row.measured).noisy(noise, &mut dice);
+        let whole = Shown::of(&row.measured).noisy(noise, &mut rng);
         row.measured = only(whole.vector(), components);
     }
     measured

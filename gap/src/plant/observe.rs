@@ -9,8 +9,8 @@ use super::noise::Noise;
 use super::reading::direction;
 use super::reality::{Jump, Reality};
 use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
-use crate::dice::{Dice, Stream};
 use crate::measurement::{Kind, Row};
+use crate::rng::{Rng, Stream};
 
 /// Frames that nobody knows.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,10 +31,10 @@ impl Frames {
     /// Frames that are nowhere near the robot file's: the base up to two metres off and turned any
     /// way, the tool up to a hand's breadth.
     pub fn unknown(seed: u64) -> Frames {
-        let mut dice = Dice::new(seed, Stream::Frames);
+        let mut rng = Rng::new(seed, Stream::Frames);
         let mut draw = |reach: f64| {
-            let place = reach * Vector3::from_fn(|_, _| dice.between(-1.0, 1.0));
-            nalgebra::Isometry3::new(place, dice.between(0.5, 3.0) * dice.direction())
+            let place = reach * Vector3::from_fn(|_, _| rng.between(-1.0, 1.0));
+            nalgebra::Isometry3::new(place, rng.between(0.5, 3.0) * rng.direction())
         };
         Frames { base: draw(2.0), tool: draw(0.1) }
     }
@@ -78,19 +78,19 @@ impl Shown {
         Shown { position: Vector3::new(distance, 0.0, 0.0), rotation: Matrix3::identity() }
     }
 
-    pub(super) fn noisy(mut self, noise: Noise, dice: &mut Dice) -> Shown {
-        self.position += noise.position * dice.normal3();
-        self.rotation = rotation_of(&(noise.rotation * dice.normal3())) * self.rotation;
+    pub(super) fn noisy(mut self, noise: Noise, rng: &mut Rng) -> Shown {
+        self.position += noise.position * rng.normal3();
+        self.rotation = rotation_of(&(noise.rotation * rng.normal3())) * self.rotation;
         self
     }
 
-    pub(super) fn by_instrument(mut self, instrument: Instrument, dice: &mut Dice) -> Shown {
+    pub(super) fn by_instrument(mut self, instrument: Instrument, rng: &mut Rng) -> Shown {
         let Instrument { scale, freedom, wrong, wrong_by } = instrument;
-        let mut three = |scale: f64| scale * Vector3::from_fn(|_, _| dice.student(freedom));
+        let mut three = |scale: f64| scale * Vector3::from_fn(|_, _| rng.student(freedom));
         let (moved, turned) = (three(scale.position), three(scale.rotation));
         self.position += moved;
         self.rotation = rotation_of(&turned) * self.rotation;
-        if dice.unit() < wrong { self.noisy(wrong_by, dice) } else { self }
+        if rng.unit() < wrong { self.noisy(wrong_by, rng) } else { self }
     }
 
     /// From here towards `other`, part of the way.

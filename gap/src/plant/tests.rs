@@ -7,9 +7,9 @@ use super::chain::{Chain, Part};
 use super::reality::Reality;
 use super::transform::{carried, rotation, rotation_vector};
 use super::{Truth, TruthError, effects};
-use crate::dice::{Dice, Stream};
 use crate::effects::{Backlash, Effect, Place};
 use crate::fixture;
+use crate::rng::{Rng, Stream};
 
 fn truth(text: &str, arm: &Arm) -> Truth {
     Truth::parse(text, arm).unwrap()
@@ -68,8 +68,8 @@ fn generalised_forces_are_the_work_per_displacement() {
     for convention in [Convention::Standard, Convention::Modified] {
         let (_, reality) = yielding(convention);
         let chain = chain(&reality);
-        let mut dice = Dice::new(5, Stream::Poses);
-        let u: Vec<f64> = (0..chain.unknowns).map(|_| dice.between(-0.05, 0.05)).collect();
+        let mut rng = Rng::new(5, Stream::Poses);
+        let u: Vec<f64> = (0..chain.unknowns).map(|_| rng.between(-0.05, 0.05)).collect();
         let forces = chain.forces(&u);
         assert!(chain.unknowns >= 5 + 3 + 2 + 2 + 18 && forces.len() == chain.unknowns);
         let scale = forces.iter().fold(0.0_f64, |s, f| s.max(f.abs()));
@@ -135,9 +135,9 @@ fn elastic_energy_less_work_is_least_at_rest() {
     };
     let u = rest(&chain).unwrap();
     let least = potential(&u);
-    let mut dice = Dice::new(9, Stream::Poses);
+    let mut rng = Rng::new(9, Stream::Poses);
     for _ in 0..200 {
-        let near: Vec<f64> = u.iter().map(|x| x + 1e-4 * dice.normal()).collect();
+        let near: Vec<f64> = u.iter().map(|x| x + 1e-4 * rng.normal()).collect();
         assert!(potential(&near) > least);
     }
 }

@@ -7,10 +7,10 @@ use super::exact;
 use super::{Plan, WithholdError};
 use crate::diagnose::Nuisance;
 use crate::diagnose::fit::Basis;
-use crate::dice::Dice;
 use crate::effects::{Draw, Effect, Place};
 use crate::measurement::Measurements;
 use crate::plant::{PlantError, Truth};
+use crate::rng::Rng;
 
 /// An effect of usual size that does no more than this, in multiples of the noise, does not show:
 /// it would have to be thousands of times as large.
@@ -61,11 +61,11 @@ impl<'a> Bench<'a> {
         &self,
         effect: &'static dyn Effect,
         multiple: f64,
-        dice: &mut Dice,
+        rng: &mut Rng,
     ) -> Option<Planted> {
         let mut places = effect.places(self.plan.arm);
-        dice.shuffle(&mut places);
-        places.into_iter().find_map(|place| self.plant_at(effect, place, multiple, dice))
+        rng.shuffle(&mut places);
+        places.into_iter().find_map(|place| self.plant_at(effect, place, multiple, rng))
     }
 
     fn plant_at(
@@ -73,10 +73,10 @@ impl<'a> Bench<'a> {
         effect: &'static dyn Effect,
         place: Place,
         multiple: f64,
-        dice: &mut Dice,
+        rng: &mut Rng,
     ) -> Option<Planted> {
         let Plan { arm, design, .. } = self.plan;
-        let values = effect.draw(&mut Draw::new(arm, place, design, dice));
+        let values = effect.draw(&mut Draw::new(arm, place, design, rng));
         let first = Truth { effect, place, values };
         if effect.has_one_size() {
             return self.shown(first).filter(|planted| planted.multiple >= multiple);

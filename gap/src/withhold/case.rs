@@ -3,10 +3,10 @@
 use super::Kind;
 use super::bench::{Bench, Planted};
 use crate::diagnose::Nuisance;
-use crate::dice::{Dice, Stream, seed_of};
 use crate::effects::Effect;
 use crate::measurement::Measurements;
 use crate::plant::PlantError;
+use crate::rng::{Rng, Stream, seed_of};
 
 /// Effects in some order.
 type Effects = Vec<&'static dyn Effect>;
@@ -47,11 +47,11 @@ impl Bench<'_> {
     ) -> Result<Setup, PlantError> {
         let (kind, nth) = turn(k);
         let seed = seed_of(self.plan.seed, k);
-        let mut dice = Dice::new(seed, Stream::Truths);
+        let mut rng = Rng::new(seed, Stream::Truths);
         let [low, high] = self.plan.multiple;
         let mut put = |effect: &'static dyn Effect| {
-            let multiple = dice.between(low, high);
-            self.plant(effect, multiple, &mut dice)
+            let multiple = rng.between(low, high);
+            self.plant(effect, multiple, &mut rng)
         };
         let in_turn = |n: usize| effects[n % effects.len()];
         let planted: Vec<Planted> = match kind {
@@ -92,10 +92,10 @@ impl Bench<'_> {
         let wanted = self.plan.effects.iter().copied();
         let to_be_put = wanted.filter(|e| self.plan.frames.is_none() || !moves_frames(e));
         let (mut shown, hidden): (Effects, Effects) = to_be_put.partition(|effect| {
-            let mut dice = Dice::new(self.plan.seed, Stream::Truths);
-            self.plant(*effect, high, &mut dice).is_some()
+            let mut rng = Rng::new(self.plan.seed, Stream::Truths);
+            self.plant(*effect, high, &mut rng).is_some()
         });
-        Dice::new(self.plan.seed, Stream::Truths).shuffle(&mut shown);
+        Rng::new(self.plan.seed, Stream::Truths).shuffle(&mut shown);
         (shown, hidden)
     }
 }

@@ -9,8 +9,8 @@ use super::report::{Case, Named, Report};
 use super::verdict::Verdict;
 use super::{Kind, Plan, WithholdError, exact, summary};
 use crate::diagnose::{DiagnoseError, Diagnosis, Options, diagnose};
-use crate::dice::seed_of;
 use crate::plant::{Truth, blurred};
+use crate::rng::seed_of;
 
 /// Runs the check. `progress` is told how many cases of how many are done; the result does not
 /// depend on how many are worked on at once.

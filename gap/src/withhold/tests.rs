@@ -103,7 +103,7 @@ fn plans_that_make_no_sense_are_refused() {
 #[test]
 fn frames_that_are_unknown_hide_what_moves_them() {
     use super::bench::Bench;
-    use crate::dice::{Dice, Stream};
+    use crate::rng::{Rng, Stream};
     let (arm, design) = (fixture::springy(), design(1));
     let options = Options::default();
     let plan = Plan {
@@ -121,9 +121,9 @@ fn frames_that_are_unknown_hide_what_moves_them() {
         threads: 1,
     };
     let bench = Bench::new(&plan).unwrap();
-    let mut dice = Dice::new(1, Stream::Truths);
+    let mut rng = Rng::new(1, Stream::Truths);
     // The first joint's zero is a turn of the base, its ratio is not.
-    let first = bench.plant(&JointRatio, 10.0, &mut dice).unwrap();
+    let first = bench.plant(&JointRatio, 10.0, &mut rng).unwrap();
     assert!((first.multiple - 10.0).abs() < 0.5);
     let (shows, _) = bench.shows();
     assert!(

@@ -84,9 +84,7 @@ fn stack(p: Vector3<f64>, rotation: &Rotation3<f64>) -> Vector6<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
-    use stiffarm_gap::random::normal3;
+    use stiffarm_gap::rng::{Rng, Stream};
 
     const BEFORE: [Vector3<f64>; 3] =
         [Vector3::new(1.0, 0.5, -0.3), Vector3::new(1.2, 0.6, -0.3), Vector3::new(0.9, 0.7, -0.2)];
@@ -121,11 +119,11 @@ mod tests {
     fn the_noise_is_that_of_the_weights() {
         let (s, sigma, draws) = (0.25, 1e-5, 4000);
         let base = [Vector3::zeros(), Vector3::new(s, 0.0, 0.0), Vector3::new(0.0, s, 0.0)];
-        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let mut rng = Rng::new(1, Stream::Starts);
         let mut squares = [Vector6::zeros(), Vector6::zeros()];
         for _ in 0..draws {
-            let before = base.map(|p| p + sigma * normal3(&mut random));
-            let after = base.map(|p| p + sigma * normal3(&mut random));
+            let before = base.map(|p| p + sigma * rng.normal3());
+            let after = base.map(|p| p + sigma * rng.normal3());
             for (sum, twist) in
                 squares.iter_mut().zip([gram_schmidt(&before, &after), kabsch(&before, &after)])
             {

@@ -6,14 +6,12 @@
 //! the reflectors) is a setting here.
 
 use nalgebra::{Point3, Vector3, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::points::{gram_schmidt, kabsch};
 use super::zones::{Zone, table_1};
 use super::{IdentifyError, Test};
-use stiffarm_gap::random::{between, normal, normal3, uniform};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::simulate::equilibrium;
 
 /// How tests are drawn.
@@ -78,41 +76,40 @@ impl Rig {
             let (what, expected) = ("the number of zones", "at least 1");
             return Err(IdentifyError::Setting { what, found: 0.0, expected });
         }
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut rng = Rng::new(seed, Stream::Starts);
         let draw = |k: usize| {
             let zone = &self.zones[k % self.zones.len()];
-            let q = self.posture(arm, zone, &mut random);
-            Test { q, wrench: self.wrench(&mut random), displacement: Vector6::zeros() }
+            let q = self.posture(arm, zone, &mut rng);
+            Test { q, wrench: self.wrench(&mut rng), displacement: Vector6::zeros() }
         };
         Ok((0..count).map(draw).collect())
     }
 
-    fn posture(&self, arm: &Arm, zone: &Zone, random: &mut ChaCha8Rng) -> Vec<f64> {
+    fn posture(&self, arm: &Arm, zone: &Zone, rng: &mut Rng) -> Vec<f64> {
         let mut q = vec![0.0; arm.dof()];
-        q[self.joints[0]] = between(random, zone.first);
-        q[self.joints[1]] = between(random, zone.second);
+        q[self.joints[0]] = rng.within(zone.first);
+        q[self.joints[1]] = rng.within(zone.second);
         for (joint, range) in &self.others {
-            q[*joint] = between(random, *range);
+            q[*joint] = rng.within(*range);
         }
         for joint in self.either_sign.iter().filter(|joint| **joint < arm.dof()) {
-            q[*joint] *= if uniform(random) < 0.5 { -1.0 } else { 1.0 };
+            q[*joint] *= rng.sign();
         }
         q
     }
 
-    fn wrench(&self, random: &mut ChaCha8Rng) -> Vector6<f64> {
-        let mut size = between(random, self.force);
+    fn wrench(&self, rng: &mut Rng) -> Vector6<f64> {
+        let mut size = rng.within(self.force);
         if self.force_step > 0.0 {
             size = self.force[0]
                 + ((size - self.force[0]) / self.force_step).round() * self.force_step;
         }
-        let (tilt, round) =
-            (between(random, self.tilt), between(random, [0.0, core::f64::consts::TAU]));
+        let (tilt, round) = (rng.within(self.tilt), rng.within([0.0, core::f64::consts::TAU]));
         let side = Vector3::new(round.cos(), round.sin(), 0.0);
         let force = size * (tilt.sin() * side - tilt.cos() * Vector3::z());
         // Evenly in a ball.
-        let radius = self.lever * uniform(random).cbrt();
-        let direction = normal3(random);
+        let radius = self.lever * rng.unit().cbrt();
+        let direction = rng.normal3();
         let lever = direction * (radius / direction.norm().max(f64::MIN_POSITIVE));
         let moment = lever.cross(&force);
         Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
@@ -180,18 +177,16 @@ pub fn carry_out(
     seed: u64,
 ) -> Result<Vec<Test>, IdentifyError> {
     super::check(arm, plan)?;
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = Rng::new(seed, Stream::Starts);
     let mut tests = Vec::with_capacity(plan.len());
     for planned in plan {
-        let q: Vec<f64> =
-            planned.q.iter().map(|q| q + errors.encoder * normal(&mut random)).collect();
+        let q: Vec<f64> = planned.q.iter().map(|q| q + errors.encoder * rng.normal()).collect();
         let force = planned.wrench.fixed_rows::<3>(0).norm();
-        let part = if force > 0.0 { errors.balance * normal(&mut random) / force } else { 0.0 };
+        let part = if force > 0.0 { errors.balance * rng.normal() / force } else { 0.0 };
         let loaded = equilibrium(arm, &q, &(planned.wrench * (1.0 + part)))?.tool;
         let unloaded = equilibrium(arm, &q, &Vector6::zeros())?.tool;
         let mut read = |tool: &nalgebra::Isometry3<f64>| {
-            rig.reflectors()
-                .map(|p| (tool * Point3::from(p)).coords + errors.point * normal3(&mut random))
+            rig.reflectors().map(|p| (tool * Point3::from(p)).coords + errors.point * rng.normal3())
         };
         let (before, after) = (read(&unloaded), read(&loaded));
         let displacement = match fit {

@@ -1,13 +1,11 @@
 //! How many tests, and how exact (Dumas et al., sections 5.1-5.2, Fig. 7 and Table 2).
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::rig::{Errors, PoseFit, Rig, carry_out};
 use super::{IdentifyError, Test, Weighting, identify};
 use stiffarm_gap::gap::percentile;
-use stiffarm_gap::random::uniform;
+use stiffarm_gap::rng::{Rng, Stream};
 
 /// Stiffnesses from many sets of equally many tests.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,13 +42,13 @@ pub fn number_of_tests(
     sets: usize,
     seed: u64,
 ) -> Result<Vec<Spread>, IdentifyError> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = Rng::new(seed, Stream::Starts);
     let mut spreads = Vec::with_capacity(counts.len());
     for &count in counts {
         let count = count.min(tests.len());
         let mut solved: Vec<Vec<f64>> = Vec::new();
         for _ in 0..sets {
-            let set = subset(tests, count, &mut random);
+            let set = subset(tests, count, &mut rng);
             match identify(arm, &set, by) {
                 Ok(found) => solved.extend(found.stiffnesses()),
                 Err(IdentifyError::Open(_)) => {}
@@ -68,11 +66,11 @@ pub fn number_of_tests(
     Ok(spreads)
 }
 
-fn subset(tests: &[Test], count: usize, random: &mut ChaCha8Rng) -> Vec<Test> {
+fn subset(tests: &[Test], count: usize, rng: &mut Rng) -> Vec<Test> {
     let mut order: Vec<usize> = (0..tests.len()).collect();
     for k in 0..count {
         let left = order.len() - k;
-        let pick = k + ((uniform(random) * left as f64) as usize).min(left - 1);
+        let pick = k + rng.below(left);
         order.swap(k, pick);
     }
     order[..count].iter().map(|&k| tests[k].clone()).collect()

@@ -3,10 +3,10 @@
 
 use nalgebra::{DVector, Vector6};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::effects::{Draw, Effect, Place, Quantity};
 use stiffarm_gap::measurement::{Layout, Measurements};
 use stiffarm_gap::plant::{Frames, Instrument, Noise, Plant, Scatter, Truth, csv, effects};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::withhold::resized;
 use stiffarm_kernels::generic::Arm;
 
@@ -82,13 +82,13 @@ pub fn draw(seed: u64) -> Drawn {
     let model = &MODELS[((k + k / 5) % MODELS.len() as u64) as usize];
     let arm = model.arm();
     let frames = Frames::unknown(seed);
-    let mut dice = Dice::new(seed, Stream::Arm);
-    let geometry = off_design(&arm, &mut dice);
+    let mut rng = Rng::new(seed, Stream::Arm);
+    let geometry = off_design(&arm, &mut rng);
     let design = session::rows(model, &arm, orientation, loads, seed);
     let count = if k % 5 == 4 { 0 } else { 1 + (k as usize / 20 + k as usize) % 3 };
     let planted = {
         let bench = Bench::new(&arm, &design, &frames, INSTRUMENT.scale);
-        plant(&bench, &arm, &design, count, &mut dice)
+        plant(&bench, &arm, &design, count, &mut rng)
     };
     let physical: Vec<Truth> = planted.iter().map(|p| p.truth.clone()).collect();
     let all: Vec<Truth> = geometry.iter().chain(&physical).cloned().collect();
@@ -143,7 +143,7 @@ pub fn lasts(effect: &dyn Effect) -> bool {
 }
 
 /// Every offset and every number of every row a little wrong.
-fn off_design(arm: &Arm, dice: &mut Dice) -> Vec<Truth> {
+fn off_design(arm: &Arm, rng: &mut Rng) -> Vec<Truth> {
     let mut truths: Vec<Truth> = Vec::new();
     for (effect, place, name) in ordinary(arm) {
         if matches!(place, Place::Base | Place::Tool) {
@@ -151,7 +151,7 @@ fn off_design(arm: &Arm, dice: &mut Dice) -> Vec<Truth> {
         }
         let number = effect.number(arm, place, &name);
         let length = number.is_some_and(|(_, n)| n.quantity == Quantity::Length);
-        let value = (name, OFF[usize::from(!length)] * dice.normal());
+        let value = (name, OFF[usize::from(!length)] * rng.normal());
         match truths.last_mut().filter(|t| t.effect == effect && t.place == place) {
             Some(truth) => truth.values.push(value),
             None => truths.push(Truth { effect, place, values: vec![value] }),
@@ -166,21 +166,21 @@ fn plant(
     arm: &Arm,
     design: &Measurements,
     count: usize,
-    dice: &mut Dice,
+    rng: &mut Rng,
 ) -> Vec<Planted> {
     let mut found: Vec<(Truth, DVector<f64>)> = Vec::new();
     let can = |e: &&'static dyn Effect| !GEOMETRY.contains(&e.identifier()) && !e.has_one_size();
     let mut effects: Vec<&'static dyn Effect> = effects().into_iter().filter(can).collect();
-    dice.shuffle(&mut effects);
+    rng.shuffle(&mut effects);
     for effect in effects {
         if found.len() == count {
             break;
         }
         let mut places = effect.places(arm);
-        dice.shuffle(&mut places);
+        rng.shuffle(&mut places);
         let seen = places.into_iter().find_map(|place| {
-            let wanted = dice.between(RATIO[0], RATIO[1]);
-            let new = of_size(bench, arm, design, (effect, place), wanted, dice)?;
+            let wanted = rng.between(RATIO[0], RATIO[1]);
+            let new = of_size(bench, arm, design, (effect, place), wanted, rng)?;
             let mut all: Vec<&DVector<f64>> = found.iter().map(|(_, signal)| signal).collect();
             all.push(&new.1);
             let each = (0..all.len()).map(|own| {
@@ -208,9 +208,9 @@ fn of_size(
     design: &Measurements,
     (effect, place): (&'static dyn Effect, Place),
     wanted: f64,
-    dice: &mut Dice,
+    rng: &mut Rng,
 ) -> Option<(Truth, DVector<f64>)> {
-    let values = effect.draw(&mut Draw::new(arm, place, design, dice));
+    let values = effect.draw(&mut Draw::new(arm, place, design, rng));
     let mut truth = Truth { effect, place, values };
     // Most gaps are proportional to the size, that of a cubic law and its torque nearly so.
     for _ in 0..5 {

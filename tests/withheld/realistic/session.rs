@@ -1,7 +1,7 @@
 //! What is measured: poses under loads, some of them again, each visited when its turn comes.
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use super::models::Model;
@@ -27,9 +27,9 @@ const FREE: f64 = 150.0 * core::f64::consts::PI / 180.0;
 /// The rows in their order, nothing measured in them yet: level by level, within a level in any
 /// order. Every joint of every row comes to rest from one side or the other.
 pub fn rows(model: &Model, arm: &Arm, orientation: bool, loads: bool, seed: u64) -> Measurements {
-    let mut poses = Dice::new(seed, Stream::Poses);
-    let mut load = Dice::new(seed, Stream::Loads);
-    let mut order = Dice::new(seed, Stream::Approach);
+    let mut poses = Rng::new(seed, Stream::Poses);
+    let mut load = Rng::new(seed, Stream::Loads);
+    let mut order = Rng::new(seed, Stream::Approach);
     let (count, levels) = if loads { (POSES, &LEVELS[..]) } else { (2 * POSES, &LEVELS[..1]) };
     let postures: Vec<Vec<f64>> = (0..count)
         .map(|_| {

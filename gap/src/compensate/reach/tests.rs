@@ -1,8 +1,6 @@
 //! Targets at which a loaded arm stands, found again; and targets that no arm reaches.
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Ended, Reached, Search, Target, reach};
@@ -10,7 +8,7 @@ use crate::compensate::CompensateError;
 use crate::effects::Known;
 use crate::measurement::Kind;
 use crate::plant::{Plant, Truth};
-use crate::random::between;
+use crate::rng::{Rng, Stream};
 use crate::simulate::equilibrium;
 use crate::whole::{Situation, Whole};
 
@@ -42,11 +40,10 @@ fn the_loaded_arm_stands_at_the_target() {
     let lin = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
     let panda = crate::fixture::arm(include_str!("../../../../robots/arms/panda.toml"));
     for (arm, load) in [(kr240(), load), (lin, load / 50.0), (panda, load / 100.0)] {
-        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut rng = Rng::new(7, Stream::Starts);
         for _ in 0..5 {
             let of = |limits: Option<[f64; 2]>| limits.unwrap_or([-2.0, 2.0]);
-            let q: Vec<f64> =
-                arm.joints.iter().map(|j| between(&mut random, of(j.limits))).collect();
+            let q: Vec<f64> = arm.joints.iter().map(|j| rng.within(of(j.limits))).collect();
             let near: Vec<f64> = q.iter().map(|q| q + 0.02).collect();
             let target = target(&arm, &q, &load);
             let search = Search::default();

@@ -1,8 +1,6 @@
 //! The postures and loads that tests are chosen from, and what each would say of springs.
 
 use nalgebra::{DMatrix, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Unstable};
 
@@ -10,7 +8,7 @@ use super::Plan;
 use crate::dexterity::{
     DexterityError, Search, block, characteristic_length, influence, inverse_condition,
 };
-use crate::random::between;
+use crate::rng::{Rng, Stream};
 use crate::robot::ranges;
 use crate::whole::Whole;
 
@@ -53,9 +51,8 @@ pub(super) struct Pool {
 pub(super) fn draw(whole: Whole<'_>, plan: &Plan) -> Result<Pool, DexterityError> {
     let bounds = ranges(whole.arm).map_err(|joint| DexterityError::Unlimited { joint })?;
     let count = (PER_TEST * plan.count).clamp(FEWEST, MOST).max(2 * plan.count);
-    let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
-    let drawn: Vec<Vec<f64>> =
-        (0..count).map(|_| bounds.iter().map(|b| between(&mut random, *b)).collect()).collect();
+    let mut rng = Rng::new(plan.seed, Stream::Starts);
+    let drawn: Vec<Vec<f64>> = (0..count).map(|_| rng.point(&bounds)).collect();
     let length = length(whole.arm, &drawn, plan.seed)?;
     let mut postures = Vec::new();
     let mut unstable = None;

@@ -6,11 +6,9 @@
 use core::ops::Range;
 
 use nalgebra::DMatrix;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 use super::candidates::Block;
-use crate::random::uniform;
+use crate::rng::{Rng, Stream};
 
 /// Rounds of exchanges.
 const ROUNDS: usize = 8;
@@ -172,13 +170,9 @@ impl<'a> Choices<'a> {
         if n <= 0.0 || chosen.is_empty() {
             return 1.0;
         }
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let draw = |random: &mut ChaCha8Rng| {
-            let pick = (uniform(random) * self.rows.len() as f64) as usize;
-            pick.min(self.rows.len() - 1)
-        };
+        let mut rng = Rng::new(seed, Stream::Starts);
         let drawn = (0..DRAWS).map(|_| {
-            let tests: Vec<usize> = chosen.iter().map(|_| draw(&mut random)).collect();
+            let tests: Vec<usize> = chosen.iter().map(|_| rng.below(self.rows.len())).collect();
             self.value(&self.information(&tests))
         });
         let mean = drawn.sum::<f64>() / DRAWS as f64;

@@ -10,8 +10,6 @@
 use core::ops::Range;
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 use super::Plan;
 use super::candidates::{Block, Posture};
@@ -20,7 +18,7 @@ use super::trial::{LineUp, Trial};
 use crate::dexterity::DexterityError;
 use crate::diagnose::fit::Basis;
 use crate::measurement::Row;
-use crate::random::uniform;
+use crate::rng::{Rng, Stream};
 use crate::whole::Whole;
 
 /// An effect is told from the other where its number is so many of its standard deviations.
@@ -65,10 +63,10 @@ impl Apart {
         pair: &[Suspect; 2],
         postures: &[Posture],
     ) -> Result<Apart, DexterityError> {
-        let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
+        let mut rng = Rng::new(plan.seed, Stream::Starts);
         let mut rows = Vec::new();
         for (posture, load) in super::candidates::pairs(postures, plan) {
-            let side = |_: &f64| if uniform(&mut random) < 0.5 { -1 } else { 1 };
+            let side = |_: &f64| rng.sign() as i8;
             let direction: Vec<i8> = postures[posture].q.iter().map(side).collect();
             let (q, wrench) = (postures[posture].q.clone(), plan.loads[load]);
             let direction = Some(direction);

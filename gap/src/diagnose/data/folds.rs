@@ -1,8 +1,8 @@
 //! Which poses are held out together, and which rows are resampled or flipped together.
 
-use super::rng::{Stream, generator, shuffled};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::measurement::Measurements;
+use crate::rng::{Rng, Stream};
 
 /// Up to this many poses each is held out alone.
 const MOST_SINGLE: usize = 30;
@@ -43,7 +43,7 @@ impl Folds {
         let block_of_pose = blocks_of(data, MOST_BLOCKS.max(count));
         let blocks = block_of_pose.last().map_or(0, |last| last + 1);
         let mut of_block = vec![0; blocks];
-        let order = shuffled(&mut generator(options.seed, Stream::Folds), blocks);
+        let order = Rng::new(options.seed, Stream::Folds).order(blocks);
         for (place, block) in order.into_iter().enumerate() {
             of_block[block] = place % count;
         }

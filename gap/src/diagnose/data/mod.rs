@@ -6,7 +6,7 @@
 //! row), the [`Folds`] (which poses are held out together), and the [`Noise`] (what a residual is
 //! weighted by, and whether what is left is more than noise).
 //!
-//! Everything random in a diagnosis is drawn from the [`generator`] of a [`Stream`], so that the
+//! Everything random in a diagnosis is drawn from a stream of the [generator](crate::rng), so that the
 //! same options on the same data give the same bytes.
 
 mod folds;
@@ -14,7 +14,6 @@ mod misfits;
 mod noise;
 mod precision;
 mod problem;
-mod rng;
 mod visits;
 
 pub(crate) use folds::Folds;
@@ -22,4 +21,3 @@ pub(crate) use misfits::fitting;
 pub(crate) use noise::Noise;
 pub(crate) use precision::Precision;
 pub(crate) use problem::{LARGEST, Problem};
-pub(crate) use rng::{Stream, below, generator, shuffled};

@@ -303,10 +303,11 @@ impl Repeats {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::data::{Precision, Stream, generator};
+    use crate::diagnose::data::Precision;
     use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
     use crate::measurement::{Kind, Measurements, Row};
+    use crate::rng::{Rng, Stream};
 
     /// Two poses of three repeats each, ±1 mm about what the arm says.
     fn data() -> Measurements {
@@ -346,7 +347,7 @@ mod tests {
     /// arm's 50 µm are told from each other; of the first visits alone only the instrument's.
     #[test]
     fn the_arm_is_told_from_the_instrument() {
-        let (arm, mut dice) = (rigid(), generator(5, Stream::Signs));
+        let (arm, mut dice) = (rigid(), Rng::new(5, Stream::Signs));
         let (mut rows, mut gaps) = (Vec::new(), Vec::new());
         for _ in 0..3 {
             for group in 0..100 {

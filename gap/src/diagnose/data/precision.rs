@@ -112,14 +112,14 @@ fn scatter(numbers: &[[f64; 2]], part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::data::{Stream, generator};
     use crate::diagnose::tests::normal;
     use crate::fixture::{row, table};
     use crate::measurement::{Kind, Row};
+    use crate::rng::{Rng, Stream};
 
     #[test]
     fn what_scatters_beyond_the_instrument_is_told_from_it() {
-        let mut dice = generator(4, Stream::Signs);
+        let mut dice = Rng::new(4, Stream::Signs);
         let sigmas = |k: usize| if k.is_multiple_of(3) { 8e-5 } else { 1e-5 };
         let rows = (0..4000).map(|k| {
             let sigma = Vector6::from_fn(|c, _| if c < 3 { sigmas(k) } else { 0.0 });

@@ -4,12 +4,11 @@
 use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
-use rand_chacha::rand_core::Rng;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use crate::diagnose::data::{Stream, generator};
 use crate::diagnose::sums::{Score, Screen};
+use crate::rng::{Rng, Stream};
 
 /// Random sign patterns; all of them are taken if there are no more.
 const FLIPS: usize = 999;
@@ -163,8 +162,8 @@ fn sign_patterns(blocks: usize, seed: u64) -> DMatrix<f64> {
             sign(b < usize::BITS as usize && pattern >> b & 1 == 1)
         });
     }
-    let mut generator = generator(seed, Stream::Signs);
-    DMatrix::from_fn(blocks, FLIPS, |_, _| sign(generator.next_u32() & 1 == 1))
+    let mut generator = Rng::new(seed, Stream::Signs);
+    DMatrix::from_fn(blocks, FLIPS, |_, _| generator.flip())
 }
 
 #[cfg(test)]

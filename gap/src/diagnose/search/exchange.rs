@@ -145,12 +145,13 @@ mod tests {
 
     use super::*;
     use crate::diagnose::Options;
-    use crate::diagnose::data::{Folds, Problem, Stream, generator};
+    use crate::diagnose::data::{Folds, Problem};
     use crate::diagnose::sums::Candidate;
     use crate::diagnose::tests::normal;
     use crate::effects::{CATALOGUE, Place, Spot};
     use crate::fixture::{rigid, row, table};
     use crate::measurement::{Kind, Row};
+    use crate::rng::{Rng, Stream};
     use crate::simulate::simulate;
 
     /// All loads are a tenth larger than the file says. Of an arm that gives at two joints a compliance
@@ -161,7 +162,7 @@ mod tests {
         let mut arm = rigid();
         (arm.joints[0].compliance, arm.joints[1].compliance) = (2e-5, 3e-5);
         arm.joints.iter_mut().for_each(|joint| joint.mass = 0.0);
-        let mut dice = generator(8, Stream::Signs);
+        let mut dice = Rng::new(8, Stream::Signs);
         let kind = Kind::Pose { orientation: true };
         let rows = (0..40).map(|group| {
             let mut any = |scale: f64| scale * normal(&mut dice);

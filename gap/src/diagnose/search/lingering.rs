@@ -205,8 +205,8 @@ pub(super) fn by_steps(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::data::{Stream, generator};
     use crate::diagnose::tests::normal;
+    use crate::rng::{Rng, Stream};
 
     /// Steps of a campaign, and the jumps that are tried in it.
     const STEPS: usize = 180;
@@ -215,7 +215,7 @@ mod tests {
     /// Errors of three components, a third of them of the instrument: they linger over `memory` steps, and
     /// the first jumps after two fifths of the steps.
     fn campaign(seed: u64, memory: f64, jump: f64) -> [Vec<f64>; 3] {
-        let mut dice = generator(seed, Stream::Signs);
+        let mut dice = Rng::new(seed, Stream::Signs);
         let stays = if memory > 0.0 { (-1.0 / memory).exp() } else { 0.0 };
         std::array::from_fn(|component| {
             let mut error = normal(&mut dice);

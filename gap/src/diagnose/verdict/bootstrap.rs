@@ -1,8 +1,8 @@
 //! Intervals by resampling poses: a pose is drawn with all its rows, and what is compared is
 //! compared on the same poses.
 
-use crate::diagnose::data::{Stream, below, generator};
 use crate::gap::percentile;
+use crate::rng::{Rng, Stream};
 
 /// Resamplings of each interval.
 pub(crate) const DRAWS: usize = 10_000;
@@ -15,12 +15,12 @@ fn interval<const K: usize>(
     statistic: impl Fn([f64; K]) -> f64,
 ) -> [f64; 2] {
     let poses = quantities[0].len();
-    let mut generator = generator(seed, Stream::Bootstrap);
+    let mut generator = Rng::new(seed, Stream::Bootstrap);
     let mut values: Vec<f64> = (0..DRAWS)
         .map(|_| {
             let mut sums = [0.0; K];
             for _ in 0..poses {
-                let pose = below(&mut generator, poses);
+                let pose = generator.index(poses);
                 for (sum, quantity) in sums.iter_mut().zip(quantities) {
                     *sum += quantity[pose];
                 }

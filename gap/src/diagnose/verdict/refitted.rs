@@ -2,11 +2,10 @@
 //! are fitted and once for those on which the gap is measured.
 
 use nalgebra::{DMatrix, DVector};
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::outcome::{Group, Held, Normal};
-use crate::diagnose::data::{Stream, below, generator};
+use crate::rng::{Rng, Stream};
 
 /// Pairs of campaigns: a standard deviation of so many is known to 3 %.
 const DRAWS: usize = 500;
@@ -21,7 +20,7 @@ impl Refitted {
         let steps: Vec<Vec<usize>> = (0..=groups.len())
             .map(|count| held.kept(&groups[..count].iter().collect::<Vec<_>>()))
             .collect();
-        let mut dice = generator(seed, Stream::Bootstrap);
+        let mut dice = Rng::new(seed, Stream::Bootstrap);
         let blocks = held.blocks.len();
         let draws: Vec<[Vec<f64>; 2]> =
             (0..DRAWS).map(|_| [drawn(&mut dice, blocks), drawn(&mut dice, blocks)]).collect();
@@ -48,8 +47,8 @@ impl Refitted {
 }
 
 /// How often each of so many is drawn in as many draws.
-fn drawn(dice: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
+fn drawn(dice: &mut Rng, count: usize) -> Vec<f64> {
     let mut times = vec![0.0; count];
-    (0..count).for_each(|_| times[below(dice, count)] += 1.0);
+    (0..count).for_each(|_| times[dice.index(count)] += 1.0);
     times
 }

@@ -129,10 +129,10 @@ fn autocorrelation(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Autoc
 mod tests {
     use super::*;
     use crate::diagnose::Options;
-    use crate::diagnose::data::{Stream, generator};
     use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
     use crate::measurement::{Kind, Row};
+    use crate::rng::{Rng, Stream};
 
     /// 400 rows at poses of their own whose gaps are made of what `each` makes of normal numbers.
     fn residual(mut each: impl FnMut(&mut dyn FnMut() -> f64) -> Vector6<f64>) -> [f64; 4] {
@@ -141,7 +141,7 @@ mod tests {
         let data = table(rows.collect(), Kind::Pose { orientation: false });
         let arm = rigid();
         let problem = Problem::new(&arm, &data, &Options::default()).unwrap();
-        let mut dice = generator(2, Stream::Signs);
+        let mut dice = Rng::new(2, Stream::Signs);
         let gaps: Vec<_> = (0..400).map(|_| each(&mut || normal(&mut dice))).collect();
         let (shape, order) =
             (normality(&problem, &gaps).unwrap(), autocorrelation(&problem, &gaps).unwrap());

@@ -4,10 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::diagnose::data::{Stream, generator, shuffled};
 use crate::diagnose::fit::Basis;
 use crate::diagnose::search::{Explained, OWN, Search};
 use crate::diagnose::sums::{Own, Products, Screen};
+use crate::rng::{Rng, Stream};
 
 /// Random halves.
 const HALVES: usize = 40;
@@ -33,9 +33,8 @@ impl Search<'_, '_> {
             return 1.0;
         }
         let contenders: Vec<usize> = contenders.iter().copied().take(CONTENDERS).collect();
-        let mut generator = generator(self.options.seed, Stream::Halves);
-        let halves: Vec<Vec<usize>> =
-            (0..HALVES).map(|_| shuffled(&mut generator, blocks)).collect();
+        let mut generator = Rng::new(self.options.seed, Stream::Halves);
+        let halves: Vec<Vec<usize>> = (0..HALVES).map(|_| generator.order(blocks)).collect();
         let found_again = |order: &&Vec<usize>| {
             let half: Vec<&Products> =
                 order.iter().take(blocks / 2).map(|b| &screen.blocks[*b]).collect();

@@ -1,8 +1,6 @@
 //! Against arms whose stiffnesses are known, measured by the simulator's equilibrium.
 
 use nalgebra::{Point3, Vector6};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Answer, MeasuredError, Question, Status, Unknown, identify_measured};
@@ -11,7 +9,7 @@ use crate::effects::Known;
 use crate::fixture::known;
 use crate::measurement::Measurements;
 use crate::plant::Plant;
-use crate::random::{between, normal};
+use crate::rng::{Rng, Stream};
 use crate::simulate::equilibrium;
 
 fn kr240() -> Arm {
@@ -50,7 +48,7 @@ fn file(
     seed: u64,
     loads: &[[f64; 6]],
 ) -> String {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = Rng::new(seed, Stream::Starts);
     let absolute = columns.contains(&"x");
     let mut text = format!("pose,q1,q2,q3,q4,q5,q6,fx,fy,fz,mx,my,mz,{}\n", columns.join(","));
     let names = if absolute {
@@ -59,7 +57,7 @@ fn file(
         ["dx", "dy", "dz", "drx", "dry", "drz"]
     };
     for pose in 0..poses {
-        let q: Vec<f64> = (0..6).map(|_| between(&mut random, [-1.3, 1.3])).collect();
+        let q: Vec<f64> = (0..6).map(|_| rng.within([-1.3, 1.3])).collect();
         for load in loads {
             let loaded = equilibrium(arm, &q, &(*load).into()).unwrap().tool;
             let measured = if absolute {
@@ -74,7 +72,7 @@ fn file(
             cells.extend(q.iter().chain(load).map(|x| format!("{x:e}")));
             cells.extend(columns.iter().map(|column| {
                 let k = names.iter().position(|name| name == column).unwrap();
-                format!("{:e}", measured[k] + noise * normal(&mut random))
+                format!("{:e}", measured[k] + noise * rng.normal())
             }));
             text.push_str(&cells.join(","));
             text.push('\n');

@@ -1,15 +1,15 @@
 //! From which side each joint came to rest.
 
 use super::{Design, Shape};
-use crate::dice::{Dice, Stream};
 use crate::measurement::Row;
+use crate::rng::{Rng, Stream};
 
 /// Fills in the directions. A joint that does not move keeps its side; before the first row, chance
 /// decides.
 pub(super) fn fill(design: &Design, rows: &mut [Row]) {
-    let mut dice = Dice::new(design.seed, Stream::Approach);
+    let mut rng = Rng::new(design.seed, Stream::Approach);
     let joints = rows.first().map_or(0, |row| row.q.len());
-    let mut sides: Vec<i8> = (0..joints).map(|_| if dice.sign() > 0.0 { 1 } else { -1 }).collect();
+    let mut sides: Vec<i8> = (0..joints).map(|_| if rng.sign() > 0.0 { 1 } else { -1 }).collect();
     let mut before: Option<Vec<f64>> = None;
     for row in rows {
         for (j, side) in sides.iter_mut().enumerate() {

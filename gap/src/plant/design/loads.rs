@@ -6,26 +6,26 @@ use stiffarm_kernels::generic::Arm;
 use super::super::reality::Reality;
 use super::super::transform::{rotation, slide};
 use super::{Design, Shape, rounded};
-use crate::dice::{Dice, Stream};
+use crate::rng::{Rng, Stream};
 
 /// Gravity where the robot file has none, m/s².
 const STANDARD: f64 = 9.80665;
 
 /// The loads of each posture, in the order in which they are measured.
 pub(super) fn draw(arm: &Arm, design: &Design, poses: &[Vec<f64>]) -> Vec<Vec<Vector6<f64>>> {
-    let mut dice = Dice::new(design.seed, Stream::Loads);
+    let mut rng = Rng::new(design.seed, Stream::Loads);
     // The payload's centre of mass in the tool frame, well within a hand's breadth.
-    let centre = Vector3::new(dice.between(-0.05, 0.05), dice.between(-0.05, 0.05), 0.08);
+    let centre = Vector3::new(rng.between(-0.05, 0.05), rng.between(-0.05, 0.05), 0.08);
     let of = |q: &Vec<f64>| {
         let mut loads = match design.shape {
-            Shape::Force => forces(design, &mut dice),
+            Shape::Force => forces(design, &mut rng),
             _ => payloads(arm, design, q, &centre),
         };
         // Without a load there is nothing to see of a displacement.
         if design.kind.is_difference() {
             loads.retain(|load| *load != Vector6::zeros());
         }
-        dice.shuffle(&mut loads);
+        rng.shuffle(&mut loads);
         loads
     };
     poses.iter().map(of).collect()
@@ -48,12 +48,12 @@ fn payloads(arm: &Arm, design: &Design, q: &[f64], centre: &Vector3<f64>) -> Vec
 }
 
 /// No load and three forces of half to full size, with a moment of a tenth of a metre's lever.
-fn forces(design: &Design, dice: &mut Dice) -> Vec<Vector6<f64>> {
+fn forces(design: &Design, rng: &mut Rng) -> Vec<Vector6<f64>> {
     let full = design.payload * STANDARD;
     let mut loads = vec![Vector6::zeros()];
     for _ in 0..3 {
-        let force = full * dice.between(0.5, 1.0) * dice.direction();
-        let moment = 0.1 * full * dice.unit() * dice.direction();
+        let force = full * rng.between(0.5, 1.0) * rng.direction();
+        let moment = 0.1 * full * rng.unit() * rng.direction();
         loads.push(whole(&force, &moment));
     }
     loads

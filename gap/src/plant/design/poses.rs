@@ -7,7 +7,7 @@ use stiffarm_kernels::generic::{Arm, Joint};
 use super::super::reality::Reality;
 use super::super::transform::origin;
 use super::{Design, Shape, rounded};
-use crate::dice::{Dice, Stream};
+use crate::rng::{Rng, Stream};
 
 /// Where a joint that has no limits may go: 150° to either side, or half a metre out.
 fn range(joint: &Joint) -> [f64; 2] {
@@ -24,8 +24,8 @@ const NARROW: f64 = 0.1;
 /// Joint readings, one posture each.
 pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
     // The part of the range is the arm's and not the seed's: another session stays within it.
-    let mut part = Dice::new(0, Stream::Poses);
-    let mut dice = Dice::new(design.seed, Stream::Poses);
+    let mut part = Rng::new(0, Stream::Poses);
+    let mut rng = Rng::new(design.seed, Stream::Poses);
     let ranges: Vec<[f64; 2]> = arm
         .joints
         .iter()
@@ -42,7 +42,7 @@ pub(super) fn draw(arm: &Arm, design: &Design) -> Vec<Vec<f64>> {
         })
         .collect();
     let mut posture =
-        || ranges.iter().map(|[low, high]| rounded(dice.between(*low, *high), 1e6)).collect();
+        || ranges.iter().map(|[low, high]| rounded(rng.between(*low, *high), 1e6)).collect();
     (0..design.poses).map(|_| posture()).collect()
 }
 

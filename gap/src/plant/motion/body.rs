@@ -214,19 +214,19 @@ impl Body {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dice::{Dice, Stream};
+    use crate::rng::{Rng, Stream};
 
     /// Both conventions, tilted axes, a joint that slides, beams with weight, inertias at random.
     fn arms() -> Vec<Arm> {
-        let mut dice = Dice::new(5, Stream::Arm);
+        let mut rng = Rng::new(5, Stream::Arm);
         let mut of = |convention, slides: usize| {
             let mut arm = crate::fixture::bent();
             arm.convention = convention;
             for (k, joint) in arm.joints.iter_mut().enumerate() {
-                let root = Matrix3::from_fn(|_, _| dice.normal());
+                let root = Matrix3::from_fn(|_, _| rng.normal());
                 joint.inertia = root * root.transpose();
-                joint.com = dice.normal3() / 3.0;
-                (joint.beta, joint.theta) = (0.3 * dice.normal(), dice.normal());
+                joint.com = rng.normal3() / 3.0;
+                (joint.beta, joint.theta) = (0.3 * rng.normal(), rng.normal());
                 joint.motion = if k == slides { Motion::Prismatic } else { Motion::Revolute };
                 joint.beam.iter_mut().for_each(|beam| beam.density = 2700.0);
             }
@@ -240,11 +240,11 @@ mod tests {
     /// hundred sums of terms of up to a few thousand newton metres.
     #[test]
     fn torques_and_masses_are_the_textbooks() {
-        let mut dice = Dice::new(3, Stream::Poses);
+        let mut rng = Rng::new(3, Stream::Poses);
         for arm in arms() {
             let body = Body::of(&arm);
             for _ in 0..50 {
-                let mut draw = || (0..3).map(|_| dice.normal()).collect::<Vec<f64>>();
+                let mut draw = || (0..3).map(|_| rng.normal()).collect::<Vec<f64>>();
                 let [q, qd, qdd] = [draw(), draw(), draw()];
                 let expected = arm.inverse_dynamics(&q, &qd, &qdd);
                 let posture = body.posture(&q);

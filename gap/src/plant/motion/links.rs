@@ -4,8 +4,8 @@ use nalgebra::Matrix3;
 use stiffarm_kernels::generic::Arm;
 
 use super::body::{Body, Piece};
-use crate::dice::{Dice, Stream};
 use crate::motion::State;
+use crate::rng::{Rng, Stream};
 
 /// Numbers of a link.
 const NUMBERS: usize = 10;
@@ -13,12 +13,12 @@ const NUMBERS: usize = 10;
 /// Columns that span what any masses of the links ask in these states, a row for each joint of each: a
 /// link's torques are linear in its ten numbers, and those of ten bodies of chance span them.
 pub fn span(arm: &Arm, states: &[State]) -> Vec<Vec<f64>> {
-    let mut dice = Dice::new(0, Stream::Arm);
+    let mut rng = Rng::new(0, Stream::Arm);
     let bare = Body::of(arm).bare();
     let mut of_chance = |link: usize| {
-        let root = Matrix3::from_fn(|_, _| dice.normal());
+        let root = Matrix3::from_fn(|_, _| rng.normal());
         let mut body = bare.clone();
-        body.add(link, &Piece::about(dice.normal(), dice.normal3(), root * root.transpose()));
+        body.add(link, &Piece::about(rng.normal(), rng.normal3(), root * root.transpose()));
         body
     };
     let links = (0..arm.dof()).flat_map(|link| [link; NUMBERS]);

@@ -31,8 +31,8 @@ pub use record::{Recorded, Recording, Side};
 pub use text::csv;
 pub use truth::{MotionTruth, MotionTruthError};
 
-use crate::dice::{Dice, Stream, seed_of};
 use crate::motion::Course;
+use crate::rng::{Rng, Stream, seed_of};
 use control::Track;
 use machine::Machine;
 
@@ -102,8 +102,8 @@ impl<'a> MovingPlant<'a> {
     /// [`MotionError`]: joints that move no mass, or that the controller cannot hold.
     pub fn record(&self, stages: &[Stage<'_>], seed: u64) -> Result<Vec<Recorded>, MotionError> {
         let run = |(k, stage): (usize, &Stage<'_>)| {
-            let mut dice = Dice::new(seed_of(seed, k), Stream::Noise);
-            let mut log = self.run(k, stage, &mut dice)?;
+            let mut rng = Rng::new(seed_of(seed, k), Stream::Noise);
+            let mut log = self.run(k, stage, &mut rng)?;
             log.run = k + 1;
             log.payload = stage.payload.as_ref().map(|(name, ..)| name.clone());
             let current = self.logged == Logged::Torque(Side::Current);
@@ -112,17 +112,17 @@ impl<'a> MovingPlant<'a> {
         stages.iter().enumerate().map(run).collect()
     }
 
-    fn run(&self, k: usize, stage: &Stage<'_>, dice: &mut Dice) -> Result<Recorded, MotionError> {
+    fn run(&self, k: usize, stage: &Stage<'_>, rng: &mut Rng) -> Result<Recorded, MotionError> {
         let step = self.step();
         let (real, nominal) = (self.machine(&self.of_run(k), stage)?, self.machine(&[], stage)?);
         let Logged::Torque(side) = self.logged else {
             let track = servo::served(&real, &self.truths, stage.course, step);
-            return Ok(self.recording.joints(&track, dice));
+            return Ok(self.recording.joints(&track, rng));
         };
         let noise = match side {
             Side::Commanded => {
                 let exact = control::followed(&real, stage.course, step).drive;
-                self.recording.unruly(&exact, stage.course.duration(), dice)
+                self.recording.unruly(&exact, stage.course.duration(), rng)
             }
             _ => Vec::new(),
         };
@@ -140,7 +140,7 @@ impl<'a> MovingPlant<'a> {
         let encoder = self.recording.encoder;
         let track = control::controlled(&real, &nominal, stage.course, encoder, step, &gives);
         let track = track.map_err(|fault| self.error(fault))?;
-        Ok(self.recording.torques(&track, &real.drives, side, real.delay, dice))
+        Ok(self.recording.torques(&track, &real.drives, side, real.delay, rng))
     }
 
     /// What the drives of a run give, or where the joints are, if all is followed exactly and told

@@ -3,7 +3,7 @@
 
 use super::control::Track;
 use super::drive::Drive;
-use crate::dice::{Dice, Stream};
+use crate::rng::{Rng, Stream};
 
 /// N·m (N) at the joint per ampere, from, to: a gear of 50 to 160 on a motor of 0.1 to 0.12 N·m/A.
 const PER_AMPERE: [f64; 2] = [5.0, 20.0];
@@ -79,14 +79,14 @@ pub struct Recorded {
 
 impl Recording {
     /// Instants at which samples are taken, s.
-    fn instants(&self, duration: f64, dice: &mut Dice) -> Vec<f64> {
+    fn instants(&self, duration: f64, rng: &mut Rng) -> Vec<f64> {
         let mut instants = Vec::new();
         // A sample never overtakes the next.
         let most = 0.4 / self.rate;
         for k in 0..=(duration * self.rate) as usize {
-            let late = (self.jitter * dice.normal()).clamp(-most, most);
+            let late = (self.jitter * rng.normal()).clamp(-most, most);
             let at = (k as f64 / self.rate + late).clamp(0.0, duration);
-            if dice.unit() >= self.lost {
+            if rng.unit() >= self.lost {
                 // Stamps are told in microseconds.
                 instants.push((at * 1e6).round() / 1e6);
             }
@@ -102,14 +102,14 @@ impl Recording {
         drives: &[Drive],
         side: Side,
         delay: f64,
-        dice: &mut Dice,
+        rng: &mut Rng,
     ) -> Recorded {
-        let mut log = self.joints(track, dice);
+        let mut log = self.joints(track, rng);
         let given = if side == Side::Link { &track.links } else { &track.drive };
         for (drive, given) in drives.iter().zip(given) {
             let spread = spread(given);
             let largest = given.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let noise = self.noise(&log.t, self.torque * spread, dice);
+            let noise = self.noise(&log.t, self.torque * spread, rng);
             let told = log.t.iter().zip(noise).map(|(t, noise)| {
                 let then = between(given, (t - delay) / track.step);
                 // A controller knows what it asks; the noise is in what the drive makes of it.
@@ -122,26 +122,21 @@ impl Recording {
     }
 
     /// What drives make of commands that are told: of each joint its noise, at the log's rate.
-    pub(super) fn unruly(
-        &self,
-        given: &[Vec<f64>],
-        duration: f64,
-        dice: &mut Dice,
-    ) -> Vec<Vec<f64>> {
+    pub(super) fn unruly(&self, given: &[Vec<f64>], duration: f64, rng: &mut Rng) -> Vec<Vec<f64>> {
         let times: Vec<f64> =
             (0..=(duration * self.rate) as usize).map(|k| k as f64 / self.rate).collect();
-        given.iter().map(|given| self.noise(&times, self.torque * spread(given), dice)).collect()
+        given.iter().map(|given| self.noise(&times, self.torque * spread(given), rng)).collect()
     }
 
     /// The log of a track without what drives it.
-    pub(super) fn joints(&self, track: &Track, dice: &mut Dice) -> Recorded {
+    pub(super) fn joints(&self, track: &Track, rng: &mut Rng) -> Recorded {
         let steps = track.q.first().map_or(0, Vec::len);
-        let t = self.instants(steps.saturating_sub(1) as f64 * track.step, dice);
+        let t = self.instants(steps.saturating_sub(1) as f64 * track.step, rng);
         let at =
             |of: &Vec<f64>| -> Vec<f64> { t.iter().map(|t| between(of, t / track.step)).collect() };
         let q = track.q.iter().map(|q| {
             let read = at(q).into_iter();
-            read.map(|q| quantised(q + self.reading * dice.normal(), self.encoder)).collect()
+            read.map(|q| quantised(q + self.reading * rng.normal(), self.encoder)).collect()
         });
         let q = q.collect();
         let q_cmd = track.sent.iter().map(at).collect();
@@ -149,13 +144,13 @@ impl Recording {
     }
 
     /// White, or of one correlation time.
-    fn noise(&self, t: &[f64], size: f64, dice: &mut Dice) -> Vec<f64> {
-        let mut value = dice.normal();
+    fn noise(&self, t: &[f64], size: f64, rng: &mut Rng) -> Vec<f64> {
+        let mut value = rng.normal();
         let mut before = t.first().copied().unwrap_or(0.0);
         let next = |t: &f64| {
             let kept = if self.colour > 0.0 { (-(t - before) / self.colour).exp() } else { 0.0 };
             before = *t;
-            value = kept * value + (1.0 - kept * kept).sqrt() * dice.normal();
+            value = kept * value + (1.0 - kept * kept).sqrt() * rng.normal();
             size * value
         };
         t.iter().map(next).collect()
@@ -165,9 +160,9 @@ impl Recording {
 impl Recorded {
     /// The same in amperes: motors of chance, the same in every run of a seed.
     pub(super) fn in_amperes(mut self, seed: u64) -> Recorded {
-        let mut dice = Dice::new(seed, Stream::Arm);
+        let mut rng = Rng::new(seed, Stream::Arm);
         let [from, to] = PER_AMPERE;
-        self.per_ampere = self.tau.iter().map(|_| dice.between(from, to)).collect();
+        self.per_ampere = self.tau.iter().map(|_| rng.between(from, to)).collect();
         for (rows, per_ampere) in self.tau.iter_mut().zip(&self.per_ampere) {
             rows.iter_mut().for_each(|torque| *torque /= per_ampere);
         }

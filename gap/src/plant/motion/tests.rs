@@ -27,7 +27,7 @@ fn arm() -> Arm {
 
 fn course() -> Fourier {
     let limits = Limits::of(&arm(), &[1.5], &[5.0]).unwrap();
-    Fourier::draw(&limits, 8.0, 6, &mut Dice::new(2, Stream::Poses))
+    Fourier::draw(&limits, 8.0, 6, &mut Rng::new(2, Stream::Poses))
 }
 
 const MOTOR: Logged = Logged::Torque(Side::Motor);

@@ -7,10 +7,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::rigid::Rigid;
 use super::run::plant;
 use super::{LogPlan, LogWithholdError};
-use crate::dice::Dice;
 use crate::effects::{Counterbalance, Effect, Place};
 use crate::motion::Course;
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, Spot};
+use crate::rng::Rng;
 
 /// An effect of which other masses can do all but this part does not show.
 const APART: f64 = 0.1;
@@ -77,15 +77,10 @@ impl<'a> Bench<'a> {
 
     /// An effect at a spot of chance, about `multiple` times the noise beyond what other masses could
     /// do; `None` if it does not show anywhere in this motion.
-    pub(super) fn plant(
-        &self,
-        law: &'static Law,
-        multiple: f64,
-        dice: &mut Dice,
-    ) -> Option<Planted> {
+    pub(super) fn plant(&self, law: &'static Law, multiple: f64, rng: &mut Rng) -> Option<Planted> {
         let mut spots = self.spots(law);
-        dice.shuffle(&mut spots);
-        spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, dice))
+        rng.shuffle(&mut spots);
+        spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, rng))
     }
 
     /// Where an effect may be put. Of runs only those that are told to hold something may hold more, and
@@ -109,9 +104,9 @@ impl<'a> Bench<'a> {
         law: &'static Law,
         spot: Spot,
         multiple: f64,
-        dice: &mut Dice,
+        rng: &mut Rng,
     ) -> Option<Planted> {
-        let mut truth = MotionTruth { law, spot, values: self.draw(law, spot, dice) };
+        let mut truth = MotionTruth { law, spot, values: self.draw(law, spot, rng) };
         let (mut found, mut all) = (0.0, 0.0);
         // What is no multiple of its size comes close in a few steps.
         for _ in 0..6 {
@@ -166,7 +161,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Numbers of chance, of which the size is made right afterwards.
-    fn draw(&self, law: &Law, spot: Spot, dice: &mut Dice) -> Vec<f64> {
+    fn draw(&self, law: &Law, spot: Spot, rng: &mut Rng) -> Vec<f64> {
         let joints = match spot {
             Spot::Joint(a) => [a, a],
             Spot::Pair(a, b, _) => [a, b],
@@ -176,15 +171,15 @@ impl<'a> Bench<'a> {
         let drives = joints.map(|j| &self.plan.arm.joints[j].drive);
         let rotor = drives.map(|d| d.gear * d.gear * d.rotor_inertia);
         if matches!(spot, Spot::Link(_) | Spot::Tool(_)) {
-            return body(1.0, 0.15 * dice.normal3());
+            return body(1.0, 0.15 * rng.normal3());
         }
         let mut number = |name: &str| match name {
             // A film of grease has built up well below the largest rate.
-            "speed" => fastest * dice.between(0.03, 0.1),
+            "speed" => fastest * rng.between(0.03, 0.1),
             // Gears and grease yield by some milliradians.
-            "distance" => dice.between(0.005, 0.02),
+            "distance" => rng.between(0.005, 0.02),
             // Teeth of a gear and poles of a motor.
-            "order" => dice.between(20.0, 200.0).round(),
+            "order" => rng.between(20.0, 200.0).round(),
             "viscous" if law.name == "joint_coupling" => 1.0 / fastest,
             // No motor drives two joints that do not feel it each as their own.
             "inertia" if law.name == "joint_coupling" => 0.5 * rotor[0].min(rotor[1]),
@@ -194,8 +189,8 @@ impl<'a> Bench<'a> {
             "compliance" => 1e-5,
             "delay" => 0.01,
             "part" => 1e-2,
-            "cos" | "sin" | "rx" | "ry" | "rz" => 0.1 * dice.normal(),
-            "offset" | "half_difference" | "scale" => 0.1 * dice.sign(),
+            "cos" | "sin" | "rx" | "ry" | "rz" => 0.1 * rng.normal(),
+            "offset" | "half_difference" | "scale" => 0.1 * rng.sign(),
             _ => 1.0,
         };
         law.numbers.iter().map(|(name, _)| number(name)).collect()

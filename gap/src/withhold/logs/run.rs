@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::bench::{Bench, Planted, may_show};
 use super::report::{Asked, LogCase, LogReport, LogVerdict};
 use super::{LogPlan, LogWithholdError};
-use crate::dice::{Dice, Stream, seed_of};
 use crate::log::{Log, LogOptions, Names, diagnose};
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, csv, known};
+use crate::rng::{Rng, Stream, seed_of};
 use crate::withhold::Kind;
 use crate::withhold::report::Named;
 
@@ -50,8 +50,8 @@ pub fn withhold(
     let asked = plan.effects.iter().filter(|law| may_show(law, plan.logged));
     let (mut shown, hidden): (Vec<&'static Law>, Vec<_>) = asked
         .copied()
-        .partition(|law| bench.plant(law, to, &mut Dice::new(plan.seed, Stream::Truths)).is_some());
-    Dice::new(plan.seed, Stream::Truths).shuffle(&mut shown);
+        .partition(|law| bench.plant(law, to, &mut Rng::new(plan.seed, Stream::Truths)).is_some());
+    Rng::new(plan.seed, Stream::Truths).shuffle(&mut shown);
     let done = AtomicUsize::new(0);
     let cases: Result<Vec<LogCase>, MotionError> = pool.install(|| {
         (0..plan.cases)
@@ -74,7 +74,7 @@ pub fn withhold(
 fn one(bench: &Bench<'_>, effects: &[&'static Law], k: usize) -> Result<LogCase, MotionError> {
     let (plan, (kind, nth)) = (bench.plan, turn(k));
     let seed = seed_of(plan.seed, k);
-    let mut dice = Dice::new(seed, Stream::Truths);
+    let mut rng = Rng::new(seed, Stream::Truths);
     let planted = match kind {
         Kind::None => None,
         // From the other end, so that a few cases already show most effects.
@@ -82,7 +82,7 @@ fn one(bench: &Bench<'_>, effects: &[&'static Law], k: usize) -> Result<LogCase,
         kind => {
             let nth = nth % effects.len();
             let which = if kind == Kind::Removed { effects.len() - 1 - nth } else { nth };
-            bench.plant(effects[which], dice.between(plan.multiple[0], plan.multiple[1]), &mut dice)
+            bench.plant(effects[which], rng.between(plan.multiple[0], plan.multiple[1]), &mut rng)
         }
     };
     let kind = if planted.is_none() { Kind::None } else { kind };
