@@ -6,8 +6,11 @@ use std::path::PathBuf;
 
 use stiffarm_gap::Options;
 use stiffarm_gap::plant;
+use stiffarm_gap::study::withhold::{
+    Campaign, Confusion, Experiment, Facts, Plan, Rate, Report, with_findings, withhold,
+};
 use stiffarm_gap::whole::Whole;
-use stiffarm_gap::withhold::{Confusion, Plan, Rate, Report, with_findings, withhold};
+use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use super::simulate::{ExperimentArgs, plain};
@@ -94,9 +97,23 @@ const MOST: usize = 6;
 /// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
 /// that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    if args.motion {
-        return motion::run(args, quiet);
+    let (report, position_log) =
+        if args.motion { motion::report(args, quiet)? } else { (report(args, quiet)?, false) };
+    if let Some(target) = &args.json {
+        target.write(&json::text(&report)?)?;
     }
+    if let Some(target) = &args.report {
+        let page = crate::report::withheld::html(&report);
+        target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
+    }
+    if !args.is_enough(quiet) {
+        print(&screen(&report, position_log))?;
+    }
+    Ok(Verdict::Good)
+}
+
+/// Of a campaign.
+fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
     let effects = match &args.effects {
         Some(names) => {
             let known: Vec<_> = plant::effects().into_iter().map(|e| (e.identifier(), e)).collect();
@@ -118,38 +135,38 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         ..Options::default()
     };
     let predict = with_findings(Whole { arm: &arm, known: &options.known }, &options.catalogue);
-    let cases = if args.full { FULL } else { args.cases };
-    let plan = Plan {
-        arm: &arm,
+    let campaign = Campaign {
         design: &design,
         fresh: &fresh,
         predict: Some(&predict),
         noise: args.experiment.noise()?,
         frames: None,
         effects: &effects,
-        cases,
-        multiple,
-        seed: args.experiment.seed,
         options: &options,
-        threads: THREADS,
     };
-    let progress = Progress::new("withheld cases", cases, quiet);
-    let report = withhold(&plan, &|_, _| progress.add(1)).map_err(plain)?;
-    drop(progress);
-    if let Some(target) = &args.json {
-        target.write(&json::text(&report)?)?;
-    }
-    if let Some(target) = &args.report {
-        let page = crate::report::withheld::html(&report);
-        target.write(&page.map_err(|error| Failure::new(error.to_string()))?)?;
-    }
-    if !args.is_enough(quiet) {
-        print(&screen(&report))?;
-    }
-    Ok(Verdict::Good)
+    args.tried(&arm, Experiment::Campaign(campaign), multiple, quiet)
 }
 
 impl Args {
+    /// Tries all cases.
+    fn tried(
+        &self,
+        arm: &Arm,
+        experiment: Experiment<'_>,
+        multiple: [f64; 2],
+        quiet: bool,
+    ) -> Result<Report, Failure> {
+        let what = match &experiment {
+            Experiment::Campaign(_) => "withheld cases",
+            Experiment::Log(_) => "withheld logs",
+        };
+        let cases = if self.full { FULL } else { self.cases };
+        let seed = self.experiment.seed;
+        let plan = Plan { arm, experiment, cases, multiple, seed, threads: THREADS };
+        let progress = Progress::new(what, cases, quiet);
+        withhold(&plan, &|_, _| progress.add(1)).map_err(plain)
+    }
+
     /// The sizes that are asked for, else the usual ones.
     fn multiple(&self, usual: [f64; 2]) -> Result<[f64; 2], Failure> {
         match self.sizes[..] {
@@ -169,42 +186,54 @@ impl Args {
     }
 }
 
-fn screen(report: &Report) -> String {
+fn screen(report: &Report, position_log: bool) -> String {
     let facts = format!(
-        "{}: {} at {}, noise {} µm and {} mrad; {}, sizes {} to {} × noise",
-        report.design,
-        counted(report.measurements, "measurement"),
-        counted(report.poses, "pose"),
-        short(1e6 * report.noise_position),
-        short(1e3 * report.noise_rotation),
+        "{}; {}, sizes {} to {} × noise",
+        facts(&report.experiment, position_log),
         counted(report.cases.len(), "case"),
         short(report.multiple[0]),
         short(report.multiple[1]),
     );
     let mut text = format!("{}\n{}\n\n{}\n", bold(&report.robot), dim(facts), bold("Found"));
     text.push_str(&indented(&rates(report), 2));
-    let error = report.cases.iter().find_map(|case| case.error.as_deref());
-    text + &rest(&report.confusion, &report.cannot_plant, report.failed, error)
-}
-
-/// Behind the rates: what was taken for what, what could not be put in, and what failed.
-fn rest(
-    confusion: &[Confusion],
-    cannot_plant: &[&'static str],
-    failed: usize,
-    error: Option<&str>,
-) -> String {
-    let mut text = confusions(confusion);
-    if !cannot_plant.is_empty() {
-        let names = cannot_plant.join(", ");
+    text.push_str(&confusions(report));
+    if !report.cannot_plant.is_empty() {
+        let names = report.cannot_plant.join(", ");
         text.push_str(&format!("\n{}  {names}\n", bold("Does not show here")));
     }
-    if failed > 0 {
-        let (failed, error) =
-            (counted(failed, "diagnosis without result"), error.unwrap_or_default());
+    if report.failed > 0 {
+        let failed = counted(report.failed, "diagnosis without result");
+        let error = report.cases.iter().find_map(|case| case.error.as_deref());
+        let error = error.unwrap_or_default();
         text.push_str(&format!("\n{}  {failed}, the first: {error}\n", bold("Failed")));
     }
     text
+}
+
+/// What is measured, and how well.
+fn facts(facts: &Facts, position_log: bool) -> String {
+    match facts {
+        Facts::Campaign { design, measurements, poses, noise_position, noise_rotation } => format!(
+            "{design}: {} at {}, noise {} µm and {} mrad",
+            counted(*measurements, "measurement"),
+            counted(*poses, "pose"),
+            short(1e6 * noise_position),
+            short(1e3 * noise_rotation),
+        ),
+        Facts::Log { duration, runs, rate, noise_torque, noise_reading } => {
+            let noise = if position_log {
+                format!("{} of a reading", short(*noise_reading))
+            } else {
+                format!("{} % of the torques' spread", short(100.0 * noise_torque))
+            };
+            format!(
+                "{} of {} s at {} Hz, noise {noise}",
+                counted(*runs, "run"),
+                short(duration / *runs as f64),
+                short(*rate),
+            )
+        }
+    }
 }
 
 /// A line for each rate that there is.
@@ -235,6 +264,9 @@ fn rates(report: &Report) -> String {
     let size = report.single.mean_set_size;
     let size = size.map_or_else(none, |s| format!("mean set size {}", short(s)));
     add("  or not to be told from what is", report.single.in_set, size);
+    if let Facts::Log { .. } = report.experiment {
+        add("more than the effect", report.single.more_than_one, none());
+    }
     add("both of two", report.pairs.both_in_sets, none());
     add("that an unknown effect is unexplained", report.removed.flagged, none());
     let open = report.removed.flagged_of_open;
@@ -248,17 +280,17 @@ fn rates(report: &Report) -> String {
     rates_of(&rows)
 }
 
-fn confusions(confusion: &[Confusion]) -> String {
-    let wrong = |c: &&Confusion| c.named.as_deref() != Some(c.truth) || !c.at_its_place;
+fn confusions(report: &Report) -> String {
+    let wrong = |c: &&Confusion| c.named.as_ref() != Some(&c.truth) || !c.at_its_place;
     let row = |c: &Confusion| {
         let named = match &c.named {
             None => "nothing".to_owned(),
-            Some(named) if named == c.truth => format!("{named}, at another place"),
+            Some(named) if *named == c.truth => format!("{named}, at another place"),
             Some(named) => named.clone(),
         };
-        vec![c.truth.to_owned(), format!("→ {named}"), counted(c.cases, "case")]
+        vec![c.truth.clone(), format!("→ {named}"), counted(c.cases, "case")]
     };
-    let all: Vec<_> = confusion.iter().filter(wrong).collect();
+    let all: Vec<_> = report.confusion.iter().filter(wrong).collect();
     if all.is_empty() {
         return String::new();
     }

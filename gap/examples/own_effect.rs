@@ -17,7 +17,7 @@ use stiffarm_gap::measurement::{Kind, Measurements, Row};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, Truth, blurred};
 use stiffarm_gap::simulate::Moment;
-use stiffarm_gap::withhold::exact;
+use stiffarm_gap::study::withhold::exact;
 use stiffarm_gap::{Diagnosis, Options, diagnose};
 use stiffarm_kernels::generic::Arm;
 

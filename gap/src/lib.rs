@@ -37,10 +37,12 @@ pub mod robot;
 pub mod shrink;
 pub mod simulate;
 pub mod spring;
+pub mod study;
 pub mod whole;
-pub mod withhold;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
 pub use measurement::{Measurements, ReadError};
 #[doc(hidden)]
 pub use rng as dice; // alias: old path
+#[doc(hidden)]
+pub use study::withhold; // alias: old path

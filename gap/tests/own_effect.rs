@@ -10,7 +10,7 @@ use stiffarm_gap::effects::{Over, Told};
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::Noise;
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::withhold::{self, Plan, with_findings, withhold};
+use stiffarm_gap::study::withhold::{self, Campaign, Experiment, Plan, with_findings, withhold};
 
 #[test]
 fn an_effect_of_ones_own_is_found_and_told() {
@@ -48,20 +48,17 @@ fn an_effect_of_ones_own_is_withheld() {
     let predict = with_findings(&arm, &catalogue);
     let effects = ["taut_hose", "backlash"].map(|name| catalogue.named(name).unwrap());
     let fresh = [Design { seed: 4, ..design }.rows(&arm)];
-    let plan = Plan {
-        arm: &arm,
+    let experiment = Experiment::Campaign(Campaign {
         design: &rows,
         fresh: &fresh,
         predict: Some(&predict),
         noise: Noise { position: 20e-6, rotation: 40e-6 },
         frames: None,
         effects: &effects,
-        cases: 8,
-        multiple: [10.0, 20.0],
-        seed: 5,
         options: &options,
-        threads: 2,
-    };
+    });
+    let (arm, multiple) = (&arm, [10.0, 20.0]);
+    let plan = Plan { arm, experiment, cases: 8, multiple, seed: 5, threads: 2 };
     let report = withhold(&plan, &|_, _| {}).unwrap();
     assert!(report.cannot_plant.is_empty());
     let own = |case: &&withhold::Case| case.labels.iter().any(|l| l.effect == "taut_hose");

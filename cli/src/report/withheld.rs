@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use askama::Template;
-use stiffarm_gap::withhold::{Case, Rate, Report};
+use stiffarm_gap::study::withhold::{Case, Confusion, Facts, Rate, Report};
 
 #[derive(Template)]
 #[template(path = "withheld.html")]
@@ -36,7 +36,7 @@ struct Line {
 
 /// What one effect was taken for.
 struct Confusions {
-    truth: &'static str,
+    truth: String,
     /// Count, part of the row in per cent, and whether it is the truth itself; in the order of the
     /// columns.
     cells: Vec<(usize, f64, bool)>,
@@ -68,13 +68,8 @@ pub fn html(report: &Report) -> Result<String, askama::Error> {
         .collect();
     let page = Page {
         facts: format!(
-            "{}: {} measurements at {} poses, noise {:.1} µm and {:.3} mrad; effects of {} to {} times \
-             the noise; seed {}",
-            report.design,
-            report.measurements,
-            report.poses,
-            1e6 * report.noise_position,
-            1e3 * report.noise_rotation,
+            "{}; effects of {} to {} times the noise; seed {}",
+            facts(&report.experiment),
             report.multiple[0],
             report.multiple[1],
             report.seed
@@ -90,7 +85,7 @@ pub fn html(report: &Report) -> Result<String, askama::Error> {
             ["truth", "named", "at_its_place", "cases"],
             report.confusion.iter().map(|c| {
                 let named = c.named.clone().unwrap_or_else(|| NOTHING.to_owned());
-                vec![c.truth.to_owned(), named, c.at_its_place.to_string(), c.cases.to_string()]
+                vec![c.truth.clone(), named, c.at_its_place.to_string(), c.cases.to_string()]
             }),
         ),
         named,
@@ -107,6 +102,21 @@ pub fn html(report: &Report) -> Result<String, askama::Error> {
         report,
     };
     page.render()
+}
+
+fn facts(facts: &Facts) -> String {
+    match facts {
+        Facts::Campaign { design, measurements, poses, noise_position, noise_rotation } => format!(
+            "{design}: {measurements} measurements at {poses} poses, noise {:.1} µm and {:.3} mrad",
+            1e6 * noise_position,
+            1e3 * noise_rotation
+        ),
+        Facts::Log { duration, runs, rate, noise_torque, noise_reading } => format!(
+            "joint logs: {runs} runs, {duration:.0} s at {rate} Hz; noise {:.1} % of the torques' \
+             spread, {noise_reading:e} of a reading",
+            100.0 * noise_torque
+        ),
+    }
 }
 
 fn percent(rate: Rate) -> String {
@@ -162,6 +172,8 @@ fn rates(report: &Report) -> Vec<Line> {
         line("No effect: a finding (false alarm)", "low", report.false_alarms),
         line("No effect: something unexplained", "low", report.false_unexplained),
     ];
+    // A log tells neither.
+    lines.retain(|line| line.of > 0 || matches!(report.experiment, Facts::Campaign { .. }));
     if let Some(shrink) = &report.shrink {
         lines.push(line("Shrink on new poses as predicted (95 %)", "high", shrink.inside));
     }
@@ -169,20 +181,16 @@ fn rates(report: &Report) -> Vec<Line> {
 }
 
 fn confusions(report: &Report, named: &[String]) -> Vec<Confusions> {
-    let mut truths: Vec<&'static str> = report.confusion.iter().map(|c| c.truth).collect();
-    truths.sort_unstable();
-    truths.dedup();
-    let row = |truth: &'static str| {
-        let of_truth = || report.confusion.iter().filter(move |c| c.truth == truth);
+    let truths: BTreeSet<&String> = report.confusion.iter().map(|c| &c.truth).collect();
+    let row = |truth: &String| {
+        let of_truth = || report.confusion.iter().filter(|c| c.truth == *truth);
         let all: usize = of_truth().map(|c| c.cases).sum();
         let cell = |name: &String| {
-            let is = |c: &&stiffarm_gap::withhold::Confusion| {
-                c.named.as_deref().unwrap_or(NOTHING) == name
-            };
+            let is = |c: &&Confusion| c.named.as_deref().unwrap_or(NOTHING) == name;
             let count: usize = of_truth().filter(is).map(|c| c.cases).sum();
             (count, 100.0 * count as f64 / all.max(1) as f64, name == truth)
         };
-        Confusions { truth, cells: named.iter().map(cell).collect() }
+        Confusions { truth: truth.clone(), cells: named.iter().map(cell).collect() }
     };
     truths.into_iter().map(row).collect()
 }
@@ -200,8 +208,7 @@ fn stray(case: &Case) -> Stray {
         if names.is_empty() { NOTHING.to_owned() } else { names.join("; ") }
     };
     let verdict = case.verdict.as_ref();
-    let sets = verdict.map_or(&[][..], |v| &v.sets);
-    let found = sets.iter().filter_map(|set| set.first());
+    let found = case.sets().iter().filter_map(|set| set.first());
     let found: Vec<String> = found.map(|n| format!("{} at {}", n.effect, n.place)).collect();
     let unexplained = match verdict.filter(|v| v.unexplained) {
         Some(v) if v.unexplained_places.is_empty() => "somewhere".to_owned(),

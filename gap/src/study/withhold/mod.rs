@@ -2,31 +2,33 @@
 //!
 //! Effects of chosen size are put into a [plant](crate::plant) one at a time, in pairs, not at all,
 //! and with the effect taken out of the catalogue of the diagnosis. The diagnosis gets the
-//! measurements and is not told; what it names is held against what was put in.
+//! measurements, or the joint log as a file, and is not told the effects; what it names is compared
+//! with what was put in. Campaigns and logs are two configurations of one bench.
 
-mod bench;
-mod case;
-mod draw;
+mod campaign;
 mod exact;
-pub mod logs;
-mod predict;
+mod motion;
 mod report;
+mod rigid;
 mod run;
 mod summary;
-mod verdict;
 
+use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
-pub use draw::resized;
+pub use campaign::{resized, with_findings};
 pub use exact::exact;
-pub use predict::{Predict, with_findings};
-pub use report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
+pub use report::{
+    After, Case, Confusion, Facts, Named, Pairs, Rate, Removed, Report, Residual, Shrunk, Single,
+    Verdict,
+};
 pub use run::withhold;
-pub use verdict::Verdict;
 
-use crate::diagnose::{DiagnoseError, Options};
+use crate::diagnose::{Diagnosis, Options};
 use crate::effects::Effect;
+use crate::log::LogOptions;
 use crate::measurement::Measurements;
+use crate::plant::motion::{Law, Logged, MotionError, Recording, Stage};
 use crate::plant::{Frames, Noise, PlantError};
 use crate::whole::Whole;
 
@@ -48,6 +50,28 @@ pub enum Kind {
 pub struct Plan<'a> {
     /// The robot.
     pub arm: &'a Arm,
+    /// What is measured, and by which diagnosis it is judged.
+    pub experiment: Experiment<'a>,
+    /// Number of cases.
+    pub cases: usize,
+    /// The size of an effect's error in multiples of the noise: from, to.
+    pub multiple: [f64; 2],
+    /// Decides everything.
+    pub seed: u64,
+    /// Cases that are worked on at once.
+    pub threads: usize,
+}
+
+/// What is measured.
+pub enum Experiment<'a> {
+    /// An arm at rest at poses under loads.
+    Campaign(Campaign<'a>),
+    /// An arm in motion.
+    Log(Motion<'a>),
+}
+
+/// A campaign.
+pub struct Campaign<'a> {
     /// Poses, loads and what is measured; what was measured there plays no part.
     pub design: &'a Measurements,
     /// Sessions of the same design at other poses, to see how far the gap really shrinks; several,
@@ -62,23 +86,33 @@ pub struct Plan<'a> {
     pub frames: Option<Frames>,
     /// The effects that are put in.
     pub effects: &'a [&'static dyn Effect],
-    /// Number of cases.
-    pub cases: usize,
-    /// The size of an effect's gap in multiples of the noise: from, to.
-    pub multiple: [f64; 2],
-    /// Decides everything.
-    pub seed: u64,
     /// Of the diagnosis; the arm has the effects that it knows already. Its noise is set to the
     /// instrument's, its seed and catalogue by the case.
     pub options: &'a Options,
-    /// Cases that are worked on at once.
-    pub threads: usize,
 }
 
-impl<'a> Plan<'a> {
+/// A motion, and how it is logged.
+pub struct Motion<'a> {
+    /// How the arm is moved, run by run.
+    pub stages: &'a [Stage<'a>],
+    /// What is logged.
+    pub logged: Logged,
+    /// How well.
+    pub recording: Recording,
+    /// The effects that are put in.
+    pub effects: &'a [&'static Law],
+    /// Of the diagnosis; seed and effects by the case.
+    pub options: &'a LogOptions,
+}
+
+/// What the arm with a diagnosis' findings is predicted to read in each row of a design; `None`
+/// where the findings do not say. Only position and orientation as a file has them.
+pub type Predict<'a> = dyn Fn(&Diagnosis, &Measurements) -> Option<Vec<Vector6<f64>>> + Sync + 'a;
+
+impl<'a> Campaign<'a> {
     /// The robot, and what its file says beyond the table.
-    fn whole(&self) -> Whole<'a> {
-        Whole { arm: self.arm, known: &self.options.known }
+    fn whole(&self, arm: &'a Arm) -> Whole<'a> {
+        Whole { arm, known: &self.options.known }
     }
 }
 
@@ -88,13 +122,16 @@ pub enum WithholdError {
     /// The plant cannot be made or measured.
     #[error(transparent)]
     Plant(#[from] PlantError),
-    /// No case could be diagnosed; the first one's reason.
+    /// The plant cannot be moved.
     #[error(transparent)]
-    Diagnose(#[from] DiagnoseError),
+    Motion(#[from] MotionError),
+    /// No case could be diagnosed; the first one's reason.
+    #[error("{0}")]
+    Diagnose(String),
     /// Sizes are multiples of the noise.
     #[error("found no {what} noise, expected some: effects are sized in multiples of it")]
     NoNoise {
-        /// `position` or `rotation`.
+        /// `position`, `rotation`, `torque` or `reading`.
         what: &'static str,
     },
     /// Nothing was asked for.

@@ -1,15 +1,17 @@
-//! The plant on its motion: how large an effect is in multiples of the noise, and its size drawn.
+//! Logs: the plant on its motion, and how large an effect is in multiples of the noise.
 
 use std::cmp::Ordering;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::report::{Case, Named, Residual, Verdict};
 use super::rigid::Rigid;
-use super::run::plant;
-use super::{LogPlan, LogWithholdError};
+use super::run::{self, Planted, known_to};
+use super::{Kind, Motion, Plan, WithholdError};
 use crate::effects::{Counterbalance, Effect, Place};
+use crate::log::{Domain, Log, LogDiagnosis, LogOptions, Names, diagnose};
 use crate::motion::Course;
-use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, Spot};
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot, csv, known};
 use crate::rng::Rng;
 
 /// An effect of which other masses can do all but this part does not show.
@@ -18,12 +20,14 @@ const APART: f64 = 0.1;
 /// Nothing is made larger than this part of what a joint's drive gives: it would be another arm.
 const LARGEST: f64 = 1.0;
 
-/// A drive that bends farther than this under what it gives, rad or m, is none that a controller of encoders holds.
+/// A drive that bends farther than this under what it gives, rad or m, is none that a controller of
+/// encoders holds.
 const BENT: f64 = 0.02;
 
 /// Everything that cases share.
 pub(super) struct Bench<'a> {
-    pub(super) plan: &'a LogPlan<'a>,
+    plan: &'a Plan<'a>,
+    own: &'a Motion<'a>,
     /// Of each run, what the arm of the file would tell.
     nominal: Vec<Vec<Vec<f64>>>,
     rigid: Rigid,
@@ -33,60 +37,39 @@ pub(super) struct Bench<'a> {
     rates: Vec<f64>,
 }
 
-/// An effect put in.
-pub(super) struct Planted {
-    pub(super) truth: MotionTruth,
-    pub(super) multiple: f64,
-}
-
 impl<'a> Bench<'a> {
-    pub(super) fn new(plan: &'a LogPlan<'a>) -> Result<Bench<'a>, LogWithholdError> {
-        let nominal = exact(plan, &[])?;
+    pub(super) fn new(plan: &'a Plan<'a>, own: &'a Motion<'a>) -> Result<Bench<'a>, WithholdError> {
+        let nominal = exact(plan, own, &[])?;
         let n = plan.arm.dof();
-        let of_joint = |j: usize| nominal.iter().flat_map(move |run| run[j].iter());
         let spread = |j: usize| {
-            let count = of_joint(j).count() as f64;
-            let mean = of_joint(j).sum::<f64>() / count;
-            (of_joint(j).map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()
+            let values: Vec<f64> = nominal.iter().flat_map(|run| run[j].iter().copied()).collect();
+            crate::plant::motion::spread(&values)
         };
         let noise: Vec<f64> = (0..n)
-            .map(|j| match plan.logged {
-                Logged::Torque(_) => plan.recording.torque * spread(j),
-                Logged::Position => plan.recording.reading,
+            .map(|j| match own.logged {
+                Logged::Torque(_) => own.recording.torque * spread(j),
+                Logged::Position => own.recording.reading,
             })
             .collect();
         if noise.iter().any(|size| *size <= 0.0) {
-            let what = if plan.logged == Logged::Position { "readings" } else { "torques" };
-            return Err(LogWithholdError::NoNoise { what });
+            let what = if own.logged == Logged::Position { "reading" } else { "torque" };
+            return Err(WithholdError::NoNoise { what });
         }
-        let courses: Vec<&dyn Course> = plan.stages.iter().map(|stage| stage.course).collect();
+        let courses: Vec<&dyn Course> = own.stages.iter().map(|stage| stage.course).collect();
         // The links are fitted along, unless the diagnosis is told that the file's masses are theirs.
         let weighed = plan.arm.joints.iter().any(|joint| joint.mass != 0.0);
-        let known = plan.options.known_links && weighed;
-        let free = plan.logged != Logged::Position && !known;
+        let known = own.options.known_links && weighed;
+        let free = own.logged != Logged::Position && !known;
         let rates = (0..n).map(|j| fastest(&courses, j)).collect();
         let largest = (0..n).map(|j| spread(j) / noise[j]).fold(0.0, f64::max);
-        Ok(Bench {
-            plan,
-            rigid: Rigid::of(plan.arm, &courses, &noise, free),
-            nominal,
-            spread: largest,
-            rates,
-        })
-    }
-
-    /// An effect at a spot of chance, about `multiple` times the noise beyond what other masses could
-    /// do; `None` if it does not show anywhere in this motion.
-    pub(super) fn plant(&self, law: &'static Law, multiple: f64, rng: &mut Rng) -> Option<Planted> {
-        let mut spots = self.spots(law);
-        rng.shuffle(&mut spots);
-        spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, rng))
+        let rigid = Rigid::of(plan.arm, &courses, &noise, free);
+        Ok(Bench { plan, own, nominal, rigid, spread: largest, rates })
     }
 
     /// Where an effect may be put. Of runs only those that are told to hold something may hold more, and
     /// nobody balances a joint that no weight turns.
     fn spots(&self, law: &Law) -> Vec<Spot> {
-        let LogPlan { arm, stages, .. } = self.plan;
+        let (arm, stages) = (self.plan.arm, self.own.stages);
         let mut spots = law.spots(arm, stages.len());
         let balanced = || Counterbalance.places(arm).into_iter().map(Place::row);
         spots.retain(|spot| match spot {
@@ -105,7 +88,7 @@ impl<'a> Bench<'a> {
         spot: Spot,
         multiple: f64,
         rng: &mut Rng,
-    ) -> Option<Planted> {
+    ) -> Option<(MotionTruth, f64)> {
         let mut truth = MotionTruth { law, spot, values: self.draw(law, spot, rng) };
         let (mut found, mut all) = (0.0, 0.0);
         // What is no multiple of its size comes close in a few steps.
@@ -123,7 +106,7 @@ impl<'a> Bench<'a> {
             }
         }
         let close = (found / multiple - 1.0).abs() < 0.2 && all <= LARGEST * self.spread;
-        (close && self.may_be(&truth)).then_some(Planted { truth, multiple: found })
+        (close && self.may_be(&truth)).then_some((truth, found))
     }
 
     /// Whether there is such a thing: gears that give way little and do not hold themselves, iron that
@@ -133,7 +116,7 @@ impl<'a> Bench<'a> {
         let given = self.nominal.iter().flat_map(|run| &run[joint]);
         let given = given.fold(0.0_f64, |most, x| most.max(x.abs()));
         let size = truth.values[0].abs();
-        let longest = self.plan.stages.iter().map(|stage| stage.course.duration());
+        let longest = self.own.stages.iter().map(|stage| stage.course.duration());
         match truth.law.name {
             "joint_elasticity" => size * given < BENT && self.is_held(truth),
             "load_friction" | "torque_scale" => size < 1.0,
@@ -146,18 +129,18 @@ impl<'a> Bench<'a> {
     /// Whether the controller holds such an arm: what gives lies between its encoders and the links.
     fn is_held(&self, truth: &MotionTruth) -> bool {
         let truths = core::slice::from_ref(truth);
-        let plant = plant(self.plan, truths);
-        plant.and_then(|plant| plant.record(self.plan.stages, self.plan.seed)).is_ok()
+        let plant = plant(self.plan, self.own, truths);
+        plant.and_then(|plant| plant.record(self.own.stages, self.plan.seed)).is_ok()
     }
 
     fn sizes(&self, truth: &MotionTruth) -> Result<[f64; 2], MotionError> {
-        let mut changed = exact(self.plan, core::slice::from_ref(truth))?;
+        let mut changed = exact(self.plan, self.own, core::slice::from_ref(truth))?;
         for (changed, nominal) in changed.iter_mut().zip(&self.nominal) {
             for (changed, nominal) in changed.iter_mut().zip(nominal) {
                 changed.iter_mut().zip(nominal).for_each(|(c, n)| *c -= n);
             }
         }
-        Ok(self.rigid.sizes(&changed, self.plan.recording.rate))
+        Ok(self.rigid.sizes(&changed, self.own.recording.rate))
     }
 
     /// Numbers of chance, of which the size is made right afterwards.
@@ -195,6 +178,100 @@ impl<'a> Bench<'a> {
         };
         law.numbers.iter().map(|(name, _)| number(name)).collect()
     }
+
+    /// The log as a file.
+    fn text(&self, truths: &[MotionTruth], seed: u64) -> Result<String, MotionError> {
+        let runs = plant(self.plan, self.own, truths)?.record(self.own.stages, seed)?;
+        Ok(csv(self.plan.arm, self.own.logged, &runs, &[]))
+    }
+
+    /// What the diagnosis says of a file.
+    fn diagnosed(&self, text: &str, options: &LogOptions) -> Result<Verdict, String> {
+        let arm = self.plan.arm;
+        let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
+        let log = Log::from_bytes("withheld", text.as_bytes(), &motions, &Names::default());
+        let found = diagnose(arm, &log.map_err(|error| error.to_string())?, options);
+        Ok(Verdict::of_log(&found.map_err(|error| error.to_string())?))
+    }
+
+    /// The plan's options of the diagnosis, as the case has them.
+    fn options(&self, seed: u64, case: &Case) -> LogOptions {
+        let options = self.own.options.clone();
+        let known = options.catalogue.iter().map(|effect| effect.identifier());
+        let effects = known_to(case, known, options.effects.as_ref());
+        let of_position = (self.own.logged == Logged::Position).then_some(Domain::Position);
+        LogOptions { seed, effects, rows: of_position.or(options.rows), ..options }
+    }
+}
+
+impl run::Bench for Bench<'_> {
+    type Effect = &'static Law;
+    type Truth = MotionTruth;
+
+    /// Of every twenty cases five are without an effect, twelve with one, and three with one that
+    /// the diagnosis does not know.
+    const TURNS: [Kind; 20] = {
+        use Kind::{None as N, Removed as R, Single as S};
+        [S, N, S, R, S, S, N, S, S, N, S, R, S, N, S, S, R, S, N, S]
+    };
+
+    fn effects(&self) -> Vec<&'static Law> {
+        let shows = |law: &&Law| law.rows.contains(&self.own.logged.rows());
+        self.own.effects.iter().copied().filter(shows).collect()
+    }
+
+    fn identifier(law: &'static Law) -> &'static str {
+        law.name
+    }
+
+    /// Beyond what other masses could do.
+    fn plant(
+        &self,
+        law: &'static Law,
+        multiple: f64,
+        rng: &mut Rng,
+    ) -> Option<Planted<MotionTruth>> {
+        let mut spots = self.spots(law);
+        rng.shuffle(&mut spots);
+        let (truth, multiple) =
+            spots.into_iter().find_map(|spot| self.plant_at(law, spot, multiple, rng))?;
+        let label = Named::new(law.name, &truth.spot);
+        Some(Planted { truth, label, multiple })
+    }
+
+    fn judge(
+        &self,
+        truths: &[MotionTruth],
+        seed: u64,
+        case: &mut Case,
+    ) -> Result<(), WithholdError> {
+        let options = self.options(seed, case);
+        if case.kind == Kind::Removed {
+            case.without = self.diagnosed(&self.text(&[], seed)?, &options).ok();
+        }
+        match self.diagnosed(&self.text(truths, seed)?, &options) {
+            Ok(verdict) => case.verdict = Some(verdict),
+            Err(error) => case.error = Some(error),
+        }
+        Ok(())
+    }
+}
+
+impl Verdict {
+    /// Of a diagnosis of a log.
+    pub fn of_log(found: &LogDiagnosis) -> Verdict {
+        let left = found.gap.iter().map(|g| g.after / g.size).sum::<f64>();
+        let depends = found.unexplained.depends_on.iter();
+        Verdict {
+            sets: found.findings.iter().map(Named::set).collect(),
+            unexplained: found.unexplained.present,
+            unexplained_places: depends.map(|on| on.place.clone()).collect(),
+            residual: Residual::Log {
+                left: left / found.gap.len() as f64,
+                after: found.gap.iter().map(|gap| gap.after).collect(),
+            },
+        }
+    }
 }
 
 /// The ten numbers of a point mass.
@@ -210,9 +287,26 @@ fn is_form(law: &Law, name: &str) -> bool {
     law.is_form(name) || (law.name == "joint_coupling" && name == "inertia")
 }
 
-fn exact(plan: &LogPlan<'_>, truths: &[MotionTruth]) -> Result<Vec<Vec<Vec<f64>>>, MotionError> {
-    let plant = plant(plan, truths)?;
-    plan.stages.iter().enumerate().map(|(k, stage)| plant.exact(k, stage)).collect()
+/// The arm with some truths and those that the robot file knows.
+fn plant<'p>(
+    plan: &Plan<'p>,
+    own: &Motion<'_>,
+    truths: &[MotionTruth],
+) -> Result<MovingPlant<'p>, MotionError> {
+    let known = known(&own.options.known, plan.arm, own.stages.len(), own.logged);
+    let known = known
+        .map_err(|error| MotionError { arm: plan.arm.name.clone(), fault: error.to_string() })?;
+    let all = [&known, truths].concat();
+    Ok(MovingPlant::new(plan.arm, &all, own.logged, own.recording))
+}
+
+fn exact(
+    plan: &Plan<'_>,
+    own: &Motion<'_>,
+    truths: &[MotionTruth],
+) -> Result<Vec<Vec<Vec<f64>>>, MotionError> {
+    let plant = plant(plan, own, truths)?;
+    own.stages.iter().enumerate().map(|(k, stage)| plant.exact(k, stage)).collect()
 }
 
 fn fastest(courses: &[&dyn Course], joint: usize) -> f64 {
@@ -220,9 +314,4 @@ fn fastest(courses: &[&dyn Course], joint: usize) -> f64 {
         (0..500).map(move |k| course.at(course.duration() * f64::from(k) / 500.0).qd[joint])
     });
     rates.fold(0.0, |most: f64, rate| most.max(rate.abs()))
-}
-
-/// Whether such a log can show an effect at all.
-pub(super) fn may_show(law: &Law, logged: Logged) -> bool {
-    law.rows.contains(&logged.rows())
 }

@@ -1,9 +1,9 @@
 //! The result of the withheld check, as it is written.
 
 use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::Kind;
-use super::verdict::Verdict;
 use crate::report::Finding;
 
 /// The result.
@@ -13,16 +13,9 @@ pub struct Report {
     pub stiffarm: String,
     /// The robot's name.
     pub robot: String,
-    /// What the rows are called.
-    pub design: String,
-    /// Number of rows.
-    pub measurements: usize,
-    /// Number of poses.
-    pub poses: usize,
-    /// Standard deviation of each measured coordinate, m.
-    pub noise_position: f64,
-    /// Of each measured rotation, rad.
-    pub noise_rotation: f64,
+    /// What is measured, and how well.
+    #[serde(flatten)]
+    pub experiment: Facts,
     /// Sizes that were drawn: an effect's gap in multiples of the noise.
     pub multiple: [f64; 2],
     /// Decides everything.
@@ -52,6 +45,38 @@ pub struct Report {
     pub cases: Vec<Case>,
 }
 
+/// What is measured, and how well.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Facts {
+    /// An arm at rest.
+    Campaign {
+        /// What the rows are called.
+        design: String,
+        /// Number of rows.
+        measurements: usize,
+        /// Number of poses.
+        poses: usize,
+        /// Standard deviation of each measured coordinate, m.
+        noise_position: f64,
+        /// Of each measured rotation, rad.
+        noise_rotation: f64,
+    },
+    /// An arm in motion.
+    Log {
+        /// How long it was moved, s.
+        duration: f64,
+        /// Number of runs.
+        runs: usize,
+        /// Samples a second.
+        rate: f64,
+        /// Standard deviation of the torques' noise, as a part of their spread.
+        noise_torque: f64,
+        /// Of a reading, rad or m.
+        noise_reading: f64,
+    },
+}
+
 /// An effect at a place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Named {
@@ -67,7 +92,7 @@ impl Named {
     }
 
     /// A finding, and what the data do not distinguish from it.
-    pub(in crate::withhold) fn set(finding: &Finding) -> Vec<Named> {
+    pub(super) fn set(finding: &Finding) -> Vec<Named> {
         let others = finding.indistinguishable().map(|a| Named::new(&a.effect, &a.place));
         core::iter::once(Named::new(&finding.effect, &finding.place)).chain(others).collect()
     }
@@ -108,11 +133,11 @@ impl Rate {
         if of == 0 {
             return Rate::default();
         }
-        const Z: f64 = 1.959_963_984_540_054;
+        let z = Normal::standard().inverse_cdf(0.975);
         let (n, p) = (of as f64, hits as f64 / of as f64);
-        let middle = p + Z * Z / (2.0 * n);
-        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        let end = |x: f64| (x / (1.0 + Z * Z / n)).clamp(0.0, 1.0);
+        let middle = p + z * z / (2.0 * n);
+        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
+        let end = |x: f64| (x / (1.0 + z * z / n)).clamp(0.0, 1.0);
         Rate { hits, of, rate: Some(p), ci95: Some([end(middle - half), end(middle + half)]) }
     }
 }
@@ -174,13 +199,50 @@ pub struct Shrunk {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Confusion {
     /// What was put in.
-    pub truth: &'static str,
+    pub truth: String,
     /// What was named first; `null` if nothing was.
     pub named: Option<String>,
     /// Whether the place was right too.
     pub at_its_place: bool,
     /// So often.
     pub cases: usize,
+}
+
+/// What a diagnosis says, as far as it is compared with the truth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Of each finding, in the order in which they were added: itself, then the alternatives that
+    /// the data cannot tell from it.
+    pub sets: Vec<Vec<Named>>,
+    /// Whether something is left that no effect explains.
+    pub unexplained: bool,
+    /// Where that lies, largest share first.
+    pub unexplained_places: Vec<String>,
+    /// What is left with the findings.
+    #[serde(flatten)]
+    pub residual: Residual,
+}
+
+/// What is left with the findings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Residual {
+    /// Of a campaign.
+    Campaign {
+        /// The held-out gap: position rms, m.
+        after_position: f64,
+        /// The same in rotation, rad.
+        after_rotation: f64,
+        /// How far the gap is predicted to shrink, with its 95 % interval: of a lone finding.
+        shrink: Option<[f64; 3]>,
+    },
+    /// Of a log.
+    Log {
+        /// As a part of the joints' spreads: their mean.
+        left: f64,
+        /// Of each joint, N·m (N) or rad (m).
+        after: Vec<f64>,
+    },
 }
 
 /// One case.
@@ -192,16 +254,81 @@ pub struct Case {
     pub truths: Vec<String>,
     /// The same without sizes.
     pub labels: Vec<Named>,
-    /// Each effect's gap in multiples of the noise.
+    /// Each effect's size in multiples of the noise.
     pub multiples: Vec<f64>,
     /// What the diagnosis said.
     pub verdict: Option<Verdict>,
+    /// Of an effect in a log that the diagnosis does not know: what it said of the same log without
+    /// the effect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without: Option<Verdict>,
     /// Why it said nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
-    /// Held-out gap with the findings in multiples of the noise.
+    /// Held-out gap of a campaign with the findings in multiples of the noise.
     pub after: Option<f64>,
     /// How far the gap shrank at poses never met.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub realised: Option<f64>,
+}
+
+/// Up to this many times the noise a gap counts as closed.
+pub(super) const CLOSED: f64 = 1.2;
+
+impl Case {
+    /// What was found: each finding with what the data cannot tell from it.
+    pub fn sets(&self) -> &[Vec<Named>] {
+        self.verdict.as_ref().map_or(&[], |verdict| &verdict.sets)
+    }
+
+    /// The first finding.
+    pub fn first(&self) -> Option<&Named> {
+        self.sets().first()?.first()
+    }
+
+    /// Whether a lone effect and its place were named first.
+    pub fn is_right(&self) -> bool {
+        self.first() == self.labels.first()
+    }
+
+    /// Whether a lone effect is in the first finding's set.
+    pub(super) fn in_first_set(&self) -> bool {
+        let set = self.sets().first().zip(self.labels.first());
+        set.is_some_and(|(set, truth)| set.contains(truth))
+    }
+
+    /// Whether each of two effects is in the set of a finding of its own.
+    pub(super) fn both_in_sets(&self) -> bool {
+        let [a, b] = self.labels.as_slice() else { return false };
+        let sets = || self.sets().iter().enumerate();
+        let apart = |(k, set): (usize, &Vec<Named>)| {
+            set.contains(a) && sets().any(|(l, other)| k != l && other.contains(b))
+        };
+        sets().any(apart)
+    }
+
+    /// Whether something is left that no effect explains.
+    pub fn is_unexplained(&self) -> bool {
+        self.verdict.as_ref().is_some_and(|verdict| verdict.unexplained)
+    }
+
+    /// Whether the gap is closed to the noise.
+    pub(super) fn is_closed(&self) -> bool {
+        self.after.is_some_and(|after| after <= CLOSED)
+    }
+
+    /// Whether something of an effect that the diagnosis does not know is left to be reported: what
+    /// it knows does not close the gap all the same.
+    pub fn is_open(&self) -> bool {
+        use Residual::Log;
+        let with = self.verdict.as_ref().map(|verdict| &verdict.residual);
+        let without = self.without.as_ref().map(|verdict| &verdict.residual);
+        match (with, without) {
+            (Some(Log { after, .. }), Some(Log { after: without, .. })) => {
+                let mut pairs = after.iter().zip(without);
+                self.is_unexplained() || pairs.any(|(after, without)| *after > CLOSED * without)
+            }
+            _ => self.is_unexplained() || !self.is_closed(),
+        }
+    }
 }

@@ -5,91 +5,81 @@ use std::collections::BTreeMap;
 use statrs::statistics::{Data, Median};
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use super::report::{After, Case, Confusion, Named, Pairs, Rate, Removed, Report, Shrunk, Single};
-use super::{Kind, Plan};
-use crate::effects::Effect;
-
-/// Up to this many times the noise a gap counts as closed.
-pub(super) const CLOSED: f64 = 1.2;
+use super::report::{
+    After, Case, Confusion, Facts, Pairs, Rate, Removed, Report, Residual, Shrunk, Single,
+};
+use super::{Experiment, Kind, Plan};
 
 /// The result of some cases.
-pub(super) fn report(
-    plan: &Plan<'_>,
-    cases: Vec<Case>,
-    hidden: Vec<&'static dyn Effect>,
-) -> Report {
+pub(super) fn report(plan: &Plan<'_>, cases: Vec<Case>, cannot_plant: Vec<&'static str>) -> Report {
     let of = |kind: Kind| cases.iter().filter(move |case| case.kind == kind);
-    let known = || of(Kind::Single).chain(of(Kind::Pair));
-    let open = |case: &&Case| is_unexplained(case) || !case.after.is_some_and(|x| x <= CLOSED);
+    let at_rest = matches!(plan.experiment, Experiment::Campaign(_));
+    // Of a log nothing says where an effect is that the diagnosis does not know, and how much noise
+    // there is in what is left.
+    let known = || of(Kind::Single).chain(of(Kind::Pair)).filter(|_| at_rest);
+    let flagged = || of(Kind::Removed).filter(|case| at_rest && case.is_unexplained());
+    let sizes: Vec<usize> =
+        of(Kind::Single).filter_map(|case| Some(case.sets().first()?.len())).collect();
+    let mean = sizes.iter().sum::<usize>() as f64 / sizes.len() as f64;
+    let (version, experiment) = facts(plan);
     Report {
-        stiffarm: plan.options.version.clone(),
+        stiffarm: version,
         robot: plan.arm.name.clone(),
-        design: plan.design.file.clone(),
-        measurements: plan.design.rows.len(),
-        poses: plan.design.poses,
-        noise_position: plan.noise.position,
-        noise_rotation: plan.noise.rotation,
+        experiment,
         multiple: plan.multiple,
         seed: plan.seed,
-        false_alarms: Rate::of(of(Kind::None).map(|case| !sets(case).is_empty())),
-        false_unexplained: Rate::of(of(Kind::None).map(is_unexplained)),
+        false_alarms: Rate::of(of(Kind::None).map(|case| !case.sets().is_empty())),
+        false_unexplained: Rate::of(of(Kind::None).map(Case::is_unexplained)),
         single: Single {
-            first_named: Rate::of(of(Kind::Single).map(|case| first(case) == case.labels.first())),
-            in_set: Rate::of(of(Kind::Single).map(in_first_set)),
-            mean_set_size: mean(of(Kind::Single).filter_map(|c| sets(c).first()).map(Vec::len)),
-            more_than_one: Rate::of(of(Kind::Single).map(|case| sets(case).len() > 1)),
+            first_named: Rate::of(of(Kind::Single).map(Case::is_right)),
+            in_set: Rate::of(of(Kind::Single).map(Case::in_first_set)),
+            mean_set_size: (!sizes.is_empty()).then_some(mean),
+            more_than_one: Rate::of(of(Kind::Single).map(|case| case.sets().len() > 1)),
         },
-        pairs: Pairs { both_in_sets: Rate::of(of(Kind::Pair).map(both_in_sets)) },
+        pairs: Pairs { both_in_sets: Rate::of(of(Kind::Pair).map(Case::both_in_sets)) },
         removed: Removed {
-            flagged: Rate::of(of(Kind::Removed).map(is_unexplained)),
-            flagged_of_open: Rate::of(of(Kind::Removed).filter(open).map(is_unexplained)),
-            right_joint: Rate::of(
-                of(Kind::Removed)
-                    .filter(|case| is_unexplained(case))
-                    .filter_map(|case| right_joint(plan.arm, case)),
+            flagged: Rate::of(of(Kind::Removed).map(Case::is_unexplained)),
+            flagged_of_open: Rate::of(
+                of(Kind::Removed).filter(|case| case.is_open()).map(Case::is_unexplained),
             ),
+            right_joint: Rate::of(flagged().filter_map(|case| right_joint(plan.arm, case))),
         },
         after: After {
-            within_1_2_of_noise: Rate::of(known().map(|c| c.after.is_some_and(|x| x <= CLOSED))),
+            within_1_2_of_noise: Rate::of(known().map(Case::is_closed)),
             median: median(known().filter_map(|case| case.after).collect()),
         },
         shrink: shrunk(&cases),
-        confusion: confusion(of(Kind::Single).filter_map(|case| {
-            let label = case.labels.first()?;
-            let truth = plan.effects.iter().find(|e| e.identifier() == label.effect)?;
-            Some((truth.identifier(), label, first(case)))
-        })),
-        cannot_plant: hidden.into_iter().map(|effect| effect.identifier()).collect(),
+        confusion: confusion(of(Kind::Single)),
+        cannot_plant,
         failed: cases.iter().filter(|case| case.verdict.is_none()).count(),
         cases,
     }
 }
 
-fn sets(case: &Case) -> &[Vec<Named>] {
-    case.verdict.as_ref().map_or(&[], |verdict| &verdict.sets)
-}
-
-fn first(case: &Case) -> Option<&Named> {
-    sets(case).first()?.first()
-}
-
-fn is_unexplained(case: &Case) -> bool {
-    case.verdict.as_ref().is_some_and(|verdict| verdict.unexplained)
-}
-
-fn in_first_set(case: &Case) -> bool {
-    let set = sets(case).first();
-    set.zip(case.labels.first()).is_some_and(|(set, truth)| set.contains(truth))
-}
-
-/// Whether two findings can be told off, one for each effect.
-fn both_in_sets(case: &Case) -> bool {
-    let [a, b] = case.labels.as_slice() else { return false };
-    let holding = |truth: &Named| -> Vec<usize> {
-        sets(case).iter().enumerate().filter(|(_, s)| s.contains(truth)).map(|(k, _)| k).collect()
-    };
-    let (of_a, of_b) = (holding(a), holding(b));
-    of_a.iter().any(|k| of_b.iter().any(|l| k != l))
+/// The diagnosis' version, and what is measured.
+fn facts(plan: &Plan<'_>) -> (String, Facts) {
+    match &plan.experiment {
+        Experiment::Campaign(own) => {
+            let facts = Facts::Campaign {
+                design: own.design.file.clone(),
+                measurements: own.design.rows.len(),
+                poses: own.design.poses,
+                noise_position: own.noise.position,
+                noise_rotation: own.noise.rotation,
+            };
+            (own.options.version.clone(), facts)
+        }
+        Experiment::Log(own) => {
+            let facts = Facts::Log {
+                duration: own.stages.iter().map(|stage| stage.course.duration()).sum(),
+                runs: own.stages.len(),
+                rate: own.recording.rate,
+                noise_torque: own.recording.torque,
+                noise_reading: own.recording.reading,
+            };
+            (own.options.version.clone(), facts)
+        }
+    }
 }
 
 /// Where along the arm a place is, and the number that it bears; `None` for those that are
@@ -120,41 +110,34 @@ fn right_joint(arm: &Arm, case: &Case) -> Option<bool> {
 }
 
 fn shrunk(cases: &[Case]) -> Option<Shrunk> {
-    let pairs: Vec<(f64, [f64; 3])> = cases
-        .iter()
-        .filter_map(|case| case.realised.zip(case.verdict.as_ref().and_then(|v| v.shrink)))
-        .collect();
+    let pairs: Vec<(f64, [f64; 3])> =
+        cases.iter().filter_map(|case| case.realised.zip(predicted(case))).collect();
     let off = pairs.iter().map(|(real, [predicted, ..])| real - predicted).collect();
     let inside = |(real, [_, low, high]): &(f64, [f64; 3])| (low..=high).contains(&real);
     Some(Shrunk { median_off: median(off)?, inside: Rate::of(pairs.iter().map(inside)) })
 }
 
-/// What was named first how often: of each case the truth's identifier, its label, and the finding.
-pub(super) fn confusion<'a>(
-    cases: impl Iterator<Item = (&'static str, &'a Named, Option<&'a Named>)>,
-) -> Vec<Confusion> {
-    let mut counts: BTreeMap<(&'static str, Option<String>, bool), usize> = BTreeMap::new();
-    for (truth, label, named) in cases {
-        let at_its_place = named.is_some_and(|named| named.place == label.place);
-        let key = (truth, named.map(|n| n.effect.clone()), at_its_place);
-        *counts.entry(key).or_default() += 1;
+fn predicted(case: &Case) -> Option<[f64; 3]> {
+    match case.verdict.as_ref()?.residual {
+        Residual::Campaign { shrink, .. } => shrink,
+        Residual::Log { .. } => None,
     }
-    let mut rows: Vec<Confusion> = counts
-        .into_iter()
-        .map(|((truth, named, at_its_place), cases)| Confusion {
-            truth,
-            named,
-            at_its_place,
-            cases,
-        })
-        .collect();
-    rows.sort_by_key(|row| core::cmp::Reverse(row.cases));
-    rows
 }
 
-fn mean(sizes: impl Iterator<Item = usize>) -> Option<f64> {
-    let (sum, count) = sizes.fold((0, 0), |(sum, count), size| (sum + size, count + 1));
-    (count > 0).then(|| sum as f64 / f64::from(count))
+/// What was named first how often, of cases with one effect.
+fn confusion<'a>(cases: impl Iterator<Item = &'a Case>) -> Vec<Confusion> {
+    let mut counts: BTreeMap<(String, Option<String>, bool), usize> = BTreeMap::new();
+    for case in cases {
+        let Some(label) = case.labels.first() else { continue };
+        let at_its_place = case.first().is_some_and(|named| named.place == label.place);
+        let named = case.first().map(|named| named.effect.clone());
+        *counts.entry((label.effect.clone(), named, at_its_place)).or_default() += 1;
+    }
+    let row =
+        |((truth, named, at_its_place), cases)| Confusion { truth, named, at_its_place, cases };
+    let mut rows: Vec<Confusion> = counts.into_iter().map(row).collect();
+    rows.sort_by_key(|row| core::cmp::Reverse(row.cases));
+    rows
 }
 
 fn median(values: Vec<f64>) -> Option<f64> {
@@ -163,7 +146,7 @@ fn median(values: Vec<f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::verdict::Verdict;
+    use super::super::report::{Named, Verdict};
     use super::*;
     use crate::fixture;
 
@@ -182,10 +165,9 @@ mod tests {
                 sets: sets.iter().map(|s| s.iter().map(|l| named(l)).collect()).collect(),
                 unexplained: unexplained.is_some(),
                 unexplained_places: unexplained.map(str::to_owned).into_iter().collect(),
-                after_position: 0.0,
-                after_rotation: 0.0,
-                shrink: None,
+                residual: Residual::Log { left: 0.0, after: Vec::new() },
             }),
+            without: None,
             error: None,
             after: None,
             realised: None,
@@ -197,9 +179,9 @@ mod tests {
         let right = case(&["a@joint 1"], &[&["a@joint 1", "b@base"]], None);
         let second = case(&["b@base"], &[&["a@joint 1", "b@base"]], None);
         let elsewhere = case(&["a@joint 2"], &[&["a@joint 1", "b@base"], &["a@joint 2"]], None);
-        assert_eq!(first(&right), right.labels.first());
-        assert_ne!(first(&second), second.labels.first());
-        assert_eq!([&right, &second, &elsewhere].map(in_first_set), [true, true, false]);
+        assert_eq!(right.first(), right.labels.first());
+        assert_ne!(second.first(), second.labels.first());
+        assert_eq!([&right, &second, &elsewhere].map(Case::in_first_set), [true, true, false]);
     }
 
     #[test]
@@ -208,7 +190,7 @@ mod tests {
         let own = case(&pair, &[&["c@arm", "b@joint 2"], &["a@joint 1"]], None);
         let shared = case(&pair, &[&["a@joint 1", "b@joint 2"], &["c@arm"]], None);
         let one = case(&pair, &[&["a@joint 1"]], None);
-        assert_eq!([own, shared, one].each_ref().map(both_in_sets), [true, false, false]);
+        assert_eq!([own, shared, one].each_ref().map(Case::both_in_sets), [true, false, false]);
     }
 
     #[test]

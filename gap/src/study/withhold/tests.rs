@@ -14,6 +14,20 @@ fn design(seed: u64) -> Measurements {
     Design { shape, poses: 8, repeats: 1, payload: 20.0, kind, seed }.rows(&fixture::springy())
 }
 
+fn campaign<'a>(
+    design: &'a Measurements,
+    effects: &'a [&'static dyn Effect],
+    options: &'a Options,
+) -> Campaign<'a> {
+    let noise = Noise { position: 3e-5, rotation: 1e-4 };
+    Campaign { design, fresh: &[], predict: None, noise, frames: None, effects, options }
+}
+
+fn plan<'a>(arm: &'a Arm, campaign: Campaign<'a>, cases: usize) -> Plan<'a> {
+    let experiment = Experiment::Campaign(campaign);
+    Plan { arm, experiment, cases, multiple: [8.0, 20.0], seed: 4, threads: 2 }
+}
+
 fn check(change: impl Fn(&mut Plan<'_>)) -> Result<Report, WithholdError> {
     let effects = Some(vec!["joint_compliance".to_owned()]);
     checked(&Options { effects, ..Options::default() }, change)
@@ -23,20 +37,12 @@ fn checked(options: &Options, change: impl Fn(&mut Plan<'_>)) -> Result<Report, 
     let catalogue = Catalogue::default();
     let (arm, design, fresh) = (fixture::springy(), design(1), [design(2), design(3)]);
     let predict = with_findings(Whole { arm: &arm, known: &options.known }, &catalogue);
-    let mut plan = Plan {
-        arm: &arm,
-        design: &design,
+    let campaign = Campaign {
         fresh: &fresh,
         predict: Some(&predict),
-        noise: Noise { position: 3e-5, rotation: 1e-4 },
-        frames: None,
-        effects: &[&JointCompliance],
-        cases: 20,
-        multiple: [8.0, 20.0],
-        seed: 4,
-        options,
-        threads: 2,
+        ..campaign(&design, &[&JointCompliance], options)
     };
+    let mut plan = plan(&arm, campaign, 20);
     change(&mut plan);
     withhold(&plan, &|_, _| {})
 }
@@ -71,20 +77,8 @@ fn what_does_not_show_is_said() {
     let (arm, mut unloaded) = (fixture::rigid(), design(1));
     unloaded.rows.iter_mut().for_each(|row| row.wrench.fill(0.0));
     let options = Options::default();
-    let plan = Plan {
-        arm: &arm,
-        design: &unloaded,
-        fresh: &[],
-        predict: None,
-        noise: Noise { position: 3e-5, rotation: 1e-4 },
-        frames: None,
-        effects: &[&WrenchScale, &JointOffset],
-        cases: 4,
-        multiple: [8.0, 20.0],
-        seed: 4,
-        options: &options,
-        threads: 2,
-    };
+    let campaign = campaign(&unloaded, &[&WrenchScale, &JointOffset], &options);
+    let plan = plan(&arm, campaign, 4);
     let report = withhold(&plan, &|_, _| {}).unwrap();
     assert_eq!(report.cannot_plant, ["wrench_scale"]);
     assert_eq!(report.shrink, None);
@@ -95,37 +89,32 @@ fn plans_that_make_no_sense_are_refused() {
     assert_eq!(check(|plan| plan.cases = 0), Err(WithholdError::NoCases));
     let wrong = check(|plan| plan.multiple = [20.0, 8.0]);
     assert_eq!(wrong, Err(WithholdError::Multiple { from: 20.0, to: 8.0 }));
-    let silent = check(|plan| plan.noise.rotation = 0.0);
+    let silent = check(|plan| {
+        let Experiment::Campaign(own) = &mut plan.experiment else { unreachable!() };
+        own.noise.rotation = 0.0;
+    });
     assert_eq!(silent, Err(WithholdError::NoNoise { what: "rotation" }));
 }
 
 /// The gap that an effect is given is in multiples of the noise, whatever unknown frames could do.
 #[test]
 fn frames_that_are_unknown_hide_what_moves_them() {
-    use super::bench::Bench;
+    use super::campaign::Bench;
+    use super::run::{Bench as _, shown};
     use crate::rng::{Rng, Stream};
     let (arm, design) = (fixture::springy(), design(1));
     let options = Options::default();
-    let plan = Plan {
-        arm: &arm,
-        design: &design,
-        fresh: &[],
-        predict: None,
-        noise: Noise { position: 3e-5, rotation: 1e-4 },
-        frames: Some(Frames::unknown(3)),
-        effects: &crate::plant::effects(),
-        cases: 1,
-        multiple: [8.0, 20.0],
-        seed: 4,
-        options: &options,
-        threads: 1,
-    };
-    let bench = Bench::new(&plan).unwrap();
+    let effects = crate::plant::effects();
+    let campaign =
+        Campaign { frames: Some(Frames::unknown(3)), ..campaign(&design, &effects, &options) };
+    let plan = plan(&arm, campaign, 1);
+    let Experiment::Campaign(own) = &plan.experiment else { unreachable!() };
+    let bench = Bench::new(&plan, own).unwrap();
     let mut rng = Rng::new(1, Stream::Truths);
     // The first joint's zero is a turn of the base, its ratio is not.
     let first = bench.plant(&JointRatio, 10.0, &mut rng).unwrap();
     assert!((first.multiple - 10.0).abs() < 0.5);
-    let (shows, _) = bench.shows();
+    let (shows, _) = shown(&plan, &bench);
     assert!(
         !shows.contains(&(&BaseFrame as &dyn Effect))
             && shows.contains(&(&Backlash as &dyn Effect))
