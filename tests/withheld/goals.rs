@@ -2,104 +2,131 @@
 
 use core::fmt;
 
+use serde::Serialize;
 use statrs::distribution::{Binomial, DiscreteCDF};
-use stiffarm_gap::withhold::logs::LogReport;
-use stiffarm_gap::withhold::{Kind, Rate, Report};
+use stiffarm_gap::study::withhold::{Kind, Rate, Report};
 
-/// Rates over several reports, each with its goal.
-pub struct Goals {
-    pub cases: usize,
-    goals: Vec<Goal>,
-    /// Mean over the cases with one effect; at most 2.
-    mean_set_size: Option<f64>,
-}
-
-struct Goal {
+/// A rate and its goal.
+#[derive(Clone, Debug, Serialize)]
+pub struct Goal {
     what: &'static str,
+    #[serde(flatten)]
     rate: Rate,
     /// From, to.
     wanted: [f64; 2],
 }
 
+/// What is wanted of reports.
+pub struct Wanted {
+    /// Name, from, to, and the rate of each report.
+    rates: &'static [(&'static str, [f64; 2], fn(&Report) -> Rate)],
+    /// Largest mean size of the first finding's set.
+    largest_set: f64,
+}
+
+/// Of campaigns.
+pub const CAMPAIGNS: Wanted = Wanted { rates: OF_CAMPAIGNS, largest_set: 2.0 };
+
+/// Of joint logs.
+pub const LOGS: Wanted = Wanted { rates: OF_LOGS, largest_set: f64::INFINITY };
+
+const OF_CAMPAIGNS: &[(&str, [f64; 2], fn(&Report) -> Rate)] = &[
+    ("false alarms", [0.0, 0.05], |r| r.false_alarms),
+    ("named first", [0.90, 1.0], |r| r.single.first_named),
+    ("in the set", [0.98, 1.0], |r| r.single.in_set),
+    ("both of a pair", [0.85, 1.0], |r| r.pairs.both_in_sets),
+    ("unknown flagged", [0.95, 1.0], |r| r.removed.flagged_of_open),
+    ("at its joint", [0.80, 1.0], |r| r.removed.right_joint),
+    ("gap closed", [0.90, 1.0], |r| r.after.within_1_2_of_noise),
+    ("shrink as predicted", [0.90, 0.99], |r| {
+        r.shrink.map_or_else(Rate::default, |shrink| shrink.inside)
+    }),
+];
+
+const OF_LOGS: &[(&str, [f64; 2], fn(&Report) -> Rate)] = &[
+    ("false alarms", [0.0, 0.05], |r| r.false_alarms),
+    ("named first", [0.90, 1.0], |r| r.single.first_named),
+    ("in the set", [0.97, 1.0], |r| r.single.in_set),
+    ("unknown flagged", [0.90, 1.0], |r| r.removed.flagged_of_open),
+];
+
+/// One of forty runs.
+const CHANCE: f64 = 1.0 / 40.0;
+
 impl Goal {
-    /// If so asked, by more than chance does in one of forty runs.
-    fn is_missed(&self, beyond_chance: bool) -> bool {
-        let Goal { rate, wanted: [from, to], .. } = *self;
-        if !beyond_chance {
-            return !rate.rate.is_some_and(|r| (from..=to).contains(&r));
-        }
-        let misses = rate.of - rate.hits;
-        at_most(rate.hits, rate.of, from) < CHANCE || at_most(misses, rate.of, 1.0 - to) < CHANCE
+    pub fn new(what: &'static str, wanted: [f64; 2], rate: Rate) -> Goal {
+        Goal { what, rate, wanted }
+    }
+
+    /// Of nothing nothing can be said: that misses.
+    fn is_missed(&self) -> bool {
+        let [from, to] = self.wanted;
+        !self.rate.rate.is_some_and(|r| (from..=to).contains(&r))
+    }
+
+    /// By more than chance does in one of forty runs.
+    fn is_missed_beyond_chance(&self) -> bool {
+        let Goal { rate: Rate { hits, of, .. }, wanted: [from, to], .. } = *self;
+        at_most(hits, of, from) < CHANCE || at_most(of - hits, of, 1.0 - to) < CHANCE
     }
 }
 
-fn goal(what: &'static str, wanted: [f64; 2], rate: Rate) -> Goal {
-    Goal { what, rate, wanted }
+/// Those that are missed.
+pub fn missed(goals: &[Goal]) -> Vec<&'static str> {
+    goals.iter().filter(|goal| goal.is_missed()).map(|goal| goal.what).collect()
+}
+
+impl fmt::Display for Goal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Goal { what, rate: Rate { hits, of, rate, .. }, wanted: [from, to] } = self;
+        let percent = rate.map_or_else(String::new, |r| format!("{:.1} %", 100.0 * r));
+        let mark = if self.is_missed() { "   missed" } else { "" };
+        write!(f, "{what:>20} {percent:>8} {hits:>4} of {of:<4} wanted {from} to {to}{mark}")
+    }
+}
+
+/// Rates over several reports, each with its goal.
+pub struct Goals {
+    pub cases: usize,
+    goals: Vec<Goal>,
+    /// Mean over the cases with one effect, and its goal.
+    mean_set_size: f64,
+    largest_set: f64,
 }
 
 impl Goals {
-    pub fn of(reports: &[Report]) -> Goals {
-        let pooled = |rate: fn(&Report) -> Rate| Rate::pooled(reports.iter().map(rate));
-        let sizes = reports.iter().flat_map(|r| &r.cases).filter(|c| c.kind == Kind::Single);
-        let sizes: Vec<f64> = sizes
-            .filter_map(|c| c.verdict.as_ref()?.sets.first().map(|s| s.len() as f64))
-            .collect();
-        let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+    pub fn of(reports: &[Report], wanted: Wanted) -> Goals {
+        let cases = || reports.iter().flat_map(|r| &r.cases);
+        let single = cases().filter(|case| case.kind == Kind::Single);
+        let sizes: Vec<usize> =
+            single.filter_map(|case| Some(case.sets().first()?.len())).collect();
         Goals {
-            cases: reports.iter().map(|r| r.cases.len()).sum(),
-            goals: vec![
-                goal("false alarms", [0.0, 0.05], pooled(|r| r.false_alarms)),
-                goal("named first", [0.90, 1.0], pooled(|r| r.single.first_named)),
-                goal("in the set", [0.98, 1.0], pooled(|r| r.single.in_set)),
-                goal("both of a pair", [0.85, 1.0], pooled(|r| r.pairs.both_in_sets)),
-                goal("unknown flagged", [0.95, 1.0], pooled(|r| r.removed.flagged_of_open)),
-                goal("at its joint", [0.80, 1.0], pooled(|r| r.removed.right_joint)),
-                goal("gap closed", [0.90, 1.0], pooled(|r| r.after.within_1_2_of_noise)),
-                goal(
-                    "shrink as predicted",
-                    [0.90, 0.99],
-                    pooled(|r| r.shrink.map_or_else(Rate::default, |s| s.inside)),
-                ),
-            ],
-            mean_set_size: (!sizes.is_empty()).then_some(mean),
-        }
-    }
-
-    /// Of joint logs.
-    pub fn of_logs(reports: &[LogReport]) -> Goals {
-        let pooled = |rate: fn(&LogReport) -> Rate| Rate::pooled(reports.iter().map(rate));
-        Goals {
-            cases: reports.iter().map(|r| r.cases.len()).sum(),
-            goals: vec![
-                goal("false alarms", [0.0, 0.05], pooled(|r| r.false_alarms)),
-                goal("named first", [0.90, 1.0], pooled(|r| r.single.first_named)),
-                goal("in the set", [0.97, 1.0], pooled(|r| r.single.in_set)),
-                goal("unknown flagged", [0.90, 1.0], pooled(|r| r.removed_flagged_of_open)),
-            ],
-            mean_set_size: None,
+            cases: cases().count(),
+            goals: (wanted.rates.iter())
+                .map(|(what, range, rate)| {
+                    Goal::new(what, *range, Rate::pooled(reports.iter().map(rate)))
+                })
+                .collect(),
+            mean_set_size: sizes.iter().sum::<usize>() as f64 / sizes.len().max(1) as f64,
+            largest_set: wanted.largest_set,
         }
     }
 
     /// Goals that are missed.
-    pub fn missed(&self) -> Vec<String> {
-        self.missed_by(false)
+    pub fn missed(&self) -> Vec<&'static str> {
+        missed(&self.goals).into_iter().chain(self.sets()).collect()
     }
 
     /// Goals that a rate misses by more than chance does in one of forty runs.
-    pub fn missed_beyond_chance(&self) -> Vec<String> {
-        self.missed_by(true)
+    pub fn missed_beyond_chance(&self) -> Vec<&'static str> {
+        let goals = self.goals.iter().filter(|goal| goal.is_missed_beyond_chance());
+        goals.map(|goal| goal.what).chain(self.sets()).collect()
     }
 
-    fn missed_by(&self, beyond_chance: bool) -> Vec<String> {
-        let missed = |goal: &&Goal| goal.is_missed(beyond_chance);
-        let rates = self.goals.iter().filter(missed).map(|g| g.what);
-        let sets = self.mean_set_size.filter(|size| *size > 2.0).map(|_| "mean set size");
-        rates.chain(sets).map(str::to_owned).collect()
+    fn sets(&self) -> Option<&'static str> {
+        (self.mean_set_size > self.largest_set).then_some("mean set size")
     }
 }
-
-/// One of forty runs.
-const CHANCE: f64 = 1.0 / 40.0;
 
 /// The chance of no more than so many hits of `of`, each with chance `rate`.
 fn at_most(hits: usize, of: usize, rate: f64) -> f64 {
@@ -109,12 +136,8 @@ fn at_most(hits: usize, of: usize, rate: f64) -> f64 {
 impl fmt::Display for Goals {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} cases", self.cases)?;
-        for Goal { what, rate, wanted: [from, to] } in &self.goals {
-            let percent = rate.rate.map_or_else(String::new, |r| format!("{:.1} %", 100.0 * r));
-            let (hits, of) = (rate.hits, rate.of);
-            writeln!(f, "{what:>20} {percent:>8} {hits:>4} of {of:<4} wanted {from} to {to}")?;
-        }
-        let size = self.mean_set_size.map_or_else(String::new, |s| format!("{s:.2}"));
-        writeln!(f, "{:>20} {size:>8}              wanted at most 2", "mean set size")
+        self.goals.iter().try_for_each(|goal| writeln!(f, "{goal}"))?;
+        let (size, most) = (self.mean_set_size, self.largest_set);
+        writeln!(f, "{:>20} {size:>8.2}              wanted at most {most}", "mean set size")
     }
 }

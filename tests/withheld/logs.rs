@@ -11,16 +11,17 @@
 //! second are those that nobody tunes by: it holds the goals, over 600 logs, of which 72 have an effect that the
 //! diagnosis does not know and could tell.
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
-use stiffarm_gap::withhold::logs::{LogCase, LogPlan, LogReport, withhold};
-use stiffarm_gap::withhold::{Kind, Named};
+use stiffarm_gap::study::withhold::{Experiment, Motion, Report};
 use stiffarm_kernels::generic::Arm;
 
-use crate::goals::Goals;
+use crate::arms::file;
+use crate::goals::{Goals, LOGS};
+use crate::suite::{strays, tried};
 
 /// One arm, moved and logged in one way.
 struct Setting {
@@ -99,9 +100,7 @@ fn settings() -> Vec<Setting> {
 
 /// A built-in arm with rotors and friction such as arms of its size have, which its file then knows.
 fn arm(id: &str) -> Arm {
-    let file = stiffarm_robots::arm(id).expect("a built-in robot");
-    let (robot, _) = Robot::from_toml(file.toml, id).expect("a right file");
-    let mut arm = stiffarm_gap::robot::arm(&robot).expect("numbers for everything");
+    let mut arm = stiffarm_gap::robot::arm(&file(id)).expect("numbers for everything");
     let last = (arm.dof() - 1) as f64;
     let weight = arm.joints.iter().map(|joint| joint.mass).sum::<f64>();
     for (j, joint) in arm.joints.iter_mut().enumerate() {
@@ -120,7 +119,7 @@ fn known() -> Vec<&'static Law> {
     LAWS.iter().filter(known).collect()
 }
 
-fn run(setting: &Setting, cases: usize, seed: u64) -> LogReport {
+fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
     let arm = arm(setting.robot);
     let limits = Limits::of(&arm, &[1.5], &[5.0]).expect("joints with limits");
     let course = |k: usize| {
@@ -133,49 +132,14 @@ fn run(setting: &Setting, cases: usize, seed: u64) -> LogReport {
     let only = std::env::var("LOGS_EFFECTS").ok();
     let asked = |law: &&'static Law| only.as_ref().is_none_or(|only| only.contains(law.name));
     let effects: Vec<&'static Law> = known().into_iter().filter(asked).collect();
-    let plan = LogPlan {
-        arm: &arm,
+    let experiment = Experiment::Log(Motion {
         stages: &stages,
         logged: setting.logged,
         recording: setting.recording,
         effects: &effects,
-        cases,
-        multiple: [1.0, 3.0],
-        seed,
         options: &LogOptions::default(),
-        threads: 2,
-    };
-    let report = withhold(&plan, &|_, _| {}).expect("a plan that can be carried out");
-    assert_eq!(report.failed, 0, "{:?}", report.cases.iter().find(|c| c.error.is_some()));
-    report
-}
-
-/// The cases in which what was put in is not what was named: one line each.
-fn strays(report: &LogReport) -> String {
-    let line = |case: &&LogCase| {
-        let set = |set: &Vec<Named>| {
-            let names: Vec<String> =
-                set.iter().map(|n| format!("{}@{}", n.effect, n.place)).collect();
-            names.join(" or ")
-        };
-        let named: Vec<String> = case.verdict.iter().flat_map(|v| &v.sets).map(set).collect();
-        let left = case.verdict.as_ref().map_or(f64::NAN, |v| 100.0 * v.left);
-        format!(
-            "  {:?}{} {} (×{:.1}) → {} [{left:.1} % left]\n",
-            case.asked.kind,
-            if case.is_open() { "" } else { ", closed," },
-            case.asked.truth.as_deref().unwrap_or("nothing"),
-            case.asked.multiple.unwrap_or_default(),
-            named.join(", ")
-        )
-    };
-    let told = |case: &LogCase| case.verdict.as_ref().is_some_and(|v| v.unexplained);
-    let is_stray = |case: &&LogCase| match case.asked.kind {
-        Kind::None => case.verdict.as_ref().is_some_and(|v| !v.sets.is_empty()),
-        Kind::Removed => !told(case),
-        _ => !case.is_right(),
-    };
-    report.cases.iter().filter(is_stray).map(|case| line(&case)).collect()
+    });
+    tried(&arm, experiment, cases, [1.0, 3.0], seed)
 }
 
 fn all(seeds: &[u64], cases: usize) -> Goals {
@@ -191,13 +155,13 @@ fn all(seeds: &[u64], cases: usize) -> Goals {
         let started = std::time::Instant::now();
         let report = run(setting, cases, seed);
         println!("{} ({}), {:.0} s", setting.name, setting.robot, started.elapsed().as_secs_f64());
-        print!("{}{}", Goals::of_logs(core::slice::from_ref(&report)), strays(&report));
+        print!("{}{}", Goals::of(core::slice::from_ref(&report), LOGS), strays(&report));
         if !report.cannot_plant.is_empty() {
             println!("  does not show: {}", report.cannot_plant.join(", "));
         }
         reports.push(report);
     }
-    let goals = Goals::of_logs(&reports);
+    let goals = Goals::of(&reports, LOGS);
     println!("all\n{goals}");
     goals
 }
@@ -213,7 +177,7 @@ fn tuning() {
 fn kept_apart() {
     let goals = all(&[70_001, 80_001, 90_001], 34);
     assert!(goals.cases >= 600);
-    assert_eq!(goals.missed(), Vec::<String>::new(), "{goals}");
+    assert!(goals.missed().is_empty(), "{goals}");
 }
 
 /// Ten logs of each of two settings: a rate must not be worse than its goal beyond chance.
@@ -221,7 +185,7 @@ fn kept_apart() {
 fn quick() {
     let quick = settings().into_iter().filter(|setting| setting.quick).enumerate();
     let reports: Vec<_> = quick.map(|(k, s)| run(&s, 10, 5_001 + 100 * k as u64)).collect();
-    let goals = Goals::of_logs(&reports);
+    let goals = Goals::of(&reports, LOGS);
     let strays: String = reports.iter().map(strays).collect();
-    assert_eq!(goals.missed_beyond_chance(), Vec::<String>::new(), "{goals}{strays}");
+    assert!(goals.missed_beyond_chance().is_empty(), "{goals}{strays}");
 }

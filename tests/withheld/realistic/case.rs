@@ -10,6 +10,7 @@ use stiffarm_gap::corrected::corrected;
 use stiffarm_gap::diagnose::{Diagnosed, Finding, Nuisance};
 use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::gap::{Statistics, rms};
+use stiffarm_gap::study::withhold::Named;
 use stiffarm_gap::{Options, diagnose_with};
 
 use super::draw::{Drawn, lasts};
@@ -17,13 +18,6 @@ use super::draw::{Drawn, lasts};
 /// Findings of ordinary calibration; every other is physical.
 pub const GEOMETRY: [&str; 5] =
     ["geometry", "joint_offset", "link_geometry", "base_frame", "tool_frame"];
-
-/// An effect at a place.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Named {
-    pub effect: String,
-    pub place: String,
-}
 
 /// A physical effect that the arm has, and what the diagnosis made of it.
 #[derive(Clone, Debug, Serialize)]
@@ -105,12 +99,6 @@ pub struct Case {
     pub error: Option<String>,
 }
 
-impl Named {
-    fn new(effect: &str, place: &str) -> Named {
-        Named { effect: effect.to_owned(), place: place.to_owned() }
-    }
-}
-
 impl Case {
     /// Gap that is left over that of the noise.
     pub fn over_floor(&self) -> f64 {
@@ -131,7 +119,7 @@ pub fn run(drawn: &Drawn) -> Case {
     let seconds = start.elapsed().as_secs_f64();
     let floor = drawn.floor(&[]);
     let truths = drawn.planted.iter().map(|planted| Truth {
-        what: Named::new(planted.truth.effect.identifier(), &planted.truth.place.to_string()),
+        what: Named::new(planted.truth.effect.identifier(), &planted.truth.place),
         text: planted.truth.to_string(),
         ratio: planted.ratio,
         evidence: planted.evidence,

@@ -56,7 +56,7 @@ fn full(seeds: core::ops::RangeInclusive<u64>, usual: &str) {
     }
     let score = Score::of(&cases);
     println!("{score}");
-    assert_eq!(score.missed(), Vec::<&str>::new(), "{score}");
+    assert!(score.missed().is_empty(), "{score}");
 }
 
 /// `7-12,31`.

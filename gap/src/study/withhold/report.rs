@@ -87,7 +87,8 @@ pub struct Named {
 }
 
 impl Named {
-    pub(super) fn new(effect: impl ToString, place: &impl ToString) -> Named {
+    /// Of an identifier and a place.
+    pub fn new(effect: impl ToString, place: &impl ToString) -> Named {
         Named { effect: effect.to_string(), place: place.to_string() }
     }
 
@@ -129,7 +130,8 @@ impl Rate {
         Rate::count(hits, of)
     }
 
-    fn count(hits: usize, of: usize) -> Rate {
+    /// So many hits of so many.
+    pub fn count(hits: usize, of: usize) -> Rate {
         if of == 0 {
             return Rate::default();
         }
