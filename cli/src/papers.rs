@@ -1,14 +1,16 @@
 //! `stiffarm papers`: printed equations and tables against what can be derived.
 
-use std::path::{Path, PathBuf};
+#[cfg(feature = "papers")]
+mod judged;
 
-use stiffarm_papers::jweeg::figure;
-use stiffarm_papers::{Ledger, Paper, built_in, column, read};
+use std::path::PathBuf;
 
-use crate::Verdict;
-use crate::input::source;
-use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::output::{Target, print};
+#[cfg(feature = "papers")]
+pub use judged::run;
+
+use crate::terminal::output::Target;
+#[cfg(not(feature = "papers"))]
+use crate::{Verdict, terminal::failure::Failure};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,50 +55,14 @@ enum Figure {
     Growth,
 }
 
-/// Runs the command.
+/// Says how to get the command.
 ///
 /// # Errors
-/// [`Failure`]: a file's mistakes, or an output that cannot be written.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
-    if let Some(Figure::Growth) = args.figure {
-        match &args.svg {
-            Some(target) => target.write(&figure::svg())?,
-            None => print(&figure::table())?,
-        }
-        return Ok(Verdict::Good);
-    }
-    let papers = match args.files.as_slice() {
-        [] => built_in().map_err(|error| Failure::new(error.to_string()))?,
-        files => from_files(files)?,
-    };
-    let ledger = Ledger::with(&papers, &column);
-    let (target, text) = match (&args.markdown, &args.html, &args.json) {
-        (Some(target), _, _) => (target, ledger.to_markdown()),
-        (_, Some(target), _) => (target, ledger.to_html()),
-        (_, _, Some(target)) => (target, ledger.to_json()),
-        _ => (&Target::Stdout, ledger.to_text()),
-    };
-    target.write(&text)?;
-    Ok(Verdict::Good)
-}
-
-/// Reads every file; the mistakes of all of them are reported together.
-fn from_files(files: &[PathBuf]) -> Result<Vec<Paper>, Failure> {
-    let mut papers = Vec::new();
-    let mut remarks = Vec::new();
-    for file in files {
-        match paper(file)? {
-            Ok(paper) => papers.push(paper),
-            Err(mistakes) => remarks.extend(mistakes),
-        }
-    }
-    if remarks.is_empty() { Ok(papers) } else { Err(Failure::File(remarks)) }
-}
-
-fn paper(path: &Path) -> Result<Result<Paper, Vec<Remark>>, Failure> {
-    let text = source::text(path)?;
-    let remarks =
-        |located: &stiffarm_codegen::robot::Located| Remark::located(located, &text, false);
-    let read = read(&text, &path.to_string_lossy());
-    Ok(read.map_err(|error| error.errors.iter().map(remarks).collect()))
+/// [`Failure`], always: the program was built without the papers.
+#[cfg(not(feature = "papers"))]
+pub fn run(_: &Args) -> Result<Verdict, Failure> {
+    Err(Failure::new(
+        "this build of stiffarm does not judge papers, and one with the feature `papers` does: \
+         cargo install --path cli --features papers",
+    ))
 }
