@@ -1,4 +1,4 @@
-//! Printed equations against derived ones, and the papers' methods.
+//! Printed equations against derived ones.
 //!
 //! # From the file to the verdict
 //!
@@ -17,9 +17,8 @@
 //!    vector at which the two differ ([`verdict`]); so does each cell of a printed table. The ledger
 //!    is written as text, Markdown, JSON or a page.
 //!
-//! What needs a paper's whole method is worked out by it: [`bicchi`], [`dumas`], [`jweeg`],
-//! [`knapczyk`], [`lin`], on the textbook and on the simulation of `stiffarm_gap`; Bicchi's recursion is
-//! its own. `methods` calls them by the names that the data files use.
+//! A number that no formula gives is computed by [`methods`], which hold what the ledger needs and no
+//! more. The papers' whole methods are reproductions under `tests`.
 //!
 //! # Ours, and libraries
 //!
@@ -30,22 +29,16 @@
 //! rational numbers are those of libraries.
 #![forbid(unsafe_code)]
 
-pub mod bicchi;
-pub mod dumas;
 pub mod exact;
 pub mod file;
-pub mod jweeg;
-pub mod knapczyk;
 pub mod latex;
 pub mod ledger;
-pub mod lin;
 pub mod matrix;
 pub mod mend;
-mod methods;
-pub mod transport;
+pub mod methods;
 pub mod verdict;
 
 pub use file::{Paper, read};
 pub use ledger::{Ledger, built_in};
-pub use methods::{arm, column};
+pub use methods::column;
 pub use verdict::{Entry, Kind, Verdict, Witness};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stiffarm_papers::jweeg::figure;
+use stiffarm_papers::methods::jweeg::figure;
 use stiffarm_papers::{Ledger, Paper, built_in, column, read};
 
 use super::{Args, Figure};

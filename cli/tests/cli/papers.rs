@@ -56,7 +56,7 @@ fn the_growth_of_the_difference_is_a_table_and_a_picture() {
 fn flexible_kinematics_of_any_arm_are_generated() {
     let of = |more: &[&str]| stiffarm(&[&["generate", "jweeg_two_link"], more].concat());
     let planar = ["--emit", "rust", "--kernels", "::stiffarm_kernels", "--flexible", "dx,dy,dphi"];
-    let committed = "papers/src/jweeg/two_link/closed_form.rs";
+    let committed = "papers/tests/jweeg/closed_form.rs";
     let check = of(&[&planar[..], &["--check", committed]].concat()).good();
     assert!(check.contains("is what jweeg_two_link gives"), "{check}");
     let latex = of(&["--emit", "latex", "--flexible", "dx,dy,dphi"]).good();

@@ -1,9 +1,10 @@
 //! Methods that work out printed numbers which no formula gives, by the names that the data files
 //! call them by.
 
-mod bicchi;
+pub mod bicchi;
 mod dumas;
-mod jweeg;
+pub mod jweeg;
+pub mod transport;
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::generic::Arm;
@@ -14,12 +15,12 @@ type Column = Result<Vec<Option<f64>>, String>;
 /// The column of a method; `None` where there is no method of that name.
 pub fn column(name: &str) -> Option<Column> {
     let values = match name {
-        "bicchi.force_error" => bicchi::force_error(bicchi::STATED),
-        "bicchi.force_error, half EJ" => bicchi::force_error(bicchi::HALF),
-        "bicchi.steps" => bicchi::steps(),
+        "bicchi.force_error" => bicchi::case::force_error(bicchi::case::STATED),
+        "bicchi.force_error, half EJ" => bicchi::case::force_error(bicchi::case::HALF),
+        "bicchi.steps" => bicchi::case::steps(),
         "dumas.characteristic_length" => dumas::characteristic_length(),
         "dumas.influence" => dumas::influence(),
-        "jweeg.p_y" => jweeg::p_y(),
+        "jweeg.p_y" => jweeg::published::p_y(),
         _ => return None,
     };
     Some(values.map(|values| values.into_iter().map(Some).collect()))

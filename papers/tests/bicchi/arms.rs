@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::bicchi::{Loaded, Task};
+use stiffarm_papers::methods::bicchi::{Loaded, Task};
 
 /// E = 210 GPa and the section's own second moment of area: EJ = 1649 N·m².
 pub const STEEL: f64 = 210e9 * std::f64::consts::PI * 1e-8 / 4.0;
@@ -12,7 +12,7 @@ pub const HALF: f64 = 205e9 * std::f64::consts::PI * 1e-8 / 8.0;
 
 /// The arm of `n` = 3 or 5 joints with the bending stiffness `ej` in both planes, N·m².
 pub fn arm(n: usize, ej: f64) -> Arm {
-    let mut arm = stiffarm_papers::arm(&format!("bicchi_{n}r")).unwrap();
+    let mut arm = stiffarm_papers::methods::arm(&format!("bicchi_{n}r")).unwrap();
     assert_eq!(arm.dof(), n);
     for joint in &mut arm.joints {
         let beam = joint.beam.as_mut().unwrap();

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::bicchi::{ForceError, Loaded, Outcome, Task, compensate};
+use stiffarm_papers::methods::bicchi::{ForceError, Loaded, Outcome, Task, compensate};
 
 use crate::arms::*;
 

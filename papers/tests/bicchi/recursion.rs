@@ -5,8 +5,8 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_draws::Draws;
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::bicchi::Loaded;
-use stiffarm_papers::transport::wrench_matrix;
+use stiffarm_papers::methods::bicchi::Loaded;
+use stiffarm_papers::methods::transport::wrench_matrix;
 
 use crate::arms::*;
 use crate::rod;

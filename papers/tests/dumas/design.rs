@@ -1,8 +1,8 @@
 //! What a plan of tests promises against what an identification by them finds.
 
+use crate::method::{System, Test, Weighting};
 use nalgebra::Vector6;
 use stiffarm_gap::dexterity::design::{Plan, Purpose, design};
-use stiffarm_papers::dumas::{System, Test, Weighting};
 
 use super::robot;
 

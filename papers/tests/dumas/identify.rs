@@ -1,17 +1,15 @@
 //! Eqs. 20-26 and the validation of section 5.3.
 
+use crate::method::rig::{Errors, PoseFit, Rig};
+use crate::method::{IdentifyError, System, Test, Weighting, identify, normal_equations, validate};
 use nalgebra::{DMatrix, DVector};
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig};
-use stiffarm_papers::dumas::{
-    IdentifyError, System, Test, Weighting, identify, normal_equations, validate,
-};
 
 use crate::robot::{carried_out, near, with_tool};
 
 /// Tests whose displacements are eq. 17 exactly.
 fn linear(arm: &Arm, count: usize) -> Vec<Test> {
-    let mut tests = Rig::dumas().plan(arm, count, 5).unwrap();
+    let mut tests = Rig::dumas().plan(arm, count, 5);
     for test in &mut tests {
         test.displacement = arm.deflection_first_order(&test.q, &test.wrench);
     }
@@ -49,7 +47,7 @@ fn exact_displacements_give_the_stiffnesses_back() {
 fn what_the_tests_do_not_show_is_refused() {
     let arm = with_tool();
     let planned = |rig: &Rig, count: usize| {
-        let mut tests = rig.plan(&arm, count, 1).unwrap();
+        let mut tests = rig.plan(&arm, count, 1);
         for test in &mut tests {
             test.displacement = arm.deflection_first_order(&test.q, &test.wrench);
         }
@@ -69,8 +67,6 @@ fn what_the_tests_do_not_show_is_refused() {
         let error = identify(&arm, &planned(&rig, count), &weighting).unwrap_err();
         assert_eq!(error, IdentifyError::Open(open));
     }
-    let text = IdentifyError::Open(vec![1, 6]).to_string();
-    assert!(text.starts_with("the tests do not determine joint 1, 6"), "{text}");
     // Rotations alone see every joint.
     assert!(identify(&arm, &planned(&Rig::dumas(), 10), &Weighting::ROTATIONS).is_ok());
 }
@@ -188,32 +184,13 @@ fn weights_by_points_are_the_points_themselves() {
     }
 }
 
+/// Three points on a line are no weights, and rows of no weight leave every joint open.
 #[test]
-fn bad_input_is_refused() {
+fn what_weighs_nothing_is_refused() {
     let arm = with_tool();
     let tests = linear(&arm, 3);
-    let by = Weighting::SI;
-    assert_eq!(identify(&arm, &[], &by).unwrap_err(), IdentifyError::NoTests);
-    let mut wrong = tests.clone();
-    wrong[1].q.pop();
-    let error = identify(&arm, &wrong, &by).unwrap_err();
-    assert_eq!(error.to_string(), "test 2 has 5 joint values, expected 6");
-    let mut wrong = tests.clone();
-    wrong[2].displacement[4] = f64::NAN;
-    let error = identify(&arm, &wrong, &by).unwrap_err();
-    assert_eq!(error, IdentifyError::NotFinite { test: 3 });
-    let mut wrong = tests.clone();
-    wrong[1].wrench *= 1e305;
-    let error = identify(&arm, &wrong, &by).unwrap_err();
-    assert_eq!(error, IdentifyError::NotFinite { test: 2 });
     let nothing = Weighting::Rows { translation: 0.0, rotation: 0.0 };
     assert!(matches!(identify(&arm, &tests, &nothing), Err(IdentifyError::Open(_))));
-    for weighting in [
-        Weighting::Rows { translation: -1.0, rotation: 1.0 },
-        Weighting::Points { points: vec![Default::default(); 3], sigma: 0.0 },
-    ] {
-        assert!(matches!(identify(&arm, &tests, &weighting), Err(IdentifyError::Setting { .. })));
-    }
     let line = Weighting::Points { points: vec![Default::default(); 3], sigma: 1e-5 };
     let error = identify(&arm, &tests, &line).unwrap_err();
     assert_eq!(error, IdentifyError::Collinear);

@@ -7,6 +7,7 @@ mod design;
 mod dexterity;
 mod identify;
 mod links;
+mod method;
 mod robot;
 mod study;
 mod zones;

@@ -1,16 +1,16 @@
 //! The papers' arms from their robot files.
 
+use crate::method::Test;
+use crate::method::rig::{Errors, PoseFit, Rig, carry_out};
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
-use stiffarm_papers::dumas::Test;
-use stiffarm_papers::dumas::rig::{Errors, PoseFit, Rig, carry_out};
 
 /// L of the paper, m.
 pub const LENGTH: f64 = 0.682;
 
 /// The KR 240-2 with the stiffnesses of Table 2.
 pub fn kr240() -> Arm {
-    stiffarm_papers::arm("kuka_kr240").unwrap()
+    stiffarm_papers::methods::arm("kuka_kr240").unwrap()
 }
 
 /// θ1 = 0 and a wrist of 45° (section 3.1); θ2 and θ3 are the map's.
@@ -42,5 +42,5 @@ pub fn carried_out(
     fit: PoseFit,
 ) -> Vec<Test> {
     let rig = Rig::dumas();
-    carry_out(arm, &rig, &rig.plan(arm, count, plan).unwrap(), errors, fit, 1).unwrap()
+    carry_out(arm, &rig, &rig.plan(arm, count, plan), errors, fit, 1).unwrap()
 }

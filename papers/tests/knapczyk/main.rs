@@ -1,6 +1,7 @@
 //! Knapczyk & Ryska, "Stiffness matrix analysis of six-revolute serial manipulator": the FANUC
 //! S-420F, its compliance elements, and what does and does not follow from the printed example.
 
+mod apparent;
 mod appendix;
 mod example;
 #[path = "../support/printed.rs"]
@@ -16,7 +17,7 @@ const PRINTED: [f64; 6] = [-84.91, 65.0, -12.31, 0.0, 9.64, 0.0];
 
 /// Tab. 1 with springs on the first joints.
 fn fanuc(stiffness: &[f64]) -> Arm {
-    let mut arm = stiffarm_papers::arm("fanuc_s420f").unwrap();
+    let mut arm = stiffarm_papers::methods::arm("fanuc_s420f").unwrap();
     for (joint, k) in arm.joints.iter_mut().zip(stiffness) {
         joint.compliance = 1.0 / k;
     }

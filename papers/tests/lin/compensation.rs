@@ -1,8 +1,9 @@
 //! Corrections of the joints: what they leave, and what cannot be corrected.
 
-use nalgebra::{DVector, Isometry3, Vector3, Vector6};
+use crate::method::{CompensateError, Measure, Model, correction, plan};
+use nalgebra::{DVector, Isometry3, Vector6};
 use stiffarm_gap::simulate::equilibrium;
-use stiffarm_papers::lin::{CompensateError, Measure, Model, correction, plan};
+use stiffarm_kernels::generic::Arm;
 
 use crate::arms::{draws, elbow, near, planar, printed_elbow, two_link, weight};
 
@@ -46,38 +47,28 @@ fn what_the_joints_can_do_is_done_and_the_rest_is_told() {
     let arm = planar(&two_link([0.1, 0.1], 3.05));
     let change = DVector::from_vec(vec![1e-3, -2e-3]);
     let displacement = arm.jacobian_tool(&[0.4, -0.9]) * &change;
-    let found = correction(&arm, &[0.4, -0.9], &displacement).unwrap();
+    let found = correction(&arm, &[0.4, -0.9], &displacement);
     assert!((found.joints - change).amax() < 1e-15 && found.left.amax() < 1e-14);
     let out = Vector6::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
-    near(correction(&arm, &[0.4, -0.9], &out).unwrap().left.norm(), 1.0, 1e-12);
+    near(correction(&arm, &[0.4, -0.9], &out).left.norm(), 1.0, 1e-12);
     let along = Vector6::new(1e-3, 0.0, 0.0, 0.0, 0.0, 0.0);
-    let stretched = correction(&arm, &[0.2, 0.0], &along).unwrap();
+    let stretched = correction(&arm, &[0.2, 0.0], &along);
     assert!(stretched.joints.amax() < 1e-12);
     near(stretched.left.norm(), 1e-3, 1e-12);
 }
 
 #[test]
-fn mistakes_are_errors() {
+fn what_cannot_be_planned_is_an_error() {
     let arm = elbow(&printed_elbow(0.0));
-    let target = arm.pose(&[0.3; 6]);
-    let of = |target: &Isometry3<f64>, load: &Vector6<f64>, measure| {
-        plan(&arm, target, load, Model::Whole, measure).unwrap_err()
+    let of = |arm: &Arm, target: &Isometry3<f64>| {
+        plan(arm, target, &weight(2, 5.0), Model::Whole, Measure::Translation).unwrap_err()
     };
-    let broken = Vector6::new(0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0);
-    let text = of(&target, &broken, Measure::Translation).to_string();
-    assert_eq!(text, "a component of the load is not a finite number");
-    let nowhere = of(&target, &weight(2, 1.0), Measure::Along(Vector3::zeros()));
-    let what = "the length of the direction along which deflection is measured";
-    assert_eq!(nowhere, CompensateError::NotPositive { what, found: 0.0 });
-    let far = Isometry3::translation(100.0, 0.0, 0.0);
-    let wrong = of(&far, &weight(2, 1.0), Measure::Translation);
+    let wrong = of(&arm, &Isometry3::translation(100.0, 0.0, 0.0));
     assert!(matches!(wrong, CompensateError::Inverse(_)), "{wrong}");
-    let text = correction(&arm, &[0.0; 5], &weight(2, 1.0)).unwrap_err().to_string();
-    assert!(text.contains("found 5 joint values, expected 6"), "{text}");
     // A spring that the load buckles.
     let mut soft = arm.clone();
     soft.joints[1].compliance = 1.0;
     let up = soft.pose(&[0.0, std::f64::consts::FRAC_PI_2, 0.0, 0.3, 0.4, 0.0]);
-    let wrong = plan(&soft, &up, &weight(2, 5.0), Model::Whole, Measure::Translation).unwrap_err();
+    let wrong = of(&soft, &up);
     assert!(matches!(wrong, CompensateError::Unstable(_)), "{wrong}");
 }

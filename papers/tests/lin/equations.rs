@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
+use crate::method::{
+    deflections, differential_jacobian, generalized_forces, orientation_jacobian, pose_jacobian,
+};
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
-use stiffarm_papers::lin::{
-    deflections, differential_jacobian, generalized_forces, orientation_jacobian, pose_jacobian,
-};
 
 use crate::arms::{Links, draws, elbow, near, planar, weight};
 use crate::printed::Printed;
@@ -32,8 +32,8 @@ fn the_two_link_arm() {
         let (arm, load) = (planar(&links), weight(1, links.load));
         let mut values = links.values([("L1", 1), ("L2", 2)], &q);
         let all = deflections(&arm, &q, &load).unwrap();
-        let forces = generalized_forces(&arm, &q, &load).unwrap();
-        let jacobian = differential_jacobian(&arm, &q).unwrap();
+        let forces = generalized_forces(&arm, &q, &load);
+        let jacobian = differential_jacobian(&arm, &q);
         let moved = |turned: nalgebra::Matrix6<f64>| turned * &jacobian * &all.joint_angles;
         let in_tool = moved(nalgebra::Matrix6::identity());
         let in_base = moved(orientation_jacobian(&arm.pose(&q)));
@@ -152,22 +152,17 @@ fn the_papers_sums_are_the_textbook() {
         let sum = deflections(&arm, &q, &load).unwrap();
         assert!((sum.castigliano - textbook).amax() < 1e-12 * textbook.amax());
         assert!((sum.timoshenko + sum.carried() - textbook).amax() < 1e-12 * textbook.amax());
-        let jacobian = differential_jacobian(&arm, &q).unwrap() - arm.jacobian_tool(&q);
+        let jacobian = differential_jacobian(&arm, &q) - arm.jacobian_tool(&q);
         assert!(jacobian.amax() < 1e-13 * (1.0 + arm.jacobian(&q).amax()));
         if arm.convention == Convention::Standard {
             let torque = arm.joint_torque(&q, &load) + arm.weight_torque(&q);
-            let forces = generalized_forces(&arm, &q, &load).unwrap();
+            let forces = generalized_forces(&arm, &q, &load);
             for ((force, torque), joint) in forces.iter().zip(&torque).zip(&arm.joints) {
                 let axis = if joint.motion == Motion::Revolute { 5 } else { 2 };
                 near(force[axis], *torque, 1e-11 * (1.0 + force.amax()));
             }
         }
     }
-    let (arm, q, load) = spatial().next().unwrap();
-    let wrong = generalized_forces(&arm, &q, &(load * f64::NAN)).unwrap_err();
-    assert_eq!(wrong.to_string(), "a component of the load is not a finite number");
-    assert!(generalized_forces(&arm, &q[..2], &load).is_err());
-    assert!(differential_jacobian(&arm, &[0.0]).is_err());
 }
 
 /// Eq. 5 element by element; eq. 25 turns and moves nothing.

@@ -1,10 +1,10 @@
 //! All inverse solutions of elbow manipulators.
 
+use crate::method::{InverseError, Missing, ParallelElbow};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_draws::Draws;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
-use stiffarm_papers::lin::{InverseError, Missing, ParallelElbow};
 
 use crate::arms::{draws, elbow, printed_elbow};
 
@@ -85,7 +85,7 @@ fn near_singular_postures() {
 #[test]
 fn the_collections_arms() {
     for id in ["lin_elbow", "ur5", "ur10"] {
-        let arm = stiffarm_papers::arm(id).unwrap();
+        let arm = stiffarm_papers::methods::arm(id).unwrap();
         let pose = arm.pose(&[0.3, -1.1, 1.4, 0.5, 0.8, -0.6]);
         let found = ParallelElbow::new(&arm).unwrap().solve(&pose).unwrap();
         assert_eq!(found.solutions.len() + found.missing.len() * 2, 8, "{}", arm.name);

@@ -6,6 +6,7 @@ mod arms;
 mod compensation;
 mod equations;
 mod inverse;
+mod method;
 #[path = "../support/printed.rs"]
 mod printed;
 mod table_5;

@@ -1,9 +1,9 @@
 //! Tables V and VI, and step 9: the elbow manipulator's configurations and the correction.
 
-use nalgebra::{Isometry3, Vector6};
-use stiffarm_papers::lin::{
+use crate::method::{
     Deflections, Measure, Model, ParallelElbow, Solution, correction, deflections, plan,
 };
+use nalgebra::{Isometry3, Vector6};
 
 use crate::arms::{Links, draws, elbow, near, printed_elbow, weight};
 
@@ -79,7 +79,7 @@ fn add(d6: f64, displacement: Vector6<f64>) -> [f64; 6] {
     let mut links = printed_elbow(0.0);
     links.lengths[3] = d6;
     let q = solutions(0.0, &target())[5].q;
-    let found = correction(&elbow(&links), &q, &displacement).unwrap();
+    let found = correction(&elbow(&links), &q, &displacement);
     assert!(found.left.amax() < 1e-15);
     std::array::from_fn(|k| found.joints[k].to_degrees())
 }

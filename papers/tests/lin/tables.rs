@@ -1,6 +1,6 @@
 //! Tables I, II and III.
 
-use stiffarm_papers::lin::deflections;
+use crate::method::deflections;
 
 use crate::arms::{Links, WEIGHTS, planar, two_link, weight};
 
