@@ -137,6 +137,11 @@ impl Tree {
         }
     }
 
+    /// Whether a square root stands in it.
+    pub fn has_root(&self) -> bool {
+        matches!(self, Tree::Sqrt(_)) || self.children().into_iter().any(Tree::has_root)
+    }
+
     /// Every plain symbol in the formula, and every angle, by a visitor that is told whether it is
     /// an angle.
     pub fn each_name(&self, visit: &mut dyn FnMut(&str, bool)) {
