@@ -82,7 +82,7 @@ impl Rng {
     /// 0 to `n` − 1 by 32 random bits, `n` below 2³² (the bias is below n/2³²): what folds and
     /// bootstraps draw by the thousand.
     pub fn index(&mut self, n: usize) -> usize {
-        (u64::from(self.0.next_u32()) * n as u64 >> 32) as usize
+        ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
     }
 
     /// −1 or 1.

@@ -16,10 +16,12 @@ pub struct Goal {
     wanted: [f64; 2],
 }
 
+/// Name, from, to, and the rate of a report.
+type Wish = (&'static str, [f64; 2], fn(&Report) -> Rate);
+
 /// What is wanted of reports.
 pub struct Wanted {
-    /// Name, from, to, and the rate of each report.
-    rates: &'static [(&'static str, [f64; 2], fn(&Report) -> Rate)],
+    rates: &'static [Wish],
     /// Largest mean size of the first finding's set.
     largest_set: f64,
 }
@@ -30,7 +32,7 @@ pub const CAMPAIGNS: Wanted = Wanted { rates: OF_CAMPAIGNS, largest_set: 2.0 };
 /// Of joint logs.
 pub const LOGS: Wanted = Wanted { rates: OF_LOGS, largest_set: f64::INFINITY };
 
-const OF_CAMPAIGNS: &[(&str, [f64; 2], fn(&Report) -> Rate)] = &[
+const OF_CAMPAIGNS: &[Wish] = &[
     ("false alarms", [0.0, 0.05], |r| r.false_alarms),
     ("named first", [0.90, 1.0], |r| r.single.first_named),
     ("in the set", [0.98, 1.0], |r| r.single.in_set),
@@ -43,7 +45,7 @@ const OF_CAMPAIGNS: &[(&str, [f64; 2], fn(&Report) -> Rate)] = &[
     }),
 ];
 
-const OF_LOGS: &[(&str, [f64; 2], fn(&Report) -> Rate)] = &[
+const OF_LOGS: &[Wish] = &[
     ("false alarms", [0.0, 0.05], |r| r.false_alarms),
     ("named first", [0.90, 1.0], |r| r.single.first_named),
     ("in the set", [0.97, 1.0], |r| r.single.in_set),

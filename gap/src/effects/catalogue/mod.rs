@@ -3,7 +3,7 @@
 mod drive;
 mod elastic;
 mod friction;
-mod geometry;
+mod kinematic;
 mod mass;
 mod time;
 
@@ -12,7 +12,7 @@ use super::{AtRest, InMotion};
 pub use drive::*;
 pub use elastic::*;
 pub use friction::*;
-pub use geometry::*;
+pub use kinematic::*;
 pub use mass::*;
 pub use time::*;
 
