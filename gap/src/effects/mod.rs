@@ -58,6 +58,3 @@ pub use catalogue::AT_REST as CATALOGUE;
 
 /// The laws that a campaign is asked for.
 pub type Catalogue = Laws<dyn AtRest>;
-
-/// The one that adds to the spring of a joint.
-pub(crate) const JOINT_SPRING: &dyn AtRest = &JointCompliance;

@@ -81,3 +81,6 @@ pub static IN_MOTION: [&dyn InMotion; 25] = [
     &ServoDroop,
     &BacklashInMotion,
 ];
+
+/// The one that adds to the spring of a joint.
+pub(crate) const JOINT_SPRING: &dyn AtRest = &JointCompliance;

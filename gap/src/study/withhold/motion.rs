@@ -8,7 +8,7 @@ use super::report::{Case, Named, Residual, Verdict};
 use super::rigid::Rigid;
 use super::run::{self, Planted, known_to};
 use super::{Kind, Motion, Plan, WithholdError};
-use crate::effects::{Counterbalance, Effect, Place};
+use crate::effects::Catalogue;
 use crate::log::{Domain, Log, LogDiagnosis, LogOptions, Names, diagnose};
 use crate::motion::Course;
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot, csv, known};
@@ -67,16 +67,16 @@ impl<'a> Bench<'a> {
     }
 
     /// Where an effect may be put. Of runs only those that are told to hold something may hold more, and
-    /// nobody balances a joint that no weight turns.
+    /// what acts at rest too acts where it does at rest: nobody balances a joint that no weight turns.
     fn spots(&self, law: &Law) -> Vec<Spot> {
         let (arm, stages) = (self.plan.arm, self.own.stages);
         let mut spots = law.spots(arm, stages.len());
-        let balanced = || Counterbalance.places(arm).into_iter().map(Place::row);
+        let at_rest = Catalogue::default().named(law.name).map(|effect| effect.places(arm));
         spots.retain(|spot| match spot {
             Spot::Tool(run) => stages[*run].payload.is_some(),
-            Spot::Joint(joint) if law.name == "counterbalance" => {
-                balanced().any(|row| row == *joint)
-            }
+            Spot::Joint(joint) => at_rest
+                .as_ref()
+                .is_none_or(|places| places.iter().any(|place| place.row() == *joint)),
             _ => true,
         });
         spots
