@@ -50,7 +50,7 @@ fn an_output_stands_in_three_places() {
     // The flexible chain gives a pose, too; a URDF's table is compared with the URDF by its pose.
     let apart = [
         ("codegen/src/derive/flexible.rs", Output::Pose),
-        ("codegen/src/robot/urdf/invoked.rs", Output::Pose),
+        ("codegen/src/frontends/urdf/invoked.rs", Output::Pose),
     ];
     for output in Output::EACH {
         let identifier = format!("Output::{output:?}");

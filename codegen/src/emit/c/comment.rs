@@ -12,11 +12,6 @@ impl Lines {
         self.code("}");
     }
 
-    /// Lines that are written as they are.
-    pub fn verbatim(&mut self, text: &str) {
-        self.text.push_str(text);
-    }
-
     /// Sentences as one comment, each from a new line, wrapped at words.
     pub fn comment(&mut self, sentences: &[String]) {
         let indent = 4 * self.depth;

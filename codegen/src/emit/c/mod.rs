@@ -20,13 +20,8 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
-use self::posture::Entrance;
-use super::constants::Constants;
-use super::functions;
-use super::plan::Plan;
-use super::posture::{Needs, Posture};
-use super::readings::Stage;
 use crate::derive::Program;
+use crate::ir;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -105,30 +100,8 @@ pub(crate) fn c_with(
     if !symbols.is_empty() {
         return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
     }
-    let all = functions(robot);
-    let (tool, places) = all.split_at(1);
-    let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
-    let of_tool = of_tool.map(|program| (None, program));
-    let of_places = places
-        .iter()
-        .flat_map(|of| of.programs.iter().map(|program| (of.place.as_deref(), program)));
-    let (each, programs): (Vec<_>, Vec<_>) = of_tool.chain(of_places).unzip();
-    let plan = |program| Plan::new(program, &mut Constants::default());
-    let plans: Vec<Plan> = programs.into_iter().map(plan).collect();
     let language = style::C { precision: options.precision };
-    let mut posture = Posture::default();
-    let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
-    let stage = Stage::of(robot);
-    let entrance = Entrance { stage: &stage, language: &language, name: &options.name };
-    let functions = plans.iter().zip(each).zip(&needs);
-    let functions: Vec<Function> = functions
-        .map(|((plan, place), needs)| {
-            let (language, entrance) = (&language, &entrance);
-            Function { plan, place, needs, language, entrance }
-        })
-        .collect();
-    let (language, entrance) = (&language, &entrance);
-    let module = Module { robot, options, language, entrance, posture, functions };
+    let module = Module { ir: ir::Module::new(robot, own, false), options, language };
     let table = hash::table(robot);
     let source = source::source(&module, &table);
     let header = header::header(&module, &table, &source);
@@ -137,12 +110,9 @@ pub(crate) fn c_with(
 
 /// Everything that both files are written from.
 struct Module<'a> {
-    robot: &'a Robot,
+    ir: ir::Module<'a>,
     options: &'a COptions,
-    language: &'a style::C,
-    entrance: &'a Entrance<'a>,
-    posture: Posture,
-    functions: Vec<Function<'a>>,
+    language: style::C,
 }
 
 impl Module<'_> {
@@ -153,5 +123,9 @@ impl Module<'_> {
     /// A macro of the header: `UR10_JOINTS`.
     fn constant(&self, suffix: &str) -> String {
         format!("{}_{suffix}", self.name().to_uppercase())
+    }
+
+    fn functions(&self) -> impl Iterator<Item = Function<'_>> {
+        self.ir.functions().map(|of| Function { of, module: self })
     }
 }

@@ -1,8 +1,8 @@
 //! How C spells numbers and operations.
 
-use super::super::expression::Style;
 use super::super::literal::constant;
 use super::Precision;
+use crate::ir::{Operation, Style};
 use crate::number::Number;
 
 /// C99 in one precision.
@@ -48,24 +48,18 @@ impl Style for C {
             (Precision::F64, _) => text,
         }
     }
-    fn name(&self, name: &str) -> String {
-        name.to_string()
-    }
-    fn product(&self, a: &str, b: &str) -> String {
-        format!("{a} * {b}")
-    }
-    fn bracket(&self, inner: &str) -> String {
-        format!("({inner})")
-    }
-    fn recip(&self, a: &str) -> String {
-        format!("(1.0{} / ({a}))", self.suffix())
-    }
-    fn sqrt(&self, a: &str) -> String {
-        format!("sqrt{}({a})", self.suffix())
-    }
-    fn sign(&self, a: &str) -> String {
-        let (real, zero) = (self.real(), self.zero());
-        format!("((({real})({a} > {zero})) - (({real})({a} < {zero})))")
+    fn of(&self, operation: Operation, a: &str) -> String {
+        let (suffix, zero) = (self.suffix(), self.zero());
+        match operation {
+            Operation::Reciprocal => format!("(1.0{suffix} / ({a}))"),
+            Operation::Root => format!("sqrt{suffix}({a})"),
+            Operation::Sign => {
+                let real = self.real();
+                format!("((({real})({a} > {zero})) - (({real})({a} < {zero})))")
+            }
+            Operation::Sine => format!("sin{suffix}({a})"),
+            Operation::Cosine => format!("cos{suffix}({a})"),
+        }
     }
 }
 

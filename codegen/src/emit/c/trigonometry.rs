@@ -7,6 +7,7 @@
 use super::style::C;
 use super::{Precision, Sines};
 use crate::emit::lines::Lines;
+use crate::ir::Angle;
 
 /// What stands before the functions: the static function `sin_cos` of an array of angles, and `PADDED`, the length that
 /// its arrays have.
@@ -27,6 +28,14 @@ pub(super) struct Pair {
     pub angle: String,
     pub sine: Option<String>,
     pub cosine: Option<String>,
+}
+
+impl Pair {
+    /// Into the locals that the angle names.
+    pub fn of(angle: &Angle, language: &C) -> Pair {
+        let [sine, cosine] = angle.names().map(|name| name.map(|name| name.to_string()));
+        Pair { angle: angle.sum.print(language), sine, cosine }
+    }
 }
 
 /// [`take`] into locals, declared before.
