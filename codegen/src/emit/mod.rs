@@ -1,11 +1,13 @@
-//! Printers of the statement tree (Rust, C, LaTeX), of the graph (dot) and of the arm itself (URDF, MJCF). Each is one file
+//! Printers of the statement tree (Rust, C, CUDA, Python, LaTeX), of the graph (dot) and of the arm itself (URDF, MJCF). Each is one file
 //! or folder.
 
 #[cfg(feature = "urdf")]
 mod bodies;
 mod c;
+mod cuda;
 mod docs;
 mod dot;
+mod hash;
 mod latex;
 mod lines;
 mod literal;
@@ -13,18 +15,23 @@ mod literal;
 mod lost;
 #[cfg(feature = "urdf")]
 mod mjcf;
+mod python;
 mod rust;
 #[cfg(feature = "urdf")]
 mod urdf;
 
 pub(crate) use c::c_with;
 pub use c::{CFiles, COptions, Precision, Sines, SymbolicTable, c, c_name};
+pub(crate) use cuda::cuda_with;
+pub use cuda::{CudaOptions, cuda};
 pub use dot::dot;
 pub use latex::{flexible_latex, latex};
 #[cfg(feature = "urdf")]
 pub use lost::{lost_in_mjcf, lost_in_urdf};
 #[cfg(feature = "urdf")]
 pub use mjcf::mjcf;
+pub use python::python;
+pub(crate) use python::python_with;
 pub(crate) use rust::rust_with;
 pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 #[cfg(feature = "urdf")]

@@ -10,13 +10,13 @@ use crate::emit::lines::Lines;
 use crate::ir::{self, Argument, Given, Solve, Statement, Style as _, Term};
 
 /// A function to be printed.
-pub(super) struct Function<'a> {
+pub(in crate::emit) struct Function<'a> {
     pub of: &'a ir::Function,
     pub module: &'a Module<'a>,
 }
 
 /// Whether a block can be left without a value.
-fn may_fail(block: &Block) -> bool {
+pub(in crate::emit) fn may_fail(block: &Block) -> bool {
     block.held.output().is_some_and(Output::is_fallible)
 }
 
@@ -64,7 +64,8 @@ impl Function<'_> {
             [_] => format!("{real} out[{}_SIZE]", own.to_uppercase()),
             _ => format!("{own}_t *out"),
         };
-        format!("{returned} {name}({first}{beside}, {out})")
+        let linkage = self.module.language.linkage();
+        format!("{linkage}{returned} {name}({first}{beside}, {out})")
     }
 
     /// The function of the joint values.

@@ -1,14 +1,15 @@
 //! The header file: what was generated from what, constants, declarations.
 
 use super::super::asked;
+use super::super::hash::{Table, fnv1a};
 use super::comment::{harmless, plain};
 use super::function::Function;
-use super::hash::{Table, fnv1a};
 use super::posture::declaration;
 use super::{Module, Precision, Sines};
 use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
+use crate::ir;
 
 /// The header that belongs to `source`.
 pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
@@ -147,9 +148,9 @@ fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
     }
 }
 
-fn types(module: &Module, out: &mut Lines) {
+/// The status, the posture, and what functions of several results write.
+pub(in crate::emit) fn structures(module: &Module, out: &mut Lines) {
     let (name, real) = (module.name(), module.language.real());
-    out.blank();
     out.comment(&["Whether the loaded arm has a stable equilibrium.".to_string()]);
     out.code("typedef enum");
     out.code("{");
@@ -172,6 +173,11 @@ fn types(module: &Module, out: &mut Lines) {
         out.dedent();
         out.code(&format!("}} {name}_{}_t;", function.full_name()));
     }
+}
+
+fn types(module: &Module, out: &mut Lines) {
+    out.blank();
+    structures(module, out);
     if module.options.sines != Sines::Given {
         out.blank();
         out.comment(&["The posture of joint values, for all functions that take one.".to_string()]);
@@ -186,9 +192,8 @@ fn types(module: &Module, out: &mut Lines) {
     }
 }
 
-fn declarations(module: &Module, printed: &Function, out: &mut Lines) {
-    let (name, function) = (module.name(), printed.of);
-    out.blank();
+/// What a function says of itself.
+pub(in crate::emit) fn sentences(module: &Module, function: &ir::Function) -> Vec<String> {
     let described = |block: &Block| docs(&block.held, module.ir.robot.dof(), "").into_iter();
     let own = function.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
     let mut text: Vec<String> = own.into_iter().collect();
@@ -226,7 +231,13 @@ fn declarations(module: &Module, printed: &Function, out: &mut Lines) {
             module.constant("UNSTABLE")
         )),
     }
-    out.comment(&text);
+    text
+}
+
+fn declarations(module: &Module, printed: &Function, out: &mut Lines) {
+    let (name, function) = (module.name(), printed.of);
+    out.blank();
+    out.comment(&sentences(module, function));
     if module.options.sines != Sines::Given {
         out.code(&format!("{};", printed.by_joints()));
     }

@@ -4,15 +4,14 @@
 //! polynomial for sines and cosines. Compiled without fused products and without fast-math it gives the
 //! same bits.
 
-mod comment;
+pub(super) mod comment;
 mod function;
-mod hash;
-mod header;
+pub(super) mod header;
 mod name;
 mod posture;
 mod solve;
-mod source;
-mod style;
+pub(super) mod source;
+pub(super) mod style;
 mod trigonometry;
 
 pub use name::c_name;
@@ -20,6 +19,9 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
+pub(super) use self::function::may_fail;
+use self::style::C;
+use super::hash;
 use crate::derive::Program;
 use crate::ir;
 use crate::robot::Robot;
@@ -96,12 +98,7 @@ pub(crate) fn c_with(
     own: &[&Program],
     options: &COptions,
 ) -> Result<CFiles, SymbolicTable> {
-    let symbols = robot.symbols();
-    if !symbols.is_empty() {
-        return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
-    }
-    let language = style::C { precision: options.precision };
-    let module = Module { ir: ir::Module::new(robot, own, false), options, language };
+    let module = Module::new(robot, own, options, false)?;
     let table = hash::table(robot);
     let source = source::source(&module, &table);
     let header = header::header(&module, &table, &source);
@@ -109,23 +106,40 @@ pub(crate) fn c_with(
 }
 
 /// Everything that both files are written from.
-struct Module<'a> {
-    ir: ir::Module<'a>,
+pub(super) struct Module<'a> {
+    pub ir: ir::Module<'a>,
     options: &'a COptions,
-    language: style::C,
+    pub language: C,
 }
 
-impl Module<'_> {
-    fn name(&self) -> &str {
+impl<'a> Module<'a> {
+    /// `device`: for CUDA's.
+    pub fn new(
+        robot: &'a Robot,
+        own: &[&Program],
+        options: &'a COptions,
+        device: bool,
+    ) -> Result<Self, SymbolicTable> {
+        let symbols = robot.symbols();
+        if !symbols.is_empty() {
+            return Err(SymbolicTable {
+                parameters: symbols.into_iter().map(|s| s.name).collect(),
+            });
+        }
+        let language = C { precision: options.precision, device };
+        Ok(Module { ir: ir::Module::new(robot, own, false), options, language })
+    }
+
+    pub fn name(&self) -> &str {
         &self.options.name
     }
 
     /// A macro of the header: `UR10_JOINTS`.
-    fn constant(&self, suffix: &str) -> String {
+    pub fn constant(&self, suffix: &str) -> String {
         format!("{}_{suffix}", self.name().to_uppercase())
     }
 
-    fn functions(&self) -> impl Iterator<Item = Function<'_>> {
+    pub fn functions(&self) -> impl Iterator<Item = Function<'_>> {
         self.ir.functions().map(|of| Function { of, module: self })
     }
 }

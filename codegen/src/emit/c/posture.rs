@@ -83,14 +83,18 @@ impl Module<'_> {
     /// The head of the function that makes the posture.
     pub fn posture_head(&self) -> String {
         let (name, parameters) = (self.name(), self.parameters());
-        format!("void {name}_posture({parameters}, {name}_posture_t *posture)")
+        format!(
+            "{}void {name}_posture({parameters}, {name}_posture_t *posture)",
+            self.language.linkage()
+        )
     }
 
     /// The head of the function from readings to joint values.
     pub fn joints_head(&self) -> String {
         let (real, upper) = (self.language.real(), self.name().to_uppercase());
         let parameters = self.parameters().replacen("readings", "q", 1);
-        format!("void {}_joints({parameters}, {real} out[{upper}_JOINTS])", self.name())
+        let (linkage, name) = (self.language.linkage(), self.name());
+        format!("{linkage}void {name}_joints({parameters}, {real} out[{upper}_JOINTS])")
     }
 
     /// The function itself.

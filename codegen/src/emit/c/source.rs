@@ -1,6 +1,6 @@
 //! The source file.
 
-use super::hash::Table;
+use super::super::hash::Table;
 use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
@@ -38,23 +38,29 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     if body.contains("sin_cos(") {
         out.verbatim(&sin_cos(module.options.sines, module.options.precision));
     }
+    systems(module, &body, &mut out);
+    out.verbatim(&body);
+    out.finish()
+}
+
+/// The functions that solve the linear systems of `body`.
+pub(in crate::emit) fn systems(module: &Module, body: &str, out: &mut Lines) {
+    let name = module.name();
     let solves = module.ir.functions().flat_map(|function| function.solves());
     let mut sizes: Vec<(usize, usize)> =
         solves.map(|solve| (solve.right.len(), solve.leading)).collect();
     sizes.sort_unstable();
     sizes.dedup();
     if body.contains("load_margin(") {
-        margin(&mut out, &module.language);
+        margin(out, &module.language);
     }
     for at in 0..sizes.len() {
         let n = sizes[at].0;
         if at == 0 || sizes[at - 1].0 != n {
-            definite(&mut out, n, name, &module.language);
+            definite(out, n, name, &module.language);
         }
     }
-    sizes.into_iter().for_each(|size| solve(&mut out, size, name, &module.language));
-    out.verbatim(&body);
-    out.finish()
+    sizes.into_iter().for_each(|size| solve(out, size, name, &module.language));
 }
 
 fn functions(module: &Module, out: &mut Lines) {

@@ -5,9 +5,11 @@ use super::Precision;
 use crate::ir::{Operation, Style};
 use crate::number::Number;
 
-/// C99 in one precision.
-pub(super) struct C {
+/// C99 in one precision, or CUDA's C.
+pub(in crate::emit) struct C {
     pub precision: Precision,
+    /// Whether functions are a GPU's, which takes sines and cosines itself.
+    pub device: bool,
 }
 
 impl C {
@@ -25,6 +27,16 @@ impl C {
             Precision::F32 => "f",
             Precision::F64 => "",
         }
+    }
+
+    /// What stands before a function that others call.
+    pub fn linkage(&self) -> &'static str {
+        if self.device { "static __device__ " } else { "" }
+    }
+
+    /// What stands before a function of the file.
+    pub fn local(&self) -> &'static str {
+        if self.device { "static __device__" } else { "static" }
     }
 
     /// `0.0` or `0.0f`.
@@ -69,7 +81,8 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_value() {
-        let (double, single) = (C { precision: Precision::F64 }, C { precision: Precision::F32 });
+        let [double, single] =
+            [Precision::F64, Precision::F32].map(|precision| C { precision, device: false });
         let third = Number::ratio(1, 3);
         assert_eq!(double.number(third), "(1.0 / 3.0)");
         assert_eq!(single.number(third), "((float)(1.0 / 3.0))");

@@ -14,7 +14,7 @@ use crate::ir::Angle;
 pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     match (sines, precision) {
         (Sines::Math, precision) => {
-            let language = C { precision };
+            let language = C { precision, device: false };
             MATH.replace("REAL", language.real()).replace("OF", language.suffix())
         }
         // Where the caller gives the posture, functions of one's own still take sines of their inputs.
@@ -52,6 +52,24 @@ pub(super) fn take(out: &mut Lines, language: &C, pairs: &[Pair]) {
         return;
     }
     let (real, count) = (language.real(), pairs.len());
+    if language.device {
+        for Pair { angle, sine, cosine } in pairs {
+            let suffix = language.suffix();
+            match (sine, cosine) {
+                (Some(sine), Some(cosine)) => {
+                    out.code(&format!("sincos{suffix}({angle}, &{sine}, &{cosine});"));
+                }
+                _ => {
+                    for (to, function) in [(sine, "sin"), (cosine, "cos")] {
+                        if let Some(to) = to {
+                            out.code(&format!("{to} = {function}{suffix}({angle});"));
+                        }
+                    }
+                }
+            }
+        }
+        return;
+    }
     out.braces(|out| {
         let angles: Vec<&str> = pairs.iter().map(|pair| pair.angle.as_str()).collect();
         out.code(&format!("const {real} angles[PADDED({count})] = {{{}}};", angles.join(", ")));
