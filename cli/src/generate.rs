@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
 use stiffarm_codegen::emit::{
-    CFiles, COptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c, c_name, dot,
-    flexible_latex, flexible_rust, latex, mjcf, rust, urdf,
+    CFiles, COptions, CudaOptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c,
+    c_name, cuda, dot, flexible_latex, flexible_rust, latex, mjcf, python, rust, urdf,
 };
 use stiffarm_codegen::robot::{Asked, Refused, Robot};
 use stiffarm_kernels::generic::BaseParameter;
@@ -25,6 +25,8 @@ Examples:
   stiffarm generate ur5 --emit rust --fused --out src/ur5_fused.rs
   stiffarm generate ur5 --emit c --precision f32 --out firmware/
   stiffarm generate ur5 --emit c --precision f32 --check firmware/
+  stiffarm generate ur5 --emit python --out ur5.py
+  stiffarm generate ur5 --emit cuda --outputs jacobian --out ur5.cu
   stiffarm generate arm.toml --emit latex --outputs jacobian,deflection > arm.tex
   stiffarm generate ur5 --emit rust --outputs pose,jacobian --out src/ur5.rs
   stiffarm generate better.toml --emit urdf --out better.urdf
@@ -32,11 +34,12 @@ Examples:
   stiffarm generate arm.toml --emit dot | dot -Tsvg > arm.svg
   stiffarm generate jweeg_two_link --emit latex --flexible dx,dy,dphi > flexible.tex";
 
-/// The kernels as Rust or C, the closed form as LaTeX or as a graph, the arm as URDF or MJCF
+/// The kernels as Rust, C, CUDA or Python, the closed form as LaTeX or as a graph, the arm as URDF or MJCF
 ///
 /// The Rust text is what the macro `robot!` compiles, headed so that in a file of its own (`mod arm;`)
-/// rustfmt and lints leave it alone; the C text gives the same bits. The same table always gives the
-/// same bytes.
+/// rustfmt and lints leave it alone; the C text gives the same bits. The CUDA text has a kernel for each
+/// function, one posture a thread; the Python text needs NumPy alone and takes batches. The same table
+/// always gives the same bytes.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -64,13 +67,13 @@ pub struct Args {
     #[arg(long)]
     #[arg(conflicts_with = "flexible")]
     fused: bool,
-    /// Type of the numbers in C [default: f64]
+    /// Type of the numbers in C and CUDA [default: f64]
     #[arg(long, value_enum)]
     precision: Option<Real>,
     /// Where sines and cosines come from in C [default: polynomial]
     #[arg(long, value_enum)]
     sines: Option<SinesFrom>,
-    /// What the names and both files in C begin with [default: the robot's id or file name]
+    /// What the names in C and CUDA begin with, and both files of C [default: the robot's id or file name]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Write into this file (`-`: to standard output); C: both files into this folder. A missing
@@ -88,6 +91,10 @@ enum Emit {
     Rust,
     /// A header and a source, C99, with a function per output
     C,
+    /// CUDA C: one file with a kernel per output, one posture a thread
+    Cuda,
+    /// A module with a function per output on NumPy's arrays, batches first
+    Python,
     /// A document to lay beside a paper
     Latex,
     /// The expression graph, for Graphviz
@@ -182,22 +189,25 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 
 impl Args {
     fn go_together(&self) -> Result<(), Failure> {
-        let of_c = self.precision.is_some() || self.sines.is_some() || self.name.is_some();
+        let named = self.precision.is_some() || self.name.is_some();
         match self.emit {
-            other if other != Emit::C && of_c => {
-                Err(Failure::new("--precision, --sines and --name are for c"))
+            other if !matches!(other, Emit::C | Emit::Cuda) && named => {
+                Err(Failure::new("--precision and --name are for c and cuda"))
+            }
+            other if other != Emit::C && self.sines.is_some() => {
+                Err(Failure::new("--sines is for c"))
             }
             other if !matches!(other, Emit::Rust | Emit::Latex) && self.flexible.is_some() => {
                 Err(Failure::new("--flexible is for rust and latex"))
             }
             other if other != Emit::Rust && self.kernels.is_some() => {
-                Err(Failure::new("--kernels is for rust: c, latex and dot use no crate"))
+                Err(Failure::new("--kernels is for rust: what else is written uses no crate"))
             }
             other if other != Emit::Rust && self.fused => {
                 Err(Failure::new("--fused is for rust: the C text gives the Rust text's bits"))
             }
             Emit::Urdf | Emit::Mjcf | Emit::Base if !self.outputs.is_empty() => Err(Failure::new(
-                "--outputs is for rust, c, latex and dot: urdf, mjcf and base are of the arm itself",
+                "--outputs is not for urdf, mjcf and base, which are of the arm itself",
             )),
             Emit::C if matches!(self.out, None | Some(Target::Stdout)) && self.check.is_none() => {
                 Err(Failure::with_help(
@@ -222,7 +232,7 @@ impl Args {
         let (name, place) = (effect.id.value.replace('_', " "), &effect.place.value);
         Err(Failure::with_help(
             format!("{what} has no place for the {name} at {place}"),
-            "Rust and C have: --emit rust, --emit c with its own sines",
+            "kernels have: --emit rust, python, cuda, or c with its own sines",
         ))
     }
 
@@ -241,6 +251,12 @@ impl Args {
             (Emit::Mjcf, None) => mjcf(robot).map_err(|error| symbolic(robot, &error))?,
             (Emit::Base, None) => base(robot)?,
             (Emit::Rust, None) => rust(robot, &self.options()),
+            (Emit::Python, None) => python(robot),
+            (Emit::Cuda, None) => {
+                let options =
+                    CudaOptions { name: self.c_name(source)?, precision: self.precision() };
+                cuda(robot, &options).map_err(|error| symbolic(robot, &error))?
+            }
         };
         let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };
         Ok(vec![(None, format!("{head}{text}"))])
@@ -256,29 +272,34 @@ impl Args {
     }
 
     fn c_options(&self, source: &Source) -> Result<COptions, Failure> {
-        let name = match &self.name {
-            Some(name) if *name != c_name(name) => {
-                return Err(Failure::with_help(
-                    format!("--name: found `{name}`, expected lower-case letters, digits and _"),
-                    format!("`{}` would do", c_name(name)),
-                ));
-            }
-            Some(name) => name.clone(),
-            None => {
-                let stem = Path::new(&source.given).file_stem().unwrap_or_default();
-                c_name(&stem.to_string_lossy())
-            }
-        };
-        let precision = match self.precision {
-            Some(Real::F32) => Precision::F32,
-            Some(Real::F64) | None => Precision::F64,
-        };
         let sines = match self.sines {
             Some(SinesFrom::Polynomial) | None => Sines::Polynomial,
             Some(SinesFrom::Math) => Sines::Math,
             Some(SinesFrom::Given) => Sines::Given,
         };
-        Ok(COptions { name, precision, sines })
+        Ok(COptions { name: self.c_name(source)?, precision: self.precision(), sines })
+    }
+
+    fn precision(&self) -> Precision {
+        match self.precision {
+            Some(Real::F32) => Precision::F32,
+            Some(Real::F64) | None => Precision::F64,
+        }
+    }
+
+    /// What names in C begin with.
+    fn c_name(&self, source: &Source) -> Result<String, Failure> {
+        match &self.name {
+            Some(name) if *name != c_name(name) => Err(Failure::with_help(
+                format!("--name: found `{name}`, expected lower-case letters, digits and _"),
+                format!("`{}` would do", c_name(name)),
+            )),
+            Some(name) => Ok(name.clone()),
+            None => {
+                let stem = Path::new(&source.given).file_stem().unwrap_or_default();
+                Ok(c_name(&stem.to_string_lossy()))
+            }
+        }
     }
 
     fn options(&self) -> RustOptions {

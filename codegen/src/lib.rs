@@ -12,6 +12,7 @@ pub mod emit;
 mod expand;
 pub mod expr;
 mod frontends;
+mod ir;
 pub mod number;
 mod out_dir;
 pub mod program;

@@ -40,6 +40,17 @@ pub enum Answer {
     Open,
 }
 
+impl Case {
+    /// All questions, a line each: the bits of state and load.
+    pub fn input(&self) -> String {
+        let line = |question: &Question| {
+            let numbers = question.q.iter().chain(&question.wrench);
+            numbers.map(|x| format!("{:x} ", x.to_bits())).collect::<String>() + "\n"
+        };
+        self.questions.iter().map(line).collect()
+    }
+}
+
 /// Sums of some hundred roundings, among them the sines and cosines of a path of sixteen joints.
 const TOLERANCE: f64 = 1e-11;
 

@@ -21,11 +21,5 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
     folder.write(&format!("{name}.c"), &files.source);
     folder.write("main.c", &program(name, &robot, precision));
     compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
-    let mut input = String::new();
-    for question in &case.questions {
-        let words = question.q.iter().chain(&question.wrench);
-        words.for_each(|x| input.push_str(&format!("{:x} ", x.to_bits())));
-        input.push('\n');
-    }
-    run(&folder, name, &input).lines().map(str::to_owned).collect()
+    run(&folder, name, &case.input()).lines().map(str::to_owned).collect()
 }

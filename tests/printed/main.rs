@@ -1,4 +1,4 @@
-//! The printed text of random tables, compiled and run: Rust with plain and with fused products, and C,
+//! The printed text of random tables, compiled and run: Rust with plain and with fused products, C, CUDA C and Python,
 //! against the textbook. Brackets, signs, and the splitting of long functions are tested where they break;
 //! and the kernels' features by what they do to values.
 //!
@@ -21,8 +21,10 @@ mod compare;
 #[allow(dead_code, unused_imports, unused_macros)]
 #[path = "../c/compiler.rs"]
 mod compiler;
+mod cuda;
 #[path = "../c/program.rs"]
 mod program;
+mod python;
 mod rust;
 #[path = "../parity/tables.rs"]
 mod tables;
@@ -45,14 +47,19 @@ const FEATURES: [(&str, &str); 4] =
 
 fn main() -> ExitCode {
     type Print = fn(&Batch) -> Vec<Vec<String>>;
-    let forms: [(&str, Print, bool); 2] = [
-        ("rust", |batch| rust::answers(batch, ("", "")), false),
-        ("c", c::answers, cfg!(not(unix))),
+    // What a form needs beside Rust is in the name of its test.
+    let forms: [(&str, &str, Print, bool); 4] = [
+        ("rust", "", |batch| rust::answers(batch, ("", "")), false),
+        ("c", "", c::answers, cfg!(not(unix))),
+        ("cuda", "", cuda::answers, cfg!(not(unix))),
+        ("python", "_needs_numpy", python::answers, true),
     ];
     let mut trials = Vec::new();
-    for (form, print, missing) in forms {
+    for (form, needs, print, missing) in forms {
         let quick = move || check(form, &Batch::new(0, &JOINTS), print);
-        trials.push(Trial::test(format!("{form}_of_a_dozen"), quick).with_ignored_flag(missing));
+        trials.push(
+            Trial::test(format!("{form}_of_a_dozen{needs}"), quick).with_ignored_flag(missing),
+        );
         let full = move || {
             (1..=BATCHES).try_for_each(|seed| check(form, &Batch::new(seed, &JOINTS), print))
         };
@@ -66,6 +73,8 @@ fn main() -> ExitCode {
         let trial = Trial::test(format!("rust_under_{feature}"), run);
         trials.push(trial.with_ignored_flag(missing));
     }
+    let assembled = || Ok(cuda::assembled(&Batch::new(0, &JOINTS))?);
+    trials.push(Trial::test("cuda_needs_clang", assembled).with_ignored_flag(true));
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 

@@ -4,5 +4,6 @@
 mod forms;
 mod golden;
 mod literals;
+mod readme;
 mod scopes;
 mod tables;

@@ -134,7 +134,7 @@ fn arguments_that_do_not_fit() {
     refused(&["check", "ur5", "--all"], &["cannot be used with"]);
     refused(&["check", "ur5", "--count", "0"], &["--count"]);
     refused(&["check", "jweeg_two_link"], &["found no number for a1, a2"]);
-    refused(&["generate", "ur5", "--emit", "fortran"], &["rust, c, latex, dot"]);
+    refused(&["generate", "ur5", "--emit", "fortran"], &["rust, c, cuda, python, latex, dot"]);
     let outputs = |list: &str, told: &[&str]| {
         refused(&["generate", "ur5", "--emit", "latex", "--outputs", list], told);
     };

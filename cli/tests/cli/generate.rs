@@ -16,7 +16,7 @@ fn collection() -> impl Iterator<Item = (&'static str, Robot)> {
 
 #[test]
 fn the_same_table_gives_the_same_bytes() {
-    for emit in ["rust", "latex", "dot"] {
+    for emit in ["rust", "python", "cuda", "latex", "dot"] {
         let arguments = ["generate", "lin_planar", "--emit", emit];
         let out = stiffarm(&arguments).good();
         assert_eq!(stiffarm(&arguments).good(), out);

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::plan::component;
 use crate::derive::{COMPONENTS, Output, derive};
 use crate::expr::{Expr, Graph, Node, Symbol};
+use crate::ir::component;
 use crate::robot::Robot;
 
 /// The graph of `outputs` worked out together: operations as circles, inputs as boxes, entries as

@@ -3,11 +3,8 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
-use super::constants::Constants;
-use super::expression::{Printer, Style};
-use super::plan::{Plan, Target};
 use crate::derive::{COMPONENTS, Displacements, Form as Flexible, Program, derive, flexible};
-use crate::expr::{Binding, Expr, Node, Symbol};
+use crate::ir::{Angle, Constants, Function, Operation, Solve, Statement, Style, Term};
 use crate::number::Number;
 use crate::robot::Robot;
 
@@ -16,7 +13,7 @@ use crate::robot::Robot;
 pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
     let sections = outputs
         .iter()
-        .map(|output| section(&derive(robot, &[*output]), &output.name().replace('_', " ")));
+        .map(|output| section(derive(robot, &[*output]), &output.name().replace('_', " ")));
     document(robot, sections)
 }
 
@@ -25,7 +22,7 @@ pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
 pub fn flexible_latex(robot: &Robot, displacements: &Displacements) -> String {
     let sections = Flexible::EACH.into_iter().map(|form| {
         let title = format!("flexible pose, {}", form.name().replace('_', " "));
-        section(&flexible(robot, displacements, form), &title)
+        section(flexible(robot, displacements, form), &title)
     });
     document(robot, sections)
 }
@@ -43,33 +40,28 @@ fn document(robot: &Robot, sections: impl Iterator<Item = String>) -> String {
     text
 }
 
-fn section(program: &Program, title: &str) -> String {
+fn section(program: Program, title: &str) -> String {
     // Functions of one's own are not written here.
     let Some(output) = program.blocks[0].held.output() else { return String::new() };
-    let plan = Plan::new(program, &mut Constants::written_in_place());
-    let printer = Printer { plan: &plan, style: &Latex };
-    let mut out = format!("\\subsection*{{{title}}}\nWorked out in {}.\n", program.frame());
-    for angle in plan.angles.iter().filter(|a| has_offset(program, a.sum)) {
-        let name = &angle.suffix;
-        let sum = angle_text(program, angle.sum);
-        let _ = writeln!(out, "$s_{{{name}}}=\\sin({sum})$, $c_{{{name}}}=\\cos({sum})$.");
+    let function = Function::new(program, &mut Constants::written_in_place(), false);
+    let frame = function.program.frame();
+    let mut out = format!("\\subsection*{{{title}}}\nWorked out in {frame}.\n");
+    for Angle { suffix, sum, .. } in function.angles.iter().filter(|angle| has_offset(&angle.sum)) {
+        let sum = sum.print(&Latex).replace(" + ", "+").replace(" - ", "-");
+        let _ = writeln!(out, "$s_{{{suffix}}}=\\sin({sum})$, $c_{{{suffix}}}=\\cos({sum})$.");
     }
     let mut lines = Vec::new();
-    for step in &plan.schedule.steps {
+    for step in &function.body {
         match step {
-            Binding::Let(node) => {
-                let name = Latex.name(plan.name(*node).unwrap_or_default());
-                lines.push(format!("{name} &= {}", printer.definition(*node)));
+            Statement::Let(name, value) => {
+                lines.push(format!("{} &= {}", Latex.local(name), value.print(&Latex)));
             }
-            Binding::Item(item) => match plan.targets[*item] {
-                Target::Entry { block, entry } => {
-                    let e = program.blocks[block].entries[entry];
-                    let place = place(output, program.dof, entry);
-                    lines.push(format!("{place} &= {}", printer.print(e)));
-                }
-                Target::Solve(k) => lines.extend(system(&printer, program, k)),
-                Target::Angles(_) => {}
-            },
+            Statement::Store { entry, value, .. } => {
+                let place = place(output, function.program.dof, *entry);
+                lines.push(format!("{place} &= {}", value.print(&Latex)));
+            }
+            Statement::Solve(solve) => lines.extend(system(solve)),
+            Statement::SinCos(_) => {}
         }
     }
     if lines.is_empty() {
@@ -109,20 +101,20 @@ fn broken(line: &str) -> String {
 }
 
 /// `(K_θ − K_C) δq = τ` or `M q̈ = f`, entry by entry.
-fn system(printer: &Printer, program: &Program, k: usize) -> Vec<String> {
-    let solve = &program.solves[k];
-    let [matrix, right, unknown] = match solve.output.is_of_motion() {
+fn system(solve: &Solve) -> Vec<String> {
+    let [matrix, right, unknown] = match solve.of_motion {
         true => ["M", "f", "\\ddot q"],
         false => ["(K_\\theta-K_C)", "\\tau", "\\delta q"],
     };
     let n = solve.right.len();
     let mut lines = Vec::new();
-    for (at, e) in solve.matrix.iter().enumerate().filter(|(_, e)| !e.is_zero()) {
+    let zero = Term::Number(Number::ZERO);
+    for (at, term) in solve.matrix.iter().enumerate().filter(|(_, term)| **term != zero) {
         let (row, column) = (at % n + 1, at / n + 1);
-        lines.push(format!("{matrix}_{{{row}{column}}} &= {}", printer.print(*e)));
+        lines.push(format!("{matrix}_{{{row}{column}}} &= {}", term.print(&Latex)));
     }
-    for (row, e) in solve.right.iter().enumerate() {
-        lines.push(format!("{right}_{{{}}} &= {}", row + 1, printer.print(*e)));
+    for (row, term) in solve.right.iter().enumerate() {
+        lines.push(format!("{right}_{{{}}} &= {}", row + 1, term.print(&Latex)));
     }
     lines.push(format!("{unknown} &= {matrix}^{{-1}}\\,{right}"));
     lines
@@ -151,36 +143,8 @@ fn place(output: Output, n: usize, entry: usize) -> String {
 }
 
 /// Whether an angle is more than a sum of joint angles.
-fn has_offset(program: &Program, sum: Expr) -> bool {
-    let g = &program.graph;
-    let joint = |e: &Expr| match g.node(*e) {
-        Node::Symbol(s) => matches!(g.symbol_of(s), Symbol::Joint(_)),
-        _ => false,
-    };
-    !g.terms(sum).iter().all(joint)
-}
-
-fn angle_text(program: &Program, sum: Expr) -> String {
-    let g = &program.graph;
-    let mut text = String::new();
-    for e in g.terms(sum) {
-        text.push_str(match (text.is_empty(), e.is_negative()) {
-            (true, false) => "",
-            (_, true) => "-",
-            (false, false) => "+",
-        });
-        text.push_str(&match g.node(e) {
-            Node::Number(n) => Latex.number(n),
-            Node::Symbol(s) => match g.symbol_of(s) {
-                Symbol::Joint(joint) => format!("q_{{{}}}", joint + 1),
-                Symbol::Parameter(name) => Latex.name(name),
-                Symbol::Displacement { place, component } => displacement(*place, *component),
-                _ => String::new(),
-            },
-            _ => String::new(),
-        });
-    }
-    text
+fn has_offset(sum: &Term) -> bool {
+    sum.any(|leaf| !matches!(leaf, Term::Entry("q", _)))
 }
 
 /// A displacement in the letters of Jweeg & Al-Khafaji.
@@ -214,13 +178,12 @@ impl Style for Latex {
     }
 
     /// `s23` as `s_{23}`, `z3x` as `z_{3x}`, `kc_31` as `kc_{31}`.
-    fn name(&self, name: &str) -> String {
+    fn local(&self, name: &str) -> String {
         let at = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
         let component = COMPONENTS.iter().position(|known| *known == &name[..at]);
         if let (Some(component), Ok(place)) = (component, name[at..].parse()) {
             return displacement(place, component);
         }
-        let name = name.strip_prefix("constants.").unwrap_or(name);
         for (word, letter) in [("qdd", "\\ddot q"), ("qd", "\\dot q"), ("tau", "\\tau")] {
             if let Some(joint) = name.strip_prefix(word).filter(|k| k.parse::<u32>().is_ok()) {
                 return format!("{letter}_{{{joint}}}");
@@ -247,16 +210,25 @@ impl Style for Latex {
         format!("\\left({inner}\\right)")
     }
 
-    fn recip(&self, a: &str) -> String {
-        format!("\\frac{{1}}{{{a}}}")
+    fn constant(&self, name: &str) -> String {
+        self.local(name)
     }
 
-    fn sqrt(&self, a: &str) -> String {
-        format!("\\sqrt{{{a}}}")
+    fn entry(&self, array: &str, at: &[usize]) -> String {
+        match (array, at) {
+            ("e", [place, component]) => displacement(*place, *component),
+            _ => at.iter().fold(array.to_owned(), |text, k| format!("{text}_{{{}}}", k + 1)),
+        }
     }
 
-    fn sign(&self, a: &str) -> String {
-        format!("\\operatorname{{sign}}({a})")
+    fn of(&self, operation: Operation, a: &str) -> String {
+        match operation {
+            Operation::Reciprocal => format!("\\frac{{1}}{{{a}}}"),
+            Operation::Root => format!("\\sqrt{{{a}}}"),
+            Operation::Sign => format!("\\operatorname{{sign}}({a})"),
+            Operation::Sine => format!("\\sin({a})"),
+            Operation::Cosine => format!("\\cos({a})"),
+        }
     }
 }
 
@@ -271,10 +243,10 @@ mod tests {
             ("z3x", "z_{3x}"),
             ("fx", "f_{x}"),
             ("kc_31", "\\mathit{kc}_{31}"),
-            ("constants.L1", "L_{1}"),
+            ("L1", "L_{1}"),
             ("t12", "t_{12}"),
         ] {
-            assert_eq!(Latex.name(plain), set);
+            assert_eq!(Latex.local(plain), set);
         }
     }
 

@@ -36,6 +36,28 @@ impl Lines {
         self.push(indent, rest);
     }
 
+    /// Text wrapped at words, every line behind `start`.
+    pub fn wrapped(&mut self, text: &str, start: &str) {
+        let room = WIDTH - 4 * self.depth - start.len();
+        let mut current = String::new();
+        for word in text.split(' ') {
+            if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > room {
+                self.push(4 * self.depth, format!("{start}{current}").trim_end());
+                current.clear();
+            }
+            if !current.is_empty() {
+                current.push(' ');
+            }
+            current.push_str(word);
+        }
+        self.push(4 * self.depth, format!("{start}{current}").trim_end());
+    }
+
+    /// Lines that are written as they are.
+    pub fn verbatim(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+
     pub fn blank(&mut self) {
         self.text.push('\n');
     }

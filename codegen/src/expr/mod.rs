@@ -1,25 +1,21 @@
 //! The expression graph: a hash-consed arena of exact expressions, and the passes over it.
 //!
-//! Every pass is one file: [`fold`](self) on construction, derivative, evaluation, operation count,
-//! schedule. Nothing is expanded or simplified afterwards: what is shared is shared because the same
+//! Every pass is one file: [`fold`](self) on construction, derivative, evaluation, operation count.
+//! Nothing is expanded or simplified afterwards: what is shared is shared because the same
 //! expression was written twice, and a structural zero is the handle [`Expr::ZERO`].
 
-mod blocks;
 mod count;
 mod derivative;
 mod evaluate;
 mod fold;
 mod graph;
-mod schedule;
 mod solve;
 mod trig;
 mod vector;
 
-pub use blocks::Block;
 pub use count::OpCount;
 pub(crate) use evaluate::from;
 pub use graph::{Expr, Graph, Node, Symbol};
-pub use schedule::{Binding, Item, Schedule};
 pub use trig::Turn;
 pub use vector::{Twist, Vec3};
 pub(crate) use vector::{negate3, parallel3};

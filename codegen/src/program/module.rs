@@ -5,7 +5,11 @@ use std::path::PathBuf;
 use super::formulas::Formulas;
 use super::function::Function;
 use super::mistake::{Mistake, Refused};
-use crate::emit::{CFiles, COptions, RustOptions, SymbolicTable, c_with, rust_with};
+use crate::derive::Program;
+use crate::emit::{
+    CFiles, COptions, CudaOptions, RustOptions, SymbolicTable, c_with, cuda_with, python_with,
+    rust_with,
+};
 use crate::out_dir::{BuildError, write_to_out_dir};
 use crate::robot::{Output, Robot};
 
@@ -47,10 +51,13 @@ impl<'r> Module<'r> {
         &self.functions
     }
 
+    fn programs(&self) -> Vec<&Program> {
+        self.functions.iter().map(|function| &function.program).collect()
+    }
+
     /// The items of the module, like [`rust`](crate::emit::rust).
     pub fn rust(&self, options: &RustOptions) -> String {
-        let programs: Vec<_> = self.functions.iter().map(|function| &function.program).collect();
-        rust_with(self.robot, &programs, options)
+        rust_with(self.robot, &self.programs(), options)
     }
 
     /// Both files in C, like [`c`](crate::emit::c).
@@ -58,8 +65,20 @@ impl<'r> Module<'r> {
     /// # Errors
     /// [`SymbolicTable`] where a cell of the table is no number.
     pub fn c(&self, options: &COptions) -> Result<CFiles, SymbolicTable> {
-        let programs: Vec<_> = self.functions.iter().map(|function| &function.program).collect();
-        c_with(self.robot, &programs, options)
+        c_with(self.robot, &self.programs(), options)
+    }
+
+    /// The module in Python, like [`python`](crate::emit::python).
+    pub fn python(&self) -> String {
+        python_with(self.robot, &self.programs())
+    }
+
+    /// The file in CUDA C, like [`cuda`](crate::emit::cuda).
+    ///
+    /// # Errors
+    /// [`SymbolicTable`] where a cell of the table is no number.
+    pub fn cuda(&self, options: &CudaOptions) -> Result<String, SymbolicTable> {
+        cuda_with(self.robot, &self.programs(), options)
     }
 
     /// Writes the Rust text to `OUT_DIR` as `<name>.rs`; in the crate

@@ -12,11 +12,6 @@ impl Lines {
         self.code("}");
     }
 
-    /// Lines that are written as they are.
-    pub fn verbatim(&mut self, text: &str) {
-        self.text.push_str(text);
-    }
-
     /// Sentences as one comment, each from a new line, wrapped at words.
     pub fn comment(&mut self, sentences: &[String]) {
         let indent = 4 * self.depth;
@@ -45,7 +40,7 @@ impl Lines {
 }
 
 /// Text that may stand in a comment: nothing that ends it or that a compiler warns of.
-pub(super) fn harmless(text: &str) -> String {
+pub(in crate::emit) fn harmless(text: &str) -> String {
     let visible = |c: char| if c.is_ascii_graphic() || c.is_alphabetic() { c } else { ' ' };
     let text: String = text.chars().map(visible).collect();
     text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "/")

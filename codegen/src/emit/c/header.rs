@@ -1,15 +1,15 @@
 //! The header file: what was generated from what, constants, declarations.
 
 use super::super::asked;
+use super::super::hash::{Table, fnv1a};
 use super::comment::{harmless, plain};
 use super::function::Function;
-use super::hash::{Table, fnv1a};
 use super::posture::declaration;
-use super::source::posture_head;
 use super::{Module, Precision, Sines};
 use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
+use crate::ir;
 
 /// The header that belongs to `source`.
 pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
@@ -29,8 +29,8 @@ pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
     out.blank();
     constants(module, &mut out, table, hash);
     types(module, &mut out);
-    for function in &module.functions {
-        declarations(module, function, &mut out);
+    for function in module.functions() {
+        declarations(module, &function, &mut out);
     }
     out.blank();
     out.code("#ifdef __cplusplus");
@@ -42,7 +42,7 @@ pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
 }
 
 fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
-    let (name, robot) = (module.name(), &module.robot.name);
+    let (name, robot) = (module.name(), &module.ir.robot.name);
     let precision = match module.options.precision {
         Precision::F32 => "f32",
         Precision::F64 => "f64",
@@ -77,7 +77,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
  *
 ",
         robot = harmless(robot),
-        asked = asked(module.robot),
+        asked = asked(module.ir.robot),
         given = given(module),
         table = table.hash,
         real = module.language.real(),
@@ -94,8 +94,8 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
 
 /// What the functions of a corrected arm are given besides.
 fn given(module: &Module) -> String {
-    let stage = module.entrance.stage;
-    let each = stage.extras().into_iter().map(|e| format!("\n * {}: {}.", e.name(), e.sentence()));
+    let stage = &module.ir.readings;
+    let each = stage.extras.iter().map(|e| format!("\n * {}: {}.", e.name(), e.sentence()));
     let extras: String = each.collect();
     match stage.moves {
         true => format!(
@@ -117,15 +117,15 @@ fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
     define(out, "SOURCE_HASH", format!("0x{hash:016x}ULL"));
     out.blank();
     out.comment(&["Number of joints.".to_string()]);
-    let n = module.robot.dof();
+    let n = module.ir.robot.dof();
     define(out, "JOINTS", format!("{n}U"));
-    for function in &module.functions {
-        let name = function.name().to_uppercase();
+    for function in module.ir.functions() {
+        let name = function.full_name().to_uppercase();
         out.blank();
-        let ops = function.plan.program.ops();
+        let ops = function.program.ops();
         out.comment(&[format!(
             "{}: shape, and operations beyond sines and cosines (and beyond the solve).",
-            function.name()
+            function.full_name()
         )]);
         if let [block] = function.blocks() {
             let (rows, columns) = block.held.shape(n);
@@ -142,15 +142,15 @@ fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
         }
         define(out, &format!("{name}_ADDITIONS"), format!("{}U", ops.add));
         define(out, &format!("{name}_MULTIPLICATIONS"), format!("{}U", ops.mul));
-        define(out, &format!("{name}_NEGATIONS"), format!("{}U", function.negations()));
+        define(out, &format!("{name}_NEGATIONS"), format!("{}U", function.negations));
         define(out, &format!("{name}_DIVISIONS"), format!("{}U", ops.div));
         define(out, &format!("{name}_SINE_COSINE_PAIRS"), format!("{}U", ops.sin_cos));
     }
 }
 
-fn types(module: &Module, out: &mut Lines) {
+/// The status, the posture, and what functions of several results write.
+pub(in crate::emit) fn structures(module: &Module, out: &mut Lines) {
     let (name, real) = (module.name(), module.language.real());
-    out.blank();
     out.comment(&["Whether the loaded arm has a stable equilibrium.".to_string()]);
     out.code("typedef enum");
     out.code("{");
@@ -158,10 +158,10 @@ fn types(module: &Module, out: &mut Lines) {
     out.code(&format!("    {} = 1", module.constant("UNSTABLE")));
     out.code(&format!("}} {name}_status_t;"));
     out.blank();
-    declaration(&module.posture, out, module.robot, (name, real));
-    for function in module.functions.iter().filter(|f| f.blocks().len() > 1) {
+    declaration(module, out);
+    for function in module.ir.functions().filter(|f| f.blocks().len() > 1) {
         out.blank();
-        out.comment(&[format!("Everything that {name}_{} computes.", function.name())]);
+        out.comment(&[format!("Everything that {name}_{} computes.", function.full_name())]);
         out.code("typedef struct");
         out.code("{");
         out.indent();
@@ -171,26 +171,30 @@ fn types(module: &Module, out: &mut Lines) {
             out.code(&format!("{real} {}[{size}];", block.held.name()));
         }
         out.dedent();
-        out.code(&format!("}} {name}_{}_t;", function.name()));
+        out.code(&format!("}} {name}_{}_t;", function.full_name()));
     }
+}
+
+fn types(module: &Module, out: &mut Lines) {
+    out.blank();
+    structures(module, out);
     if module.options.sines != Sines::Given {
         out.blank();
         out.comment(&["The posture of joint values, for all functions that take one.".to_string()]);
-        out.code(&format!("{};", posture_head(module)));
-        if module.entrance.stage.moves {
+        out.code(&format!("{};", module.posture_head()));
+        if module.ir.readings.moves {
             let text =
                 "The joint values that readings mean, to which all that is told by joint belongs.";
             out.blank();
             out.comment(&[text.to_string()]);
-            out.code(&format!("{};", module.entrance.joints_head()));
+            out.code(&format!("{};", module.joints_head()));
         }
     }
 }
 
-fn declarations(module: &Module, function: &Function, out: &mut Lines) {
-    let name = module.name();
-    out.blank();
-    let described = |block: &Block| docs(&block.held, module.robot.dof(), "").into_iter();
+/// What a function says of itself.
+pub(in crate::emit) fn sentences(module: &Module, function: &ir::Function) -> Vec<String> {
+    let described = |block: &Block| docs(&block.held, module.ir.robot.dof(), "").into_iter();
     let own = function.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
     let mut text: Vec<String> = own.into_iter().collect();
     match (function.blocks(), function.own()) {
@@ -203,14 +207,14 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
             text.push(format!("Worked out together: {}.", names.join(", ")));
         }
     }
-    if let Some(place) = function.place {
+    if let Some(place) = &function.place {
         text.push(format!("What is said of the tool here is of {place}: the tool is there."));
     }
     if function.own().is_some() {
-        text.push(inputs(function.plan.program.inputs(), false, function.own()));
+        text.push(inputs(function.program.inputs(), false, function.own()));
     }
     let mut text: Vec<String> = text.iter().map(|text| plain(text)).collect();
-    text.push(format!("Worked out in {}.", function.plan.program.frame()));
+    text.push(format!("Worked out in {}.", function.program.frame()));
     match function.blocks() {
         _ if !function.fallible() => {}
         [block] => text.push(format!(
@@ -227,13 +231,19 @@ fn declarations(module: &Module, function: &Function, out: &mut Lines) {
             module.constant("UNSTABLE")
         )),
     }
-    out.comment(&text);
+    text
+}
+
+fn declarations(module: &Module, printed: &Function, out: &mut Lines) {
+    let (name, function) = (module.name(), printed.of);
+    out.blank();
+    out.comment(&sentences(module, function));
     if module.options.sines != Sines::Given {
-        out.code(&format!("{};", function.by_joints(name)));
+        out.code(&format!("{};", printed.by_joints()));
     }
-    out.code(&format!("{};", function.by_posture(name)));
+    out.code(&format!("{};", printed.by_posture()));
     if let [_] = function.blocks() {
-        let of = function.name();
+        let of = function.full_name();
         let size = module.constant(&format!("{}_SIZE", of.to_uppercase()));
         out.comment(&["1 where an entry is not structurally zero.".to_string()]);
         out.code(&format!("extern const uint8_t {name}_{of}_sparsity[{size}];"));

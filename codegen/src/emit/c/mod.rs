@@ -4,15 +4,14 @@
 //! polynomial for sines and cosines. Compiled without fused products and without fast-math it gives the
 //! same bits.
 
-mod comment;
+pub(super) mod comment;
 mod function;
-mod hash;
-mod header;
+pub(super) mod header;
 mod name;
 mod posture;
 mod solve;
-mod source;
-mod style;
+pub(super) mod source;
+pub(super) mod style;
 mod trigonometry;
 
 pub use name::c_name;
@@ -20,13 +19,11 @@ pub use name::c_name;
 use core::fmt;
 
 use self::function::Function;
-use self::posture::Entrance;
-use super::constants::Constants;
-use super::functions;
-use super::plan::Plan;
-use super::posture::{Needs, Posture};
-use super::readings::Stage;
+pub(super) use self::function::may_fail;
+use self::style::C;
+use super::hash;
 use crate::derive::Program;
+use crate::ir;
 use crate::robot::Robot;
 
 /// How the C text is to be.
@@ -101,34 +98,7 @@ pub(crate) fn c_with(
     own: &[&Program],
     options: &COptions,
 ) -> Result<CFiles, SymbolicTable> {
-    let symbols = robot.symbols();
-    if !symbols.is_empty() {
-        return Err(SymbolicTable { parameters: symbols.into_iter().map(|s| s.name).collect() });
-    }
-    let all = functions(robot);
-    let (tool, places) = all.split_at(1);
-    let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
-    let of_tool = of_tool.map(|program| (None, program));
-    let of_places = places
-        .iter()
-        .flat_map(|of| of.programs.iter().map(|program| (of.place.as_deref(), program)));
-    let (each, programs): (Vec<_>, Vec<_>) = of_tool.chain(of_places).unzip();
-    let plan = |program| Plan::new(program, &mut Constants::default());
-    let plans: Vec<Plan> = programs.into_iter().map(plan).collect();
-    let language = style::C { precision: options.precision };
-    let mut posture = Posture::default();
-    let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &language)).collect();
-    let stage = Stage::of(robot);
-    let entrance = Entrance { stage: &stage, language: &language, name: &options.name };
-    let functions = plans.iter().zip(each).zip(&needs);
-    let functions: Vec<Function> = functions
-        .map(|((plan, place), needs)| {
-            let (language, entrance) = (&language, &entrance);
-            Function { plan, place, needs, language, entrance }
-        })
-        .collect();
-    let (language, entrance) = (&language, &entrance);
-    let module = Module { robot, options, language, entrance, posture, functions };
+    let module = Module::new(robot, own, options, false)?;
     let table = hash::table(robot);
     let source = source::source(&module, &table);
     let header = header::header(&module, &table, &source);
@@ -136,22 +106,40 @@ pub(crate) fn c_with(
 }
 
 /// Everything that both files are written from.
-struct Module<'a> {
-    robot: &'a Robot,
+pub(super) struct Module<'a> {
+    pub ir: ir::Module<'a>,
     options: &'a COptions,
-    language: &'a style::C,
-    entrance: &'a Entrance<'a>,
-    posture: Posture,
-    functions: Vec<Function<'a>>,
+    pub language: C,
 }
 
-impl Module<'_> {
-    fn name(&self) -> &str {
+impl<'a> Module<'a> {
+    /// `device`: for CUDA's.
+    pub fn new(
+        robot: &'a Robot,
+        own: &[&Program],
+        options: &'a COptions,
+        device: bool,
+    ) -> Result<Self, SymbolicTable> {
+        let symbols = robot.symbols();
+        if !symbols.is_empty() {
+            return Err(SymbolicTable {
+                parameters: symbols.into_iter().map(|s| s.name).collect(),
+            });
+        }
+        let language = C { precision: options.precision, device };
+        Ok(Module { ir: ir::Module::new(robot, own, false), options, language })
+    }
+
+    pub fn name(&self) -> &str {
         &self.options.name
     }
 
     /// A macro of the header: `UR10_JOINTS`.
-    fn constant(&self, suffix: &str) -> String {
+    pub fn constant(&self, suffix: &str) -> String {
         format!("{}_{suffix}", self.name().to_uppercase())
+    }
+
+    pub fn functions(&self) -> impl Iterator<Item = Function<'_>> {
+        self.ir.functions().map(|of| Function { of, module: self })
     }
 }

@@ -10,11 +10,11 @@ pub(super) fn solve_name(n: usize, leading: usize) -> String {
 
 /// `static … load_margin(…)`: by how much the load is surely borne.
 pub(super) fn margin(out: &mut Lines, language: &C) {
-    let (real, suffix) = (language.real(), language.suffix());
+    let (local, real, suffix) = (language.local(), language.real(), language.suffix());
     out.verbatim(&format!(
         "
 /* 1 - (|f| / force)^2 - (|m| / moment)^2: where it is positive, the arm surely bears the wrench. */
-static {real} load_margin(const {real} wrench[6], {real} force, {real} moment)
+{local} {real} load_margin(const {real} wrench[6], {real} force, {real} moment)
 {{
     const {real} forces = wrench[0] * wrench[0] + wrench[1] * wrench[1] + wrench[2] * wrench[2];
     const {real} moments = wrench[3] * wrench[3] + wrench[4] * wrench[4] + wrench[5] * wrench[5];
@@ -28,12 +28,12 @@ static {real} load_margin(const {real} wrench[6], {real} force, {real} moment)
 /// `static … definite_6(…)`: whether the arm bears the load.
 pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
-    let size = n * n;
+    let (size, local) = (n * n, language.local());
     out.verbatim(&format!(
         "
 /* Whether the symmetric part of a is positive definite, so that every small displacement takes work:
  * the pivots of L*D*L^T of a + a^T are positive. a is column-major. */
-static {name}_status_t definite_{n}(const {real} a[{size}])
+{local} {name}_status_t definite_{n}(const {real} a[{size}])
 {{
     {name}_status_t status = {upper}_OK;
     {real} twice[{size}];
@@ -78,13 +78,13 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
     let function = solve_name(n, m);
     let (more, follow) = if m < n { follow(n, m, name, language) } else { Default::default() };
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
-    let size = n * n;
+    let (size, local) = (n * n, language.local());
     out.verbatim(&format!(
         "
 /* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. Where
  * the symmetric part of a is positive definite, every pivot is positive; a positive margin says that
  * it is.{more} */
-static {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
+{local} {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
 {{
     {name}_status_t status = (margin > 0.0{suffix}) ? {upper}_OK : definite_{n}(a);
     unsigned int k;

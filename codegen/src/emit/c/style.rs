@@ -1,13 +1,15 @@
 //! How C spells numbers and operations.
 
-use super::super::expression::Style;
 use super::super::literal::constant;
 use super::Precision;
+use crate::ir::{Operation, Style};
 use crate::number::Number;
 
-/// C99 in one precision.
-pub(super) struct C {
+/// C99 in one precision, or CUDA's C.
+pub(in crate::emit) struct C {
     pub precision: Precision,
+    /// Whether functions are a GPU's, which takes sines and cosines itself.
+    pub device: bool,
 }
 
 impl C {
@@ -25,6 +27,16 @@ impl C {
             Precision::F32 => "f",
             Precision::F64 => "",
         }
+    }
+
+    /// What stands before a function that others call.
+    pub fn linkage(&self) -> &'static str {
+        if self.device { "static __device__ " } else { "" }
+    }
+
+    /// What stands before a function of the file.
+    pub fn local(&self) -> &'static str {
+        if self.device { "static __device__" } else { "static" }
     }
 
     /// `0.0` or `0.0f`.
@@ -48,24 +60,18 @@ impl Style for C {
             (Precision::F64, _) => text,
         }
     }
-    fn name(&self, name: &str) -> String {
-        name.to_string()
-    }
-    fn product(&self, a: &str, b: &str) -> String {
-        format!("{a} * {b}")
-    }
-    fn bracket(&self, inner: &str) -> String {
-        format!("({inner})")
-    }
-    fn recip(&self, a: &str) -> String {
-        format!("(1.0{} / ({a}))", self.suffix())
-    }
-    fn sqrt(&self, a: &str) -> String {
-        format!("sqrt{}({a})", self.suffix())
-    }
-    fn sign(&self, a: &str) -> String {
-        let (real, zero) = (self.real(), self.zero());
-        format!("((({real})({a} > {zero})) - (({real})({a} < {zero})))")
+    fn of(&self, operation: Operation, a: &str) -> String {
+        let (suffix, zero) = (self.suffix(), self.zero());
+        match operation {
+            Operation::Reciprocal => format!("(1.0{suffix} / ({a}))"),
+            Operation::Root => format!("sqrt{suffix}({a})"),
+            Operation::Sign => {
+                let real = self.real();
+                format!("((({real})({a} > {zero})) - (({real})({a} < {zero})))")
+            }
+            Operation::Sine => format!("sin{suffix}({a})"),
+            Operation::Cosine => format!("cos{suffix}({a})"),
+        }
     }
 }
 
@@ -75,7 +81,8 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_value() {
-        let (double, single) = (C { precision: Precision::F64 }, C { precision: Precision::F32 });
+        let [double, single] =
+            [Precision::F64, Precision::F32].map(|precision| C { precision, device: false });
         let third = Number::ratio(1, 3);
         assert_eq!(double.number(third), "(1.0 / 3.0)");
         assert_eq!(single.number(third), "((float)(1.0 / 3.0))");

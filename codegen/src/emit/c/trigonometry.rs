@@ -7,13 +7,14 @@
 use super::style::C;
 use super::{Precision, Sines};
 use crate::emit::lines::Lines;
+use crate::ir::Angle;
 
 /// What stands before the functions: the static function `sin_cos` of an array of angles, and `PADDED`, the length that
 /// its arrays have.
 pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     match (sines, precision) {
         (Sines::Math, precision) => {
-            let language = C { precision };
+            let language = C { precision, device: false };
             MATH.replace("REAL", language.real()).replace("OF", language.suffix())
         }
         // Where the caller gives the posture, functions of one's own still take sines of their inputs.
@@ -27,6 +28,14 @@ pub(super) struct Pair {
     pub angle: String,
     pub sine: Option<String>,
     pub cosine: Option<String>,
+}
+
+impl Pair {
+    /// Into the locals that the angle names.
+    pub fn of(angle: &Angle, language: &C) -> Pair {
+        let [sine, cosine] = angle.names().map(|name| name.map(|name| name.to_string()));
+        Pair { angle: angle.sum.print(language), sine, cosine }
+    }
 }
 
 /// [`take`] into locals, declared before.
@@ -43,6 +52,24 @@ pub(super) fn take(out: &mut Lines, language: &C, pairs: &[Pair]) {
         return;
     }
     let (real, count) = (language.real(), pairs.len());
+    if language.device {
+        for Pair { angle, sine, cosine } in pairs {
+            let suffix = language.suffix();
+            match (sine, cosine) {
+                (Some(sine), Some(cosine)) => {
+                    out.code(&format!("sincos{suffix}({angle}, &{sine}, &{cosine});"));
+                }
+                _ => {
+                    for (to, function) in [(sine, "sin"), (cosine, "cos")] {
+                        if let Some(to) = to {
+                            out.code(&format!("{to} = {function}{suffix}({angle});"));
+                        }
+                    }
+                }
+            }
+        }
+        return;
+    }
     out.braces(|out| {
         let angles: Vec<&str> = pairs.iter().map(|pair| pair.angle.as_str()).collect();
         out.code(&format!("const {real} angles[PADDED({count})] = {{{}}};", angles.join(", ")));

@@ -1,6 +1,6 @@
 //! Documentation of generated Rust.
 
-use crate::emit::lines::{Lines, WIDTH};
+use crate::emit::lines::Lines;
 
 impl Lines {
     /// A line of documentation, wrapped at words; a table's row stays one line.
@@ -8,25 +8,14 @@ impl Lines {
         if line.starts_with('|') {
             return self.push(4 * self.depth, &format!("/// {line}"));
         }
-        let room = WIDTH - 4 * self.depth - 4;
-        let mut current = String::new();
-        for word in line.split(' ') {
-            if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > room {
-                self.push(4 * self.depth, format!("/// {current}").trim_end());
-                current.clear();
-            }
-            if !current.is_empty() {
-                current.push(' ');
-            }
-            current.push_str(word);
-        }
-        self.push(4 * self.depth, format!("/// {current}").trim_end());
+        self.wrapped(line, "/// ");
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::emit::lines::WIDTH;
 
     #[test]
     fn documentation_is_wrapped_at_words() {

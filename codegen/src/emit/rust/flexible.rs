@@ -1,18 +1,14 @@
 //! The flexible kinematics of a table as Rust: a function for each form.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
-use super::super::constants::Constants;
-use super::super::expression::Printer;
-use super::super::literal::constant;
-use super::super::plan::{Plan, Target};
 use super::RustOptions;
-use super::body::BLOCK;
 use super::shapes;
+use super::statements::{BLOCK, Statements, sin_cos};
 use super::style::Rust;
 use crate::derive::{COMPONENTS, Displacements, Form, flexible};
 use crate::emit::lines::Lines;
-use crate::expr::{Binding, Block, Expr, Node, Symbol};
+use crate::ir::{Constants, Function, Statement, Term, blocks, lively, read};
 use crate::robot::Robot;
 
 /// A module with `exact`, `published` and `first_order`: the tool's pose with a displacement at
@@ -65,10 +61,8 @@ pub fn flexible_rust(
 
 fn function(out: &mut Lines, robot: &Robot, displacements: &Displacements, form: Form) {
     let program = flexible(robot, displacements, form);
-    let plan = Plan::new(&program, &mut Constants::written_in_place());
-    let style = Rust { fused: false, constants: "parameters" };
-    let printer = Printer { plan: &plan, style: &style };
-    let writer = Writer { plan: &plan, printer };
+    let ops = program.ops();
+    let function = Function::new(program, &mut Constants::written_in_place(), false);
     out.blank();
     let (first, second) = match form {
         Form::Exact => ("Pose of the displaced tool, base axes: exact.", "eq. 20 with eq. 18"),
@@ -89,139 +83,78 @@ fn function(out: &mut Lines, robot: &Robot, displacements: &Displacements, form:
          δx, δy, δz (m), dψ, dβ, dφ (rad, about x, y, z) at place i: 0 the base, i behind row i, \
          then the tool.",
     ));
-    let ops = program.ops();
     out.doc("");
     out.doc(&format!("{} additions, {} multiplications.", ops.add, ops.mul));
-    writer.body(out, robot, form);
+    body(out, robot, displacements, &function, form);
 }
 
-struct Writer<'p> {
-    plan: &'p Plan<'p>,
-    printer: Printer<'p>,
+fn body(
+    out: &mut Lines,
+    robot: &Robot,
+    displacements: &Displacements,
+    function: &Function,
+    form: Form,
+) {
+    let (n, style) = (robot.dof(), &Rust { fused: false, constants: "parameters" });
+    let inputs = inputs(function, n, displacements);
+    let terms = function.angles.iter().map(|angle| &angle.sum);
+    let terms: Vec<&Term> = terms.chain(inputs.values()).collect();
+    let reads = |is: &dyn Fn(&Term) -> bool| terms.iter().any(|term| term.any(is));
+    let entry = |of: &str| {
+        let is = |leaf: &Term| matches!(leaf, Term::Entry(array, _) if *array == of);
+        if reads(&is) { "" } else { "_" }
+    };
+    let mut arguments = Vec::new();
+    if !robot.symbols().is_empty() {
+        let read = function.constants || reads(&|leaf| matches!(leaf, Term::Constant(_)));
+        arguments.push(format!("{}parameters: &Parameters<S>", if read { "" } else { "_" }));
+    }
+    arguments.push(format!("{}q: &[S; {n}]", entry("q")));
+    arguments.push(format!("{}e: &[[S; 6]; {}]", entry("e"), n + 2));
+    out.code(&format!("pub fn {}<S: Scalar>(", form.name()));
+    out.indent();
+    arguments.iter().for_each(|argument| out.code(&format!("{argument},")));
+    out.dedent();
+    out.code(") -> Pose<S> {");
+    out.indent();
+    if !function.angles.is_empty() {
+        let sums: Vec<String> = function.angles.iter().map(|a| a.sum.print(style)).collect();
+        let [pattern, call] = sin_cos(&function.angles, &sums);
+        out.code(&pattern);
+        out.indent();
+        out.code(&call);
+        out.dedent();
+    }
+    for (name, from) in &inputs {
+        out.code(&format!("let {name} = {};", from.print(style)));
+    }
+    out.code("let zero = S::lit(0.0);");
+    let held = &function.blocks()[0].held;
+    out.code(&format!("let mut out = {};", shapes::zero(held, n)));
+    let place = |_, entry| format!("out{}", shapes::place(held, n, entry));
+    let body: &[Statement] = &function.body;
+    let statements = Statements { body, style, place: &place };
+    match blocks(body, BLOCK).as_slice() {
+        [_] => statements.steps(out, 0..body.len()),
+        blocks => {
+            let blocks = lively(body, blocks.iter().cloned());
+            blocks.iter().for_each(|block| statements.block(out, block));
+        }
+    }
+    out.code("out");
+    out.dedent();
+    out.code("}");
 }
 
-impl Writer<'_> {
-    fn body(&self, out: &mut Lines, robot: &Robot, form: Form) {
-        let n = robot.dof();
-        let angles: Vec<String> = self.plan.angles.iter().map(|a| self.angle(a.sum)).collect();
-        let inputs = self.inputs();
-        let reads = |what: &str| {
-            angles.iter().any(|a| a.contains(what)) || inputs.iter().any(|i| i.contains(what))
-        };
-        let unused = |read: bool| if read { "" } else { "_" };
-        let mut arguments = Vec::new();
-        if !robot.symbols().is_empty() {
-            let read = !self.plan.constants.is_empty() || reads("parameters.");
-            arguments.push(format!("{}parameters: &Parameters<S>", unused(read)));
-        }
-        arguments.push(format!("{}q: &[S; {n}]", unused(reads("q["))));
-        arguments.push(format!("{}e: &[[S; 6]; {}]", unused(reads("e[")), n + 2));
-        out.code(&format!("pub fn {}<S: Scalar>(", form.name()));
-        out.indent();
-        arguments.iter().for_each(|argument| out.code(&format!("{argument},")));
-        out.dedent();
-        out.code(") -> Pose<S> {");
-        out.indent();
-        if !angles.is_empty() {
-            let names = |letter: &str, used: &dyn Fn(usize) -> bool| {
-                let each = self.plan.angles.iter().enumerate();
-                let each = each.map(|(k, a)| {
-                    if used(k) { format!("{letter}{}", a.suffix) } else { "_".to_string() }
-                });
-                each.collect::<Vec<_>>().join(", ")
-            };
-            let sines = names("s", &|k| self.plan.angles[k].sine);
-            let cosines = names("c", &|k| self.plan.angles[k].cosine);
-            out.code(&format!("let ([{sines}], [{cosines}]) ="));
-            out.indent();
-            out.code(&format!("S::sin_cos_all([{}]);", angles.join(", ")));
-            out.dedent();
-        }
-        inputs.iter().for_each(|line| out.code(line));
-        out.code("let zero = S::lit(0.0);");
-        out.code(&format!("let mut out = {};", shapes::zero(&self.plan.program.blocks[0].held, n)));
-        let schedule = &self.plan.schedule;
-        let all = 0..schedule.steps.len();
-        match schedule.blocks(all.clone(), BLOCK, |_| false).as_slice() {
-            [_] => self.steps(out, all),
-            blocks => blocks.iter().for_each(|block| self.block(out, block)),
-        }
-        out.code("out");
-        out.dedent();
-        out.code("}");
-    }
-
-    /// Displacements and prismatic joints that are read outside of sines and cosines.
-    fn inputs(&self) -> BTreeSet<String> {
-        let g = &self.plan.program.graph;
-        let named = (0..g.nodes().len()).filter_map(|node| {
-            let name = self.plan.name(node)?;
-            let Node::Symbol(s) = g.nodes()[node] else { return None };
-            let from = symbol(g.symbol_of(s)).filter(|from| !from.starts_with("parameters."))?;
-            Some(format!("let {name} = {from};"))
-        });
-        named.collect()
-    }
-
-    fn angle(&self, sum: Expr) -> String {
-        let g = &self.plan.program.graph;
-        let mut text = String::new();
-        for e in g.terms(sum) {
-            text.push_str(match (text.is_empty(), e.is_negative()) {
-                (true, false) => "",
-                (true, true) => "-",
-                (false, false) => " + ",
-                (false, true) => " - ",
-            });
-            text.push_str(&match g.node(e) {
-                Node::Symbol(s) => symbol(g.symbol_of(s)).unwrap_or_default(),
-                Node::Number(n) => format!("S::lit({})", constant(n)),
-                _ => self.printer.print(e.abs()),
-            });
-        }
-        text
-    }
-
-    fn steps(&self, out: &mut Lines, steps: core::ops::Range<usize>) {
-        for step in &self.plan.schedule.steps[steps] {
-            match step {
-                Binding::Let(node) => {
-                    let name = self.plan.name(*node).unwrap_or_default();
-                    out.code(&format!("let {name} = {};", self.printer.definition(*node)));
-                }
-                Binding::Item(item) => {
-                    let Target::Entry { block, entry } = self.plan.targets[*item] else { continue };
-                    let program = self.plan.program;
-                    let place = shapes::place(&program.blocks[block].held, program.dof, entry);
-                    let e = program.blocks[block].entries[entry];
-                    out.code(&format!("out{place} = {};", self.printer.print(e)));
-                }
-            }
-        }
-    }
-
-    /// A scope of its own that hands on what is still needed.
-    fn block(&self, out: &mut Lines, block: &Block) {
-        let live: Vec<&str> = block.live_out.iter().filter_map(|n| self.plan.name(*n)).collect();
-        let live = live.join(", ");
-        let open = if live.is_empty() { "{".to_string() } else { format!("let [{live}] = {{") };
-        out.code(&open);
-        out.indent();
-        self.steps(out, block.steps.clone());
-        if !live.is_empty() {
-            out.code(&format!("[{live}]"));
-        }
-        out.dedent();
-        out.code(if live.is_empty() { "}" } else { "};" });
-    }
-}
-
-/// Where an input comes from among the arguments.
-fn symbol(symbol: &Symbol) -> Option<String> {
-    match symbol {
-        Symbol::Joint(joint) => Some(format!("q[{joint}]")),
-        Symbol::Parameter(name) => Some(format!("parameters.{name}")),
-        Symbol::Displacement { place, component } => Some(format!("e[{place}][{component}]")),
-        _ => None,
-    }
+/// Displacements and prismatic joints that are read outside of sines and cosines.
+fn inputs(function: &Function, n: usize, displacements: &Displacements) -> BTreeMap<String, Term> {
+    let names = read(&function.body);
+    let joints = function.plain.iter().map(|plain| (plain.field().to_string(), plain.source()));
+    let places = (0..n + 2).flat_map(|place| (0..6).map(move |component| (place, component)));
+    let kept = places.filter(|(place, component)| displacements.has(*place, *component));
+    let displaced = kept.map(|(place, component)| {
+        let entry = Term::Entry("e", vec![place, component]);
+        (format!("{}{place}", COMPONENTS[component]), entry)
+    });
+    joints.chain(displaced).filter(|(name, _)| names.contains(name.as_str())).collect()
 }

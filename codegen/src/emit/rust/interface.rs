@@ -2,32 +2,26 @@
 
 use stiffarm_kernels::{Input, Output, Side};
 
-use super::super::Functions;
 use super::function::parameter;
-use super::posture::{INLINE, needs_constants};
+use super::posture::INLINE;
 use super::shapes::{flat, ty};
 use super::table::numeric;
 use crate::derive::Held;
 use crate::emit::lines::Lines;
-use crate::emit::posture::Posture;
-use crate::emit::readings::{Extra, Stage};
-use crate::robot::Robot;
+use crate::ir::{Extra, Group, Module};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
-    robot: &Robot,
-    posture: &Posture,
-    stage: &Stage,
-    Functions { place, outputs, .. }: &Functions,
+    module: &Module,
+    Group { place, outputs, .. }: &Group,
     depth: usize,
 ) -> String {
     let mut out = Lines::at(depth);
-    let symbolic = !robot.symbols().is_empty();
-    let extras = stage.extras();
-    definition(&mut out, symbolic, &extras);
+    let (symbolic, extras, robot) = (module.is_symbolic(), &module.readings.extras, module.robot);
+    definition(&mut out, symbolic, extras);
     let target = if symbolic || !extras.is_empty() { "Robot<S>" } else { "Robot" };
-    kernels(&mut out, target, (symbolic, &extras), outputs);
-    arm(&mut out, target, robot, (posture, &extras));
+    kernels(&mut out, target, (symbolic, extras), outputs);
+    arm(&mut out, target, module);
     if !symbolic && place.is_none() {
         let generic = if extras.is_empty() { "" } else { "<S: Scalar>" };
         numeric(&mut out, robot, (generic, target));
@@ -156,22 +150,22 @@ fn kernels(
     }
 }
 
-fn arm(out: &mut Lines, target: &str, robot: &Robot, (posture, extras): (&Posture, &[Extra])) {
+fn arm(out: &mut Lines, target: &str, module: &Module) {
     out.blank();
     out.code(&format!("impl<S: Scalar> Arm<N, S> for {target} {{"));
     out.indent();
     out.code("const NAME: &'static str = NAME;");
     out.code("const DH: [DhRow; N] = DH;");
-    let limits = robot.joints.iter().map(|joint| format!("{:?}", joint.limits));
+    let limits = module.robot.joints.iter().map(|joint| format!("{:?}", joint.limits));
     let limits = limits.collect::<Vec<_>>().join(", ");
     out.code(&format!("const LIMITS: [Option<[f64; 2]>; N] = [{limits}];"));
     out.code("type Posture = Posture<S>;");
-    let constants = if needs_constants(posture) { "&self.constants, " } else { "" };
+    let constants = if module.posture.reads_constants() { "&self.constants, " } else { "" };
     out.code(INLINE);
     method(
         out,
         "fn posture(&self, q: &[S; N]) -> Posture<S> {",
-        &format!("Posture::new({constants}q{})", own(extras)),
+        &format!("Posture::new({constants}q{})", own(&module.readings.extras)),
     );
     out.dedent();
     out.code("}");

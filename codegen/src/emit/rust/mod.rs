@@ -13,6 +13,7 @@ mod module;
 mod place;
 mod posture;
 mod shapes;
+mod statements;
 mod style;
 mod table;
 
@@ -20,12 +21,8 @@ pub use flexible::flexible_rust;
 
 use self::function::Function;
 use self::style::Rust;
-use super::constants::Constants;
-use super::plan::Plan;
-use super::posture::{Needs, Plain, Posture};
-use super::readings::Stage;
-use super::{Functions, functions};
 use crate::derive::Program;
+use crate::ir::{Group, Module};
 use crate::robot::Robot;
 
 /// What is a matter of the text and not of the robot.
@@ -62,42 +59,23 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
 
 /// The same with functions of one's own.
 pub(crate) fn rust_with(robot: &Robot, own: &[&Program], options: &RustOptions) -> String {
-    let mut constants = Constants::default();
-    let symbolic = !robot.symbols().is_empty();
-    let all = functions(robot);
-    let (tool, places) = all.split_at(1);
-    let of_tool = tool.iter().flat_map(|of| &of.programs).chain(own.iter().copied());
-    let programs = of_tool.chain(places.iter().flat_map(|of| &of.programs));
-    let plans: Vec<Plan> = programs.map(|p| Plan::new(p, &mut constants)).collect();
-    let stage = Stage::of(robot);
+    let module = Module::new(robot, own, options.fused);
     let style = Rust { fused: options.fused, constants: "constants" };
-    let mut posture = Posture::default();
-    let needs: Vec<Needs> = plans.iter().map(|plan| posture.admit(plan, &style)).collect();
-    if posture.fields().is_empty() {
-        // Of an arm that no joint value enters: a struct of numbers has to hold one.
-        posture.admit_plain(Plain::Joint(0));
-    }
-
     let mut text = table::header(robot, own.is_empty(), options);
-    if symbolic {
-        text.push_str(&table::parameters(robot, &constants));
+    if module.is_symbolic() {
+        text.push_str(&table::parameters(robot, &module.constants));
     }
-    text.push_str(&posture::module(&posture, &needs, (&stage, &style), robot));
-    let mut each = plans.iter().zip(&needs);
-    let mut printed = |of: &Functions, own: usize, depth: usize| {
-        let mut text = String::new();
-        for (plan, needs) in each.by_ref().take(of.programs.len() + own) {
-            let (posture, stage, style) = (&posture, &stage, &style);
-            let function = Function { plan, needs, posture, symbolic, stage, style, depth };
-            text.push_str(&function.text(robot, options));
-        }
-        text + &interface::interface(robot, &posture, &stage, of, depth)
+    text.push_str(&posture::module(&module, &style));
+    let printed = |group: &Group, depth: usize| {
+        let each = group.functions.iter();
+        let functions = each.map(|of| Function { of, module: &module, style: &style, depth });
+        let text: String = functions.map(|function| function.text(options)).collect();
+        text + &interface::interface(&module, group, depth)
     };
-    tool.iter().for_each(|of| text.push_str(&printed(of, own.len(), 0)));
+    let (tool, places) = module.groups.split_at(1);
+    text.extend(tool.iter().map(|group| printed(group, 0)));
     if !places.is_empty() {
-        text.push_str(&place::module(robot, options, (places, &stage), |of, depth| {
-            printed(of, 0, depth)
-        }));
+        text.push_str(&place::module(&module, options, places, printed));
     }
     text
 }

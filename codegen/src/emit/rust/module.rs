@@ -2,54 +2,50 @@
 
 use stiffarm_kernels::{Form, Input};
 
-use super::super::plan::Given;
 use super::RustOptions;
-use super::body::Body;
 use super::function::{Function, parameter};
-use super::posture::{self, INLINE, needs_constants, readings, values};
+use super::posture::{self, INLINE, readings, values};
 use super::shapes;
 use crate::derive::Block;
 use crate::emit::docs::{docs, inputs};
 use crate::emit::lines::Lines;
-use crate::robot::Robot;
+use crate::ir::{Given, Statement};
 
 impl Function<'_> {
     /// The function and its module.
-    pub fn text(&self, robot: &Robot, options: &RustOptions) -> String {
-        let body = Body::new(self);
+    pub fn text(&self, options: &RustOptions) -> String {
         let mut out = Lines::at(self.depth);
         out.blank();
-        self.entry(&mut out, robot);
+        self.entry(&mut out);
         out.blank();
-        self.module(&mut out, &body, options);
+        self.module(&mut out, options);
         out.finish()
     }
 
     /// The public function: what it needs of the posture from `q`, then the kernel.
-    fn entry(&self, out: &mut Lines, robot: &Robot) {
-        self.docs(out, robot);
-        let needed = &self.needs.posture;
-        let all = needed.fields().len() == self.posture.fields().len();
-        let offsets = needs_constants(if all { self.posture } else { needed });
+    fn entry(&self, out: &mut Lines) {
+        self.docs(out);
+        let (needed, whole) = (&self.of.posture, &self.module.posture);
+        let all = needed.fields().len() == whole.fields().len();
+        let offsets = if all { whole } else { needed }.reads_constants();
         let mut parameters = Vec::new();
-        if self.symbolic {
+        if self.module.is_symbolic() {
             parameters.push("constants: &Constants<S>".to_string());
         }
-        let n = self.program().dof;
-        let extras = posture::parameters(self.stage, n).concat();
+        let n = self.of.program.dof;
+        let extras = posture::parameters(&self.module.readings, n).concat();
         parameters.push(format!("q: &[S; {n}]{extras}"));
-        let arguments = self.plan.arguments();
-        parameters.extend(arguments.iter().map(|a| parameter(&a.name, a.size)));
-        let (name, returned) = (self.name(), self.returned(false));
+        parameters.extend(self.of.arguments.iter().map(|a| parameter(&a.name, a.size)));
+        let (name, returned) = (self.of.name(), self.returned(false));
         out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
         out.indent();
-        let names = self.stage.extras().into_iter().map(|e| format!(", {}", e.name()));
-        let names: String = names.collect();
+        let names: String =
+            self.module.readings.extras.iter().map(|e| format!(", {}", e.name())).collect();
         let posture = if all {
             format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
         } else {
             let constants = if offsets { "constants: &Constants<S>, " } else { "" };
-            let q = if self.needs.reads.is_empty() { "_q" } else { "q" };
+            let q = if self.of.reads.is_empty() { "_q" } else { "q" };
             let q = format!("{q}: &[S; {n}]{extras}");
             if !names.is_empty() {
                 // What a function needs of the posture may depend on neither.
@@ -58,8 +54,8 @@ impl Function<'_> {
             out.code(INLINE);
             out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
             out.indent();
-            values(out, needed, (self.stage, self.style));
-            let fields = needed.fields().into_iter().chain(["..Posture::unused()".to_string()]);
+            values(out, needed, (&self.module.readings, self.style));
+            let fields = needed.fields().into_iter().chain(["..Posture::unused()".into()]);
             out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
             out.dedent();
             out.code("}");
@@ -73,9 +69,9 @@ impl Function<'_> {
     /// What the function returns: of one's own its sentence; of an output or a result its sentence, its shape with
     /// units, its formula.
     fn output(&self, out: &mut Lines) {
-        let own = self.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
-        let returned = match self.blocks() {
-            [block] => docs(&block.held, self.program().dof, shapes::ORDER),
+        let own = self.of.own().map(|own| format!("{}.", own.sentence.trim_end_matches('.')));
+        let returned = match self.of.blocks() {
+            [block] => docs(&block.held, self.of.program.dof, shapes::ORDER),
             _ => Vec::new(),
         };
         for (k, paragraph) in own.into_iter().chain(returned).enumerate() {
@@ -93,17 +89,16 @@ impl Function<'_> {
         } else {
             self.output(out);
         }
-        let mut read: Vec<Input> = self.program().inputs().collect();
-        let arguments = self.plan.arguments();
+        let mut read: Vec<Input> = self.of.program.inputs().collect();
         read.retain(|input| match input {
-            Input::Joints => !self.needs.reads.is_empty(),
-            beside => arguments.iter().any(|a| a.of == Given::Arm(*beside) && self.plan.reads(a)),
+            Input::Joints => !self.of.reads.is_empty(),
+            beside => self.of.arguments.iter().any(|a| a.of == Given::Arm(*beside) && a.is_read()),
         });
-        if !read.is_empty() || self.own().is_some_and(|own| !own.inputs.is_empty()) {
+        if !read.is_empty() || self.of.own().is_some_and(|own| !own.inputs.is_empty()) {
             out.doc("");
-            out.doc(&inputs(read, true, self.own()));
+            out.doc(&inputs(read, true, self.of.own()));
         }
-        if self.own().is_none() {
+        if self.of.own().is_none() {
             out.doc("");
             out.doc("Additions and multiplications only, where no load is to be solved for.");
         }
@@ -111,10 +106,10 @@ impl Function<'_> {
     }
 
     fn errors(&self, out: &mut Lines) {
-        if self.fallible() {
+        if self.of.fallible() {
             out.doc("");
             out.doc("# Errors");
-            let motion = self.outputs().any(|output| output.is_of_motion());
+            let motion = self.of.outputs().any(|output| output.is_of_motion());
             out.doc(match motion {
                 true => "`Unstable` where a joint moves no mass: its acceleration is then not determined.",
                 false => "`Unstable` where the loaded arm has no stable equilibrium.",
@@ -122,27 +117,34 @@ impl Function<'_> {
         }
     }
 
-    fn docs(&self, out: &mut Lines, robot: &Robot) {
-        let ops = self.program().ops();
-        if self.fused() && self.own().is_none() {
-            let names: Vec<&str> = self.blocks().iter().map(|block| block.held.name()).collect();
-            out.doc(&format!("{} of {}, worked out together.", names.join(", "), robot.name));
+    fn docs(&self, out: &mut Lines) {
+        let ops = self.of.program.ops();
+        if self.fused() && self.of.own().is_none() {
+            let names: Vec<&str> = self.of.blocks().iter().map(|block| block.held.name()).collect();
+            out.doc(&format!(
+                "{} of {}, worked out together.",
+                names.join(", "),
+                self.module.robot.name
+            ));
         } else {
             self.output(out);
         }
         out.doc("");
-        let given = inputs(self.program().inputs(), false, self.own());
+        let given = inputs(self.of.program.inputs(), false, self.of.own());
         let joints = format!("`{}`: {}", Input::Joints.name(), Input::Joints.sentence());
-        out.doc(&given.replacen(&joints, &readings(self.stage), 1));
+        out.doc(&given.replacen(&joints, &readings(&self.module.readings), 1));
         out.doc("");
-        let angles: Vec<String> =
-            self.plan.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
+        let angles: Vec<String> = self.of.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
         let division = if ops.div > 0 { format!(", {} divisions", ops.div) } else { String::new() };
         let mut trigonometry = match angles.is_empty() {
             true => "no sines or cosines".to_string(),
             false => format!("sines and cosines of {}", angles.join(", ")),
         };
-        match self.plan.own_angles.iter().map(Vec::len).sum() {
+        let own = self.of.body.iter().map(|step| match step {
+            Statement::SinCos(angles) => angles.len(),
+            _ => 0,
+        });
+        match own.sum() {
             0 => {}
             more => trigonometry.push_str(&format!(" and of {more} more")),
         }
@@ -150,56 +152,55 @@ impl Function<'_> {
             "{} additions, {} multiplications{division}, {trigonometry}; worked out in {}.",
             ops.add,
             ops.mul,
-            self.program().frame()
+            self.of.program.frame()
         ));
-        if self.own().is_some() && ops.div > 0 {
+        if self.of.own().is_some() && ops.div > 0 {
             out.doc("");
             out.doc("Where a divisor, or what a root is taken of, is zero, what depends on it is not finite.");
         }
         self.errors(out);
     }
 
-    fn module(&self, out: &mut Lines, body: &Body, options: &RustOptions) {
-        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.name()));
-        out.code(&format!("pub mod {} {{", self.name()));
+    fn module(&self, out: &mut Lines, options: &RustOptions) {
+        out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.of.name()));
+        out.code(&format!("pub mod {} {{", self.of.name()));
         out.indent();
         let mut imports = vec!["Ops"];
-        if self.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
+        if self.of.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
             imports.push("Pose");
         }
         imports.push("Scalar");
-        if self.fallible() {
+        if self.of.fallible() {
             imports.push("Unstable");
         }
-        let solves = 0..self.program().solves.len();
-        if solves.clone().any(|k| self.plan.margin(k).is_some()) {
+        if self.of.solves().any(|solve| solve.margin.is_some()) {
             imports.push("margin");
         }
-        if !solves.is_empty() {
-            imports.push(self.solve());
+        if self.of.solves().next().is_some() {
+            imports.push(self.style.solve());
         }
         out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
         out.code("use super::Posture;");
-        self.figures(out, body);
+        self.figures(out);
         if self.fused() {
             self.results(out);
         }
         out.blank();
-        body.text(out);
+        self.kernels(out);
         out.dedent();
         out.code("}");
     }
 
-    fn figures(&self, out: &mut Lines, body: &Body) {
-        let ops = self.program().ops();
+    fn figures(&self, out: &mut Lines) {
+        let ops = self.of.program.ops();
         out.blank();
         out.doc("Operations beyond the sines and cosines.");
         out.code(&format!(
             "pub const OPS: Ops = Ops {{ add: {}, mul: {}, neg: {}, div: {}, sin_cos: {} }};",
-            ops.add, ops.mul, body.negations, ops.div, ops.sin_cos
+            ops.add, ops.mul, self.of.negations, ops.div, ops.sin_cos
         ));
-        let [block] = self.blocks() else { return };
-        let (rows, columns) = block.held.shape(self.program().dof);
+        let [block] = self.of.blocks() else { return };
+        let (rows, columns) = block.held.shape(self.of.program.dof);
         out.blank();
         out.doc("Entries that are not structurally zero; `[column][row]`.");
         out.code(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["));
@@ -214,13 +215,13 @@ impl Function<'_> {
 
     /// The struct of everything that the function computes.
     fn results(&self, out: &mut Lines) {
-        let n = self.program().dof;
+        let n = self.of.program.dof;
         out.blank();
-        out.doc(&format!("Everything that [`{0}`](fn@super::{0}) computes.", self.name()));
+        out.doc(&format!("Everything that [`{0}`](fn@super::{0}) computes.", self.of.name()));
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
         out.code(&format!("pub struct {}<S> {{", self.structure()));
         out.indent();
-        for Block { held, .. } in self.blocks() {
+        for Block { held, .. } in self.of.blocks() {
             let sentences = docs(held, n, shapes::ORDER);
             out.doc(&sentences[0]);
             out.doc("");

@@ -2,19 +2,18 @@
 
 use stiffarm_kernels::Form;
 
-use super::super::Functions;
-use super::super::readings::Stage;
 use super::RustOptions;
 use super::table::{angle, listed, value};
 use crate::emit::lines::Lines;
+use crate::ir::{Group, Module};
 use crate::robot::Robot;
 
 /// The module `at`, with a module for each of `places`, whose items `printed` writes.
 pub(super) fn module(
-    robot: &Robot,
+    module: &Module,
     options: &RustOptions,
-    (places, stage): (&[Functions], &Stage),
-    mut printed: impl FnMut(&Functions, usize) -> String,
+    places: &[Group],
+    printed: impl Fn(&Group, usize) -> String,
 ) -> String {
     let mut out = Lines::at(0);
     out.blank();
@@ -26,10 +25,10 @@ pub(super) fn module(
             out.blank();
         }
         let place = of.place.as_deref().unwrap_or_default();
-        docs(&mut out, robot, place);
+        docs(&mut out, module.robot, place);
         out.code(&format!("pub mod {place} {{"));
         out.indent();
-        imports(&mut out, robot, (options, stage), of);
+        imports(&mut out, module, options, of);
         out.text.push_str(&printed(of, out.depth));
         out.dedent();
         out.code("}");
@@ -61,12 +60,7 @@ fn docs(out: &mut Lines, robot: &Robot, place: &str) {
 }
 
 /// What the items of the module need.
-fn imports(
-    out: &mut Lines,
-    robot: &Robot,
-    (options, stage): (&RustOptions, &Stage),
-    of: &Functions,
-) {
+fn imports(out: &mut Lines, module: &Module, options: &RustOptions, of: &Group) {
     let used = |name: &'static str, used: bool| used.then_some(name);
     let imports = [
         Some("Arm"),
@@ -82,8 +76,8 @@ fn imports(
     ];
     let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
     out.code(&format!("use {}::{{{imports}}};", options.kernels));
-    let symbolic = if robot.symbols().is_empty() { "" } else { "Constants, Parameters, " };
-    let joints = if stage.moves { ", joints" } else { "" };
+    let symbolic = if module.is_symbolic() { "Constants, Parameters, " } else { "" };
+    let joints = if module.readings.moves { ", joints" } else { "" };
     out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture{joints}}};"));
     out.blank();
     listed(out, &of.outputs);

@@ -2,28 +2,18 @@
 
 use stiffarm_kernels::Input;
 
-use super::super::posture::{Needs, Pair, Plain, Posture};
-use super::super::readings::{Extra, Stage};
+use super::statements::sin_cos;
 use super::style::Rust;
 use crate::emit::lines::Lines;
-use crate::robot::Robot;
+use crate::ir::{Extra, Module, Plain, Posture, Readings};
 
 /// What a function is made of is joined to it, so that sines and cosines and all entries stay in
 /// registers; the way through memory costs a quarter more.
 pub(super) const INLINE: &str = "#[inline(always)]";
 
-/// Whether an angle has a symbolic offset.
-pub(super) fn needs_constants(posture: &Posture) -> bool {
-    posture.angles.iter().any(|pair| pair.sum.contains("constants."))
-}
-
 /// The struct `Posture`: what of the joint values the functions of the module need.
-pub(super) fn module(
-    posture: &Posture,
-    needs: &[Needs],
-    (stage, style): (&Stage, &Rust),
-    robot: &Robot,
-) -> String {
+pub(super) fn module(module: &Module, style: &Rust) -> String {
+    let Module { robot, readings: stage, posture, .. } = module;
     let n = robot.dof();
     let mut out = Lines::at(0);
     joints(&mut out, stage, style, n);
@@ -32,15 +22,15 @@ pub(super) fn module(
     out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
     out.code("pub struct Posture<S> {");
     out.indent();
-    for pair in &posture.angles {
-        for field in pair.fields() {
+    for angle in &posture.angles {
+        for field in angle.needed() {
             let word = if field.starts_with('s') { "sin" } else { "cos" };
-            out.doc(&format!("`{word}({})`", pair.sum));
+            out.doc(&format!("`{word}({})`", angle.sum.print(style)));
             out.code(&format!("pub {field}: S,"));
         }
     }
     for plain in &posture.plain {
-        out.doc(&format!("`{}`, {}", plain.source(), plain.meaning(robot)));
+        out.doc(&format!("`{}`, {}", plain.source().print(style), plain.meaning(robot)));
         out.code(&format!("pub {}: S,", plain.field()));
     }
     out.dedent();
@@ -49,7 +39,7 @@ pub(super) fn module(
     out.code("impl<S: Scalar> Posture<S> {");
     out.indent();
     out.doc("All sines and cosines at once.");
-    let constants = if needs_constants(posture) { "constants: &Constants<S>, " } else { "" };
+    let constants = if posture.reads_constants() { "constants: &Constants<S>, " } else { "" };
     out.code(INLINE);
     let extras = parameters(stage, n).concat();
     out.code(&format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{"));
@@ -59,7 +49,7 @@ pub(super) fn module(
     out.dedent();
     out.code("}");
     let fields = posture.fields();
-    if needs.iter().any(|needs| needs.reads.len() < fields.len()) {
+    if module.functions().any(|function| function.reads.len() < fields.len()) {
         out.blank();
         out.doc("Zeros, in the place of what a kernel does not need.");
         out.code(INLINE);
@@ -77,20 +67,20 @@ pub(super) fn module(
 }
 
 /// What stands behind `q` among the parameters of the arm's functions.
-pub(super) fn parameters(stage: &Stage, n: usize) -> Vec<String> {
+pub(super) fn parameters(stage: &Readings, n: usize) -> Vec<String> {
     let parameter = |extra: Extra| match extra {
         Extra::Sides => format!(", {}: &[S; {n}]", extra.name()),
         Extra::Warming => format!(", {}: S", extra.name()),
     };
-    stage.extras().into_iter().map(parameter).collect()
+    stage.extras.iter().copied().map(parameter).collect()
 }
 
 /// The function from readings to joint values, where these are others.
-fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
+fn joints(out: &mut Lines, stage: &Readings, style: &Rust, n: usize) {
     if !stage.moves {
         return;
     }
-    let ops = stage.readings.ops();
+    let ops = stage.ops;
     out.blank();
     out.doc("The joint values that readings mean, base to tip, in rad (prismatic joint: m).");
     out.doc("");
@@ -104,25 +94,21 @@ fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
     ));
     out.code(INLINE);
     let unread = |extra: &Extra| if stage.reads(*extra) { "" } else { "_" };
-    let extras = stage.extras().into_iter().zip(parameters(stage, n));
-    let extras = extras.map(|(e, text)| text.replacen(", ", &format!(", {}", unread(&e)), 1));
+    let extras = stage.extras.iter().zip(parameters(stage, n));
+    let extras = extras.map(|(e, text)| text.replacen(", ", &format!(", {}", unread(e)), 1));
     let extras: String = extras.collect();
     out.code(&format!("pub fn joints<S: Scalar>(q: &[S; {n}]{extras}) -> [S; {n}] {{"));
     out.indent();
-    let angles = stage.angles();
-    if !angles.is_empty() {
-        let each = |letter: &str| {
-            let names = angles.iter().map(|a| format!("{letter}{}", stage.suffix(*a)));
-            names.collect::<Vec<_>>().join(", ")
-        };
-        let sums: Vec<String> = angles.iter().map(|a| stage.print(*a, style)).collect();
-        out.code(&format!("let ([{}], [{}]) =", each("s"), each("c")));
-        out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
+    if !stage.angles.is_empty() {
+        let sums: Vec<String> = stage.angles.iter().map(|a| a.sum.print(style)).collect();
+        let [pattern, call] = sin_cos(&stage.angles, &sums);
+        out.code(&pattern);
+        out.code(&format!("    {call}"));
     }
     out.code("[");
     out.indent();
-    for joint in &stage.readings.joints {
-        out.code(&format!("{},", stage.print(*joint, style)));
+    for joint in &stage.joints {
+        out.code(&format!("{},", joint.print(style)));
     }
     out.dedent();
     out.code("]");
@@ -131,44 +117,36 @@ fn joints(out: &mut Lines, stage: &Stage, style: &Rust, n: usize) {
 }
 
 /// The documentation of readings and of what is given beside them.
-pub(super) fn readings(stage: &Stage) -> String {
-    let extras = stage.extras().into_iter().map(|e| format!("; `{}`: {}", e.name(), e.sentence()));
+pub(super) fn readings(stage: &Readings) -> String {
+    let extras = stage.extras.iter().map(|e| format!("; `{}`: {}", e.name(), e.sentence()));
     let joints = Input::Joints.sentence();
     let readings = joints.replacen("joint values", "readings", usize::from(stage.moves));
     format!("`{}`: {readings}{}", Input::Joints.name(), extras.collect::<String>())
 }
 
 /// The fields as locals.
-pub(super) fn values(out: &mut Lines, posture: &Posture, (stage, style): (&Stage, &Rust)) {
-    let of_joints = |plain: &Plain| matches!(plain, Plain::Joint(_));
-    if stage.moves && (!posture.angles.is_empty() || posture.plain.iter().any(of_joints)) {
-        let extras = stage.extras().into_iter().map(|e| format!(", {}", e.name()));
+pub(super) fn values(out: &mut Lines, posture: &Posture, (stage, style): (&Readings, &Rust)) {
+    if stage.moves && posture.reads_joints() {
+        let extras = stage.extras.iter().map(|e| format!(", {}", e.name()));
         out.code(&format!("let q = joints(q{});", extras.collect::<String>()));
     }
     if !posture.angles.is_empty() {
-        let name = |used: bool, letter: &str, pair: &Pair| match used {
-            true => format!("{letter}{}", pair.suffix),
-            false => "_".to_string(),
-        };
-        let sines: Vec<String> = posture.angles.iter().map(|a| name(a.sine, "s", a)).collect();
-        let cosines: Vec<String> = posture.angles.iter().map(|a| name(a.cosine, "c", a)).collect();
         let mut sums = Vec::new();
-        for pair in &posture.angles {
-            if pair.sum.contains(' ') {
-                out.code(&format!("let theta{} = {};", pair.suffix, pair.sum));
-                sums.push(format!("theta{}", pair.suffix));
+        for angle in &posture.angles {
+            let sum = angle.sum.print(style);
+            if sum.contains(' ') {
+                out.code(&format!("let theta{} = {sum};", angle.suffix));
+                sums.push(format!("theta{}", angle.suffix));
             } else {
-                sums.push(pair.sum.clone());
+                sums.push(sum);
             }
         }
-        out.code(&format!("let ([{}], [{}]) =", sines.join(", "), cosines.join(", ")));
-        out.code(&format!("    S::sin_cos_all([{}]);", sums.join(", ")));
+        let [pattern, call] = sin_cos(&posture.angles, &sums);
+        out.code(&pattern);
+        out.code(&format!("    {call}"));
     }
     for plain in &posture.plain {
-        let source = match plain {
-            Plain::Growth => stage.growth(style),
-            plain => plain.source(),
-        };
-        out.code(&format!("let {} = {source};", plain.field()));
+        let source = if *plain == Plain::Growth { &stage.growth } else { &plain.source() };
+        out.code(&format!("let {} = {};", plain.field(), source.print(style)));
     }
 }

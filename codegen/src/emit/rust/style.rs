@@ -1,7 +1,7 @@
 //! How Rust spells numbers and operations.
 
-use super::super::expression::Style;
 use super::super::literal::constant;
+use crate::ir::{Operation, Style};
 use crate::number::Number;
 
 /// Rust over the scalar trait.
@@ -12,32 +12,30 @@ pub(super) struct Rust {
     pub constants: &'static str,
 }
 
+impl Rust {
+    /// The function of the runtime that solves a system.
+    pub fn solve(&self) -> &'static str {
+        if self.fused { "solve_fused" } else { "solve" }
+    }
+}
+
 impl Style for Rust {
     fn number(&self, n: Number) -> String {
         format!("S::lit({})", constant(n))
     }
-    fn name(&self, name: &str) -> String {
-        match name.strip_prefix("constants.") {
-            Some(field) => format!("{}.{field}", self.constants),
-            None => name.to_string(),
+    fn constant(&self, name: &str) -> String {
+        format!("{}.{name}", self.constants)
+    }
+    fn of(&self, operation: Operation, a: &str) -> String {
+        match operation {
+            Operation::Reciprocal => format!("({a}).recip()"),
+            Operation::Root => format!("({a}).sqrt()"),
+            Operation::Sign => format!("({a}).sign()"),
+            Operation::Sine => format!("S::sin_cos_all([{a}]).0[0]"),
+            Operation::Cosine => format!("S::sin_cos_all([{a}]).1[0]"),
         }
     }
-    fn product(&self, a: &str, b: &str) -> String {
-        format!("{a} * {b}")
-    }
-    fn bracket(&self, inner: &str) -> String {
-        format!("({inner})")
-    }
-    fn recip(&self, a: &str) -> String {
-        format!("({a}).recip()")
-    }
-    fn sqrt(&self, a: &str) -> String {
-        format!("({a}).sqrt()")
-    }
-    fn sign(&self, a: &str) -> String {
-        format!("({a}).sign()")
-    }
-    fn fused(&self, a: &str, b: &str, c: &str) -> Option<String> {
-        self.fused.then(|| format!("S::mul_add({a}, {b}, {c})"))
+    fn fused(&self, a: &str, b: &str, c: &str) -> String {
+        format!("S::mul_add({a}, {b}, {c})")
     }
 }

@@ -3,9 +3,10 @@
 use stiffarm_kernels::{Form, Output};
 
 use super::super::asked;
-use super::super::constants::Constants;
 use super::RustOptions;
+use super::style::Rust;
 use crate::emit::lines::Lines;
+use crate::ir::Constants;
 use crate::number::Number;
 use crate::robot::{Angle, Convention, Entry, Frame, Joint, Motion, Quantity, Robot, Value};
 
@@ -144,6 +145,7 @@ fn row(joint: &Joint) -> String {
 /// The structs of symbolic parameters and of what is worked out from them once.
 pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
     let mut out = Lines::at(0);
+    let style = Rust { fused: false, constants: "p" };
     out.blank();
     out.doc("The table's symbolic link parameters.");
     out.code("#[allow(non_snake_case)]");
@@ -163,7 +165,7 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
     out.code("pub struct Constants<S> {");
     out.indent();
     for field in constants.fields() {
-        out.doc(&format!("`{}`", field.text));
+        out.doc(&format!("`{}`", field.value.print(&style)));
         out.code(&format!("pub {}: S,", field.name));
     }
     out.dedent();
@@ -177,7 +179,7 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
     out.code("Constants {");
     out.indent();
     for field in constants.fields() {
-        out.code(&format!("{}: {},", field.name, field.text));
+        out.code(&format!("{}: {},", field.name, field.value.print(&style)));
     }
     out.dedent();
     out.code("}");

@@ -1,19 +1,31 @@
 //! Angles whose sines and cosines enter a function: what they are sums of, and what they are called.
 
+use super::term::{Name, Term};
 use crate::derive::COMPONENTS;
 use crate::expr::{Expr, Graph, Node, Symbol};
 
 /// An angle whose sine and cosine are inputs.
 #[derive(Clone, Debug)]
-pub(super) struct Angle {
+pub(crate) struct Angle {
     /// The sum of joint angles (and offsets) itself.
-    pub sum: Expr,
+    pub sum: Term,
     /// What stands behind `s` and `c` in the names: `23` for θ2 + θ3.
     pub suffix: String,
     pub sine: bool,
     pub cosine: bool,
-    /// The two of an angle that is not the posture's.
-    pub nodes: [Option<Expr>; 2],
+}
+
+impl Angle {
+    /// The names of sine and cosine, of those that are needed.
+    pub fn names(&self) -> [Option<Name>; 2] {
+        [(self.sine, 's'), (self.cosine, 'c')]
+            .map(|(needed, letter)| needed.then(|| format!("{letter}{}", self.suffix).into()))
+    }
+
+    /// The names of those that are needed.
+    pub fn needed(&self) -> impl Iterator<Item = Name> {
+        self.names().into_iter().flatten()
+    }
 }
 
 /// What stands behind `s` and `c`: the joints and displacements of the sum, or its parameters.

@@ -1,52 +1,40 @@
 //! From the graph to a sequence: what gets a name, in which order.
 
-use super::graph::{Expr, Graph, Node};
+use crate::expr::{Expr, Graph, Node};
 
 /// Something that a function does in order: it stores a result, or solves for unknowns.
 #[derive(Clone, Debug)]
-pub enum Item {
+pub(super) enum Item {
     /// Stores the value of an expression.
     Store(Expr),
-    /// Works out what is no arithmetic of the graph: a linear system, or sines and cosines of own angles.
-    Solve {
-        /// Matrix and right-hand side; the angles.
-        inputs: Vec<Expr>,
-        /// The symbols that it defines; the sines and cosines.
-        unknowns: Vec<Expr>,
-    },
+    /// Works out what is no arithmetic of the graph from matrix and right-hand side of a linear system, or from angles.
+    Solve(Vec<Expr>),
 }
 
 /// One step of the sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Binding {
+pub(super) enum Binding {
     /// Gives the node a name.
     Let(usize),
     /// Carries out item number `0` of the list that was scheduled.
     Item(usize),
 }
 
-/// A valid order of evaluation.
-#[derive(Clone, Debug)]
-pub struct Schedule {
-    /// The steps, operands before uses.
-    pub steps: Vec<Binding>,
-    /// By node: whether it has a name of its own; other nodes are written where they are used.
-    pub bound: Vec<bool>,
-    pub(super) items: Vec<Vec<usize>>,
-    pub(super) unknowns: Vec<Vec<usize>>,
-    pub(super) operands: Vec<Vec<usize>>,
-}
-
 /// A single expression is broken by a name when it would hold more operations than this.
 const LONGEST: usize = 9;
 
 impl Graph {
-    /// Schedules `items`. `is_input` tells which nodes are given from outside (sines and cosines, the
-    /// wrench, hoisted constants): they are neither named nor entered.
+    /// Schedules `items`: steps in a valid order of evaluation; what gets no name is written where it is used. `is_input`
+    /// tells which nodes are given from outside (sines and cosines, the wrench, hoisted constants): they are neither
+    /// named nor entered.
     ///
     /// Results are computed on demand, in the order of the items, the operand with the larger
     /// subexpression first: values are made late and consumed early, so few are alive at a time.
-    pub fn schedule(&self, items: &[Item], is_input: impl Fn(usize) -> bool) -> Schedule {
+    pub(super) fn schedule(
+        &self,
+        items: &[Item],
+        is_input: impl Fn(usize) -> bool,
+    ) -> Vec<Binding> {
         let inner = |e: Expr| {
             let node = e.node();
             (!is_input(node) && !matches!(self.nodes()[node], Node::Number(_) | Node::Symbol(_)))
@@ -80,13 +68,7 @@ impl Graph {
             inputs.iter().for_each(|node| order.visit(*node));
             order.out.push(Binding::Item(at));
         }
-        let steps = order.out;
-        let unknowns = items.iter().map(|item| item.unknowns().iter().map(|e| e.node()).collect());
-        let unknowns = unknowns.collect();
-        // An unknown may be stored as it is: inputs too, for liveness.
-        let read = |item: &Item| item.inputs().iter().map(|e| e.node()).collect();
-        let read = items.iter().map(read).collect();
-        Schedule { steps, bound, items: read, unknowns, operands: self.all_operands(&is_input) }
+        order.out
     }
 
     /// Use counts, and for every node the operations written in its place with a flag that says that
@@ -113,30 +95,13 @@ impl Graph {
         }
         (uses, size)
     }
-
-    /// Operands including symbols, for liveness: the unknowns of a solve are symbols.
-    fn all_operands(&self, is_input: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
-        (0..self.nodes().len())
-            .map(|at| match is_input(at) {
-                true => Vec::new(),
-                false => self.nodes()[at].operands().map(Expr::node).collect(),
-            })
-            .collect()
-    }
 }
 
 impl Item {
     fn inputs(&self) -> &[Expr] {
         match self {
             Item::Store(e) => core::slice::from_ref(e),
-            Item::Solve { inputs, .. } => inputs,
-        }
-    }
-
-    fn unknowns(&self) -> &[Expr] {
-        match self {
-            Item::Store(_) => &[],
-            Item::Solve { unknowns, .. } => unknowns,
+            Item::Solve(inputs) => inputs,
         }
     }
 }
@@ -173,8 +138,12 @@ impl Order<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::graph::Symbol;
     use super::*;
+    use crate::expr::Symbol;
+
+    fn lets(steps: &[Binding]) -> usize {
+        steps.iter().filter(|step| matches!(step, Binding::Let(_))).count()
+    }
 
     #[test]
     fn single_uses_are_written_in_place_until_they_are_long() {
@@ -182,7 +151,7 @@ mod tests {
         let x: Vec<Expr> = (0..30).map(|k| g.symbol(Symbol::Joint(k))).collect();
         let sum = x.iter().fold(Expr::ZERO, |sum, e| g.add(sum, *e));
         let schedule = g.schedule(&[Item::Store(sum)], |_| false);
-        assert!((2..=4).contains(&schedule.lets()), "{}", schedule.lets());
+        assert!((2..=4).contains(&lets(&schedule)), "{schedule:?}");
     }
 
     #[test]
@@ -192,6 +161,6 @@ mod tests {
         let s = g.sin(x);
         let square = g.mul(s, s);
         let schedule = g.schedule(&[Item::Store(square), Item::Store(-square)], |n| n == s.node());
-        assert_eq!(schedule.lets(), 1);
+        assert_eq!(lets(&schedule), 1);
     }
 }
