@@ -15,10 +15,8 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{
-    Effect, Forms, Known, Parameter, Place, Spot, at_place, cannot_act, did_you_mean,
-};
-use crate::measurement::nearest;
+use crate::effects::{Effect, Forms, Known, Parameter, Place, Spot, at_place, cannot_act};
+use crate::io::{did_you_mean, nearest};
 
 /// One effect at one place, with its size.
 #[derive(Clone, Debug, PartialEq)]

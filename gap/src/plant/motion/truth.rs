@@ -12,8 +12,7 @@ use core::fmt;
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::{LAWS, Law, Spot};
-use crate::effects::did_you_mean;
-use crate::measurement::nearest;
+use crate::io::{did_you_mean, nearest};
 
 /// One effect at one spot, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
