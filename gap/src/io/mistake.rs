@@ -43,9 +43,9 @@ pub struct Fault {
     /// What was found.
     pub found: String,
     /// What was expected; empty where what was found says it.
-    pub expected: String,
+    pub expected: Box<str>,
     /// How to mend it; empty where what was expected says it.
-    pub help: String,
+    pub help: Box<str>,
     /// Whether a reading is missing, and nothing is wrong with the others.
     pub(crate) is_hole: bool,
 }
@@ -53,8 +53,8 @@ pub struct Fault {
 impl Fault {
     pub(crate) fn new(
         found: impl Into<String>,
-        expected: impl Into<String>,
-        help: impl Into<String>,
+        expected: impl Into<Box<str>>,
+        help: impl Into<Box<str>>,
     ) -> Fault {
         let (found, expected, help) = (found.into(), expected.into(), help.into());
         Fault { found, expected, help, is_hole: false }
@@ -63,8 +63,8 @@ impl Fault {
     /// A reading that is missing.
     pub(crate) fn hole(
         found: impl Into<String>,
-        expected: impl Into<String>,
-        help: impl Into<String>,
+        expected: impl Into<Box<str>>,
+        help: impl Into<Box<str>>,
     ) -> Fault {
         Fault { is_hole: true, ..Fault::new(found, expected, help) }
     }

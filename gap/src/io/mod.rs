@@ -16,9 +16,9 @@ mod unit;
 
 pub use map::Map;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
+pub use nearest::{did_you_mean, nearest};
 pub use source::{MOST_BYTES, bytes};
 pub use unit::{Dimension, Unit};
 
 pub(crate) use mistake::Mistakes;
-pub(crate) use nearest::{did_you_mean, nearest};
 pub(crate) use source::decoded;

@@ -1,10 +1,7 @@
 //! The name that may have been meant.
 
 /// The candidate most like `found`: equal but for case, or within one edit (two if it is long).
-pub(crate) fn nearest<'a>(
-    found: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let long = found.chars().count();
     let reach = if long >= 6 { 2 } else { 1 };
     candidates
@@ -26,7 +23,7 @@ pub(crate) fn nearest<'a>(
 }
 
 /// The question at the end of a message; empty where nothing is near.
-pub(crate) fn did_you_mean(near: Option<&str>) -> String {
+pub fn did_you_mean(near: Option<&str>) -> String {
     near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
 }
 

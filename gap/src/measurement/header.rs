@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(parts("pose"), Ok(("pose", None)));
         assert_eq!(parts("").unwrap_err().found, "no name");
         for bad in ["q1[", "q1]", "q1[]", "[deg]", "q1[deg]x", "q1[[deg]]", "q1[a][b]"] {
-            assert_eq!(parts(bad).unwrap_err().help, "mend the brackets", "{bad}");
+            assert_eq!(&*parts(bad).unwrap_err().help, "mend the brackets", "{bad}");
         }
     }
 }

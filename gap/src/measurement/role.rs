@@ -241,7 +241,7 @@ mod tests {
     fn joints_that_are_not_there_are_mistakes() {
         for name in ["q0", "q3", "s3", "q01", "q99999999999999999999999"] {
             let fault = Role::of(name, &layout()).unwrap_err();
-            let told = (fault.found, fault.expected.as_str());
+            let told = (fault.found, &*fault.expected);
             assert_eq!(told, (format!("joint number {}", &name[1..]), "1 to 2"), "{name}");
         }
     }
