@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
+use stiffarm_gap::io::ReadError;
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
 use stiffarm_gap::simulate::moments;
 use stiffarm_gap::whole::{Situation, Whole};
@@ -130,7 +131,10 @@ fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure
     let layout = Layout { readings: starts, ..data::layout(source)? };
     let targets = data::from_bytes(path, &bytes, &layout)?;
     if !targets.skipped.is_empty() {
-        return Err(data::refusal(&targets.file, &bytes, &targets.skipped, 0));
+        return Err(data::refusal(
+            &bytes,
+            &ReadError { file: targets.file, mistakes: targets.skipped, more: 0 },
+        ));
     }
     let refused = |text: &str, help: &str| {
         Err(Failure::with_help(format!("{}: {text}", path.display()), help))

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use stiffarm_gap::readings::{Map, Sheet, import};
+use stiffarm_gap::io::{Map, ReadError};
+use stiffarm_gap::readings::{Sheet, import};
 
 use super::Verdict;
 use crate::input::data;
@@ -56,7 +57,7 @@ pub struct Args {
 /// [`Failure`]: the table, the map, or an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let read = |path: &PathBuf| bytes(path).map_err(|error| Failure::io("read", path, &error));
-    let plain = |error: stiffarm_gap::readings::ImportError| Failure::new(error.to_string());
+    let plain = |error: ReadError| Failure::new(error.to_string());
     let mut map = match &args.map {
         None => Map::default(),
         Some(path) => {

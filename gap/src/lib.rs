@@ -23,6 +23,7 @@ pub mod excite;
 mod fixture;
 pub mod gap;
 pub mod identify;
+pub mod io;
 pub mod log;
 pub mod measurement;
 pub mod motion;
@@ -41,7 +42,8 @@ pub mod study;
 pub mod whole;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
-pub use measurement::{Measurements, ReadError};
+pub use io::ReadError;
+pub use measurement::Measurements;
 #[doc(hidden)]
 pub use rng as dice; // alias: old path
 #[doc(hidden)]

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
-use stiffarm_gap::measurement::{Layout, MOST_MISTAKES, Mistake};
-use stiffarm_gap::{Measurements, ReadError};
+use stiffarm_gap::io::{MOST_MISTAKES, ReadError};
+use stiffarm_gap::measurement::Layout;
 use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
@@ -49,7 +50,7 @@ pub fn read_bytes(
 
 fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
     let data = data?;
-    let mut lines: Vec<u64> = data.skipped.iter().map(|mistake| mistake.line).collect();
+    let mut lines: Vec<u64> = data.skipped.iter().filter_map(|mistake| mistake.line).collect();
     lines.dedup();
     if !lines.is_empty() {
         let rows = counted(lines.len(), "row");
@@ -73,7 +74,7 @@ pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measuremen
     let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
     let file = path.display().to_string();
     let data = Measurements::plan_from_bytes(&file, &bytes, layout);
-    told(data.map_err(|error| refused(&file, &bytes, &error)), quiet)
+    told(data.map_err(|error| refusal(&bytes, &error)), quiet)
 }
 
 /// Says what is to be doubted of a file unless `quiet`, and returns it; `along` are the frames that
@@ -91,30 +92,19 @@ pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], quiet: bool) 
 pub fn from_bytes(path: &Path, bytes: &[u8], layout: &Layout) -> Result<Measurements, Failure> {
     let file = path.display().to_string();
     let data = Measurements::from_bytes(&file, bytes, layout);
-    data.map_err(|error| refused(&file, bytes, &error))
+    data.map_err(|error| refusal(bytes, &error))
 }
 
-fn refused(file: &str, bytes: &[u8], error: &ReadError) -> Failure {
-    match error {
-        ReadError::Open { .. } => Failure::new(error.to_string()),
-        ReadError::Mistakes { mistakes, more, .. } => refusal(file, bytes, mistakes, *more),
-    }
-}
-
-/// Mistakes, each at its cell, and how many more there are.
-pub fn refusal(file: &str, bytes: &[u8], mistakes: &[Mistake], more: usize) -> Failure {
+/// The mistakes of a file, each at its cell, and how many more there are.
+pub fn refusal(bytes: &[u8], error: &ReadError) -> Failure {
+    let ReadError { file, mistakes, more } = error;
     let text = core::str::from_utf8(bytes).unwrap_or_default();
-    let mut remarks: Vec<Remark> =
-        mistakes.iter().map(|mistake| remark(mistake, file, text)).collect();
-    if more > 0 {
-        let rest = format!("and {more} more mistakes");
-        remarks.push(Remark::error(rest, None, file, "", None));
-    }
-    Failure::File(remarks)
-}
-
-fn remark(mistake: &Mistake, file: &str, text: &str) -> Remark {
-    let column = mistake.column.as_ref().map(|column| column.number);
-    let span = snippet::cell(text, mistake.line, column);
-    Remark::error(mistake.to_string(), None, file, text, span)
+    let each = mistakes.iter().map(|mistake| {
+        let column = mistake.column.as_ref().map(|column| column.number);
+        let span = mistake.line.and_then(|line| snippet::cell(text, line, column));
+        Remark::error(mistake.to_string(), None, file, text, span)
+    });
+    let rest = (*more > 0).then(|| format!("and {more} more mistakes"));
+    let rest = rest.map(|rest| Remark::error(rest, None, file, "", None));
+    Failure::File(each.chain(rest).collect())
 }

@@ -7,7 +7,7 @@ use serde::Deserialize as _;
 use stiffarm_codegen::robot::{Dimension as Cell, Effect, Motion, Robot, Symbol};
 use stiffarm_gap::diagnose::{Cover, Trust};
 use stiffarm_gap::effects::Known;
-use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::io::{Dimension, nearest};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -254,13 +254,6 @@ fn listing(symbols: &[Symbol]) -> String {
         unit => format!("{} ({unit})", s.name),
     });
     each.collect::<Vec<_>>().join(", ")
-}
-
-/// The name most like the one that was found, if one is near.
-fn nearest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let distance = |name: &str| strsim::damerau_levenshtein(found, name);
-    let reach = 1 + found.chars().count() / 4;
-    names.filter(|name| distance(name) <= reach).min_by_key(|name| distance(name))
 }
 
 /// The dimension whose units may stand behind a parameter's number.

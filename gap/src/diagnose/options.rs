@@ -3,7 +3,7 @@
 use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, Law, ToolFrame};
-use crate::measurement::nearest;
+use crate::io::nearest;
 use crate::spring::Spring;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.

@@ -3,7 +3,7 @@
 use stiffarm_kernels::generic::Arm;
 
 use super::{AtRest, Place};
-use crate::measurement::nearest;
+use crate::io::{did_you_mean, nearest};
 
 /// Reads `effect[@place]`; the place may be left out where there is only one.
 ///
@@ -22,11 +22,6 @@ pub(crate) fn at_place(
     let effect = known.iter().find(|effect| effect.identifier() == name);
     let effect = *effect.ok_or_else(|| unknown_effect(name, &known))?;
     Ok((effect, read_place(effect, place, arm)?))
-}
-
-/// The end of a message.
-pub(crate) fn did_you_mean(near: Option<&str>) -> String {
-    near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
 }
 
 fn unknown_effect(found: &str, known: &[&dyn AtRest]) -> String {

@@ -5,7 +5,8 @@ use stiffarm_codegen::robot::{self, Effect as Table, Entry, Quantity as Given};
 use stiffarm_kernels::generic::Arm;
 
 use super::{AtRest, Catalogue, Depends, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
-use crate::measurement::{Measurements, Row, nearest};
+use crate::io::nearest;
+use crate::measurement::{Measurements, Row};
 use crate::simulate::{Actual, Moment};
 
 /// The key that tells of which measurement file an effect is that belongs to one session.

@@ -5,7 +5,8 @@ use stiffarm_codegen::robot::Effect;
 use super::effects::Catalogue;
 use super::read::{Log, Signal, TorqueSide};
 use super::scene::Domain;
-use crate::measurement::{Body, nearest};
+use crate::io::nearest;
+use crate::measurement::Body;
 
 /// How a log is diagnosed.
 #[derive(Clone, Debug, Default, PartialEq)]

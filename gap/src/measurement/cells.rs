@@ -1,59 +1,68 @@
 //! The rows below the header: cells into numbers in SI.
 
-use csv::StringRecord;
-
 use super::Row;
 use super::header::Head;
-use super::mistake::{Fault, Mistake};
 use super::payload::Payloads;
 use super::role::{Family, Layout, Role};
-use super::table::Record;
-use super::unit::{Unit, nearest};
+use crate::io::{Fault, Mistake, Unit, did_you_mean, nearest};
 
 /// A number as the cell has it, before its unit; `expected` is what the message asks for.
-pub(crate) fn number(cell: &str, expected: &str) -> Result<f64, Fault> {
-    let (found, expected) = (cell.to_owned(), expected.to_owned());
+pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
     if cell.is_empty() {
-        return Err(Fault::EmptyCell { expected });
+        return Err(empty(&expected()));
     }
+    let (found, again) = (format!("`{cell}`"), "remove the row or measure again");
     match cell.parse::<f64>() {
-        Ok(value) if value.is_nan() => Err(Fault::Nan { found, expected }),
-        Ok(value) if value.is_infinite() && cell.contains(['n', 'N']) => {
-            Err(Fault::Infinity { found, expected })
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.is_nan() => {
+            Err(Fault::hole(found + ", not a number", expected(), again))
         }
-        Ok(value) if value.is_infinite() => Err(Fault::TooLarge { found, expected }),
-        Ok(value) => Ok(value),
+        Ok(_) if cell.contains(['n', 'N']) => {
+            Err(Fault::new(found + ", infinity", expected(), again))
+        }
+        Ok(_) => Err(too_large(cell, &expected())),
         Err(_) if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => {
-            Err(Fault::DecimalComma { found })
+            Err(Fault::new(found + ", a decimal comma", "", "write 1.5, not 1,5"))
         }
-        Err(_) => Err(Fault::NotANumber { found, expected }),
+        Err(_) => {
+            let has_digits = cell.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+            let unit = if has_digits { "; a unit belongs in the header, `name[unit]`" } else { "" };
+            Err(Fault::new(found, expected(), format!("write a plain number{unit}")))
+        }
     }
+}
+
+fn too_large(cell: &str, expected: &str) -> Fault {
+    Fault::new(format!("`{cell}`, too large for a double"), expected, "mend the exponent")
+}
+
+fn empty(expected: &str) -> Fault {
+    Fault::hole("an empty cell", expected, "fill it in, or remove the row")
 }
 
 fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {
     let expected =
-        unit.map_or_else(|| "a number".to_owned(), |u| format!("{} in {}", u.dimension, u.name));
-    let value = number(cell, &expected)?;
+        || unit.map_or_else(|| "a number".to_owned(), |u| format!("{} in {}", u.dimension, u.name));
+    let value = number(cell, expected)?;
     let si = unit.map_or(value, |u| u.to_si(value));
-    let found = cell.to_owned();
-    if si.is_finite() { Ok(si) } else { Err(Fault::TooLarge { found, expected }) }
+    if si.is_finite() { Ok(si) } else { Err(too_large(cell, &expected())) }
 }
 
 /// Reads one row, or its mistakes. Its `group` is filled in later. Of a row that is planned what is
 /// measured may be empty.
 pub(crate) fn row(
-    record: &Record,
+    line: u64,
+    cells: &[&str],
     heads: &[Head],
     layout: &Layout,
     planned: bool,
 ) -> Result<Row, Vec<Mistake>> {
-    let (line, cells) = (record.line, &record.cells);
-    let whole = |fault| Err(vec![Mistake { line, column: None, fault }]);
+    let whole = |fault: Fault| Err(vec![fault.at(line, None)]);
     if cells.len() != heads.len() {
-        return whole(Fault::Ragged { found: cells.len(), expected: heads.len() });
+        return whole(Fault::ragged(cells.len(), heads.len()));
     }
-    if cells.iter().all(str::is_empty) {
-        return whole(Fault::EmptyRow);
+    if cells.iter().all(|cell| cell.is_empty()) {
+        return whole(Fault::hole("an empty row of commas", "a measurement", "remove the row"));
     }
     let mut row = Row::new(line, vec![0.0; layout.motions.len()]);
     let mut mistakes = Vec::new();
@@ -62,7 +71,7 @@ pub(crate) fn row(
     };
     for (head, cell) in heads.iter().zip(cells).filter(|(head, cell)| !open(head, cell)) {
         if let Err(fault) = fill(&mut row, head, cell, layout) {
-            mistakes.push(Mistake { line, column: Some(head.column.clone()), fault });
+            mistakes.push(fault.at(line, Some(head.column.clone())));
         }
     }
     if !mistakes.is_empty() {
@@ -90,8 +99,7 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
             let found = name(cell, "the name of a marker")?;
             let names: Vec<&str> = layout.markers.iter().map(|m| m.name.as_str()).collect();
             let Some(marker) = layout.markers.iter().find(|m| m.name == found) else {
-                let (known, suggestion) = known(&found, &names);
-                return Err(Fault::UnknownMarker { found, known, suggestion });
+                return Err(unknown("marker", &found, &names, "name one of them"));
             };
             row.offset = marker.translation;
             row.marker = Some(found);
@@ -106,14 +114,18 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
         Some(Role::Measured(Family::Distance, _)) => {
             row.measured[0] = value()?;
             if row.measured[0] < 0.0 {
-                return Err(Fault::Negative { found: cell.to_owned() });
+                return Err(Fault::new(cell, "a distance", "it is not below zero"));
             }
         }
         Some(Role::Measured(_, k)) => row.measured[k] = value()?,
         Some(Role::Sigma(of)) => {
             let sd = value().and_then(|sd| match sd > 0.0 {
                 true => Ok(sd),
-                false => Err(Fault::Sigma { found: cell.to_owned() }),
+                false => Err(Fault::new(
+                    format!("`{cell}`"),
+                    "a number above 0",
+                    "the instrument's standard deviation of the reading",
+                )),
             })?;
             let all = row.sigma.get_or_insert_default();
             match of {
@@ -131,34 +143,41 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
     Ok(())
 }
 
-/// The names that there are, as a message lists them, and the one that may have been meant.
-pub(crate) fn known(found: &str, names: &[&str]) -> (Vec<String>, Option<String>) {
-    let suggestion = nearest(found, names.iter().copied()).map(str::to_owned);
-    (names.iter().map(|n| format!("`{n}`")).collect(), suggestion)
+/// A name that the robot file's tables of this kind do not have; `names` are those that they have.
+pub(crate) fn unknown(table: &str, found: &str, names: &[&str], help: &str) -> Fault {
+    let listed: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let known = match listed.is_empty() {
+        true => format!("no [[{table}]]"),
+        false => listed.join(", "),
+    };
+    let near = did_you_mean(nearest(found, names.iter().copied()));
+    let found = format!("the unknown {table} `{found}`, the robot file has {known}{near}");
+    Fault::new(found, "", format!("{help} or add it to the robot file"))
 }
 
 fn direction(cell: &str) -> Result<i8, Fault> {
-    match number(cell, "-1, 0 or 1")? {
+    let expected = "-1, 0 or 1";
+    match number(cell, || expected.to_owned())? {
         -1.0 => Ok(-1),
         0.0 => Ok(0),
         1.0 => Ok(1),
-        _ => Err(Fault::Direction { found: cell.to_owned() }),
+        _ => {
+            let help = "the direction from which the joint came to rest";
+            Err(Fault::new(format!("`{cell}`"), expected, help))
+        }
     }
 }
 
 fn name(cell: &str, expected: &str) -> Result<String, Fault> {
-    if cell.is_empty() {
-        return Err(Fault::EmptyCell { expected: expected.to_owned() });
-    }
-    Ok(cell.to_owned())
+    if cell.is_empty() { Err(empty(expected)) } else { Ok(cell.to_owned()) }
 }
 
 /// The first cell of a row that can be no header: every cell is empty or a number, one at least a
 /// number.
-pub(crate) fn only_numbers(cells: &StringRecord) -> Option<String> {
+pub(crate) fn only_numbers(cells: &[&str]) -> Option<String> {
     let numeric = |c: &str| c.parse::<f64>().is_ok();
     let all = cells.iter().all(|c| c.is_empty() || numeric(c));
-    cells.iter().find(|c| numeric(c)).filter(|_| all).map(str::to_owned)
+    cells.iter().find(|c| numeric(c)).filter(|_| all).map(|c| (*c).to_owned())
 }
 
 #[cfg(test)]
@@ -168,27 +187,36 @@ mod tests {
     #[test]
     fn numbers_are_plain_and_finite() {
         for (cell, value) in [("1.5", 1.5), ("-2e-3", -2e-3), ("+7", 7.0), (".5", 0.5)] {
-            assert_eq!(number(cell, "a"), Ok(value));
+            assert_eq!(number(cell, String::new), Ok(value));
         }
-        let fault = |cell| number(cell, "a").unwrap_err();
-        assert!(matches!(fault(""), Fault::EmptyCell { .. }));
-        for nan in ["NaN", "nan", "-NAN"] {
-            assert!(matches!(fault(nan), Fault::Nan { .. }), "{nan}");
-        }
-        for infinity in ["inf", "-Infinity", "INF"] {
-            assert!(matches!(fault(infinity), Fault::Infinity { .. }), "{infinity}");
-        }
-        assert!(matches!(fault("1e999"), Fault::TooLarge { .. }));
-        assert!(matches!(fault("1,5"), Fault::DecimalComma { .. }));
-        for text in ["abc", "1.5mm", "0x10", "1 2", "1,2,3", "--1", "e"] {
-            assert!(matches!(fault(text), Fault::NotANumber { .. }), "{text}");
+        for (cell, told, is_hole) in [
+            ("", "an empty cell", true),
+            ("NaN", ", not a number", true),
+            ("nan", ", not a number", true),
+            ("-NAN", ", not a number", true),
+            ("inf", ", infinity", false),
+            ("-Infinity", ", infinity", false),
+            ("INF", ", infinity", false),
+            ("1e999", ", too large for a double", false),
+            ("1,5", ", a decimal comma", false),
+            ("abc", "`: write a plain number", false),
+            ("1.5mm", "`: write a plain number; a unit", false),
+            ("0x10", "`: write a plain number; a unit", false),
+            ("1 2", "`: write a plain number", false),
+            ("1,2,3", "`: write a plain number", false),
+            ("--1", "`: write a plain number", false),
+            ("e", "`: write a plain number", false),
+        ] {
+            let fault = number(cell, String::new).unwrap_err();
+            assert!(fault.to_string().contains(told), "{fault}");
+            assert_eq!(fault.is_hole, is_hole, "{cell}");
         }
     }
 
     #[test]
     fn a_unit_can_make_a_number_too_large() {
         let kilo = Unit::named("kN");
-        assert!(matches!(quantity("1e307", kilo), Err(Fault::TooLarge { .. })));
+        assert_eq!(quantity("1e307", kilo), Err(too_large("1e307", "a force in kN")));
         assert_eq!(quantity("2", kilo), Ok(2000.0));
     }
 
@@ -197,6 +225,6 @@ mod tests {
         for (cell, sign) in [("-1", -1), ("0", 0), ("+1", 1), ("1.0", 1)] {
             assert_eq!(direction(cell), Ok(sign));
         }
-        assert_eq!(direction("2"), Err(Fault::Direction { found: "2".to_owned() }));
+        assert_eq!(direction("2").unwrap_err().found, "`2`");
     }
 }

@@ -1,12 +1,9 @@
 //! The header row: what each column is, and whether the columns together make a measurement.
 
-use std::collections::HashMap;
-
 use super::Kind;
-use super::mistake::{Column, Fault, Mistakes};
 use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, SIGMA_PREFIX, nearest_name};
-use super::table::Record;
-use super::unit::{Unit, nearest_unit};
+use crate::io::columns::{Header, split};
+use crate::io::{Column, Fault, Map, Mistakes, Unit};
 
 /// One column of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,61 +20,61 @@ pub(crate) struct Head {
 }
 
 /// Reads the header row. What is wrong with it goes to `mistakes`.
-pub(crate) fn read(record: &Record, layout: &Layout, mistakes: &mut Mistakes) -> Vec<Head> {
-    let mut heads: Vec<Head> = Vec::with_capacity(record.cells.len());
-    let mut numbers: HashMap<String, usize> = HashMap::with_capacity(record.cells.len());
-    for (index, text) in record.cells.iter().enumerate() {
-        let column = Column { number: index + 1, header: text.to_owned() };
-        let mut wrong = |fault| mistakes.add(record.line, Some(column.clone()), fault);
-        let (name, unit_text) = match split(text) {
-            Ok(parts) => parts,
-            Err(fault) => {
-                wrong(fault);
-                (String::new(), None)
-            }
+pub(crate) fn read(
+    line: u64,
+    names: &[String],
+    layout: &Layout,
+    mistakes: &mut Mistakes,
+) -> Vec<Head> {
+    let header = Header {
+        line: Some(line),
+        names,
+        bare: &|name| split(name).0,
+        map: &Map::default(),
+        known: &|_| None,
+        ours: "",
+    };
+    let wrong = |fault: Fault, k: usize| fault.at(line, Some(header.column(k)));
+    let parts: Vec<Result<(&str, Option<&str>), Fault>> = names.iter().map(|n| parts(n)).collect();
+    let named = |k: usize| parts[k].as_ref().ok().map(|(name, _)| (*name).to_owned());
+    header.assign(&named, mistakes);
+    let mut heads: Vec<Head> = Vec::with_capacity(names.len());
+    for (k, parts) in parts.into_iter().enumerate() {
+        let mut head = Head {
+            column: header.column(k),
+            name: String::new(),
+            unit_text: None,
+            role: None,
+            unit: None,
         };
-        let mut role = None;
-        let mut unit = None;
-        if !name.is_empty() {
-            let first = *numbers.entry(name.clone()).or_insert(index + 1);
-            if first <= index {
-                wrong(Fault::Repeated { name: name.clone(), first });
-            } else {
-                match Role::of(&name, layout) {
-                    Ok(known) => role = Some(known),
-                    Err(fault) => wrong(fault),
-                }
-            }
+        let read = parts.and_then(|(name, unit)| {
+            head.name = name.to_owned();
+            head.unit_text = unit.map(str::to_owned);
+            let role = Role::of(name, layout)?;
+            head.role = Some(role);
+            unit_of(role, name, unit, layout)
+        });
+        match read {
+            Ok(unit) => head.unit = unit,
+            Err(fault) => mistakes.add(wrong(fault, k)),
         }
-        if let Some(known) = role {
-            match unit_of(known, &name, unit_text.as_deref(), layout) {
-                Ok(of) => unit = of,
-                Err(fault) => wrong(fault),
-            }
-        }
-        heads.push(Head { column, name, unit_text, role, unit });
+        heads.push(head);
     }
     heads
 }
 
 /// `name[unit]` into its parts.
-fn split(text: &str) -> Result<(String, Option<String>), Fault> {
-    let brackets = || Fault::Brackets { found: text.to_owned() };
-    let (name, unit) = match text.split_once('[') {
-        None if text.contains(']') => return Err(brackets()),
-        None => (text, None),
-        Some((name, rest)) => {
-            let unit = rest.strip_suffix(']').ok_or_else(brackets)?.trim();
-            if unit.is_empty() || unit.contains(['[', ']']) {
-                return Err(brackets());
-            }
-            (name.trim(), Some(unit.to_owned()))
-        }
-    };
-    if name.is_empty() {
-        return Err(if unit.is_some() { brackets() } else { Fault::NoName });
+fn parts(text: &str) -> Result<(&str, Option<&str>), Fault> {
+    let (name, unit) = split(text);
+    let expected = "`name` or `name[unit]`";
+    if text.is_empty() {
+        let help = "name the column or remove it (a trailing comma makes one)";
+        return Err(Fault::new("no name", expected, help));
     }
-    Ok((name.to_owned(), unit))
+    if name.is_empty() || [name, unit.unwrap_or_default()].concat().contains(['[', ']']) {
+        return Err(Fault::new(format!("`{text}`"), expected, "mend the brackets"));
+    }
+    Ok((name, unit))
 }
 
 fn unit_of(
@@ -89,23 +86,13 @@ fn unit_of(
     let Some(expected) = role.dimension(layout) else {
         return match found {
             Some(found) if role != Role::Extra => {
-                Err(Fault::UnitOnPlain { name: name.to_owned(), found: found.to_owned() })
+                let (found, help) = (format!("the unit `{found}`"), format!("write `{name}`"));
+                Err(Fault::new(found, "none", help))
             }
             _ => Ok(None),
         };
     };
-    let Some(found) = found else { return Ok(Some(expected.si())) };
-    match Unit::named(found) {
-        Some(unit) if unit.dimension == expected => Ok(Some(unit)),
-        Some(unit) => {
-            Err(Fault::WrongUnit { found: found.to_owned(), is: unit.dimension, expected })
-        }
-        None => {
-            let suggestion = nearest_unit(found)
-                .filter(|s| Unit::named(s).is_some_and(|u| u.dimension == expected));
-            Err(Fault::UnknownUnit { found: found.to_owned(), expected, suggestion })
-        }
-    }
+    found.map_or_else(|| Ok(expected.si()), |found| expected.unit(found, Unit::named)).map(Some)
 }
 
 /// To which kind of columns that belongs which is measured.
@@ -129,20 +116,26 @@ pub(crate) fn kind(
     let find = |role| heads.iter().find(|h| h.role == Some(role));
     let measured = |family| (0..6).map(move |k| find(Role::Measured(family, k)));
     let first = |family| measured(family).flatten().min_by_key(|h| h.column.number);
-    let mut wrong = |head: &Head, fault| mistakes.add(line, Some(head.column.clone()), fault);
+    let mut wrong =
+        |head: &Head, fault: Fault| mistakes.add(fault.at(line, Some(head.column.clone())));
     let mut of_each = Family::ALL.into_iter().filter_map(|f| first(f).map(|head| (f, head)));
     let Some((family, of_it)) = of_each.next() else {
-        mistakes.add(line, None, Fault::NothingMeasured);
+        let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement) or \
+                        `distance`";
+        mistakes.add(
+            Fault::new("no measured column", expected, "add what was measured").at(line, None),
+        );
         return None;
     };
     if let Some((other, head)) = of_each.next() {
-        let fault = Fault::TwoKinds {
-            found: of_it.name.clone(),
-            is: family.words(),
-            other: head.name.clone(),
-            other_is: other.words(),
-        };
-        wrong(head, fault);
+        let found = format!(
+            "both {} (`{}`) and {} (`{}`) that were measured",
+            family.words(),
+            of_it.name,
+            other.words(),
+            head.name
+        );
+        wrong(head, Fault::new(found, "one kind", "split the file in two"));
         return None;
     }
     let has: Vec<_> = measured(family).collect();
@@ -157,10 +150,12 @@ pub(crate) fn kind(
         Family::Pose => {
             let missing = absent(&has[..3], &POSE_NAMES);
             if !missing.is_empty() {
-                wrong(of_it, Fault::PositionIncomplete { found: of_it.name.clone(), missing });
+                let expected = "all of x, y, z beside an orientation";
+                let help = "it is that of the tool at a position";
+                wrong(of_it, without(of_it, &missing, expected, help));
             }
             if let Some((head, missing)) = partial(&has[3..], &POSE_NAMES[3..]) {
-                wrong(head, incomplete(head, missing, "rx, ry, rz"));
+                wrong(head, incomplete(head, &missing, "rx, ry, rz"));
             }
             Kind::Pose { orientation: components[3..] == [true; 3] }
         }
@@ -168,40 +163,40 @@ pub(crate) fn kind(
     let others = Family::ALL.into_iter().filter(|other| *other != family);
     for (other, k) in others.flat_map(|other| (0..6).map(move |k| (other, k))) {
         if let Some(head) = find(Role::Sim(other, k)) {
-            let expected = of_it.name.clone();
-            let fault = Fault::SimOfOtherKind {
-                found: head.name.clone(),
-                is: other.words(),
-                measures: family.words(),
-                expected: format!("sim_{expected}"),
-            };
-            wrong(head, fault);
+            let (is, measures) = (other.words(), family.words());
+            let found = format!("`{}`, {is}, in a file that measures {measures}", head.name);
+            let expected = format!("`sim_{}`", of_it.name);
+            wrong(head, Fault::new(found, expected, "predict what is measured"));
         }
     }
     let sim: Vec<_> = (0..6).map(|k| find(Role::Sim(family, k))).collect();
     if let (Kind::Pose { .. }, Some((head, missing))) =
         (&kind, partial(&sim[3..], &POSE_NAMES[3..]))
     {
-        wrong(head, incomplete(head, format!("sim_{missing}"), "sim_rx, sim_ry, sim_rz"));
+        wrong(head, incomplete(head, &format!("sim_{missing}"), "sim_rx, sim_ry, sim_rz"));
     }
     let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
     let from = at.iter().flatten().copied().chain(find(Role::From)).next();
     if let Some(head) = from.filter(|_| family != Family::Distance) {
-        wrong(head, Fault::FromWithout { found: head.name.clone() });
+        let found = format!("`{}` in a file that measures no distance", head.name);
+        wrong(head, Fault::new(found, "a column `distance`", "add it, or remove the point"));
     }
     if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
-        wrong(head, Fault::FromIncomplete { found: head.name.clone(), missing });
+        let help = "the point from which a distance is measured has three coordinates";
+        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
     }
     if let (Some(named), Some(head)) = (find(Role::From), at.iter().flatten().next()) {
-        wrong(named, Fault::FromTwice { found: head.name.clone() });
+        let found = format!("both a point's name (`from`) and its place (`{}`)", head.name);
+        wrong(named, Fault::new(found, "one of them", "a point with a name alone is fitted"));
     }
     let mut given = [false; 6];
     for (flag, head) in given.iter_mut().zip(sim) {
         *flag = head.is_some();
     }
     if let Some((head, missing)) = sigma(heads, family, kind) {
-        let found = head.name.clone();
-        mistakes.add(line, Some(head.column.clone()), Fault::SigmaIncomplete { found, missing });
+        let expected = "the standard deviation of every measured component of its kind";
+        let help = format!("add {missing}, or `sigma` for all positions");
+        wrong(head, without(head, &missing, expected, &help));
     }
     Some((kind, given))
 }
@@ -241,8 +236,12 @@ fn missing_joints(heads: &[Head], line: u64, layout: &Layout, mistakes: &mut Mis
     for joint in missing {
         let missing = format!("q{}", joint + 1);
         let meant = near.iter().find(|(near, _)| *near == missing);
-        let suggestion = meant.map(|(_, head)| head.name.clone());
-        mistakes.add(line, None, Fault::MissingJoint { missing, suggestion });
+        let not_it = meant.map_or_else(String::new, |(_, head)| {
+            format!(" (`{}` is not it: names are case-sensitive and exact)", head.name)
+        });
+        let found = format!("no column {missing}");
+        let fault = Fault::new(found, "a reading of every joint", format!("add it{not_it}"));
+        mistakes.add(fault.at(line, None));
     }
 }
 
@@ -258,8 +257,14 @@ fn partial<'a>(has: &[Option<&'a Head>], names: &[&'static str]) -> Option<(&'a 
     (!missing.is_empty()).then_some((head, missing))
 }
 
-fn incomplete(head: &Head, missing: String, all: &'static str) -> Fault {
-    Fault::OrientationIncomplete { found: head.name.clone(), missing, all }
+/// A column without those that belong to it.
+fn without(head: &Head, missing: &str, expected: &str, help: &str) -> Fault {
+    Fault::new(format!("`{}` without {missing}", head.name), expected, help)
+}
+
+fn incomplete(head: &Head, missing: &str, all: &str) -> Fault {
+    let help = "an orientation is a rotation vector with three components";
+    without(head, missing, &format!("all of {all} or none"), help)
 }
 
 #[cfg(test)]
@@ -268,13 +273,11 @@ mod tests {
 
     #[test]
     fn splits_names_and_units() {
-        let parts = |t| split(t).map(|(n, u)| (n, u.unwrap_or_default()));
-        assert_eq!(parts("q1[deg]"), Ok(("q1".to_owned(), "deg".to_owned())));
-        assert_eq!(parts("q1 [ deg ]"), Ok(("q1".to_owned(), "deg".to_owned())));
-        assert_eq!(parts("pose"), Ok(("pose".to_owned(), String::new())));
-        assert_eq!(parts(""), Err(Fault::NoName));
+        assert_eq!(parts("q1 [ deg ]"), Ok(("q1", Some("deg"))));
+        assert_eq!(parts("pose"), Ok(("pose", None)));
+        assert_eq!(parts("").unwrap_err().found, "no name");
         for bad in ["q1[", "q1]", "q1[]", "[deg]", "q1[deg]x", "q1[[deg]]", "q1[a][b]"] {
-            assert_eq!(parts(bad), Err(Fault::Brackets { found: bad.to_owned() }), "{bad}");
+            assert_eq!(&*parts(bad).unwrap_err().help, "mend the brackets", "{bad}");
         }
     }
 }

@@ -13,33 +13,30 @@
 mod cells;
 mod group;
 mod header;
-mod mistake;
 mod payload;
 mod role;
 mod seen;
-pub(crate) mod table;
-mod unit;
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 
 use nalgebra::Vector6;
 
-pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use payload::{Body, Hung, Payloads};
 pub use role::{
     DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIGMA_PREFIX,
     SIM_PREFIX, WRENCH_NAMES,
 };
-pub use unit::{Dimension, UNITS, Unit};
 
-use mistake::Mistakes;
+use crate::io::Mistakes;
+use crate::io::table::{Records, Separator};
+#[doc(hidden)]
+pub use crate::io::{
+    Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
+}; // alias: old path
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
-pub(crate) use unit::nearest;
 
 /// A measurement file, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,9 +65,6 @@ pub struct Measurements {
     pub wrench_in: [Option<Unit>; 6],
 }
 
-/// Largest file that is read, bytes.
-pub const MOST_BYTES: u64 = 512 << 20;
-
 /// Most rows that are read: with all that is worked out about them they take some two gigabytes.
 pub const MOST_ROWS: usize = 2_000_000;
 
@@ -80,6 +74,9 @@ pub const ONE_IN: usize = 10;
 
 /// Wrists turn ±700° at the most: a joint that reads more than two turns is not read in radians.
 pub(crate) const MOST_RADIANS: f64 = 4.0 * core::f64::consts::PI;
+
+/// A header, for messages.
+const HEADER: &str = "`q1[deg],q2[deg],dz[mm]`";
 
 /// What the file measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -263,14 +260,17 @@ impl Measurements {
         let file = path.display().to_string();
         match bytes(path) {
             Ok(bytes) => Measurements::from_bytes(&file, &bytes, layout),
-            Err(source) => Err(ReadError::Open { file, source }),
+            Err(error) => {
+                let found = format!("no file that can be read ({error})");
+                Err(Fault::new(found, "a measurement file (CSV)", "").of(&file))
+            }
         }
     }
 
     /// Reads the bytes of a measurement file; `file` is what messages call it.
     ///
     /// # Errors
-    /// [`ReadError::Mistakes`]: all its mistakes, up to [`MOST_MISTAKES`].
+    /// [`ReadError`]: all its mistakes, up to [`MOST_MISTAKES`](crate::io::MOST_MISTAKES).
     pub fn from_bytes(
         file: &str,
         bytes: &[u8],
@@ -300,10 +300,9 @@ impl Measurements {
     ) -> Result<Measurements, ReadError> {
         let mut mistakes = Mistakes::default();
         let read = read_into(&mut mistakes, file, bytes, layout, planned);
-        match read.filter(|_| mistakes.is_empty()) {
-            Some(measurements) => Ok(measurements),
-            None => Err(mistakes.into_error(file)),
-        }
+        let read = read.map_err(|mistake| mistakes.add(mistake)).ok().flatten();
+        mistakes.check(file)?;
+        read.ok_or_else(|| Fault::new("nothing", "measurements", "").of(file))
     }
 
     /// Number of measured components of one row.
@@ -312,77 +311,54 @@ impl Measurements {
     }
 }
 
-/// The bytes of a file, which are held in memory.
-///
-/// # Errors
-/// What the system says, and more than [`MOST_BYTES`].
-pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    let large = || {
-        let most = MOST_BYTES >> 20;
-        let fault =
-            format!("it has more than the {most} MB that are read: thin it out or split it");
-        io::Error::new(io::ErrorKind::FileTooLarge, fault)
-    };
-    // A device or a pipe has no length, and may have no end.
-    if file.metadata()?.len() > MOST_BYTES {
-        return Err(large());
-    }
-    let mut bytes = Vec::new();
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST_BYTES { Err(large()) } else { Ok(bytes) }
-}
-
-/// `None` only if there is a mistake.
+/// `None` only if there is a mistake; what nothing can be read after is an error.
 fn read_into(
     mistakes: &mut Mistakes,
     file: &str,
     bytes: &[u8],
     layout: &Layout,
     planned: bool,
-) -> Option<Measurements> {
-    let mut records = match table::text(bytes) {
-        Ok(text) => table::records(text, b','),
-        Err(not) => {
-            mistakes.extend([*not]);
-            return None;
-        }
+) -> Result<Option<Measurements>, Mistake> {
+    let mut records = Records::new(bytes, Some(Separator::Byte(b',')))?;
+    let Some(top) = records.read()? else {
+        let help = format!("begin with one such as {HEADER}");
+        return Err(Fault::new("nothing", "a header row", help).at(1, None));
     };
-    let Some(top) = records.next() else {
-        mistakes.add(1, None, Fault::EmptyFile);
-        return None;
-    };
-    if let Some(fault) = no_header(&top) {
-        mistakes.add(top.line, None, fault);
-        return None;
+    let (line, names) = (top.line, top.texts()?);
+    if let Some(fault) = no_header(&names) {
+        return Err(fault.at(line, None));
     }
-    let heads = header::read(&top, layout, mistakes);
-    let kind = header::kind(&heads, top.line, layout, mistakes);
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let heads = header::read(line, &names, layout, mistakes);
+    let kind = header::kind(&heads, line, layout, mistakes);
     let mut extra = extra(&heads, layout);
     let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
-    for record in records {
+    while let Some(record) = records.read()? {
         count += 1;
         if count > MOST_ROWS {
-            mistakes.add(record.line, None, Fault::TooManyRows);
-            return None;
+            let found = format!("more than {MOST_ROWS} rows");
+            let fault = Fault::new(found, "no more", "thin the file out, or split it");
+            return Err(fault.at(record.line, None));
         }
-        match cells::row(&record, &heads, layout, planned) {
+        let cells = record.texts()?;
+        match cells::row(record.line, &cells, &heads, layout, planned) {
             Ok(row) => {
                 rows.push(row);
-                extra.iter_mut().for_each(|extra| extra.take(&record));
+                extra.iter_mut().for_each(|extra| extra.take(&cells));
             }
-            Err(found) if found.iter().all(|m| m.fault.is_hole()) => skipped.push(found),
+            Err(found) if found.iter().all(|m| m.fault.is_hole) => skipped.push(found),
             Err(found) => mistakes.extend(found),
         }
     }
     sessions_stand_together(mistakes, &rows, &heads);
     if count == 0 {
-        mistakes.add(top.line, None, Fault::NoRows);
+        let expected = "at least one measurement below the header";
+        mistakes.add(Fault::new("no rows", expected, "add the measurements").at(line, None));
     }
     if skipped.len() * ONE_IN > count {
         skipped.drain(..).for_each(|found| mistakes.extend(found));
     }
-    let (kind, sim_given) = kind.filter(|_| mistakes.is_empty())?;
+    let Some((kind, sim_given)) = kind.filter(|_| mistakes.is_empty()) else { return Ok(None) };
     let poses = group::assign(&mut rows);
     let measured = kind.components();
     let unused = |h: &&header::Head| match h.role {
@@ -392,7 +368,7 @@ fn read_into(
     };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
     let family = header::family(kind);
-    Some(Measurements {
+    Ok(Some(Measurements {
         file: file.to_owned(),
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
@@ -403,7 +379,7 @@ fn read_into(
         kind,
         sim_given,
         poses,
-    })
+    }))
 }
 
 fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[header::Head]) {
@@ -414,21 +390,26 @@ fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[heade
         let ([first, .., last] | [first @ last]) = session else { continue };
         let Some(name) = first.session.as_deref() else { continue };
         if let Some(ended) = ended.insert(name, last.line) {
-            let fault = Fault::SessionAgain { found: name.to_owned(), ended };
-            mistakes.add(first.line, Some(column.clone()), fault);
+            let help = "bring the rows of a session together, in the order of measuring, or give what \
+                        was measured later another name";
+            let expected = format!("another: its rows end in line {ended}");
+            let fault = Fault::new(format!("session `{name}` again"), expected, help);
+            mistakes.add(fault.at(first.line, Some(column.clone())));
         }
     }
 }
 
 /// A first row that is no header at all.
-fn no_header(top: &table::Record) -> Option<Fault> {
-    if let Some(found) = cells::only_numbers(&top.cells) {
-        return Some(Fault::HeaderMissing { found });
+fn no_header(names: &[&str]) -> Option<Fault> {
+    if let Some(found) = cells::only_numbers(names) {
+        let help = format!("name the columns in the first row, such as {HEADER}");
+        return Some(Fault::new(format!("the number `{found}`"), "a header row", help));
     }
     let separators = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")];
-    let lone = top.cells.iter().next().filter(|_| top.cells.len() == 1)?;
+    let [lone] = names else { return None };
     let (_, separator) = separators.into_iter().find(|(c, _)| lone.contains(*c))?;
-    Some(Fault::Separator { separator })
+    let found = format!("columns separated by {separator}");
+    Some(Fault::new(found, "commas", "export with commas"))
 }
 
 /// The columns without a meaning, still without cells.
@@ -446,13 +427,13 @@ fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
 }
 
 impl ExtraColumn {
-    fn take(&mut self, record: &table::Record) {
-        let cell = record.cells.get(self.column.number - 1).unwrap_or_default();
-        self.cells.push(cell.to_owned());
+    fn take(&mut self, cells: &[&str]) {
+        self.cells.push(cells[self.column.number - 1].to_owned());
     }
 
     fn with_values(self) -> ExtraColumn {
-        let values = self.cells.iter().map(|c| cells::number(c, "a number").ok()).collect();
+        let values =
+            self.cells.iter().map(|c| cells::number(c, || "a number".to_owned()).ok()).collect();
         ExtraColumn { values, ..self }
     }
 }

@@ -4,8 +4,8 @@ use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::Row;
-use super::cells::known;
-use super::mistake::Fault;
+use super::cells::unknown;
+use crate::io::Fault;
 
 /// In a `payload` column: nothing hangs on the tool.
 pub(crate) const NONE: &str = "none";
@@ -45,8 +45,7 @@ impl Payloads {
         let bodies = all.map_or(&[][..], |all| &all.bodies);
         if found != NONE && bodies.iter().all(|body| body.name != found) {
             let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
-            let (known, suggestion) = known(found, &names);
-            return Err(Fault::UnknownPayload { found: found.to_owned(), known, suggestion });
+            return Err(unknown("payload", found, &names, "name one of them, or `none`,"));
         }
         Ok(Hung { name: found.to_owned(), weight: Vector6::zeros() })
     }

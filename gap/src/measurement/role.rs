@@ -2,9 +2,8 @@
 
 use stiffarm_kernels::Motion;
 
-use super::mistake::Fault;
 use super::payload::Payloads;
-use super::unit::{Dimension, nearest};
+use crate::io::{Dimension, Fault, nearest};
 
 /// Components of a measured pose, in the order of a twist.
 pub const POSE_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -183,7 +182,11 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
     let known = digits.parse().ok().filter(|n: &usize| (1..=joints).contains(n));
     match known.filter(|_| !digits.starts_with('0')) {
         Some(number) => Ok(Some(number - 1)),
-        None => Err(Fault::UnknownJoint { found: digits.to_owned(), joints }),
+        None => {
+            let expected = if joints == 1 { "1".to_owned() } else { format!("1 to {joints}") };
+            let help = "joints are numbered from 1 at the base, without leading zeros";
+            Err(Fault::new(format!("joint number {digits}"), expected, help))
+        }
     }
 }
 
@@ -237,9 +240,9 @@ mod tests {
     #[test]
     fn joints_that_are_not_there_are_mistakes() {
         for name in ["q0", "q3", "s3", "q01", "q99999999999999999999999"] {
-            let found = name[1..].to_owned();
-            let fault = Fault::UnknownJoint { found, joints: 2 };
-            assert_eq!(Role::of(name, &layout()), Err(fault), "{name}");
+            let fault = Role::of(name, &layout()).unwrap_err();
+            let told = (fault.found, &*fault.expected);
+            assert_eq!(told, (format!("joint number {}", &name[1..]), "1 to 2"), "{name}");
         }
     }
 

@@ -155,7 +155,8 @@ fn a_row_with_a_hole_is_left_out_and_told() {
     let data = good(&holed);
     assert_eq!((data.rows.len(), data.rows[3].line, data.extra[0].cells.len()), (18, 6, 18));
     assert_eq!(data.extra[0].cells[3], "4");
-    let told: Vec<_> = data.skipped.iter().map(|m| (m.line, m.fault.to_string())).collect();
+    let told: Vec<_> =
+        data.skipped.iter().map(|m| (m.line.unwrap(), m.fault.to_string())).collect();
     assert_eq!((told.len(), told[0].0, told[1].0), (2, 5, 7));
     assert!(told[0].1.starts_with("found an empty cell"), "{told:?}");
     // A third of 20 is more than one in ten; a word is no hole.
@@ -186,266 +187,217 @@ fn bom_crlf_quotes_and_missing_last_line_end() {
 }
 
 /// Each mistake of the format with the whole of its message.
-const MISTAKES: &[(&str, &str, &str)] = &[
+const MISTAKES: &[(&str, &str)] = &[
     (
-        "EmptyFile",
         "# nothing\n",
         "line 1: found nothing, expected a header row: begin with one such as \
          `q1[deg],q2[deg],dz[mm]`",
     ),
     (
-        "HeaderMissing",
         "0.1,0.2,0.3,1\n",
         "line 1: found the number `0.1`, expected a header row: name the columns in the first row, \
          such as `q1[deg],q2[deg],dz[mm]`",
     ),
     (
-        "Separator",
         "q1;q2;q3;dz\n0,1;0;0;1\n",
         "line 1: found columns separated by semicolons, expected commas: export with commas",
     ),
     (
-        "NoName",
         "q1,q2,q3,dz,\n0,0,0,1,\n",
         "line 1, column 5: found no name, expected `name` or `name[unit]`: name the column or \
          remove \
          it (a trailing comma makes one)",
     ),
     (
-        "Brackets",
         "q1,q2,q3,dz,t[deg\n0,0,0,1,2\n",
         "line 1, column 5 `t[deg`: found `t[deg`, expected `name` or `name[unit]`: mend the \
          brackets",
     ),
     (
-        "Repeated",
         "q1,q2,q3,dz,q1[deg]\n0,0,0,1,2\n",
-        "line 1, column 5 `q1[deg]`: `q1` stands in column 1 already: remove or rename one of the \
+        "line 1, column 5 `q1[deg]`: found `q1` again, expected it once: `q1` stands in column 1 already: remove or rename one of the \
          two",
     ),
     (
-        "Repeated",
         "q1,q2,q3,dz,note,note\n0,0,0,1,2,3\n",
-        "line 1, column 6 `note`: `note` stands in column 5 already: remove or rename one of the \
+        "line 1, column 6 `note`: found `note` again, expected it once: `note` stands in column 5 already: remove or rename one of the \
          two",
     ),
     (
-        "UnknownUnit",
         "q1[degs],q2,q3,dz\n0,0,0,1\n",
         "line 1, column 1 `q1[degs]`: found the unknown unit `degs`, expected one of rad, deg, \
          mrad; \
          did you mean `deg`?",
     ),
     (
-        "UnknownUnit",
         "q1[furlong],q2,q3,dz\n0,0,0,1\n",
         "line 1, column 1 `q1[furlong]`: found the unknown unit `furlong`, expected one of rad, \
          deg, \
          mrad",
     ),
     (
-        "WrongUnit",
         "q1,q2,q3[deg],dz\n0,0,0,1\n",
         "line 1, column 3 `q3[deg]`: found `deg`, the unit of an angle, expected a length: write \
          one \
          of m, mm, um, in",
     ),
     (
-        "UnitOnPlain",
         "q1,q2,q3,dz,s1[rad]\n0,0,0,1,1\n",
         "line 1, column 5 `s1[rad]`: found the unit `rad`, expected none: write `s1`",
     ),
     (
-        "UnknownJoint",
         "q1,q2,q3,q4,dz\n0,0,0,0,1\n",
         "line 1, column 4 `q4`: found joint number 4, expected 1 to 3: joints are numbered from 1 \
          at \
          the base, without leading zeros",
     ),
+    ("q1,q3,dz\n0,0,1\n", "line 1: found no column q2, expected a reading of every joint: add it"),
     (
-        "MissingJoint",
-        "q1,q3,dz\n0,0,1\n",
-        "line 1: found no column q2, expected a reading of every joint: add it",
-    ),
-    (
-        "MissingJoint",
         "q1,Q2,q3,dz\n0,0,0,1\n",
         "line 1: found no column q2, expected a reading of every joint: add it (`Q2` is not it: \
          names \
          are case-sensitive and exact)",
     ),
     (
-        "NothingMeasured",
         "q1,q2,q3,fx\n0,0,0,1\n",
         "line 1: found no measured column, expected any of `x y z` (a position), any of \
          `dx dy dz drx dry drz` (a displacement) or `distance`: add what was measured",
     ),
     (
-        "TwoKinds",
         "q1,q2,q3,x,y,z,dz\n0,0,0,1,1,1,1\n",
         "line 1, column 7 `dz`: found both a pose (`x`) and a displacement (`dz`) that were \
          measured, expected one kind: split the file in two",
     ),
     (
-        "PositionIncomplete",
         "q1,q2,q3,x,rx,ry,rz\n0,0,0,1,1,1,1\n",
         "line 1, column 4 `x`: found `x` without y, z, expected all of x, y, z beside an \
          orientation: it is that of the tool at a position",
     ),
     (
-        "FromIncomplete",
         "q1,q2,q3,distance,from_x,from_z\n0,0,0,1,1,1\n",
         "line 1, column 5 `from_x`: found `from_x` without from_y, expected all of from_x, from_y, \
          from_z or none: the point from which a distance is measured has three coordinates",
     ),
     (
-        "FromWithout",
         "q1,q2,q3,dz,from\n0,0,0,1,a\n",
         "line 1, column 5 `from`: found `from` in a file that measures no distance, expected a column \
          `distance`: add it, or remove the point",
     ),
     (
-        "FromTwice",
         "q1,q2,q3,distance,from,from_x,from_y,from_z\n0,0,0,1,a,1,1,1\n",
         "line 1, column 5 `from`: found both a point's name (`from`) and its place (`from_x`), \
          expected one of them: a point with a name alone is fitted",
     ),
     (
-        "SessionAgain",
         "q1,q2,q3,dz,session\n0,0,0,1,a\n0,0,0,1,b\n0,0,0,1,a\n",
         "line 4, column 5 `session`: found session `a` again, expected another: its rows end in line \
          2: bring the rows of a session together, in the order of measuring, or give what was \
          measured later another name",
     ),
     (
-        "Negative",
         "q1,q2,q3,distance\n0,0,0,-1\n",
         "line 2, column 4 `distance`: found -1, expected a distance: it is not below zero",
     ),
     (
-        "UnknownPayload",
         "q1,q2,q3,dz,payload\n0,0,0,1,5KG\n",
         "line 2, column 5 `payload`: found the unknown payload `5KG`, the robot file has `5kg`, \
          `ball`; did you mean `5kg`?: name one of them, or `none`, or add it to the robot file",
     ),
     (
-        "OrientationIncomplete",
         "q1,q2,q3,x,y,z,rx\n0,0,0,1,1,1,1\n",
         "line 1, column 7 `rx`: found `rx` without ry, rz, expected all of rx, ry, rz or none: an \
          orientation is a rotation vector with three components",
     ),
     (
-        "OrientationIncomplete",
         "q1,q2,q3,x,y,z,rx,ry,rz,sim_ry,sim_rz\n0,0,0,1,1,1,1,1,1,1,1\n",
         "line 1, column 10 `sim_ry`: found `sim_ry` without sim_rx, expected all of sim_rx, \
          sim_ry, \
          sim_rz or none: an orientation is a rotation vector with three components",
     ),
     (
-        "SimOfOtherKind",
         "q1,q2,q3,dx,sim_x\n0,0,0,1,1\n",
         "line 1, column 5 `sim_x`: found `sim_x`, a pose, in a file that measures a displacement, \
          expected `sim_dx`: predict what is measured",
     ),
     (
-        "NoRows",
         "q1,q2,q3,dz\n# none\n",
         "line 1: found no rows, expected at least one measurement below the header: add the \
          measurements",
     ),
+    ("q1,q2,q3,dz\n0,0,0\n", "line 2: found 3 cells, expected 4 as in the header: add the missing"),
     (
-        "Ragged",
-        "q1,q2,q3,dz\n0,0,0\n",
-        "line 2: found 3 cells, expected 4 as in the header: add the missing",
-    ),
-    (
-        "Ragged",
         "q1,q2,q3,dz\n0,5,0,0,1\n",
         "line 2: found 5 cells, expected 4 as in the header: remove the surplus (a decimal comma \
          makes one: write 1.5, not 1,5)",
     ),
     (
-        "EmptyRow",
         "q1,q2,q3,dz\n0,0,0,1\n,,,\n",
         "line 3: found an empty row of commas, expected a measurement: remove the row",
     ),
     (
-        "EmptyCell",
         "q1[deg],q2,q3,dz\n ,0,0,1\n",
         "line 2, column 1 `q1[deg]`: found an empty cell, expected an angle in deg: fill it in, or \
          remove the row",
     ),
     (
-        "EmptyCell",
         "q1,q2,q3,dz,pose\n0,0,0,1,\n",
         "line 2, column 5 `pose`: found an empty cell, expected the id of a pose: fill it in, or \
          remove the row",
     ),
     (
-        "NotANumber",
         "q1,q2,q3,dz\n0,zero,0,1\n",
         "line 2, column 2 `q2`: found `zero`, expected an angle in rad: write a plain number",
     ),
     (
-        "NotANumber",
         "q1,q2,q3,dz\n0,0,0,1mm\n",
         "line 2, column 4 `dz`: found `1mm`, expected a length in m: write a plain number; a unit \
          belongs in the header, `name[unit]`",
     ),
     (
-        "DecimalComma",
         "q1,q2,q3,dz\n0,\"1,5\",0,1\n",
         "line 2, column 2 `q2`: found `1,5`, a decimal comma: write 1.5, not 1,5",
     ),
     (
-        "Nan",
         "q1,q2,q3,dz\n0,0,0,NaN\n",
         "line 2, column 4 `dz`: found `NaN`, not a number, expected a length in m: remove the row \
          or \
          measure again",
     ),
     (
-        "Infinity",
         "q1,q2,q3,dz\n0,0,0,-inf\n",
         "line 2, column 4 `dz`: found `-inf`, infinity, expected a length in m: remove the row or \
          measure again",
     ),
     (
-        "TooLarge",
         "q1,q2,q3,dz\n0,0,0,1e400\n",
         "line 2, column 4 `dz`: found `1e400`, too large for a double, expected a length in m: \
          mend \
          the exponent",
     ),
     (
-        "Direction",
         "q1,q2,q3,s2,dz\n0,0,0,0.5,1\n",
         "line 2, column 4 `s2`: found `0.5`, expected -1, 0 or 1: the direction from which the \
          joint \
          came to rest",
     ),
     (
-        "Sigma",
         "q1,q2,q3,dz,sigma[um]\n0,0,0,1,0\n",
         "line 2, column 5 `sigma[um]`: found `0`, expected a number above 0: the instrument's \
          standard deviation of the reading",
     ),
     (
-        "SigmaIncomplete",
         "q1,q2,q3,dy,dz,sigma_dz\n0,0,0,1,1,1\n",
         "line 1, column 6 `sigma_dz`: found `sigma_dz` without sigma_dy, expected the standard \
          deviation of every measured component of its kind: add sigma_dy, or `sigma` for all \
          positions",
     ),
     (
-        "SigmaIncomplete",
         "q1,q2,q3,dz,sigma_z\n0,0,0,1,1\n",
         "line 1, column 5 `sigma_z`: found `sigma_z` without sigma_dz, expected the standard \
          deviation of every measured component of its kind: add sigma_dz, or `sigma` for all \
          positions",
     ),
     (
-        "UnknownMarker",
         "q1,q2,q3,dz,marker\n0,0,0,1,SMR1\n",
         "line 2, column 5 `marker`: found the unknown marker `SMR1`, the robot file has `smr1`, \
          `smr2`; did you mean `smr1`?: name one of them or add it to the robot file",
@@ -454,12 +406,9 @@ const MISTAKES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn every_mistake_has_its_own_message() {
-    for (fault, text, message) in MISTAKES {
+    for (text, message) in MISTAKES {
         let error = read(text).expect_err(text);
         assert_eq!(error.to_string(), format!("run.csv: {message}"), "{text}");
-        let ReadError::Mistakes { mistakes, .. } = error else { panic!("{text}") };
-        let debug = format!("{:?}", mistakes[0].fault);
-        assert!(debug.starts_with(fault), "{debug} for {text}");
     }
     let bytes: [(&[u8], &str); 2] = [
         (
@@ -525,10 +474,9 @@ fn all_mistakes_are_reported_in_the_order_of_the_file() {
 #[test]
 fn a_file_that_is_not_there_is_named() {
     let error = Measurements::read(Path::new("no/such.csv"), &layout()).unwrap_err();
-    assert!(matches!(error, ReadError::Open { .. }));
     let text = error.to_string();
     assert!(
-        text.starts_with("no/such.csv: ") && text.ends_with("measurement file (CSV)"),
+        text.starts_with("no/such.csv: found no file") && text.ends_with("measurement file (CSV)"),
         "{text}"
     );
 }
@@ -539,10 +487,4 @@ fn more_than_memory_holds_is_refused() {
     let text = format!("q1,q2,q3,dz\n{}", row.repeat(MOST_ROWS + 1));
     let error = read(&text).unwrap_err().to_string();
     assert!(error.starts_with("run.csv: line 2000002: found more than 2000000 rows"), "{error}");
-    // A file of zeros that takes no room on the disk.
-    let large = std::env::temp_dir().join(format!("stiffarm-large-{}.csv", std::process::id()));
-    let made = std::fs::File::create(&large).and_then(|file| file.set_len(MOST_BYTES + 1));
-    let error = made.and_then(|()| bytes(&large)).unwrap_err().to_string();
-    std::fs::remove_file(&large).unwrap();
-    assert!(error.starts_with("it has more than the 512 MB"), "{error}");
 }

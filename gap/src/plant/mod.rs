@@ -20,7 +20,9 @@ mod chain;
 mod late;
 mod law;
 mod laws;
+mod measurements;
 mod noise;
+mod notation;
 mod observe;
 mod reading;
 mod reality;
@@ -35,10 +37,12 @@ use stiffarm_kernels::generic::Arm;
 
 pub use campaign::{Campaign, Instrument, Scatter};
 pub use laws::{effects, has_law};
+pub use measurements::csv;
 pub use noise::Noise;
+pub use notation::TruthError;
 pub use observe::Frames;
-pub use text::{csv, number, quoted};
-pub use truth::{Truth, TruthError};
+pub use text::{number, quoted};
+pub use truth::Truth;
 
 use crate::effects::Known;
 use crate::measurement::{Measurements, Row};

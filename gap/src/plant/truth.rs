@@ -1,24 +1,20 @@
-//! What is put into the plant, and the text in which it is said.
+//! What is put into the plant at rest.
 //!
 //! ```text
-//! truth  = effect [ "@" place ] ( "=" value | ":" name "=" value { "," name "=" value } )
 //! place  = "base" | "joint" i | "link" i | "tool" | "arm" | "instrument"
 //! value  = number [ unit ]
 //! ```
 //!
-//! `backlash@joint 2=0.3 mrad` gives the first or only parameter its value,
-//! `tool_frame@tool:x=1mm,rz=0.5mrad` those that are named; the rest are 0. The place may be left
-//! out where there is only one. A number without a unit is in SI.
+//! A number without a unit is in SI; the rest is [`notation`](super::notation).
 
 use core::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::effects;
-use crate::effects::{
-    Effect, Forms, Known, Parameter, Place, Spot, at_place, cannot_act, did_you_mean,
-};
-use crate::measurement::nearest;
+use super::notation::{self, Size, TruthError, once};
+use crate::effects::{Effect, Forms, Known, Parameter, Place, Spot, at_place, cannot_act};
+use crate::io::{did_you_mean, nearest};
 
 /// One effect at one place, with its size.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,23 +27,10 @@ pub struct Truth {
     pub values: Vec<(String, f64)>,
 }
 
-/// A truth that cannot be meant: what was found, what was expected.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("effect `{text}`: {fault}")]
-pub struct TruthError {
-    /// The whole text.
-    pub text: String,
-    /// What is wrong with it.
-    pub fault: String,
-}
-
 impl fmt::Display for Truth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}@{}", self.effect.identifier(), self.place)?;
-        for (k, (name, value)) in self.values.iter().enumerate() {
-            write!(f, "{}{name}={value:e}", if k == 0 { ":" } else { "," })?;
-        }
-        Ok(())
+        let numbers = self.values.iter().map(|(name, value)| (name.as_str(), *value));
+        notation::write(f, (self.effect.identifier(), &self.place), numbers)
     }
 }
 
@@ -58,23 +41,7 @@ impl Truth {
     /// [`TruthError`]: an unknown effect, a place where it cannot act, an unknown parameter, or a
     /// value that is no number of the right kind.
     pub fn parse(text: &str, arm: &Arm) -> Result<Truth, TruthError> {
-        let wrong = |fault: String| TruthError { text: text.trim().to_owned(), fault };
-        let Some(end) = text.find([':', '=']) else {
-            let (effect, place) = at_place(text, arm, effects()).map_err(wrong)?;
-            let (names, name) = (effect.names(arm, place), effect.identifier());
-            let numbers = format!("`{name}@{place}:NAME=VALUE,…`");
-            return Err(wrong(format!("found no `=`, expected a size for {names}: {numbers}")));
-        };
-        let (head, size) = text.split_at(end);
-        let (effect, place) = at_place(head, arm, effects()).map_err(wrong)?;
-        let numbers = Numbers { effect, place, arm };
-        let values = match size.strip_prefix(':') {
-            Some(list) => numbers.named(list).map_err(wrong)?,
-            None => vec![numbers.first(size.trim_start_matches('=')).map_err(wrong)?],
-        };
-        let truth = Truth { effect, place, values };
-        truth.check(arm).map_err(wrong)?;
-        Ok(truth)
+        read(text, arm).map_err(TruthError::of(text))
     }
 
     /// What a robot file says.
@@ -108,9 +75,7 @@ impl Truth {
             if !value.is_finite() {
                 return Err(format!("`{name}`: found {value}, expected a finite number"));
             }
-            if values[..k].iter().any(|(earlier, _)| earlier == name) {
-                return Err(format!("found `{name}` twice, expected one value for it"));
-            }
+            once(values[..k].iter().map(|(earlier, _)| earlier.as_str()), name)?;
         }
         let form = effect.form_number().map(|number| number.name);
         let is_form = |name: &String| form.as_deref() == Some(name);
@@ -131,6 +96,27 @@ impl Truth {
         }
         Ok(())
     }
+}
+
+fn read(text: &str, arm: &Arm) -> Result<Truth, String> {
+    let (head, size) = notation::split(text)?;
+    let (effect, place) = at_place(head, arm, effects())?;
+    let numbers = Numbers { effect, place, arm };
+    let values = match size {
+        Size::Missing => {
+            let (names, name) = (effect.names(arm, place), effect.identifier());
+            let numbers = format!("`{name}@{place}:NAME=VALUE,…`");
+            return Err(format!("found no `=`, expected a size for {names}: {numbers}"));
+        }
+        Size::First(text) => vec![numbers.first(text)?],
+        Size::Named(list) => {
+            let value = |(name, text): &(String, &str)| numbers.value(name, text);
+            list.iter().map(value).collect::<Result<_, _>>()?
+        }
+    };
+    let truth = Truth { effect, place, values };
+    truth.check(arm)?;
+    Ok(truth)
 }
 
 /// An effect at a place of an arm, whose numbers are read.
@@ -169,17 +155,5 @@ impl Numbers<'_> {
         Err(format!(
             "found a size without a name, expected {names} for {name}: `{name}@{place}:NAME=VALUE`"
         ))
-    }
-
-    fn named(&self, list: &str) -> Result<Vec<(String, f64)>, String> {
-        let each = list.split(',').map(|part| {
-            let (name, value) = part.split_once('=').ok_or_else(|| {
-                let found = part.trim();
-                format!("found `{found}`, expected name=value (numbers have a point, not a comma)")
-            })?;
-            // `joint2`, `cos  2`: one space stands between word and number.
-            self.value(&name.split_whitespace().collect::<Vec<_>>().join(" "), value)
-        });
-        each.collect()
     }
 }

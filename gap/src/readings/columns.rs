@@ -1,12 +1,11 @@
 //! Which column is what, in which unit.
 
-use std::collections::HashSet;
-
-use super::ImportError;
-use super::map::{Convention, Map, Theirs};
+use super::map::{Convention, Map};
 use super::names::{self, Meaning};
-use super::sheet::Table;
-use crate::measurement::{Dimension, Role, SIM_PREFIX, Unit, nearest};
+use super::sheet::{Table, is_none};
+use crate::io::columns::Header;
+use crate::io::{Dimension, Mistakes, ReadError, Unit};
+use crate::measurement::{Role, SIM_PREFIX};
 
 /// One column, as it is to be read.
 #[derive(Clone, Debug)]
@@ -34,110 +33,73 @@ pub(super) struct Columns {
     pub kept: Vec<Column>,
 }
 
+/// The names of a measurement file and of orientations, for messages.
+const OURS: &str = "q1 …, s1 …, x y z, rx ry rz, dx … drz, distance, from, from_x …, sim_x …, sigma, \
+                    sigma_x …, fx … mz, temperature, time, pose, marker, session, payload, mass, or one \
+                    number of an orientation: a b c, roll pitch yaw, qw qx qy qz";
+
 impl Columns {
     /// # Errors
-    /// [`ImportError`]: a column that the map names and the table has not, or one that stands twice.
-    pub(super) fn of(table: &Table, map: &Map) -> Result<Columns, ImportError> {
-        let mut columns = Columns::default();
-        let mut free: Vec<Option<Column>> =
-            (0..table.header.cells.len()).map(|index| Some(Column::new(table, index))).collect();
-        let mut given = HashSet::new();
-        for (ours, theirs) in &map.columns {
-            let meaning = named(ours).ok_or_else(|| unknown(map, ours))?;
-            let found = position(table, theirs).and_then(|index| free[index].take());
-            let mut column = found.ok_or_else(|| no_column(table, map, ours, theirs))?;
-            column.unit = theirs.unit.clone().or(column.unit);
-            (column.factor, column.offset) = (theirs.factor, theirs.offset);
-            given.insert(meaning.key());
-            columns.take(&table.file, meaning, column)?;
-        }
-        let meant: Vec<(Column, Option<Meaning>)> = free
-            .into_iter()
-            .flatten()
-            .filter(|column| !column.header.is_empty())
-            .map(|column| (column.clone(), names::meaning(names::split(&column.header).0)))
-            .collect();
+    /// [`ReadError`]: a column that the map names and the table has not, or one that stands twice.
+    pub(super) fn of(table: &Table<'_>, map: &Map) -> Result<Columns, ReadError> {
+        let meant: Vec<Option<Meaning>> =
+            table.names.iter().map(|name| names::meaning(names::split(name).0)).collect();
         // A program that has a joint 0 counts all of them from there.
-        let from_zero = meant.iter().any(|(_, m)| *m == Some(Meaning::FromZero(0)));
-        for (column, meaning) in meant {
-            let meaning = meaning.map(|m| if from_zero { m.after_zero() } else { m });
-            match meaning.filter(|m| !given.contains(&m.key())) {
-                Some(meaning) => columns.take(&table.file, meaning, column)?,
+        let from_zero = meant.contains(&Some(Meaning::FromZero(0)));
+        let meaning = |k: usize| {
+            let meaning = meant[k].clone()?;
+            let meaning = if from_zero { meaning.after_zero() } else { meaning };
+            Some(meaning.name())
+        };
+        let header = Header {
+            line: Some(table.line),
+            names: &table.names,
+            bare: &|name| names::split(name).0,
+            map,
+            known: &|ours| named(ours).map(|meaning| meaning.name()),
+            ours: OURS,
+        };
+        let mut mistakes = Mistakes::default();
+        let assigned = header.assign(&meaning, &mut mistakes);
+        mistakes.check(table.file)?;
+        let mut columns = Columns::default();
+        for (index, found) in assigned.into_iter().enumerate() {
+            let mut column = Column::new(table, index);
+            let meaning = found.and_then(|(ours, theirs)| {
+                if let Some(theirs) = theirs {
+                    column.unit = theirs.unit.clone().or(column.unit.take());
+                    (column.factor, column.offset) = (theirs.factor, theirs.offset);
+                }
+                names::meaning(&ours)
+            });
+            match meaning {
+                Some(Meaning::Orientation(of, k)) => columns.orientation.push((of, k, column)),
+                Some(Meaning::Load) => columns.load = Some(column),
+                Some(ours) => columns.ours.push((ours.name(), column)),
+                None if column.header.is_empty() => {}
                 None => columns.kept.push(column),
             }
         }
         Ok(columns)
     }
-
-    fn take(&mut self, file: &str, meaning: Meaning, column: Column) -> Result<(), ImportError> {
-        let twice = |first: &Column, ours: &str| {
-            Err(ImportError::Twice {
-                file: file.to_owned(),
-                first: first.header.clone(),
-                second: column.header.clone(),
-                ours: ours.to_owned(),
-            })
-        };
-        match meaning {
-            Meaning::Ours(name) => match self.ours.iter().find(|(n, _)| *n == name) {
-                Some((_, first)) => twice(first, &name),
-                None => {
-                    self.ours.push((name, column));
-                    Ok(())
-                }
-            },
-            Meaning::FromZero(index) => {
-                self.take(file, Meaning::Ours(format!("q{}", index + 1)), column)
-            }
-            Meaning::Orientation(convention, k) => {
-                let same = |(c, n, _): &&(Convention, usize, Column)| (*c, *n) == (convention, k);
-                match self.orientation.iter().find(same) {
-                    Some((_, _, first)) => twice(first, "one number of the orientation"),
-                    None => {
-                        self.orientation.push((convention, k, column));
-                        Ok(())
-                    }
-                }
-            }
-            Meaning::Load => match &self.load {
-                Some(first) => twice(first, "the load on the tool"),
-                None => {
-                    self.load = Some(column);
-                    Ok(())
-                }
-            },
-        }
-    }
 }
 
 impl Column {
-    fn new(table: &Table, index: usize) -> Column {
-        let header = table.header.cells[index].clone();
-        let below = table.units.get(index).and_then(|text| names::unit(text)).map(str::to_owned);
-        let written = names::split(&header).1;
-        let within = written.map(|text| names::unit(text).unwrap_or(text).to_owned());
+    fn new(table: &Table<'_>, index: usize) -> Column {
+        let header = table.names[index].clone();
+        let plain = |text: &str| Unit::spelled(text).map_or(text, |unit| unit.name).to_owned();
+        let within = names::split(&header).1.map(plain);
+        let below = table.units.get(index).filter(|text| !is_none(text)).map(|text| plain(text));
         Column { index, unit: within.or(below), header, factor: 1.0, offset: 0.0 }
     }
-}
 
-impl Meaning {
-    /// The same for columns that mean the same.
-    fn key(&self) -> String {
-        match self {
-            Meaning::Ours(name) => name.clone(),
-            Meaning::FromZero(index) => format!("q{}", index + 1),
-            Meaning::Orientation(convention, k) => format!("{convention:?} {k}"),
-            Meaning::Load => "load".to_owned(),
+    /// What was done to its numbers, in words.
+    pub(super) fn law(&self) -> String {
+        match (self.factor, self.offset) {
+            (1.0, 0.0) => String::new(),
+            (f, 0.0) => format!(" = {f} · it"),
+            (f, o) => format!(" = {f} · it + {o}"),
         }
-    }
-
-    /// A joint's reading where joints count from 0.
-    fn after_zero(self) -> Meaning {
-        let number = match &self {
-            Meaning::Ours(name) => name.strip_prefix('q').and_then(|n| n.parse::<usize>().ok()),
-            _ => None,
-        };
-        number.map_or(self, |n| Meaning::Ours(format!("q{}", n + 1)))
     }
 }
 
@@ -159,31 +121,4 @@ pub(super) fn dimension(ours: &str, unit: Option<&str>) -> Option<Dimension> {
     }
     // Of what is not a joint's the reader of measurements knows the quantity, whatever the arm.
     Role::of(name, &names::ANY).ok()?.dimension(&names::ANY)
-}
-
-fn position(table: &Table, theirs: &Theirs) -> Option<usize> {
-    let cells = &table.header.cells;
-    let whole = cells.iter().position(|cell| *cell == theirs.column);
-    whole.or_else(|| cells.iter().position(|cell| names::split(cell).0 == theirs.column))
-}
-
-fn no_column(table: &Table, map: &Map, ours: &str, theirs: &Theirs) -> ImportError {
-    let known = table.header.cells.iter().map(String::as_str);
-    ImportError::NoColumn {
-        map: map.file.clone(),
-        file: table.file.clone(),
-        column: theirs.column.clone(),
-        ours: ours.to_owned(),
-        suggestion: nearest(&theirs.column, known).map(str::to_owned),
-    }
-}
-
-fn unknown(map: &Map, ours: &str) -> ImportError {
-    let message = format!(
-        "found `{ours}` among the columns, expected a name of ours: q1 …, s1 …, x y z, rx ry rz, \
-         dx … drz, distance, from, from_x …, sim_x …, sigma, sigma_x …, fx … mz, temperature, time, \
-         pose, marker, session, payload, mass, or one number of an orientation: a b c, \
-         roll pitch yaw, qw qx qy qz"
-    );
-    ImportError::Map { map: map.file.clone(), message }
 }

@@ -1,7 +1,8 @@
 //! What a column is by its name, and the unit that stands in it.
 
 use super::map::Convention;
-use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, Unit, WRENCH_NAMES};
+use crate::io::Unit;
+use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, WRENCH_NAMES};
 
 /// What a column is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,30 +82,36 @@ pub(super) fn split(header: &str) -> (&str, Option<&str>) {
     }
     let tail = header
         .rsplit_once(['/', '_', ' '])
-        .filter(|(name, unit_)| !name.trim().is_empty() && unit(unit_).is_some());
+        .filter(|(name, unit)| !name.trim().is_empty() && Unit::spelled(unit).is_some());
     match tail {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (header, None),
     }
 }
 
-/// The unit that a text names, in brackets or not, whatever the case where it is clear.
-pub(super) fn unit(text: &str) -> Option<&'static str> {
-    let text = text.trim().trim_matches(['[', ']', '(', ')']);
-    let spelled = match text.to_lowercase().as_str() {
-        "degree" | "degrees" | "grad" => "deg",
-        "radian" | "radians" => "rad",
-        "meter" | "metre" | "meters" | "metres" => "m",
-        "inch" | "inches" => "in",
-        "sec" | "seconds" => "s",
-        "c" | "celsius" | "deg c" => "degC",
-        "mm" => "mm",
-        "deg" => "deg",
-        "rad" => "rad",
-        "kg" => return Some("kg"),
-        _ => text,
-    };
-    Unit::named(spelled).map(|unit| unit.name)
+impl Meaning {
+    /// The same name for columns that mean the same.
+    pub(super) fn name(&self) -> String {
+        let orientation = |of: &Convention, k: &usize| {
+            let names = ORIENTATIONS.iter().find(|(convention, _)| convention == of);
+            names.map_or_else(String::new, |(_, names)| names[*k].to_owned())
+        };
+        match self {
+            Meaning::Ours(name) => name.clone(),
+            Meaning::FromZero(index) => format!("q{}", index + 1),
+            Meaning::Orientation(convention, k) => orientation(convention, k),
+            Meaning::Load => LOADS[0].to_owned(),
+        }
+    }
+
+    /// A joint's reading where joints count from 0.
+    pub(super) fn after_zero(self) -> Meaning {
+        let number = match &self {
+            Meaning::Ours(name) => name.strip_prefix('q').and_then(|n| n.parse::<usize>().ok()),
+            _ => None,
+        };
+        number.map_or(self, |n| Meaning::Ours(format!("q{}", n + 1)))
+    }
 }
 
 /// Letters and digits alone, in small letters.

@@ -1,9 +1,10 @@
-//! Bytes into cells: text with whatever separates its cells, or a sheet of a workbook.
+//! A table as its program wrote it: text with whatever separates its cells, or a sheet of a workbook.
 
-use csv::StringRecord;
+use std::borrow::Cow;
 
-use super::{ImportError, Map, names};
-use crate::measurement::table;
+use super::Map;
+use crate::io::table::{Record, Records, Separator};
+use crate::io::{Column, Fault, Mistake, Mistakes, ReadError, Unit, decoded};
 
 /// A file as it was read.
 #[derive(Clone, Debug)]
@@ -12,26 +13,37 @@ pub struct Sheet {
     bytes: Vec<u8>,
 }
 
-/// One row of cells and its line in the file (of a sheet, its row), from 1.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cells {
-    pub line: u64,
-    pub cells: Vec<String>,
-}
-
-/// The cells below a header.
+/// A table whose header was found and whose cells were looked at; its rows are read again one by one.
 #[derive(Clone, Debug)]
-pub(super) struct Table {
-    pub file: String,
-    pub header: Cells,
+pub(super) struct Table<'t> {
+    pub file: &'t str,
+    text: &'t str,
+    separator: Separator,
+    /// Whether a comma may begin decimals, and whether it does.
+    may_comma: bool,
+    comma: bool,
+    /// The line of the names, and the last one that is no row: theirs or that of the units.
+    pub line: u64,
+    above: u64,
+    pub names: Vec<String>,
     /// From a row of units; empty where there is none.
     pub units: Vec<String>,
-    pub rows: Vec<Cells>,
+    /// What was seen in each column.
+    pub seen: Vec<Seen>,
     pub said: Vec<String>,
 }
 
-/// What may separate cells, the commonest last: of equally many the later wins.
-const SEPARATORS: [char; 4] = ['|', ',', '\t', ';'];
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Seen {
+    /// The largest number.
+    pub most: f64,
+    pub has_numbers: bool,
+    pub has_words: bool,
+}
+
+/// Rows above which a header is looked for.
+const MOST_ABOVE: u64 = 1000;
 
 /// A zip archive, which an xlsx or ods file is.
 const ZIP: &[u8] = b"PK\x03\x04";
@@ -42,140 +54,279 @@ impl Sheet {
         Sheet { file: file.into(), bytes }
     }
 
-    pub(super) fn table(&self, map: &Map) -> Result<Table, ImportError> {
-        let mut said = Vec::new();
-        let mut rows = match self.bytes.starts_with(ZIP) {
-            true => self.workbook(map, &mut said)?,
-            false => self.text(map, &mut said)?,
-        };
-        let at = header(&rows, map).ok_or_else(|| match map.header {
-            Some(line) => ImportError::HeaderLine { file: self.file.clone(), line },
-            None => ImportError::NoHeader { file: self.file.clone() },
-        })?;
-        let mut body = rows.split_off(at + 1);
-        let header = rows.remove(at);
-        if let Some(title) = rows.iter().find(|row| !row.is_blank()) {
-            said.push(format!(
-                "what stands above line {} is left out: `{}` …",
-                header.line,
-                title.cells.join(" ").trim()
-            ));
+    pub(super) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The text of the file, of a workbook that of a sheet with a line for each row; what separates its
+    /// cells, if that is known.
+    pub(super) fn text(
+        &self,
+        map: &Map,
+        said: &mut Vec<String>,
+    ) -> Result<(Cow<'_, str>, Option<Separator>), ReadError> {
+        if self.bytes.starts_with(ZIP) {
+            let sheet = self.workbook(map, said).map_err(|fault| fault.of(&self.file))?;
+            return Ok((Cow::Owned(sheet), Some(Separator::Byte(b','))));
         }
-        let units = match body.first() {
-            Some(first) if first.are_units() => body.remove(0).cells,
-            _ => Vec::new(),
-        };
-        let empty = body.iter().filter(|row| row.is_blank()).count();
-        body.retain(|row| !row.is_blank());
-        if empty > 0 {
-            said.push(format!("{empty} empty rows are left out"));
-        }
-        Ok(Table { file: self.file.clone(), header, units, rows: body, said })
+        let (text, encoding) = decoded(&self.bytes);
+        said.extend(encoding.map(|encoding| format!("the text is read as {encoding}")));
+        Ok((text, map.separator()))
     }
 
     #[cfg(not(feature = "xlsx"))]
-    fn workbook(&self, _: &Map, _: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
-        Err(ImportError::NotBuilt { file: self.file.clone() })
+    fn workbook(&self, _: &Map, _: &mut Vec<String>) -> Result<String, Fault> {
+        Err(Fault::not_built("a workbook", "xlsx"))
     }
 
     #[cfg(feature = "xlsx")]
-    fn workbook(&self, map: &Map, said: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
+    fn workbook(&self, map: &Map, said: &mut Vec<String>) -> Result<String, Fault> {
         use std::io::Cursor;
 
         use calamine::{Data, Reader, open_workbook_auto_from_rs};
 
-        let wrong = |reason: calamine::Error| ImportError::Workbook {
-            file: self.file.clone(),
-            reason: reason.to_string(),
+        const DAY: f64 = 86_400.0;
+        let wrong = |reason: calamine::Error| {
+            Fault::new("a workbook that cannot be read", "one", reason.to_string())
         };
         let mut book = open_workbook_auto_from_rs(Cursor::new(&self.bytes)).map_err(wrong)?;
         let known = book.sheet_names();
         let sheet = map.sheet.clone().or_else(|| known.first().cloned()).unwrap_or_default();
         if !known.contains(&sheet) {
-            return Err(ImportError::NoSheet { file: self.file.clone(), sheet, known });
+            let expected = format!("one of {}", known.join(", "));
+            return Err(Fault::new(format!("no sheet `{sheet}`"), expected, ""));
         }
         if known.len() > 1 {
             said.push(format!("sheet `{sheet}` of {}", known.join(", ")));
         }
         let range = book.worksheet_range(&sheet).map_err(wrong)?;
-        let first = range.start().map_or(0, |(row, _)| u64::from(row));
-        let cell = |data: &Data| match data {
+        let mut has_dates = false;
+        let mut cell = |data: &Data| match data {
             Data::Empty | Data::Error(_) => String::new(),
-            other => other.to_string().trim().to_owned(),
+            Data::DateTime(at) => {
+                has_dates = true;
+                // A double holds a day of this century to a microsecond.
+                ((at.as_f64() * DAY * 1e6).round() / 1e6).to_string()
+            }
+            // A line is a row.
+            other => other.to_string().replace(['\n', '\r'], " "),
         };
-        let rows = range.rows().zip(first + 1..);
-        Ok(rows.map(|(row, line)| Cells { line, cells: row.iter().map(cell).collect() }).collect())
+        let above = range.start().map_or(0, |(row, _)| row as usize);
+        let mut writer = csv::WriterBuilder::new()
+            .comment(Some(b'#'))
+            .from_writer("\n".repeat(above).into_bytes());
+        for row in range.rows() {
+            // Into memory nothing fails.
+            let _ = writer.write_record(row.iter().map(&mut cell));
+        }
+        said.extend(has_dates.then(|| "dates and times of day are read as seconds".to_owned()));
+        let text = writer.into_inner().unwrap_or_default();
+        Ok(String::from_utf8_lossy(&text).into_owned())
+    }
+}
+
+impl<'t> Table<'t> {
+    /// Finds the header, and looks at all cells.
+    ///
+    /// # Errors
+    /// [`ReadError`]: no header; rows that are not as long as it; a quotation mark that is not closed.
+    pub(super) fn of(
+        file: &'t str,
+        (text, separator): (&'t str, Option<Separator>),
+        map: &Map,
+        mut said: Vec<String>,
+    ) -> Result<Table<'t>, ReadError> {
+        let table = Table::headed(file, (text, separator), map);
+        let mut table = table.map_err(|mistake| mistake.of(file))?;
+        let (mut seen, mut mistakes) =
+            (vec![Seen::default(); table.names.len()], Mistakes::default());
+        let (mut comma, mut empty) = (false, 0);
+        let wide = table.names.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
+        let looked = table.each(|row| {
+            if row.cells.iter().all(|cell| cell.is_empty()) {
+                empty += 1;
+                return;
+            }
+            let surplus = row.cells.get(table.names.len()..).unwrap_or_default();
+            if row.cells.len() < wide || surplus.iter().any(|cell| !cell.is_empty()) {
+                mistakes.add(Fault::ragged(row.cells.len(), table.names.len()).at(row.line, None));
+            }
+            for (seen, cell) in seen.iter_mut().zip(row.cells).filter(|(_, c)| !is_none(c)) {
+                let number = number(cell, table.may_comma);
+                comma |= number.is_some() && cell.contains(',');
+                seen.has_numbers |= number.is_some();
+                seen.has_words |= number.is_none();
+                seen.most = seen.most.max(number.unwrap_or(0.0).abs());
+            }
+        });
+        mistakes.extend(looked.err());
+        mistakes.check(file)?;
+        table.seen = seen;
+        table.comma = map.decimal.map_or(comma, |decimal| decimal == ',');
+        let words = table.separator.words();
+        said.extend(table.comma.then(|| "a comma begins the decimals".to_owned()));
+        said.extend((words != "commas").then(|| format!("cells are separated by {words}")));
+        said.append(&mut table.said);
+        said.extend((empty > 0).then(|| format!("{empty} empty rows are left out")));
+        Ok(Table { said, ..table })
     }
 
-    fn text(&self, map: &Map, said: &mut Vec<String>) -> Result<Vec<Cells>, ImportError> {
-        let text = table::text(&self.bytes).map_err(|not| ImportError::NotText {
-            file: self.file.clone(),
-            not: not.to_string(),
-        })?;
-        let separator = map.separator.unwrap_or_else(|| separator(text));
-        let records = table::records(text, u8::try_from(separator).unwrap_or(b','));
-        let cells = |cells: &StringRecord| cells.iter().map(str::to_owned).collect();
-        let mut rows: Vec<Cells> =
-            records.map(|r| Cells { line: r.line, cells: cells(&r.cells) }).collect();
-        let comma =
-            |row: &Cells| row.cells.iter().any(|c| c.contains(',') && number(c, ',').is_some());
-        let found = separator != ',' && rows.iter().any(comma);
-        let decimal = map.decimal.unwrap_or(if found { ',' } else { '.' });
-        if decimal == ',' {
-            said.push("a comma begins the decimals".to_owned());
-            for cell in rows.iter_mut().flat_map(|row| &mut row.cells) {
-                if number(cell, ',').is_some() {
-                    *cell = cell.replace(',', ".");
-                }
+    /// The header, where the map says, else the last row of words above the first row of numbers.
+    fn headed(
+        file: &'t str,
+        (text, separator): (&'t str, Option<Separator>),
+        map: &Map,
+    ) -> Result<Table<'t>, Mistake> {
+        let mut records = Records::new(text.as_bytes(), separator)?;
+        let separator = records.separator();
+        let may_comma = separator != Separator::Byte(b',') || map.decimal == Some(',');
+        let mut rows: Vec<Owned> = Vec::new();
+        let (mut is_body, mut given) = (false, None);
+        let most = map.header.unwrap_or(MOST_ABOVE);
+        while let Some(record) = records.read()?
+            && !is_body
+            && (rows.len() as u64) <= most
+        {
+            let row = Owned::of(record)?;
+            is_body = match map.header {
+                Some(_) => given.is_some(),
+                None => row.is_of_numbers(may_comma),
+            };
+            if map.header == Some(row.line) && !row.is_blank() {
+                given = Some(rows.len());
+            }
+            rows.push(row);
+        }
+        let found = || {
+            let body = is_body.then(|| rows.len() - 1)?;
+            let last = |is: &dyn Fn(&Owned) -> bool| (0..body).rev().find(|k| is(&rows[*k]));
+            last(&|row| row.words() >= 2 && !row.are_units()).or_else(|| last(&|r| r.words() >= 2))
+        };
+        let at = match map.header {
+            Some(line) => given.ok_or_else(|| {
+                let expected = "a row of names there, as the map says";
+                Fault::new("no header", expected, "").at(line, None)
+            }),
+            None => found().ok_or_else(|| {
+                let help = "give its line in the map, `header = 3`";
+                Mistake::from(Fault::new("no header", "a row of names above rows of numbers", help))
+            }),
+        }?;
+        let title = rows[..at].iter().find(|row| !row.is_blank()).map(|title| {
+            let (line, title) = (rows[at].line, title.cells.join(" "));
+            format!("what stands above line {line} is left out: `{}` …", title.trim())
+        });
+        let units = rows.get(at + 1).filter(|row| row.are_units());
+        Ok(Table {
+            file,
+            text,
+            separator,
+            may_comma,
+            comma: false,
+            line: rows[at].line,
+            above: units.unwrap_or(&rows[at]).line,
+            units: units.map_or_else(Vec::new, |row| row.cells.clone()),
+            names: rows.swap_remove(at).cells,
+            seen: Vec::new(),
+            said: title.into_iter().collect(),
+        })
+    }
+
+    /// Goes through the rows below the header.
+    ///
+    /// # Errors
+    /// What nothing can be read after.
+    pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<(), Mistake> {
+        let mut records = Records::new(self.text.as_bytes(), Some(self.separator))?;
+        while let Some(record) = records.read()? {
+            if record.line > self.above {
+                take(&Row { line: record.line, cells: &record.texts()? });
             }
         }
-        if separator != ',' {
-            let name = if separator == '\t' { "tabs".to_owned() } else { format!("`{separator}`") };
-            said.push(format!("cells are separated by {name}"));
+        Ok(())
+    }
+
+    /// A cell as it stands, its decimals behind a point if it is a number.
+    pub(super) fn text<'c>(&self, row: &Row<'c>, column: usize) -> Cow<'c, str> {
+        let text = row.cells.get(column).copied().unwrap_or_default();
+        let is_number = || text.contains(',') && number(text, self.may_comma).is_some();
+        if self.comma && is_number() { Cow::Owned(text.replace(',', ".")) } else { text.into() }
+    }
+
+    /// The number of a cell; `None` of one that says that it holds none.
+    ///
+    /// # Errors
+    /// What is no number, or may be two: `1.100` where a comma begins the decimals.
+    pub(super) fn number(&self, row: &Row<'_>, column: usize) -> Result<Option<f64>, Mistake> {
+        let text = self.text(row, column);
+        if is_none(&text) {
+            return Ok(None);
         }
-        Ok(rows)
+        let wrong = |found: &str, help: &str| {
+            let here = Column { number: column + 1, header: self.names[column].clone() };
+            let found = format!("`{}`{found}", row.cells[column]);
+            Fault::new(found, "a number", help).at(row.line, Some(here))
+        };
+        if self.comma && row.cells[column].contains('.') {
+            let help = "write 1100 or 1,1, or say `decimal` in a map";
+            return Err(wrong(" where a comma begins the decimals", help));
+        }
+        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
+        number.map(Some).ok_or_else(|| wrong("", ""))
     }
 }
 
-/// A finite number with `decimal` before its decimals.
-fn number(cell: &str, decimal: char) -> Option<f64> {
-    let plain = if decimal == ',' && !cell.contains('.') {
-        cell.replacen(',', ".", 1)
-    } else {
-        cell.to_owned()
-    };
-    plain.parse().ok().filter(|x: &f64| x.is_finite())
+/// A row of cells, and its line in the file (of a sheet, its row), from 1.
+pub(super) struct Row<'c> {
+    pub line: u64,
+    pub cells: &'c [&'c str],
 }
 
-/// What separates the cells: of the candidates the one that most lines have most often.
-fn separator(text: &str) -> char {
-    let lines = || text.lines().filter(|line| !line.starts_with('#')).take(50);
-    // A decimal comma stands within cells: where anything else separates, commas do not.
-    let count = |c: char| lines().filter(|line| line.contains(c)).count();
-    let most = SEPARATORS.into_iter().max_by_key(|c| (count(*c), *c != ',')).unwrap_or(',');
-    if count(most) == 0 { ',' } else { most }
+/// A row that is held.
+struct Owned {
+    line: u64,
+    cells: Vec<String>,
 }
 
-/// The row of names: where the map says, else the first with at least two words, no number, and a
-/// number below it.
-fn header(rows: &[Cells], map: &Map) -> Option<usize> {
-    if let Some(line) = map.header {
-        return rows.iter().position(|row| row.line == line && !row.is_blank());
+impl Owned {
+    fn of(record: &Record) -> Result<Owned, Mistake> {
+        let cells = record.texts()?.into_iter().map(str::to_owned).collect();
+        Ok(Owned { line: record.line, cells })
     }
-    let numbers = |row: &Cells| row.cells.iter().filter(|c| number(c, '.').is_some()).count();
-    let words = |row: &Cells| row.cells.iter().filter(|c| !c.is_empty()).count();
-    let body = rows.iter().position(|row| numbers(row) >= 2 && 2 * numbers(row) >= words(row))?;
-    (0..body).rev().find(|k| words(&rows[*k]) >= 2 && !rows[*k].are_units())
-}
 
-impl Cells {
     fn is_blank(&self) -> bool {
-        self.cells.iter().all(String::is_empty)
+        self.words() == 0
     }
 
-    /// Whether every cell that says anything names a unit.
-    fn are_units(&self) -> bool {
-        let mut said = self.cells.iter().filter(|c| !c.is_empty()).peekable();
-        said.peek().is_some() && said.all(|c| names::unit(c).is_some())
+    /// Cells that hold anything.
+    fn words(&self) -> usize {
+        self.cells.iter().filter(|cell| !cell.is_empty()).count()
     }
+
+    fn is_of_numbers(&self, may_comma: bool) -> bool {
+        let numbers = self.cells.iter().filter(|c| number(c, may_comma).is_some()).count();
+        numbers >= 2 && 2 * numbers >= self.words()
+    }
+
+    /// Whether at least half of the cells that say anything name units, and none is a number.
+    fn are_units(&self) -> bool {
+        let units = self.cells.iter().filter(|c| Unit::spelled(c).is_some()).count();
+        let is_number = |cell: &String| cell.parse::<f64>().is_ok();
+        units > 0 && 2 * units >= self.words() && !self.cells.iter().any(is_number)
+    }
+}
+
+/// A finite number, with a point before its decimals, or a comma where that may be.
+fn number(cell: &str, may_comma: bool) -> Option<f64> {
+    let number = match cell.contains(',') {
+        false => cell.parse().ok(),
+        true if !may_comma || cell.contains('.') => None,
+        true => cell.replacen(',', ".", 1).parse().ok(),
+    };
+    number.filter(|x: &f64| x.is_finite())
+}
+
+/// Whether a cell says that it holds nothing.
+pub(super) fn is_none(text: &str) -> bool {
+    ["", "-", "--", "na", "n/a", "nan"].iter().any(|none| none.eq_ignore_ascii_case(text))
 }

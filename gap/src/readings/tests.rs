@@ -4,7 +4,7 @@ use stiffarm_kernels::Motion;
 use super::*;
 use crate::measurement::{Kind, Layout, Measurements};
 
-fn import_with(text: &str, map: &str) -> Result<Imported, ImportError> {
+fn import_with(text: &str, map: &str) -> Result<Imported, ReadError> {
     let map = Map::read("map.toml", map)?;
     import(&Sheet::new("raw.csv", text.as_bytes().to_vec()), &map)
 }
@@ -91,24 +91,58 @@ fn joints_counted_from_zero_and_units_below_the_names() {
 fn what_is_wrong_is_said_with_its_place() {
     let good = "J1,X,Y,Z\n0.1,1,2,3\n";
     let cases = [
-        ("J1,X,Y,Z\n0.1,one,2,3\n0.1,1,2,3\n", "", "raw.csv: line 2, column `X`: found `one`"),
+        ("J1,X,Y,Z\n0.1,one,2,3\n0.1,1,2,3\n", "", "raw.csv: line 2, column 2 `X`: found `one`"),
+        ("J1,X,Y,Z\n0.1,1,2,3\n0.1,1,2\n", "", "raw.csv: line 3: found 3 cells, expected 4"),
+        (
+            "J1,X,Y,Z\n35,8372,1,5,2,3\n",
+            "",
+            "line 2: found 6 cells, expected 4 as in the header: remove",
+        ),
+        (
+            "J1,X,Y,Z\n0.1,1,\"2,3\n0,0,0,0\n",
+            "",
+            "line 2: found a quotation mark that is not closed",
+        ),
+        ("J1;X;Y;Z\n0,1;1.100;2;3\n", "", "found `1.100` where a comma begins the decimals"),
+        (
+            "J1,X,Y,Z\nrad,furlong,mm,mm\n1,1,2,3\n",
+            "",
+            "column 2 `X`: found the unknown unit `furlong`",
+        ),
         ("X,Y,Z\n1,2,3\n", "", "found no joints"),
         ("just words\n", "", "found no header"),
-        ("J1,A1,X,Y,Z\n1,1,2,3,4\n", "", "found both `J1` and `A1`"),
-        ("J1,X [kg],Y,Z\n1,1,2,3\n", "", "found the unit `kg` of `X [kg]`, expected one of m, mm"),
+        (
+            "J1,A1,X,Y,Z\n1,1,2,3,4\n",
+            "",
+            "line 1, column 2 `A1`: found `q1` again, expected it once: `q1` stands in column 1 already, as `J1`",
+        ),
+        (
+            "J1,X [kg],Y,Z\n1,1,2,3\n",
+            "",
+            "column 2 `X [kg]`: found `kg`, the unit of a mass, expected a length: write one of m",
+        ),
         ("J1,X,Y,Z,A,B\n1,1,2,3,4,5\n", "", "found of an orientation A, B"),
-        (good, "[columns]\nq1 = \"J2\"\n", "found no column `J2` in raw.csv; did you mean `J1`?"),
+        (
+            good,
+            "[columns]\nq1 = \"J2\"\n",
+            "found no column `J2`; did you mean `J1`?, expected the one that is q1 by map.toml",
+        ),
         (good, "[columns]\nfoo = \"J1\"\n", "found `foo` among the columns"),
         (good, "seperator = \";\"", "unknown field `seperator`"),
         (good, "decimal = \"x\"", "expected \".\" or \",\""),
-        (good, "header = 9", "line 9 has no header"),
+        (
+            good,
+            "[columns]\nx = \"X\"\ny = \"X\"\n",
+            "found the column `X` as both x and y in map.toml",
+        ),
+        (good, "header = 9", "line 9: found no header"),
     ];
     for (text, map, message) in cases {
         let error = import_with(text, map).map(|i| i.csv).unwrap_err().to_string();
         assert!(error.contains(message), "no `{message}` in `{error}`");
     }
     let error = import(&Sheet::new("a.xlsx", b"PK\x03\x04junk".to_vec()), &Map::default());
-    assert!(error.unwrap_err().to_string().contains("the workbook cannot be read"));
+    assert!(error.unwrap_err().to_string().contains("found a workbook that cannot be read"));
 }
 
 /// Everything that a measurement file holds has its synonyms, and what is nearly one is asked about.
@@ -132,11 +166,25 @@ fn sessions_distances_precisions_and_loads_have_names() {
     let expected = "q1[rad],x[mm],sigma[mm],sigma_y[m],sigma_z[um],sim_x[mm],sesion,ycd_dy[in]";
     assert_eq!(header, expected);
     let said = imported.said.join("\n");
-    assert!(said.contains("nothing is known of it (did you mean `session`?)"), "{said}");
+    assert!(said.contains("nothing is known of it; did you mean `session`?"), "{said}");
     // A map says the same.
     let map = "[columns]\nsession = \"Tag\"\npayload = \"Was\"\nfrom = \"Wo\"\ndistance = \"L\"\n";
     let imported = import_with("J1,J2,L,Wo,Tag,Was\n0.1,0.2,0.8,left,mon,plate\n", map).unwrap();
     let mut header: Vec<&str> = imported.csv.lines().next().unwrap().split(',').collect();
     header.sort_unstable();
     assert_eq!(header, ["distance[m]", "from", "payload", "q1[rad]", "q2[rad]", "session"]);
+}
+
+/// As measuring machines and spreadsheets write them: aligned columns, a German Windows, clock times.
+#[test]
+fn other_programs_encodings_and_columns_are_read() {
+    let text = b"Pr\xfcfling 7\n\nAchse 1   Pos X   Pos Y  Pos Z  Nr  Zeit\ndeg  mm  mm  mm  -  s\n30,5  1200  0  1  7  0:01:02,5\n";
+    let imported = import(&Sheet::new("a.txt", text.to_vec()), &Map::default()).unwrap();
+    let mut lines = imported.csv.lines();
+    assert_eq!(lines.next(), Some("q1[deg],x[mm],y[mm],z[mm],time[s],Nr"));
+    assert_eq!(lines.next(), Some("30.5,1200,0,1,62.5,7"));
+    let said = imported.said.join("\n");
+    for sentence in ["read as Windows-1252", "`Prüfling 7`", "separated by spaces"] {
+        assert!(said.contains(sentence), "no `{sentence}` in {said}");
+    }
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::ImportError;
 use super::columns::{Column, Columns};
 use super::map::{Convention, Map};
+use crate::io::{Fault, ReadError};
 
 /// The columns of an orientation, in the order of its convention.
 #[derive(Clone, Debug)]
@@ -53,15 +53,9 @@ impl Turn {
     /// The orientation of a table; `None` where it has none, or a rotation vector already.
     ///
     /// # Errors
-    /// [`ImportError::Orientation`]: some of its numbers are missing, or there are several.
-    pub(super) fn of(
-        file: &str,
-        columns: &Columns,
-        map: &Map,
-    ) -> Result<Option<Turn>, ImportError> {
-        let wrong = |found: String, expected| {
-            Err(ImportError::Orientation { file: file.to_owned(), found, expected })
-        };
+    /// [`ReadError`]: some of its numbers are missing, or there are several.
+    pub(super) fn of(file: &str, columns: &Columns, map: &Map) -> Result<Option<Turn>, ReadError> {
+        let wrong = |found: String, expected| Err(Fault::new(found, expected, "").of(file));
         let vector: Vec<Column> = ["rx", "ry", "rz"]
             .into_iter()
             .filter_map(|name| columns.ours.iter().find(|(ours, _)| ours == name))

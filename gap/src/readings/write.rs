@@ -1,13 +1,16 @@
 //! The rows of a table as those of a measurement file.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
 
 use super::columns::{Column, Columns, dimension};
 use super::map::{Convention, Map};
-use super::sheet::{Cells, Table};
+use super::sheet::{Row, Table};
 use super::turn::Turn;
-use super::{ImportError, Imported, names};
-use crate::measurement::{Dimension, MOST_RADIANS, Unit, WRENCH_NAMES, nearest_name};
+use super::{Imported, clock, names};
+use crate::io::{self, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
+use crate::measurement::{MOST_RADIANS, WRENCH_NAMES, nearest_name};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
@@ -16,7 +19,7 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
 const MOST_METRES: f64 = 20.0;
 
 /// What is written of a row in one column.
-type Cell<'a> = Box<dyn Fn(&Cells) -> Result<String, ImportError> + 'a>;
+type Cell<'a> = Box<dyn Fn(&Row<'_>) -> Result<String, Mistake> + 'a>;
 
 /// One column of what is written.
 struct Output<'a> {
@@ -25,11 +28,11 @@ struct Output<'a> {
 }
 
 pub(super) fn write(
-    table: &Table,
+    table: &Table<'_>,
     columns: &Columns,
     turn: Option<Turn>,
     map: &Map,
-) -> Result<Imported, ImportError> {
+) -> Result<Imported, ReadError> {
     let mut said = table.said.clone();
     let turned = turn.as_ref().map_or(&[][..], |t| &t.columns);
     let is_turned = |c: &Column| turned.iter().any(|t| t.index == c.index);
@@ -39,7 +42,8 @@ pub(super) fn write(
     ours.sort_by_key(|(name, c)| (order(name), c.index));
     if !ours.iter().any(|(name, _)| order(name).0 == 0) {
         let expected = "a column of each joint's reading: q1 …, J1 …, A1 …";
-        return Err(ImportError::Missing { file: table.file.clone(), what: "joints", expected });
+        let fault = Fault::new("no joints", expected, "name its columns in the map");
+        return Err(fault.at(table.line, None).of(table.file));
     }
     let in_degrees = looks_like(table, &ours, Dimension::Angle, MOST_RADIANS);
     let in_millimetres = looks_like(table, &ours, Dimension::Length, MOST_METRES);
@@ -55,7 +59,7 @@ pub(super) fn write(
         let own = column.unit.as_ref();
         let unit = match (kind, own.or_else(|| lengths.as_ref().filter(|_| name == "sigma"))) {
             (None, _) => None,
-            (Some(kind), Some(found)) => Some(known(table, column, found, kind)?),
+            (Some(kind), Some(found)) => Some(known(table, column, found, kind)?.name),
             (Some(Dimension::Angle), None) if in_degrees => Some("deg"),
             (Some(Dimension::Length), None) if in_millimetres => Some("mm"),
             (Some(kind), None) => Some(kind.si().name),
@@ -63,10 +67,12 @@ pub(super) fn write(
         let header = unit.map_or(name.clone(), |unit| format!("{name}[{unit}]"));
         said.push(format!("`{}` is {header}{}", column.header, column.law()));
         let cell: Cell<'_> = match kind {
-            None => Box::new(|row: &Cells| Ok(column.text(row).to_owned())),
-            Some(_) => Box::new(|row: &Cells| {
-                Ok(column.number(table, row)?.map_or_else(String::new, |x| x.to_string()))
+            None => Box::new(|row| Ok(table.text(row, column.index).into_owned())),
+            Some(Dimension::Time) => Box::new(|row| {
+                let clock = clock::seconds(&table.text(row, column.index));
+                Ok(written(clock.map_or_else(|| column.number(table, row), |s| Ok(Some(s)))?))
             }),
+            Some(_) => Box::new(|row| Ok(written(column.number(table, row)?))),
         };
         outputs.push(Output { header, cell });
     }
@@ -86,7 +92,7 @@ pub(super) fn write(
     }
     if let Some(load) = &columns.load {
         said.push(match names_loads(table, load) {
-            true => payload(load, &mut outputs),
+            true => payload(table, load, &mut outputs),
             false => weight(table, load, columns, map, &mut outputs)?,
         });
     }
@@ -97,23 +103,35 @@ pub(super) fn write(
         let unit = column.unit.as_deref().and_then(Unit::named);
         let header = unit.map_or(name.clone(), |unit| format!("{name}[{}]", unit.name));
         let near = nearest_name(&bare, &names::ANY).filter(|_| !clash);
-        let meant = near.map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"));
+        let meant = did_you_mean(near.as_deref());
         said.push(format!(
             "`{}` is kept as `{header}`: nothing is known of it{meant}",
             column.header
         ));
-        outputs.push(Output { header, cell: Box::new(|row| Ok(column.text(row).to_owned())) });
+        let cell: Cell<'_> = Box::new(|row| Ok(table.text(row, column.index).into_owned()));
+        outputs.push(Output { header, cell });
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut put = |cells: Vec<String>| {
-        // Into memory nothing fails.
-        let _ = writer.write_record(cells);
-    };
-    put(outputs.iter().map(|o| o.header.clone()).collect());
-    for row in &table.rows {
-        put(outputs.iter().map(|o| (o.cell)(row)).collect::<Result<_, _>>()?);
-    }
-    let rows = table.rows.len();
+    let (mut mistakes, mut rows) = (Mistakes::default(), 0);
+    // Into memory nothing fails.
+    let _ = writer.write_record(outputs.iter().map(|o| &o.header));
+    let read = table.each(|row| {
+        if row.cells.iter().all(|cell| cell.is_empty()) {
+            return;
+        }
+        rows += 1;
+        for output in &outputs {
+            match (output.cell)(row) {
+                Ok(cell) => {
+                    let _ = writer.write_field(cell);
+                }
+                Err(mistake) => mistakes.add(mistake),
+            }
+        }
+        let _ = writer.write_record(None::<&[u8]>);
+    });
+    mistakes.extend(read.err());
+    mistakes.check(table.file)?;
     said.push(format!("{rows} row{}", if rows == 1 { "" } else { "s" }));
     let csv = String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default();
     Ok(Imported { csv, said })
@@ -121,38 +139,37 @@ pub(super) fn write(
 
 /// Rotation vectors in the place of the convention's numbers.
 fn orientation<'a>(
-    table: &'a Table,
+    table: &'a Table<'_>,
     turn: &'a Turn,
     outputs: &mut Vec<Output<'a>>,
-) -> Result<String, ImportError> {
+) -> Result<String, ReadError> {
     let Turn { convention, columns } = turn;
     let mut factors = Vec::new();
     for column in columns {
-        let text = match (&column.unit, convention) {
-            (_, Convention::Quaternion) => "rad",
-            (Some(found), _) => known(table, column, found, Dimension::Angle)?,
+        factors.push(match (&column.unit, convention) {
+            (Some(found), of) if *of != Convention::Quaternion => {
+                known(table, column, found, Dimension::Angle)?
+            }
             // Who writes three angles writes degrees, unless all of them could be radians.
-            (None, _) if beyond(table, columns, core::f64::consts::TAU) => "deg",
-            (None, _) => "rad",
-        };
-        factors.push((text, Unit::named(text).map_or(1.0, |unit| unit.factor)));
+            (None, of) if *of != Convention::Quaternion && beyond(table, columns, TAU) => {
+                Unit { factor: 1_f64.to_radians(), name: "deg", ..Dimension::Angle.si() }
+            }
+            _ => Dimension::Angle.si(),
+        });
     }
     let headers: Vec<String> = columns.iter().map(|c| format!("`{}`", c.header)).collect();
     let unit = match convention {
         Convention::Quaternion => String::new(),
-        _ => format!(", in {}", factors[0].0),
+        _ => format!(", in {}", factors[0].name),
     };
     for axis in 0..3 {
         let factors = factors.clone();
-        let cell = move |row: &Cells| {
-            let mut numbers = Vec::new();
-            for (column, (_, factor)) in columns.iter().zip(&factors) {
-                match column.number(table, row)? {
-                    Some(x) => numbers.push(factor * x),
-                    None => return Ok(String::new()),
-                }
-            }
-            Ok(convention.rotation(&numbers).map_or_else(String::new, |v| v[axis].to_string()))
+        let cell = move |row: &Row<'_>| {
+            let each = columns.iter().zip(&factors).map(|(column, unit)| {
+                Ok::<_, Mistake>(column.number(table, row)?.map(|number| unit.factor * number))
+            });
+            let numbers: Option<Vec<f64>> = each.collect::<Result<_, _>>()?;
+            Ok(written(numbers.and_then(|of| Some(convention.rotation(&of)?[axis]))))
         };
         let header = ["rx[rad]", "ry[rad]", "rz[rad]"][axis].to_owned();
         outputs.push(Output { header, cell: Box::new(cell) });
@@ -162,53 +179,39 @@ fn orientation<'a>(
 }
 
 /// Whether a column has names of loads and no number.
-fn names_loads(table: &Table, load: &Column) -> bool {
-    let texts = || table.rows.iter().map(|row| load.text(row)).filter(|text| !is_none(text));
-    load.unit.is_none() && texts().count() > 0 && texts().all(|text| text.parse::<f64>().is_err())
+fn names_loads(table: &Table<'_>, load: &Column) -> bool {
+    let seen = table.seen[load.index];
+    load.unit.is_none() && seen.has_words && !seen.has_numbers
 }
 
 /// What hangs on the tool, by the robot file's names.
-fn payload<'a>(load: &'a Column, outputs: &mut Vec<Output<'a>>) -> String {
-    let cell = |row: &Cells| Ok(load.text(row).to_owned());
+fn payload<'a>(table: &'a Table<'_>, load: &'a Column, outputs: &mut Vec<Output<'a>>) -> String {
+    let cell = |row: &Row<'_>| Ok(table.text(row, load.index).into_owned());
     outputs.push(Output { header: "payload".to_owned(), cell: Box::new(cell) });
     format!("`{}` is payload: the names of [[payload]] in the robot file", load.header)
 }
 
 /// The weight of a mass on the tool.
 fn weight<'a>(
-    table: &'a Table,
+    table: &'a Table<'_>,
     mass: &'a Column,
     columns: &Columns,
     map: &Map,
     outputs: &mut Vec<Output<'a>>,
-) -> Result<String, ImportError> {
+) -> Result<String, ReadError> {
     let force = columns.ours.iter().find(|(n, _)| WRENCH_NAMES[..3].contains(&n.as_str()));
     if let Some((name, _)) = force {
-        return Err(ImportError::Twice {
-            file: table.file.clone(),
-            first: mass.header.clone(),
-            second: name.clone(),
-            ours: "the load: a mass, or a force".to_owned(),
-        });
+        let found = format!("both `{}` and `{name}`", mass.header);
+        let expected = "one load: a mass, or a force";
+        let fault = Fault::new(found, expected, "say which in the map");
+        return Err(fault.at(table.line, None).of(table.file));
     }
-    let kilograms = match mass.unit.as_deref() {
-        None | Some("kg") => 1.0,
-        Some("g") => 1e-3,
-        Some("lb") => 0.453_592_37,
-        Some(other) => {
-            return Err(ImportError::Unit {
-                file: table.file.clone(),
-                column: mass.header.clone(),
-                unit: other.to_owned(),
-                known: "kg, g, lb".to_owned(),
-            });
-        }
-    };
+    let unit = mass.unit.as_ref().map(|found| known(table, mass, found, Dimension::Mass));
+    let kilograms = unit.transpose()?.map_or(1.0, |unit| unit.factor);
     let gravity = Vector3::from(map.gravity.unwrap_or(GRAVITY)) * kilograms;
     for axis in 0..3 {
-        let cell = move |row: &Cells| {
-            let weight = mass.number(table, row)?.map(|m| m * gravity[axis] + 0.0);
-            Ok(weight.map_or_else(String::new, |w| w.to_string()))
+        let cell = move |row: &Row<'_>| {
+            Ok(written(mass.number(table, row)?.map(|m| m * gravity[axis] + 0.0)))
         };
         let header = format!("{}[N]", WRENCH_NAMES[axis]);
         outputs.push(Output { header, cell: Box::new(cell) });
@@ -217,13 +220,12 @@ fn weight<'a>(
 }
 
 /// Whether a number of these columns is larger than `most`.
-fn beyond(table: &Table, columns: &[Column], most: f64) -> bool {
-    let number = |row: &Cells, c: &Column| c.text(row).parse::<f64>().ok();
-    table.rows.iter().any(|r| columns.iter().any(|c| number(r, c).is_some_and(|x| x.abs() > most)))
+fn beyond(table: &Table<'_>, columns: &[Column], most: f64) -> bool {
+    columns.iter().any(|column| table.seen[column.index].most > most)
 }
 
 /// Whether the columns of a dimension without a unit hold a number that its SI unit rules out.
-fn looks_like(table: &Table, ours: &[&(String, Column)], of: Dimension, most: f64) -> bool {
+fn looks_like(table: &Table<'_>, ours: &[&(String, Column)], of: Dimension, most: f64) -> bool {
     let bare =
         ours.iter().filter(|(name, c)| c.unit.is_none() && dimension(name, None) == Some(of));
     let bare: Vec<Column> = bare.map(|(_, c)| c.clone()).collect();
@@ -231,23 +233,27 @@ fn looks_like(table: &Table, ours: &[&(String, Column)], of: Dimension, most: f6
 }
 
 fn known(
-    table: &Table,
+    table: &Table<'_>,
     column: &Column,
     found: &str,
     kind: Dimension,
-) -> Result<&'static str, ImportError> {
-    let unit = names::unit(found).filter(|u| Unit::named(u).is_some_and(|u| u.dimension == kind));
-    unit.ok_or_else(|| ImportError::Unit {
-        file: table.file.clone(),
-        column: column.header.clone(),
-        unit: found.to_owned(),
-        known: kind.units(),
-    })
+) -> Result<Unit, ReadError> {
+    let here = io::Column { number: column.index + 1, header: column.header.clone() };
+    let unit = kind.unit(found, Unit::spelled);
+    unit.map_err(|fault| fault.at(table.line, Some(here)).of(table.file))
 }
 
-/// Whether a cell says that it holds nothing.
-fn is_none(text: &str) -> bool {
-    ["", "-", "--", "na", "n/a", "nan"].contains(&text.to_lowercase().as_str())
+/// The cell of a number; empty without one.
+fn written(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |number| number.to_string())
+}
+
+impl Column {
+    /// The number of a row in the column's unit; `None` of a cell that holds none.
+    fn number(&self, table: &Table<'_>, row: &Row<'_>) -> Result<Option<f64>, Mistake> {
+        let found = table.number(row, self.index)?;
+        Ok(found.map(|number| self.factor * number + self.offset))
+    }
 }
 
 /// Joints, loads, the rest, what was measured.
@@ -259,37 +265,5 @@ fn order(name: &str) -> (usize, usize) {
         (_, Some(n), _) => (1, n),
         (.., Some(k)) => (2, k),
         _ => (3, 0),
-    }
-}
-
-impl Column {
-    fn text<'a>(&self, row: &'a Cells) -> &'a str {
-        row.cells.get(self.index).map_or("", String::as_str)
-    }
-
-    /// The number of a row in the column's unit; `None` of a cell that holds none.
-    fn number(&self, table: &Table, row: &Cells) -> Result<Option<f64>, ImportError> {
-        let text = self.text(row);
-        if is_none(text) {
-            return Ok(None);
-        }
-        match text.parse::<f64>() {
-            // What needs no law keeps its digits.
-            Ok(x) if x.is_finite() => Ok(Some(self.factor * x + self.offset)),
-            _ => Err(ImportError::NotANumber {
-                file: table.file.clone(),
-                line: row.line,
-                column: self.header.clone(),
-                found: text.to_owned(),
-            }),
-        }
-    }
-
-    fn law(&self) -> String {
-        match (self.factor, self.offset) {
-            (1.0, 0.0) => String::new(),
-            (f, 0.0) => format!(" = {f} · it"),
-            (f, o) => format!(" = {f} · it + {o}"),
-        }
     }
 }

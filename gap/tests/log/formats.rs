@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use stiffarm_gap::log::{Log, LogError, Names, Opened, Signal};
+use stiffarm_gap::ReadError;
+use stiffarm_gap::log::{Log, Names, Opened, Signal};
 use stiffarm_kernels::Motion;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/logs");
@@ -12,7 +13,7 @@ fn names() -> Names {
     Names::own(vec!["shoulder".to_owned(), "elbow".to_owned()])
 }
 
-fn read(name: &str, names: &Names) -> Result<Log, LogError> {
+fn read(name: &str, names: &Names) -> Result<Log, ReadError> {
     let path = Path::new(FOLDER).join(name);
     let opened = Opened::new(&path).expect("the file");
     Log::from_file(&path, opened, &ARM, names)
@@ -109,7 +110,7 @@ fn broken_files_are_refused() {
             let opened = Opened::new(&path).expect("the file");
             let names = names().of_format("lerobot").expect("a format");
             // Whatever it says.
-            let _: Result<Log, LogError> = Log::from_file(&path, opened, &ARM, &names);
+            let _: Result<Log, ReadError> = Log::from_file(&path, opened, &ARM, &names);
         };
         let step = whole.len().div_ceil(60);
         for at in (8..whole.len()).step_by(step) {

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use stiffarm_gap::log::{self, Format, Log, LogError, Names, Opened};
+use stiffarm_gap::io::ReadError;
+use stiffarm_gap::log::{self, Format, Log, Names, Opened};
 use stiffarm_kernels::Motion;
 
 use super::super::Args;
@@ -140,7 +141,7 @@ pub fn is_log(path: &Path) -> Result<bool, Failure> {
 /// # Errors
 /// [`Failure`]: what cannot be read.
 pub fn read(parts: Vec<Part>, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
-    let plain = |error: LogError| Failure::new(error.to_string());
+    let plain = |error: ReadError| Failure::new(error.to_string());
     let mut log: Option<Log> = None;
     for Part { path, opened } in parts {
         let next = Log::from_file(&path, opened, motions, names).map_err(plain)?;

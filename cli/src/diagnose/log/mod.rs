@@ -8,8 +8,8 @@ mod written;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use stiffarm_gap::io::Map;
 use stiffarm_gap::log::{Names, TorqueSide};
-use stiffarm_gap::readings::Map;
 
 pub use check::Check;
 pub use files::{Files, Part, files, is_log};

@@ -2,7 +2,8 @@
 
 use stiffarm_kernels::Motion;
 
-use super::unit::Quantity;
+use crate::io::Dimension;
+use crate::io::columns::split;
 use crate::measurement::WRENCH_NAMES;
 
 /// What is logged of every joint.
@@ -57,15 +58,16 @@ impl Signal {
         }
     }
 
-    fn quantity(self, motion: Motion) -> Quantity {
-        match self {
-            Signal::Q | Signal::QCmd => Quantity::Motion(motion, 0),
-            Signal::Qd | Signal::QdCmd => Quantity::Motion(motion, 1),
-            Signal::Qdd => Quantity::Motion(motion, 2),
-            Signal::Torque | Signal::TorqueCmd => Quantity::Drive(motion),
-            Signal::Current => Quantity::Current,
-            Signal::Temperature => Quantity::Temperature,
-        }
+    fn dimension(self, motion: Motion) -> Dimension {
+        let [turning, sliding] = match self {
+            Signal::Q | Signal::QCmd => [Dimension::Angle, Dimension::Length],
+            Signal::Qd | Signal::QdCmd => [Dimension::AngularSpeed, Dimension::Speed],
+            Signal::Qdd => [Dimension::AngularAcceleration, Dimension::Acceleration],
+            Signal::Torque | Signal::TorqueCmd => [Dimension::Moment, Dimension::Force],
+            Signal::Current => [Dimension::Current; 2],
+            Signal::Temperature => [Dimension::Temperature; 2],
+        };
+        if motion == Motion::Revolute { turning } else { sliding }
     }
 }
 
@@ -111,22 +113,13 @@ impl Role {
     }
 
     /// The quantity of its numbers; `None` of what has no unit.
-    pub(super) fn quantity(self, motions: &[Motion]) -> Option<Quantity> {
+    pub(super) fn dimension(self, motions: &[Motion]) -> Option<Dimension> {
         match self {
-            Role::Time => Some(Quantity::Time),
-            Role::Joint(signal, joint) => motions.get(joint).map(|m| signal.quantity(*m)),
-            Role::Wrench(k) => Some(if k < 3 { Quantity::Force } else { Quantity::Moment }),
+            Role::Time => Some(Dimension::Time),
+            Role::Joint(signal, joint) => motions.get(joint).map(|m| signal.dimension(*m)),
+            Role::Wrench(k) => Some(if k < 3 { Dimension::Force } else { Dimension::Moment }),
             Role::Payload | Role::Run | Role::Contact => None,
         }
-    }
-}
-
-/// `name[unit]` into its parts.
-pub(super) fn split(header: &str) -> (&str, Option<&str>) {
-    let parts = header.strip_suffix(']').and_then(|text| text.rsplit_once('['));
-    match parts {
-        Some((name, unit)) if !unit.is_empty() => (name.trim(), Some(unit.trim())),
-        _ => (header, None),
     }
 }
 
@@ -152,9 +145,6 @@ mod tests {
         for name in ["q", "q0", "tau", "load1", "time", "qx1", "qdd_cmd1", ""] {
             assert_eq!(Role::of(name), None, "{name}");
         }
-        assert_eq!(split("tau1[N*m]"), ("tau1", Some("N*m")));
-        assert_eq!(split("position[0]"), ("position", Some("0")));
-        assert_eq!(split("run"), ("run", None));
     }
 
     #[test]

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use stiffarm_kernels::Motion;
 
-use super::{Log, LogError, Names, text};
+use super::{Log, Names, text};
+use crate::io::{Fault, ReadError};
 
 /// The kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,13 +97,13 @@ impl Log {
     /// joints. Text and messages are not held in memory beside their numbers.
     ///
     /// # Errors
-    /// [`LogError`]: what is wrong with its columns, or that none of its rows can be read.
+    /// [`ReadError`]: what is wrong with its columns, or that none of its rows can be read.
     pub fn from_file(
         path: &Path,
         opened: Opened,
         motions: &[Motion],
         names: &Names,
-    ) -> Result<Log, LogError> {
+    ) -> Result<Log, ReadError> {
         let file = path.display().to_string();
         match Format::of(opened.head()) {
             Format::Text => text::read(&file, opened.whole(), motions, names),
@@ -113,7 +114,7 @@ impl Log {
             #[cfg(feature = "rosbag2")]
             Format::Rosbag2 => super::rosbag2::read(&file, path, motions, names),
             #[allow(unreachable_patterns, reason = "with all features there is no other")]
-            other => Err(LogError::NotBuilt { file, kind: other.words(), feature: "logs" }),
+            other => Err(Fault::not_built(other.words(), "logs").of(&file)),
         }
     }
 }

@@ -11,7 +11,8 @@ use stiffarm_kernels::Motion;
 
 use super::cdr::Encoding;
 use super::ros::{Heard, Kind};
-use super::{Log, LogError, Names};
+use super::{Log, Names, unreadable};
+use crate::io::ReadError;
 
 /// So many bytes are read at once.
 const MOST: usize = 1 << 20;
@@ -24,8 +25,8 @@ pub(super) fn read(
     mut source: impl Read,
     motions: &[Motion],
     names: &Names,
-) -> Result<Log, LogError> {
-    let broken = |error: &dyn Display| LogError::unreadable(file, "an MCAP file", error);
+) -> Result<Log, ReadError> {
+    let broken = |error: &dyn Display| unreadable(file, "an MCAP file", error);
     let options = LinearReaderOptions::default().with_record_length_limit(LONGEST);
     let mut reader = LinearReader::new_with_options(options);
     let mut schemas: BTreeMap<u16, Kind> = BTreeMap::new();

@@ -32,7 +32,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod text;
-mod unit;
 
 use std::collections::BTreeMap;
 
@@ -44,6 +43,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::doubts::beyond;
+use crate::io::{Fault, ReadError};
 
 /// Where along the drive the torque of a log is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -79,6 +79,14 @@ impl TorqueSide {
     /// Of a word; `None` if it is none.
     pub fn named(word: &str) -> Option<TorqueSide> {
         Self::ALL.into_iter().find(|(name, _)| *name == word).map(|(_, side)| side)
+    }
+
+    /// As a file says it.
+    fn said(word: &str) -> Result<TorqueSide, Fault> {
+        TorqueSide::named(word).ok_or_else(|| {
+            let expected = "motor, link, current, commanded or external";
+            Fault::new(format!("`torque_side = {word}`"), expected, "")
+        })
     }
 }
 
@@ -129,109 +137,31 @@ pub struct Damaged {
     pub reason: String,
 }
 
-/// Why a log cannot be read.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs, reason = "the message beside each variant and field says what it is")]
-pub enum LogError {
-    #[error("{file}: found no header, expected a row of names: t[s], q1[rad] …, tau1[N*m] …")]
-    NoHeader { file: String },
-    #[error(
-        "{file}: {at}: found no column `{missing}`, expected it beside `{beside}`: the arm has \
-         {joints} joints{}",
-        suggestion.as_ref().map_or_else(String::new, |s| format!("; did you mean `{s}`?"))
-    )]
-    Missing {
-        file: String,
-        at: String,
-        missing: Box<str>,
-        beside: Box<str>,
-        joints: usize,
-        suggestion: Option<String>,
-    },
-    #[error("{file}: {at}: found `{found}`, expected joints 1 to {joints}: the arm has no other")]
-    Beyond { file: String, at: String, found: String, joints: usize },
-    #[error(
-        "{file}: {at}: found joint values alone, expected beside them tau1 … or i1 … (what \
-         drives the joints) or q_cmd1 … (where they were to be)"
-    )]
-    NothingLogged { file: String, at: String },
-    #[error(
-        "{file}: {at}, column {column}: found the unit `{unit}` of `{name}`, expected one of {known}"
-    )]
-    Unit {
-        file: String,
-        at: String,
-        column: usize,
-        name: String,
-        unit: Box<str>,
-        known: &'static str,
-    },
-    #[error("{file}: {at}, columns {first} and {second}: found `{name}` twice, expected it once")]
-    Twice { file: String, at: String, first: usize, second: usize, name: String },
-    #[error(
-        "{file}: found no row that can be read, expected rows of {cells} numbers below the header{}",
-        first.as_ref().map_or_else(String::new, |d| format!(": {} {}: {}", d.row, d.line, d.reason))
-    )]
-    NoRows { file: String, cells: usize, first: Option<Damaged> },
-    #[error(
-        "{file}: {at}: found `torque_side = {found}`, expected motor, link, current, commanded or external"
-    )]
-    Side { file: String, at: String, found: String },
-    #[error(
-        "{file}: found {found}, expected what {first} has: the files of one log have the same columns and the same torque_side"
-    )]
-    Unlike { file: String, found: String, first: String },
-    #[error("{file}: {message}")]
-    Unreadable { file: String, message: String },
-    #[error(
-        "{file}: found {kind}, expected text: this build of stiffarm reads no other, and one with the \
-         feature `{feature}` does: cargo install --path cli --features {feature}"
-    )]
-    NotBuilt { file: String, kind: &'static str, feature: &'static str },
-    #[error(
-        "{file}: found the arm's joints in {topics}, expected them in one topic: say which with --topic"
-    )]
-    Topics { file: String, topics: String },
-    #[error(
-        "{file}: found no joint states{}, expected messages of sensor_msgs/JointState or \
-         control_msgs/JointTrajectoryControllerState in the topic",
-        if topics.is_empty() { String::new() } else { format!(" (there are {topics})") }
-    )]
-    NoTopic { file: String, topics: String },
-    #[error("{map}: {message}")]
-    Map { map: String, message: String },
-    #[error("{map}: found no column `{column}` in {file}, expected the one that is {ours}")]
-    NoColumn { map: String, file: String, column: String, ours: String },
-}
-
+/// A file that is none of its kind.
 #[cfg(any(feature = "mcap", feature = "parquet", feature = "rosbag2"))]
-impl LogError {
-    /// A file that is none of its kind.
-    fn unreadable(file: &str, kind: &str, error: impl std::fmt::Display) -> LogError {
-        let message = format!("as {kind} it cannot be read: {error}");
-        LogError::Unreadable { file: file.to_owned(), message }
-    }
+fn unreadable(file: &str, kind: &str, error: impl std::fmt::Display) -> ReadError {
+    Fault::new("a file that cannot be read", kind, error.to_string()).of(file)
 }
 
 impl Log {
     /// Reads one file: its name for messages, its bytes; `motions` are those of the arm's joints.
     ///
     /// # Errors
-    /// [`LogError`]: what is wrong with its header, or that none of its rows can be read.
+    /// [`ReadError`]: what is wrong with its header, or that none of its rows can be read.
     pub fn from_bytes(
         file: &str,
         bytes: &[u8],
         motions: &[Motion],
         names: &Names,
-    ) -> Result<Log, LogError> {
+    ) -> Result<Log, ReadError> {
         text::read(file, bytes, motions, names)
     }
 
     /// With the runs of another file.
     ///
     /// # Errors
-    /// [`LogError::Unlike`]: it has other signals, or another torque side.
-    pub fn and(mut self, other: Log) -> Result<Log, LogError> {
+    /// [`ReadError`]: it has other signals, or another torque side.
+    pub fn and(mut self, other: Log) -> Result<Log, ReadError> {
         let signals = |log: &Log| -> Vec<&'static str> {
             log.runs.iter().take(1).flat_map(|r| r.signals.keys().map(|s| s.name())).collect()
         };
@@ -242,8 +172,9 @@ impl Log {
                 true => format!("torque side {}", side(&other)),
                 false => format!("columns of {}", others.join(", ")),
             };
-            let (file, first) = (other.files.concat(), self.files.concat());
-            return Err(LogError::Unlike { file, found, first });
+            let expected = format!("what {} has", self.files.concat());
+            let help = "the files of one log have the same columns and the same torque_side";
+            return Err(Fault::new(found, expected, help).of(&other.files.concat()));
         }
         self.files.extend(other.files);
         self.samples += other.samples;

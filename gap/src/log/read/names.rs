@@ -3,11 +3,9 @@
 //! Joints count from 0 there (`actual_q_0`, `position[0]`, `q.0`), or stand by their names
 //! (`observation.state.shoulder_pan`, `/joint_states/elbow/position`).
 
-use std::collections::BTreeMap;
-
-use super::LogError;
-use super::column::{Role, Signal, split};
-use crate::readings::map::{Map, Theirs};
+use super::column::{Role, Signal};
+use crate::io::Map;
+use crate::io::columns::split;
 
 /// Of one program: what it calls the time, and the stems of what it logs of every joint.
 struct Format {
@@ -151,39 +149,16 @@ impl Names {
         FORMATS.iter().map(|f| f.name)
     }
 
-    /// What a header is, and what the map says of it; the index of the map's entry is marked used.
-    pub(super) fn role<'m>(
-        &'m self,
-        header: &str,
-        used: &mut BTreeMap<String, ()>,
-    ) -> Result<Option<(Role, Option<&'m Theirs>)>, LogError> {
+    /// What is said of the columns.
+    pub(super) fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// What a column of this header is by its name.
+    pub(super) fn role(&self, header: &str) -> Option<Role> {
         let (name, _) = split(header);
-        let said = |(_, theirs): &(&String, &Theirs)| [header, name].contains(&&*theirs.column);
-        if let Some((ours, theirs)) = self.map.columns.iter().find(said) {
-            used.insert(ours.clone(), ());
-            let role = Role::of(ours).ok_or_else(|| LogError::Map {
-                map: self.map.file.clone(),
-                message: format!(
-                    "found `{ours}` among the columns, expected a name of ours: t, q1 …, qd1, \
-                     qdd1, tau1, i1, q_cmd1, qd_cmd1, tau_cmd1, temp1, fx … mz, payload, run, \
-                     contact"
-                ),
-            })?;
-            return Ok(Some((role, Some(theirs))));
-        }
         let ours = Role::of(name).or_else(|| self.by_joint(name));
-        let foreign = || self.format.and_then(|format| self.foreign(format, header));
-        Ok(ours.or_else(foreign).map(|role| (role, None)))
-    }
-
-    /// The first entry of the map that no header has.
-    pub(super) fn unused(&self, used: &BTreeMap<String, ()>) -> Option<(&str, &Theirs)> {
-        let unused = self.map.columns.iter().find(|(ours, _)| !used.contains_key(*ours));
-        unused.map(|(ours, theirs)| (ours.as_str(), theirs))
-    }
-
-    pub(super) fn map_file(&self) -> &str {
-        &self.map.file
+        ours.or_else(|| self.format.and_then(|format| self.foreign(format, header)))
     }
 
     /// `q_elbow`: ours with a joint's name.
@@ -231,10 +206,6 @@ mod tests {
         Names::own(vec!["shoulder_pan".to_owned(), "elbow".to_owned()])
     }
 
-    fn role(names: &Names, header: &str) -> Option<Role> {
-        names.role(header, &mut BTreeMap::new()).unwrap().map(|(role, _)| role)
-    }
-
     #[test]
     fn each_program_has_its_names() {
         let second = |signal| Some(Role::Joint(signal, 1));
@@ -258,25 +229,15 @@ mod tests {
             ("ros", "/arm/elbow/reference.positions", second(Signal::QCmd)),
         ] {
             let names = names().of_format(format).unwrap();
-            assert_eq!(role(&names, header), expected, "{format}: {header}");
+            assert_eq!(names.role(header), expected, "{format}: {header}");
         }
         assert!(names().of_format("excel").is_none());
     }
 
     #[test]
     fn ours_may_have_the_joints_names() {
-        assert_eq!(role(&names(), "q_cmd_elbow[rad]"), Some(Role::Joint(Signal::QCmd, 1)));
-        assert_eq!(role(&names(), "tau.shoulder_pan"), Some(Role::Joint(Signal::Torque, 0)));
-        assert_eq!(role(&names(), "q_wrist"), None);
-    }
-
-    #[test]
-    fn a_map_comes_first() {
-        let map = Map::read("m.toml", "[columns]\nq1 = \"A\"\ntau1 = \"q2\"\n").unwrap();
-        let names = names().mapped(map);
-        assert_eq!(role(&names, "A[deg]"), Some(Role::Joint(Signal::Q, 0)));
-        assert_eq!(role(&names, "q2"), Some(Role::Joint(Signal::Torque, 0)));
-        let wrong = names.mapped(Map::read("m.toml", "[columns]\nspeed = \"v\"\n").unwrap());
-        assert!(matches!(wrong.role("v", &mut BTreeMap::new()), Err(LogError::Map { .. })));
+        assert_eq!(names().role("q_cmd_elbow[rad]"), Some(Role::Joint(Signal::QCmd, 1)));
+        assert_eq!(names().role("tau.shoulder_pan"), Some(Role::Joint(Signal::Torque, 0)));
+        assert_eq!(names().role("q_wrist"), None);
     }
 }

@@ -12,9 +12,11 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use stiffarm_kernels::Motion;
 
-use super::column::{Signal, split};
+use super::column::Signal;
 use super::table::{Cell, Header, Table};
-use super::{Log, LogError, Names, TorqueSide};
+use super::{Log, Names, TorqueSide, unreadable};
+use crate::io::ReadError;
+use crate::io::columns::split;
 
 /// What the cells of a row group are, row by row.
 enum Cells {
@@ -39,8 +41,8 @@ pub(super) fn read(
     path: &Path,
     motions: &[Motion],
     names: &Names,
-) -> Result<Log, LogError> {
-    let broken = |error: ParquetError| LogError::unreadable(file, "a Parquet file", error);
+) -> Result<Log, ReadError> {
+    let broken = |error: ParquetError| unreadable(file, "a Parquet file", error);
     let source = File::open(path).map_err(|e| broken(e.into()))?;
     let reader = SerializedFileReader::new(source).map_err(broken)?;
     let side = side(file, reader.metadata().file_metadata())?;
@@ -87,17 +89,11 @@ pub(super) fn read(
 }
 
 /// `torque_side` may stand among what the file says of itself.
-fn side(file: &str, about: &FileMetaData) -> Result<Option<TorqueSide>, LogError> {
+fn side(file: &str, about: &FileMetaData) -> Result<Option<TorqueSide>, ReadError> {
     let mut said = about.key_value_metadata().into_iter().flatten();
     let Some(entry) = said.find(|entry| entry.key == "torque_side") else { return Ok(None) };
     let found = entry.value.clone().unwrap_or_default();
-    match TorqueSide::named(&found) {
-        None => {
-            let at = "what it says of itself".to_owned();
-            Err(LogError::Side { file: file.to_owned(), at, found })
-        }
-        side => Ok(side),
-    }
+    TorqueSide::said(&found).map(Some).map_err(|fault| fault.of(file))
 }
 
 /// The columns that have numbers or texts, and what they are called.
@@ -125,7 +121,7 @@ fn columns(
             (true, false) => format!("{name}[{k}]"),
         }));
     }
-    let header = Header { names, at: "its columns".to_owned(), row: "row", side };
+    let header = Header { names, line: None, row: "row", side };
     Ok((leaves, header))
 }
 

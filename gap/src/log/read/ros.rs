@@ -8,7 +8,8 @@ use stiffarm_kernels::Motion;
 
 use super::cdr::{Encoding, Fields};
 use super::table::{Cell, Header, Table};
-use super::{Log, LogError, Names};
+use super::{Log, Names};
+use crate::io::{Fault, ReadError};
 
 /// What a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,7 +148,7 @@ impl Heard {
         file: &str,
         motions: &[Motion],
         names: &Names,
-    ) -> Result<Log, LogError> {
+    ) -> Result<Log, ReadError> {
         let names = names.clone().or_of_format("ros");
         if let Some(topic) = names.topic() {
             self.sources.retain(|source| source.topic == topic);
@@ -163,20 +164,30 @@ impl Heard {
         for source in self.sources {
             match Table::new(file, &source.header(), motions, &names) {
                 Ok(table) => fit.push((table, source)),
-                Err(wrong) => error = error.or(Some(wrong)),
+                Err(wrong) => {
+                    let file = format!("{file}: topic {}", source.topic);
+                    error = error.or(Some(ReadError { file, ..wrong }));
+                }
             }
         }
         if fit.len() > 1 {
             let topics = listed(&mut fit.iter().map(|(_, source)| source.topic.as_str()));
-            return Err(LogError::Topics { file: file.to_owned(), topics });
+            let found = format!("the arm's joints in {topics}");
+            let fault = Fault::new(found, "them in one topic", "say which with --topic");
+            return Err(fault.of(file));
         }
         match (fit.pop(), error) {
             (Some((table, source)), _) => source.fill(table),
             (None, Some(wrong)) => Err(wrong),
-            (None, None) => Err(LogError::NoTopic {
-                file: file.to_owned(),
-                topics: listed(&mut self.topics.iter().map(|(name, _)| name.as_str())),
-            }),
+            (None, None) => {
+                let there = match listed(&mut self.topics.iter().map(|(name, _)| name.as_str())) {
+                    none if none.is_empty() => none,
+                    topics => format!(" (there are {topics})"),
+                };
+                let expected = "messages of sensor_msgs/JointState or \
+                                control_msgs/JointTrajectoryControllerState in the topic";
+                Err(Fault::new(format!("no joint states{there}"), expected, "").of(file))
+            }
         }
     }
 }
@@ -205,10 +216,10 @@ impl Source {
             let all = self.joints.iter().filter(|_| *has);
             names.extend(all.map(|joint| format!("{topic}/{joint}/{part}")));
         }
-        Header { names, at: format!("topic {}", self.topic), row: "message", side: None }
+        Header { names, line: None, row: "message", side: None }
     }
 
-    fn fill(self, mut table: Table) -> Result<Log, LogError> {
+    fn fill(self, mut table: Table) -> Result<Log, ReadError> {
         let cells = self.joints.len() * self.has.iter().filter(|has| **has).count();
         let first = self.heads.first().map_or(0, |(_, stamp)| *stamp);
         for (k, (number, stamp)) in self.heads.iter().enumerate() {

@@ -7,7 +7,8 @@ use stiffarm_kernels::Motion;
 
 use super::cdr::Encoding;
 use super::ros::{Heard, Kind};
-use super::{Log, LogError, Names};
+use super::{Log, Names, unreadable};
+use crate::io::ReadError;
 
 const MESSAGES: &str = "SELECT topics.name, topics.type, topics.serialization_format, messages.data \
     FROM messages JOIN topics ON messages.topic_id = topics.id \
@@ -19,8 +20,8 @@ pub(super) fn read(
     path: &Path,
     motions: &[Motion],
     names: &Names,
-) -> Result<Log, LogError> {
-    let heard = heard(path).map_err(|e| LogError::unreadable(file, "a bag of ROS 2", e))?;
+) -> Result<Log, ReadError> {
+    let heard = heard(path).map_err(|e| unreadable(file, "a bag of ROS 2", e))?;
     heard.log(file, motions, names)
 }
 

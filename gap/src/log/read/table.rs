@@ -1,24 +1,26 @@
 //! Rows of cells into runs, whatever file they stand in.
 
-use std::collections::BTreeMap;
-
 use stiffarm_kernels::Motion;
 
-use super::column::{Role, Signal, split};
-use super::unit::Scale;
-use super::{Clock, Damaged, Log, LogError, Names, Run, TorqueSide};
-use crate::measurement::nearest;
+use super::column::{Role, Signal};
+use super::{Clock, Damaged, Log, Names, Run, TorqueSide};
+use crate::io::columns::{self, split};
+use crate::io::{Dimension, Fault, Mistakes, ReadError, Unit, did_you_mean, nearest};
 
 /// No joint value, torque, current or time of an arm is larger in SI: what is, is a damaged cell. (Stamps
 /// since 1970 are below 1e10.)
 const LARGEST: f64 = 1e12;
 
+/// The names of a log's columns, for messages.
+const OURS: &str = "t, q1 …, qd1, qdd1, tau1, i1, q_cmd1, qd_cmd1, tau_cmd1, temp1, fx … mz, payload, \
+                    run, contact";
+
 /// What a file says before its rows.
 pub(super) struct Header {
     /// Of the columns.
     pub names: Vec<String>,
-    /// Where they stand: `line 3`.
-    pub at: String,
+    /// The line on which they stand, if the file has lines.
+    pub line: Option<u64>,
     /// What its rows are called: `line`.
     pub row: &'static str,
     /// Where its torques are measured, if it says so.
@@ -50,7 +52,9 @@ pub(super) struct Table {
 /// What one column is.
 struct Head {
     role: Role,
-    scale: Scale,
+    /// SI value = factor · value + offset.
+    factor: f64,
+    offset: f64,
     /// Of a joint's column, which among those of the run.
     slot: usize,
 }
@@ -94,7 +98,7 @@ impl Table {
         header: &Header,
         motions: &[Motion],
         names: &Names,
-    ) -> Result<Table, LogError> {
+    ) -> Result<Table, ReadError> {
         let columns = Columns::of(file, header, motions, names)?;
         let log = Log {
             files: vec![file.to_owned()],
@@ -135,12 +139,15 @@ impl Table {
     }
 
     /// The log of all rows.
-    pub(super) fn end(mut self) -> Result<Log, LogError> {
+    pub(super) fn end(mut self) -> Result<Log, ReadError> {
         self.close();
-        let Table { columns, mut log, .. } = self;
+        let Table { columns, log, .. } = self;
         if log.runs.is_empty() {
-            let (file, first) = (log.files.concat(), log.damaged.drain(..).next());
-            return Err(LogError::NoRows { file, cells: columns.heads.len(), first });
+            let expected = format!("rows of {} numbers below the header", columns.heads.len());
+            let first = log.damaged.first();
+            let why = first.map(|d| format!("{} {}: {}", d.row, d.line, d.reason));
+            let fault = Fault::new("no row that can be read", expected, why.unwrap_or_default());
+            return Err(fault.of(&log.files.concat()));
         }
         Ok(log)
     }
@@ -153,76 +160,69 @@ impl Table {
     }
 }
 
+impl Head {
+    /// # Errors
+    /// A joint that the arm has not, or a unit of another quantity.
+    fn new(role: Role, unit: Option<&str>, motions: &[Motion]) -> Result<Head, Fault> {
+        if let Role::Joint(_, joint) = role
+            && joint >= motions.len()
+        {
+            let (found, last) = (format!("`{}`", role.name()), motions.len());
+            return Err(Fault::new(found, format!("joints 1 to {last}"), "the arm has no other"));
+        }
+        let read = |(dimension, unit): (Dimension, &str)| dimension.unit(unit, Unit::named);
+        let unit = role.dimension(motions).zip(unit).map(read).transpose()?;
+        let (factor, offset) = unit.map_or((1.0, 0.0), |unit| (unit.factor, unit.offset));
+        Ok(Head { role, factor, offset, slot: 0 })
+    }
+}
+
 impl Columns {
     fn of(
         file: &str,
         header: &Header,
         motions: &[Motion],
         names: &Names,
-    ) -> Result<Columns, LogError> {
-        let at = &header.at;
+    ) -> Result<Columns, ReadError> {
+        let mut mistakes = Mistakes::default();
+        let said = columns::Header {
+            line: header.line,
+            names: &header.names,
+            bare: &|name| split(name).0,
+            map: names.map(),
+            known: &|name| Role::of(name).map(Role::name),
+            ours: OURS,
+        };
+        let meaning = |k: usize| names.role(&header.names[k]).map(Role::name);
+        let assigned = said.assign(&meaning, &mut mistakes);
         let mut heads: Vec<Option<Head>> = Vec::with_capacity(header.names.len());
-        let (mut unknown, mut used) = (Vec::new(), BTreeMap::new());
-        for (index, text) in header.names.iter().enumerate() {
-            let found = names.role(text, &mut used)?;
-            let Some((role, said)) = found else {
-                unknown.push(text.clone());
-                heads.push(None);
-                continue;
-            };
-            let same = |head: &Option<Head>| head.as_ref().is_some_and(|h| h.role == role);
-            if let Some(first) = heads.iter().position(same) {
-                return Err(LogError::Twice {
-                    file: file.to_owned(),
-                    at: at.clone(),
-                    first: first + 1,
-                    second: index + 1,
-                    name: role.name(),
-                });
-            }
-            if let Role::Joint(_, joint) = role
-                && joint >= motions.len()
-            {
-                return Err(LogError::Beyond {
-                    file: file.to_owned(),
-                    at: at.clone(),
-                    found: text.clone(),
-                    joints: motions.len(),
-                });
-            }
-            // An index in brackets (`position[0]`) is no unit.
-            let written = split(text).1.filter(|unit| unit.parse::<usize>().is_err());
-            let unit = said.and_then(|theirs| theirs.unit.as_deref()).or(written);
-            let mut scale = Scale::SI;
-            if let (Some(quantity), Some(unit)) = (role.quantity(motions), unit) {
-                scale = quantity.scale(unit).ok_or_else(|| LogError::Unit {
-                    file: file.to_owned(),
-                    at: at.clone(),
-                    column: index + 1,
-                    name: role.name(),
-                    unit: unit.into(),
-                    known: quantity.units(),
-                })?;
-            }
-            if let Some(theirs) = said {
-                scale = Scale {
-                    factor: scale.factor * theirs.factor,
-                    offset: scale.factor * theirs.offset + scale.offset,
-                };
-            }
-            heads.push(Some(Head { role, scale, slot: 0 }));
+        for (k, ours) in assigned.into_iter().enumerate() {
+            let read = ours.and_then(|(name, theirs)| Some((Role::of(&name)?, theirs)));
+            heads.push(read.and_then(|(role, theirs)| {
+                // An index in brackets (`position[0]`) is no unit.
+                let written = split(&header.names[k]).1;
+                let written = written.filter(|unit| unit.parse::<usize>().is_err());
+                let unit = theirs.and_then(|theirs| theirs.unit.as_deref()).or(written);
+                let head = Head::new(role, unit, motions);
+                let (factor, offset) = theirs.map_or((1.0, 0.0), |t| (t.factor, t.offset));
+                let wrong = |fault: Fault| fault.within(header.line, Some(said.column(k)));
+                let head = head.map_err(|fault| mistakes.add(wrong(fault))).ok()?;
+                Some(Head {
+                    factor: head.factor * factor,
+                    offset: head.factor * offset + head.offset,
+                    ..head
+                })
+            }));
         }
-        if let Some((ours, theirs)) = names.unused(&used) {
-            return Err(LogError::NoColumn {
-                map: names.map_file().to_owned(),
-                file: file.to_owned(),
-                column: theirs.column.clone(),
-                ours: ours.to_owned(),
-            });
-        }
+        let nothing = heads.iter().zip(&header.names).filter(|(head, _)| head.is_none());
+        let unknown = nothing.map(|(_, name)| name.clone()).collect();
         let (signals, joints) = (Vec::new(), motions.len());
         let mut columns = Columns { heads, unknown, signals, joints };
-        columns.complete(file, at, names.is_of_motion())?;
+        if mistakes.is_empty() {
+            let complete = columns.complete(names.is_of_motion());
+            mistakes.extend(complete.err().map(|fault: Fault| fault.within(header.line, None)));
+        }
+        mistakes.check(file)?;
         for head in columns.heads.iter_mut().flatten() {
             if let Role::Joint(signal, joint) = head.role {
                 let before = columns.signals.iter().position(|s| *s == signal).unwrap_or(0);
@@ -233,15 +233,15 @@ impl Columns {
     }
 
     /// Every signal has all joints, and there are those that are needed.
-    fn complete(&mut self, file: &str, at: &str, motion: bool) -> Result<(), LogError> {
+    fn complete(&mut self, motion: bool) -> Result<(), Fault> {
         let joints = self.joints;
         let roles: Vec<Role> = self.heads.iter().flatten().map(|head| head.role).collect();
         let missing = |missing: String, beside: String| {
-            let suggestion = nearest(&missing, self.unknown.iter().map(String::as_str));
-            let suggestion = suggestion.map(str::to_owned);
-            let (file, at) = (file.to_owned(), at.to_owned());
-            let (missing, beside) = (missing.into_boxed_str(), beside.into_boxed_str());
-            Err(LogError::Missing { file, at, missing, beside, joints, suggestion })
+            let near = nearest(&missing, self.unknown.iter().map(String::as_str));
+            let help = format!("the arm has {joints} joints{}", did_you_mean(near));
+            let (found, expected) =
+                (format!("no column `{missing}`"), format!("it beside `{beside}`"));
+            Err(Fault::new(found, expected, help))
         };
         if !roles.contains(&Role::Time) {
             return missing("t".to_owned(), "q1".to_owned());
@@ -267,7 +267,9 @@ impl Columns {
         }
         let needed = [Signal::Torque, Signal::Current, Signal::QCmd];
         if !needed.iter().any(|signal| self.signals.contains(signal)) {
-            return Err(LogError::NothingLogged { file: file.to_owned(), at: at.to_owned() });
+            let expected = "beside them tau1 … or i1 … (what drives the joints) or q_cmd1 … (where they \
+                            were to be)";
+            return Err(Fault::new("joint values alone", expected, ""));
         }
         Ok(())
     }
@@ -291,7 +293,8 @@ impl Columns {
                 cell.text_into(word);
                 continue;
             }
-            let number = cell.number().map(|x| head.scale.to_si(x)).filter(|x| x.abs() < LARGEST);
+            let number =
+                cell.number().map(|x| head.factor * x + head.offset).filter(|x| x.abs() < LARGEST);
             let number = number.ok_or_else(|| {
                 let mut found = String::new();
                 cell.text_into(&mut found);

@@ -1,10 +1,11 @@
 use stiffarm_kernels::Motion;
 
 use super::*;
+use crate::io::Map;
 
 const MOTIONS: [Motion; 2] = [Motion::Revolute, Motion::Prismatic];
 
-fn read(text: &str) -> Result<Log, LogError> {
+fn read(text: &str) -> Result<Log, ReadError> {
     Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS, &Names::default())
 }
 
@@ -61,8 +62,14 @@ fn a_wrong_header_says_what_to_mend() {
         ("t,q1,q2,tau1,tau2\n", "found no row that can be read"),
         ("q1,q2,tau1,tau2,time\n", "found no column `t`"),
         ("t,q1,q2,q3,tau1,tau2\n", "found `q3`, expected joints 1 to 2"),
-        ("t,q1[mm],q2,tau1,tau2\n", "column 2: found the unit `mm` of `q1`, expected one of rad"),
-        ("t,q1,q1,q2,tau1,tau2\n", "columns 2 and 3: found `q1` twice"),
+        (
+            "t,q1[mm],q2,tau1,tau2\n",
+            "line 1, column 2 `q1[mm]`: found `mm`, the unit of a length, expected an angle: write one of rad",
+        ),
+        (
+            "t,q1,q1,q2,tau1,tau2\n",
+            "line 1, column 3 `q1`: found `q1` again, expected it once: `q1` stands in column 2 already",
+        ),
         ("# torque_side = gear\nt,q1\n", "found `torque_side = gear`"),
     ] {
         let error = read(text).unwrap_err().to_string();
@@ -78,7 +85,8 @@ fn files_of_one_log_are_alike() {
     let both = one.clone().and(one.clone()).unwrap();
     assert_eq!((both.samples, both.runs.len(), both.files.len()), (2, 2, 2));
     let other = read("t,q1,q2,i1,i2\n0,1,1,1,1\n").unwrap();
-    assert!(matches!(one.and(other), Err(LogError::Unlike { .. })));
+    let error = one.and(other).unwrap_err().to_string();
+    assert!(error.contains("found columns of q, i, expected what log.csv has"), "{error}");
 }
 
 /// RTDE's recorder separates by spaces.
@@ -101,5 +109,26 @@ fn a_cell_may_hold_all_joints() {
     assert_eq!(
         (log.damaged[0].line, log.damaged[0].reason.as_str()),
         (3, "found 6 cells, expected 5")
+    );
+}
+
+#[test]
+fn a_map_comes_first() {
+    let read = |map: &str, text: &str| {
+        let names = Names::default().mapped(Map::read("m.toml", map).unwrap());
+        Log::from_bytes("log.csv", text.as_bytes(), &MOTIONS[..1], &names)
+    };
+    let map = "separator = \" \"\n[columns]\nq1 = \"A\"\ntau1 = { column = \"q1\", unit = \"Nmm\", offset = 1 }\n";
+    let log = read(map, "t A[deg] q1\n0 180 2000\n").unwrap();
+    assert_eq!(log.runs[0].signals[&Signal::Q], [[core::f64::consts::PI]]);
+    assert_eq!(log.runs[0].signals[&Signal::Torque], [[2.001]]);
+    let error = read("[columns]\nspeed = \"v\"\n", "t,v\n").unwrap_err().to_string();
+    assert!(
+        error.contains("found `speed` among the columns of m.toml, expected a name of ours: t")
+    );
+    let error = read("[columns]\nq1 = \"w\"\n", "t,v\n").unwrap_err().to_string();
+    assert!(
+        error.contains("found no column `w`, expected the one that is q1 by m.toml"),
+        "{error}"
     );
 }

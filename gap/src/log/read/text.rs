@@ -1,51 +1,35 @@
 //! Logs as text: cells between commas, semicolons, tabs or spaces.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 
-use csv::{ByteRecord, ReaderBuilder};
 use stiffarm_kernels::Motion;
 
 use super::table::{Cell, Header, Table};
-use super::{Log, LogError, Names, TorqueSide};
-
-/// What may separate cells; of equally many the first.
-const SEPARATORS: [u8; 4] = [b',', b';', b'\t', b' '];
-
-/// What stands above the rows.
-struct Top {
-    side: Option<TorqueSide>,
-    /// The line of the names, from 1, and their text.
-    line: u64,
-    names: Vec<u8>,
-}
+use super::{Log, Names, TorqueSide};
+use crate::io::table::{Record, Records};
+use crate::io::{Fault, Mistake, ReadError};
 
 pub(super) fn read(
     file: &str,
     source: impl Read,
     motions: &[Motion],
     names: &Names,
-) -> Result<Log, LogError> {
-    let broken = |error: String| LogError::Unreadable { file: file.to_owned(), message: error };
-    let mut lines = BufReader::new(source);
-    let Top { side, line, names: header } = top(file, &mut lines)?;
-    let mut rows = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .delimiter(separator(&header))
-        .comment(Some(b'#'))
-        .from_reader(header.as_slice().chain(lines));
-    let mut record = ByteRecord::new();
-    let mut next = |record: &mut ByteRecord| {
-        let there = rows.read_byte_record(record).map_err(|e| broken(e.to_string()))?;
-        Ok::<bool, LogError>(there)
+) -> Result<Log, ReadError> {
+    let wrong = |mistake: Mistake| mistake.of(file);
+    let source = BufReader::with_capacity(1 << 16, source);
+    let mut records = Records::new(source, names.map().separator()).map_err(wrong)?;
+    let Some(top) = records.read().map_err(wrong)? else {
+        let expected = "a row of names: t[s], q1[rad] …, tau1[N*m] …";
+        return Err(Fault::new("no header", expected, "").of(file));
     };
-    next(&mut record)?;
-    let said: Vec<String> =
-        record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect();
-    let mut more = next(&mut record)?;
+    let said: Vec<String> = top.cells().map(|c| String::from_utf8_lossy(c).into_owned()).collect();
+    let line = top.line;
+    let side = side(&records.above).map_err(wrong)?;
+    let mut record = records.read().map_err(wrong)?;
     // What the first row holds in brackets is one column for each of its numbers.
+    let cells = |record: &Record, k: usize| Some(list(record.cell(k)?)?.count());
     let lists: Vec<Option<usize>> =
-        (0..said.len()).map(|k| Some(list(record.get(k)?)?.count())).collect();
+        (0..said.len()).map(|k| record.and_then(|record| cells(record, k))).collect();
     let names_of = |(name, list): (&String, &Option<usize>)| -> Vec<String> {
         match list {
             None => vec![name.clone()],
@@ -54,27 +38,25 @@ pub(super) fn read(
     };
     let header = Header {
         names: said.iter().zip(&lists).flat_map(names_of).collect(),
-        at: format!("line {line}"),
+        line: Some(line),
         row: "line",
         side,
     };
     let mut table = Table::new(file, &header, motions, names)?;
     let has_lists = lists.iter().any(Option::is_some);
-    while more {
-        let at = line - 1 + record.position().map_or(0, csv::Position::line);
+    while let Some(row) = record {
         if has_lists {
-            let each = record.iter().enumerate().flat_map(|(k, cell)| {
+            let each = row.cells().enumerate().flat_map(|(k, cell)| {
                 let is_list = lists.get(k).is_some_and(Option::is_some);
                 let parts = is_list.then(|| list(cell)).flatten();
                 parts
                     .map_or_else(|| vec![Cell::Text(cell)], |parts| parts.map(Cell::Text).collect())
             });
-            table.push(at, each.collect::<Vec<Cell<'_>>>().into_iter());
+            table.push(row.line, each.collect::<Vec<Cell<'_>>>().into_iter());
         } else {
-            let cells: &ByteRecord = &record;
-            table.push(at, (0..cells.len()).map(|k| Cell::Text(&cells[k])));
+            table.push(row.line, row.cells().map(Cell::Text));
         }
-        more = next(&mut record)?;
+        record = records.read().map_err(wrong)?;
     }
     table.end()
 }
@@ -85,49 +67,14 @@ fn list(cell: &[u8]) -> Option<impl Iterator<Item = &[u8]>> {
     Some(inner.split(|b| *b == b',').map(<[u8]>::trim_ascii))
 }
 
-/// What comments say of the torque side, and the first line that is none. Comments further below are
-/// not searched: a log has a million rows.
-fn top(file: &str, lines: &mut impl BufRead) -> Result<Top, LogError> {
+/// What the comments above the header say of the torque side: `torque_side = motor`.
+fn side(comments: &[(u64, String)]) -> Result<Option<TorqueSide>, Mistake> {
     let mut side = None;
-    let mut text = Vec::new();
-    for line in 1.. {
-        text.clear();
-        let read = lines.read_until(b'\n', &mut text);
-        let read = read.map_err(|error| LogError::Unreadable {
-            file: file.to_owned(),
-            message: error.to_string(),
-        })?;
-        if read == 0 {
-            break;
-        }
-        if line == 1 && text.starts_with(b"\xef\xbb\xbf") {
-            text.drain(..3);
-        }
-        match text.strip_prefix(b"#") {
-            Some(comment) => side = said(file, line, &String::from_utf8_lossy(comment))?.or(side),
-            None if text.trim_ascii().is_empty() => {}
-            None => return Ok(Top { side, line, names: text }),
-        }
+    for (line, comment) in comments {
+        let said = comment.split_once('=').filter(|(name, _)| name.trim() == "torque_side");
+        let Some((_, value)) = said else { continue };
+        let word: String = value.trim().chars().take_while(|c| c.is_alphanumeric()).collect();
+        side = Some(TorqueSide::said(&word).map_err(|fault| fault.at(*line, None))?);
     }
-    Err(LogError::NoHeader { file: file.to_owned() })
-}
-
-/// `torque_side = motor`.
-fn said(file: &str, line: u64, comment: &str) -> Result<Option<TorqueSide>, LogError> {
-    let Some((_, value)) = comment.split_once('=').filter(|(name, _)| name.trim() == "torque_side")
-    else {
-        return Ok(None);
-    };
-    let word: String = value.trim().chars().take_while(|c| c.is_alphanumeric()).collect();
-    match TorqueSide::named(&word) {
-        None => {
-            Err(LogError::Side { file: file.to_owned(), at: format!("line {line}"), found: word })
-        }
-        side => Ok(side),
-    }
-}
-
-fn separator(header: &[u8]) -> u8 {
-    let count = |s: &u8| header.iter().filter(|b| *b == s).count();
-    SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',')
+    Ok(side)
 }

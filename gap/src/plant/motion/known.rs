@@ -3,20 +3,21 @@
 use stiffarm_codegen::robot::{Effect, Quantity};
 use stiffarm_kernels::generic::Arm;
 
-use super::truth::{MotionTruth, MotionTruthError};
+use super::truth::MotionTruth;
 use super::{Law, Logged};
+use crate::plant::TruthError;
 
 /// The `[[effect]]` tables of motion that act where so much is logged, of an arm that is moved in so many
 /// runs.
 ///
 /// # Errors
-/// [`MotionTruthError`]: a table that the plant has no law for, or that this arm cannot have.
+/// [`TruthError`]: a table that the plant has no law for, or that this arm cannot have.
 pub fn known(
     tables: &[Effect],
     arm: &Arm,
     runs: usize,
     logged: Logged,
-) -> Result<Vec<MotionTruth>, MotionTruthError> {
+) -> Result<Vec<MotionTruth>, TruthError> {
     let acts = |table: &&Effect| {
         Law::named(&table.id.value).is_none_or(|law| law.rows.contains(&logged.rows()))
     };

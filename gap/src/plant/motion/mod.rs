@@ -30,7 +30,7 @@ pub use laws::{LAWS, Law, Rows, Spot};
 pub(crate) use record::spread;
 pub use record::{Recorded, Recording, Side};
 pub use text::csv;
-pub use truth::{MotionTruth, MotionTruthError};
+pub use truth::MotionTruth;
 
 use crate::motion::Course;
 use crate::rng::{Rng, Stream, seed_of};

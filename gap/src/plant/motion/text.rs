@@ -4,53 +4,40 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Logged, Recorded, Side};
+use crate::plant::text::{Columns, quoted};
 
 /// A log: comment lines, a header with SI units, and one line per sample. `run` and `payload` stand
 /// there where there are several, and where something is held.
 pub fn csv(arm: &Arm, logged: Logged, runs: &[Recorded], comments: &[String]) -> String {
-    let mut text: String = comments.iter().map(|line| format!("# {}\n", line.trim_end())).collect();
-    let side = match logged {
-        Logged::Torque(Side::Motor) => Some("motor"),
-        Logged::Torque(Side::Link) => Some("link"),
-        Logged::Torque(Side::Commanded) => Some("commanded"),
+    let (beside, units, side) = match logged {
+        Logged::Torque(Side::Motor) => ("tau", ["N*m", "N"], Some("motor")),
+        Logged::Torque(Side::Link) => ("tau", ["N*m", "N"], Some("link")),
+        Logged::Torque(Side::Commanded) => ("tau", ["N*m", "N"], Some("commanded")),
         // A column of currents says it itself.
-        Logged::Torque(Side::Current) | Logged::Position => None,
+        Logged::Torque(Side::Current) => ("i", ["A"; 2], None),
+        Logged::Position => ("q_cmd", ["rad", "m"], None),
     };
-    text.extend(side.map(|side| format!("# torque_side = {side}\n")));
-    let (several, held) = (runs.len() > 1, runs.iter().any(|run| run.payload.is_some()));
-    let mut heads = vec!["t[s]".to_owned()];
-    heads.extend(several.then(|| "run".to_owned()));
-    heads.extend(held.then(|| "payload".to_owned()));
-    let mut add = |name: &str, units: [&str; 2]| {
-        for (k, joint) in arm.joints.iter().enumerate() {
+    let side = side.map(|side| format!("torque_side = {side}"));
+    let mut columns: Columns<'_, (&Recorded, usize)> = Columns::new();
+    columns.add("t[s]", |(run, k)| format!("{:.6}", run.t[*k]));
+    if runs.len() > 1 {
+        columns.add("run", |(run, _)| run.run.to_string());
+    }
+    if runs.iter().any(|run| run.payload.is_some()) {
+        columns.add("payload", |(run, _)| quoted(run.payload.as_deref()));
+    }
+    type Signal = fn(&Recorded) -> &Vec<Vec<f64>>;
+    let q: Signal = |run| &run.q;
+    let driven: Signal = |run| if run.tau.is_empty() { &run.q_cmd } else { &run.tau };
+    for (name, units, signal) in [("q", ["rad", "m"], q), (beside, units, driven)] {
+        for (j, joint) in arm.joints.iter().enumerate() {
             let unit = units[usize::from(joint.motion == Motion::Prismatic)];
-            heads.push(format!("{name}{}[{unit}]", k + 1));
-        }
-    };
-    add("q", ["rad", "m"]);
-    match logged {
-        Logged::Torque(Side::Current) => add("i", ["A"; 2]),
-        Logged::Torque(_) => add("tau", ["N*m", "N"]),
-        Logged::Position => add("q_cmd", ["rad", "m"]),
-    }
-    text.push_str(&format!("{}\n", heads.join(",")));
-    for run in runs {
-        for k in 0..run.t.len() {
-            text.push_str(&format!("{:.6}", run.t[k]));
-            if several {
-                text.push_str(&format!(",{}", run.run));
-            }
-            if held {
-                text.push_str(&format!(",{}", run.payload.as_deref().unwrap_or_default()));
-            }
-            let beside = if run.tau.is_empty() { &run.q_cmd } else { &run.tau };
-            for value in run.q.iter().chain(beside) {
-                text.push_str(&format!(",{}", short(value[k])));
-            }
-            text.push('\n');
+            columns
+                .add(format!("{name}{}[{unit}]", j + 1), move |(run, k)| short(signal(run)[j][*k]));
         }
     }
-    text
+    let samples = runs.iter().flat_map(|run| (0..run.t.len()).map(move |k| (run, k)));
+    columns.text(comments.iter().chain(&side), samples)
 }
 
 /// Nine digits: finer than what any sensor says.

@@ -1,19 +1,20 @@
-//! What is put into a moving arm, and the text in which it is said.
+//! What is put into a moving arm.
 //!
 //! ```text
-//! truth = effect [ "@" spot ] ( "=" value | ":" name "=" value { "," name "=" value } )
-//! spot  = "joint" i | "joints" i ("+" | "-") j | "link" i | "the tool in run" k | "every joint"
+//! place = "joint" i | "joints" i ("+" | "-") j | "link" i | "the tool in run" k | "every joint"
 //!       | "the base" | "the interface"
 //! value = number [ SI unit ]
 //! ```
+//!
+//! The rest is [`notation`](crate::plant::notation).
 
 use core::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
 use super::laws::{LAWS, Law, Spot};
-use crate::effects::did_you_mean;
-use crate::measurement::nearest;
+use crate::io::{did_you_mean, nearest};
+use crate::plant::notation::{self, Size, TruthError};
 
 /// One effect at one spot, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,23 +27,11 @@ pub struct MotionTruth {
     pub values: Vec<f64>,
 }
 
-/// A truth that cannot be meant.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("effect `{text}`: {fault}")]
-pub struct MotionTruthError {
-    /// The whole text.
-    pub text: String,
-    /// What was found, what was expected.
-    pub fault: String,
-}
-
 impl fmt::Display for MotionTruth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}@{}", self.law.name, self.spot)?;
-        for (k, ((name, _), value)) in self.law.numbers.iter().zip(&self.values).enumerate() {
-            write!(f, "{}{name}={value:e}", if k == 0 { ":" } else { "," })?;
-        }
-        Ok(())
+        let numbers = self.law.numbers.iter().zip(&self.values);
+        let named = numbers.map(|((name, _), value)| (*name, *value));
+        notation::write(f, (self.law.name, &self.spot), named)
     }
 }
 
@@ -50,24 +39,18 @@ impl MotionTruth {
     /// Reads a truth about this arm, which is moved in so many runs.
     ///
     /// # Errors
-    /// [`MotionTruthError`]: an unknown effect, a spot where it cannot act, an unknown number, or a value
+    /// [`TruthError`]: an unknown effect, a spot where it cannot act, an unknown number, or a value
     /// that is none.
-    pub fn parse(text: &str, arm: &Arm, runs: usize) -> Result<MotionTruth, MotionTruthError> {
-        read(text, arm, runs)
-            .map_err(|fault| MotionTruthError { text: text.trim().to_owned(), fault })
+    pub fn parse(text: &str, arm: &Arm, runs: usize) -> Result<MotionTruth, TruthError> {
+        read(text, arm, runs).map_err(TruthError::of(text))
     }
 
     /// Reads an effect at a place of this arm, without a size.
     ///
     /// # Errors
     /// As [`MotionTruth::parse`].
-    pub fn place(
-        text: &str,
-        arm: &Arm,
-        runs: usize,
-    ) -> Result<(&'static Law, Spot), MotionTruthError> {
-        acting(text, arm, runs)
-            .map_err(|fault| MotionTruthError { text: text.trim().to_owned(), fault })
+    pub fn place(text: &str, arm: &Arm, runs: usize) -> Result<(&'static Law, Spot), TruthError> {
+        acting(text, arm, runs).map_err(TruthError::of(text))
     }
 
     /// The value of a number; 0 if it has none of that name.
@@ -78,31 +61,28 @@ impl MotionTruth {
 }
 
 fn read(text: &str, arm: &Arm, runs: usize) -> Result<MotionTruth, String> {
-    let end = text
-        .find([':', '='])
-        .ok_or_else(|| "found no `=`, expected a size: `coulomb_friction@joint 2=4`".to_owned())?;
-    let (head, size) = text.split_at(end);
+    let (head, size) = notation::split(text)?;
     let (law, spot) = acting(head, arm, runs)?;
     let mut values = vec![0.0; law.numbers.len()];
-    let Some(list) = size.strip_prefix(':') else {
-        let first = law.numbers.iter().position(|(name, _)| !law.is_form(name)).unwrap_or(0);
-        values[first] = number(law, first, &size[1..])?;
-        return whole(law, spot, values);
-    };
-    let mut given = vec![false; values.len()];
-    for part in list.split(',') {
-        let (name, value) = part
-            .split_once('=')
-            .ok_or_else(|| format!("found `{}`, expected name=value", part.trim()))?;
-        let name = name.trim();
-        let k = law.numbers.iter().position(|(n, _)| *n == name).ok_or_else(|| {
-            let near = did_you_mean(nearest(name, law.numbers.iter().map(|(n, _)| *n)));
-            format!("found the number `{name}`, expected {}{near}", names(law))
-        })?;
-        if core::mem::replace(&mut given[k], true) {
-            return Err(format!("found `{name}` twice, expected one value for it"));
+    match size {
+        Size::Missing => {
+            let (named, name) = (names(law), law.name);
+            let numbers = format!("`{name}@{spot}:NAME=VALUE,…`");
+            return Err(format!("found no `=`, expected a size for {named}: {numbers}"));
         }
-        values[k] = number(law, k, value)?;
+        Size::First(text) => {
+            let first = law.numbers.iter().position(|(name, _)| !law.is_form(name)).unwrap_or(0);
+            values[first] = number(law, first, text)?;
+        }
+        Size::Named(list) => {
+            for (name, text) in &list {
+                let k = law.numbers.iter().position(|(n, _)| n == name).ok_or_else(|| {
+                    let near = did_you_mean(nearest(name, law.numbers.iter().map(|(n, _)| *n)));
+                    format!("found the number `{name}`, expected {}{near}", names(law))
+                })?;
+                values[k] = number(law, k, text)?;
+            }
+        }
     }
     whole(law, spot, values)
 }

@@ -1,4 +1,4 @@
-//! What a user says of the columns.
+//! What a user says of the columns of a file (`--map`).
 //!
 //! ```toml
 //! separator = ";"              # else found
@@ -19,7 +19,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::ImportError;
+use super::mistake::{Fault, ReadError};
+use super::table::Separator;
 
 /// What is said of a table.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -102,32 +103,43 @@ impl From<Written> for Theirs {
 }
 
 impl Map {
+    /// What separates cells, if it is said.
+    pub(crate) fn separator(&self) -> Option<Separator> {
+        self.separator.map(Separator::of)
+    }
+
     /// Reads a map; `file` is what messages call it.
     ///
     /// # Errors
-    /// [`ImportError::Map`]: what is no map, with the line and what was expected.
-    pub fn read(file: &str, text: &str) -> Result<Map, ImportError> {
-        let wrong = |message: String| ImportError::Map { map: file.to_owned(), message };
-        let map: Map = toml::from_str(text).map_err(|e| wrong(e.to_string()))?;
-        let one = |what: &str, c: char| {
-            wrong(format!("found `{what} = \"{c}\"`, expected \".\" or \",\""))
-        };
+    /// [`ReadError`]: what is no map, with the line and what was expected.
+    pub fn read(file: &str, text: &str) -> Result<Map, ReadError> {
+        let wrong = |found: String, expected: &str| Fault::new(found, expected, "").of(file);
+        let map: Map = toml::from_str(text).map_err(|error| {
+            let line = error.span().and_then(|span| text.get(..span.start));
+            let line = line.map(|before| 1 + before.matches('\n').count() as u64);
+            Fault::new("no map", "", error.message()).within(line, None).of(file)
+        })?;
+        if let Some(c) = map.separator.filter(|c| !c.is_ascii()) {
+            return Err(wrong(format!("`separator = \"{c}\"`"), "a character of ASCII"));
+        }
         match map.decimal {
-            Some(c) if c != '.' && c != ',' => return Err(one("decimal", c)),
+            Some(c) if c != '.' && c != ',' => {
+                return Err(wrong(format!("`decimal = \"{c}\"`"), "\".\" or \",\""));
+            }
             Some(c) if map.separator == Some(c) => {
-                return Err(wrong(format!("`{c}` cannot both separate cells and begin decimals")));
+                let found = format!("`{c}` to separate cells and to begin decimals");
+                return Err(wrong(found, "two characters"));
             }
             _ => {}
         }
         let finite = |x: &f64| x.is_finite();
         if !map.columns.values().all(|t| finite(&t.factor) && t.factor != 0.0 && finite(&t.offset))
         {
-            return Err(wrong(
-                "a factor is zero, or a number of a column is not finite".to_owned(),
-            ));
+            let found = "a factor of zero, or a number that is not finite, of a column";
+            return Err(wrong(found.to_owned(), "finite numbers"));
         }
         if !map.gravity.iter().flatten().all(finite) {
-            return Err(wrong("gravity is not finite".to_owned()));
+            return Err(wrong("a gravity that is not finite".to_owned(), "finite numbers"));
         }
         Ok(Map { file: file.to_owned(), ..map })
     }

@@ -1,0 +1,177 @@
+//! Which column of a file is which of ours: what a map says, else what the header's name means.
+
+use std::collections::{HashMap, HashSet};
+
+use super::map::{Map, Theirs};
+use super::mistake::{Column, Fault, Mistakes};
+use super::nearest::{did_you_mean, nearest};
+
+/// `name[unit]` into its parts.
+pub(crate) fn split(header: &str) -> (&str, Option<&str>) {
+    let parts = header.strip_suffix(']').and_then(|text| text.rsplit_once('['));
+    match parts {
+        Some((name, unit)) if !unit.trim().is_empty() => (name.trim(), Some(unit.trim())),
+        _ => (header, None),
+    }
+}
+
+/// The header of a table, and what its names may mean.
+pub(crate) struct Header<'h, 'm> {
+    /// Its line; `None` of a file without lines.
+    pub(crate) line: Option<u64>,
+    /// As the file has them.
+    pub(crate) names: &'h [String],
+    /// A name of theirs without its unit.
+    pub(crate) bare: &'h dyn Fn(&str) -> &str,
+    /// What is said of the columns.
+    pub(crate) map: &'m Map,
+    /// What a name of ours in a map stands for: the same name for all that mean the same.
+    pub(crate) known: &'h dyn Fn(&str) -> Option<String>,
+    /// All names of ours, for a message.
+    pub(crate) ours: &'h str,
+}
+
+impl<'m> Header<'_, 'm> {
+    /// A column of it.
+    pub(crate) fn column(&self, index: usize) -> Column {
+        Column { number: index + 1, header: self.names[index].clone() }
+    }
+
+    /// Of each column its name among ours, by the map or as `meaning` has it, and the map's entry. What
+    /// the map gives to a column is not what another one means.
+    pub(crate) fn assign(
+        &self,
+        meaning: &dyn Fn(usize) -> Option<String>,
+        mistakes: &mut Mistakes,
+    ) -> Vec<Option<(String, Option<&'m Theirs>)>> {
+        let mut assigned: Vec<Option<(String, Option<&Theirs>)>> = vec![None; self.names.len()];
+        let mut given: HashSet<String> = HashSet::new();
+        for (ours, theirs) in &self.map.columns {
+            match self.said(ours, theirs, &assigned) {
+                Ok((ours, index)) => {
+                    assigned[index] = Some((ours.clone(), Some(theirs)));
+                    given.insert(ours);
+                }
+                Err(fault) => mistakes.add(fault.within(self.line, None)),
+            }
+        }
+        for (index, slot) in assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none()) {
+            let meant = meaning(index).filter(|ours| !given.contains(ours));
+            *slot = meant.map(|ours| (ours, None));
+        }
+        let mut first: HashMap<&str, usize> = HashMap::with_capacity(assigned.len());
+        for (index, (ours, _)) in
+            assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)))
+        {
+            let before = *first.entry(ours).or_insert(index);
+            if before < index {
+                let (number, one) = (before + 1, &self.names[before]);
+                let same = (self.bare)(one) == (self.bare)(&self.names[index]);
+                let also = if same { String::new() } else { format!(", as `{one}`") };
+                let fault = Fault::new(
+                    format!("`{ours}` again"),
+                    "it once",
+                    format!(
+                        "`{ours}` stands in column {number} already{also}: remove or rename one of \
+                         the two"
+                    ),
+                );
+                mistakes.add(fault.within(self.line, Some(self.column(index))));
+            }
+        }
+        assigned
+    }
+
+    /// The name of ours in an entry of the map, and the column that it speaks of.
+    fn said(
+        &self,
+        ours: &str,
+        theirs: &Theirs,
+        assigned: &[Option<(String, Option<&Theirs>)>],
+    ) -> Result<(String, usize), Fault> {
+        let map = &self.map.file;
+        let Some(known) = (self.known)(ours) else {
+            let found = format!("`{ours}` among the columns of {map}");
+            return Err(Fault::new(found, format!("a name of ours: {}", self.ours), ""));
+        };
+        let whole = self.names.iter().position(|name| *name == theirs.column);
+        let bare = || self.names.iter().position(|name| (self.bare)(name) == theirs.column);
+        let Some(index) = whole.or_else(bare) else {
+            let near = nearest(&theirs.column, self.names.iter().map(String::as_str));
+            let found = format!("no column `{}`{}", theirs.column, did_you_mean(near));
+            return Err(Fault::new(found, format!("the one that is {ours} by {map}"), ""));
+        };
+        match &assigned[index] {
+            Some((before, _)) => {
+                let found =
+                    format!("the column `{}` as both {before} and {ours} in {map}", theirs.column);
+                Err(Fault::new(found, "it to be one of them", ""))
+            }
+            None => Ok((known, index)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assigned(map: &str, names: &[&str]) -> Result<Vec<Option<String>>, String> {
+        let map = Map::read("m.toml", map).map_err(|error| error.to_string())?;
+        let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
+        let known = |name: &str| ["q1", "q2", "x"].contains(&name).then(|| name.to_owned());
+        let header = Header {
+            line: Some(3),
+            names: &names,
+            bare: &|name| split(name).0,
+            map: &map,
+            known: &known,
+            ours: "q1, q2, x",
+        };
+        let mut mistakes = Mistakes::default();
+        let meaning = |k: usize| known(split(&names[k]).0);
+        let found = header.assign(&meaning, &mut mistakes);
+        mistakes.check("f").map_err(|error| error.to_string())?;
+        Ok(found.into_iter().map(|slot| slot.map(|(ours, _)| ours)).collect())
+    }
+
+    #[test]
+    fn headers_are_split() {
+        assert_eq!(split("tau1[N*m]"), ("tau1", Some("N*m")));
+        assert_eq!(split("q1 [ deg ]"), ("q1", Some("deg")));
+        assert_eq!(split("position[0]"), ("position", Some("0")));
+        assert_eq!((split("run"), split("q[]")), (("run", None), ("q[]", None)));
+    }
+
+    #[test]
+    fn a_map_comes_first_and_mistakes_are_told() {
+        let some = |names: &[&str]| -> Vec<Option<String>> {
+            names.iter().map(|n| (!n.is_empty()).then(|| (*n).to_owned())).collect()
+        };
+        let map = "[columns]\nq1 = \"A\"\n";
+        assert_eq!(assigned(map, &["A[deg]", "q1", "q2", "n"]), Ok(some(&["q1", "", "q2", ""])));
+        for (map, names, told) in [
+            (
+                "",
+                &["q1", "q1[deg]"][..],
+                "line 3, column 2 `q1[deg]`: found `q1` again, expected it once",
+            ),
+            (map, &["q2"], "f: line 3: found no column `A`, expected the one that is q1 by m.toml"),
+            ("[columns]\nx = \"Q2\"\n", &["q2"], "found no column `Q2`; did you mean `q2`?"),
+            (
+                "[columns]\nv = \"q2\"\n",
+                &["q2"],
+                "found `v` among the columns of m.toml, expected a name of",
+            ),
+            (
+                "[columns]\nq1 = \"A\"\nx = \"A[mm]\"\n",
+                &["A[mm]"],
+                "found the column `A[mm]` as both q1 and x in m.toml, expected it to be one of them",
+            ),
+            ("[columns]\nspeed\n", &[], "m.toml: line 2: found no map: "),
+        ] {
+            let error = assigned(map, names).unwrap_err();
+            assert!(error.contains(told), "{error}");
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! What the readers of all files share.
+//!
+//! 1. [`source`](bytes): the bytes of a file, and its text.
+//! 2. `table`: text into records, each with its line; what separates their cells.
+//! 3. `columns`: which column is which, by the [map](Map) that a user gives and by its name; in which
+//!    [unit](Unit).
+//! 4. [`Mistake`]: what is wrong, where it stands, and how to mend it.
+
+pub(crate) mod columns;
+pub mod map;
+mod mistake;
+mod nearest;
+mod source;
+pub(crate) mod table;
+mod unit;
+
+pub use map::Map;
+pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
+pub use nearest::{did_you_mean, nearest};
+pub use source::{MOST_BYTES, bytes};
+pub use unit::{Dimension, Unit};
+
+pub(crate) use mistake::Mistakes;
+pub(crate) use source::decoded;
