@@ -23,6 +23,7 @@ pub mod excite;
 mod fixture;
 pub mod gap;
 pub mod identify;
+mod infer;
 pub mod log;
 pub mod measurement;
 pub mod motion;

@@ -11,14 +11,10 @@
 
 mod align;
 mod axes;
-mod basis;
-mod bounded;
 mod model;
 mod refit;
 
 pub(crate) use align::{aligned, rigid};
 pub(crate) use axes::Axes;
-pub(crate) use basis::{Basis, RANK, principal};
-pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, refit_below, squares, step, strain};

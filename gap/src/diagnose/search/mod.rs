@@ -16,9 +16,7 @@ mod exchange;
 mod first;
 mod forward;
 mod hung;
-mod lingering;
 mod refined;
 
-pub(crate) use evidence::Flips;
 pub(crate) use first::First;
-pub(crate) use forward::{Explained, OWN, Ranked, SIGNIFICANT, Search};
+pub(crate) use forward::{Explained, OWN, Ranked, Search};

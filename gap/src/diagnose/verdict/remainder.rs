@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::{Share, Unexplained};
-use crate::diagnose::search::{Explained, First, Flips, Search};
+use crate::diagnose::search::{Explained, First, Search};
 use crate::diagnose::sums::{About, Candidate, Kept, Probe, Source};
 use crate::effects::Place;
+use crate::infer::Flips;
 
 /// A dependence that noise alone shows this often, over all that was tried, is none.
 const LEVEL: f64 = 0.01;
@@ -39,6 +40,7 @@ impl Search<'_, '_> {
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();
         let mut about: BTreeMap<About, f64> = BTreeMap::new();
         let mut significant = false;
+        let variance = scale.variance(screen.left(), fitted);
         let mut flips = None;
         for one in &ranked {
             let Source::Probe(probe) = &screen.candidates[one.candidate].source else { continue };
@@ -51,8 +53,8 @@ impl Search<'_, '_> {
             if chance > LEVEL {
                 continue;
             }
-            let flips =
-                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
+            let flips = flips
+                .get_or_insert_with(|| Flips::new(&screen, &tried, variance, self.options.seed));
             if flips.chance(&one.score) > LEVEL {
                 continue;
             }

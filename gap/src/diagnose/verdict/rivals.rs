@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use super::outcome::Group;
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::search::{Explained, Flips, Ranked, Search};
-use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+use crate::diagnose::search::{Explained, Ranked, Search};
+use crate::diagnose::sums::{Candidate, Kept, Screen};
+use crate::infer::{Flips, Score};
 use crate::report::{Alternative, Left};
 
 /// A rival whose evidence is less than the finding's by no more than this is not told from it: odds
@@ -144,7 +145,8 @@ impl Search<'_, '_> {
     ) -> f64 {
         let scale = self.scale(now);
         let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
-        let flips = Flips::new(screen, tried, &scale, self.options.seed);
+        let variance = scale.variance(screen.left(), screen.basis.rank());
+        let flips = Flips::new(screen, tried, variance, self.options.seed);
         chance.max(flips.chance(finding))
     }
 }
