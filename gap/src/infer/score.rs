@@ -6,15 +6,13 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::basis::Basis;
 use super::bounded::Squares;
+use super::constants::RIDGE;
 use super::products::Products;
 use super::screen::{Columns, Screen};
 
 /// A direction of a candidate whose part left beside the model is smaller than this is not its own:
 /// the square of a ratio of sizes of 1e-4.
 const OWN: f64 = 1e-8;
-
-/// Kept in a fold's normal matrix where the rows that are left do not decide a direction.
-const RIDGE: f64 = 1e-9;
 
 /// A candidate fitted beside the model.
 #[derive(Clone, Debug)]

@@ -5,9 +5,8 @@
 //! **Out:** the [`Fit`]: the model with the values of least squares, and what it [`Predicted`] of
 //! every row, so the residual.
 //!
-//! [`aligned`] is where it begins when frames are unknown. A [`Basis`] tells which directions of the
-//! parameters the data decide; [`Squares`] are least over the values that are physical. Every other
-//! room solves its least squares with these two.
+//! [`aligned`] is where it begins when frames are unknown. Least squares are solved by
+//! [`infer`](crate::infer).
 
 mod align;
 mod axes;

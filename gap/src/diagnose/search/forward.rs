@@ -8,7 +8,7 @@ use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen};
 use crate::effects::{Effect, Forms, Spot};
-use crate::infer::constants::SIGNIFICANT;
+use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
 use crate::infer::{Basis, Flips, Score, principal};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
@@ -34,9 +34,6 @@ pub(crate) const OWN: f64 = 0.01;
 
 /// A value beyond what is usual by more than this is none that an arm has.
 const IMPOSSIBLE: f64 = 100.0;
-
-/// At least this many measured numbers for each parameter.
-const NUMBERS_EACH: usize = 3;
 
 /// Rounds in which weights and fit settle.
 const MOST_WEIGHED: usize = 6;

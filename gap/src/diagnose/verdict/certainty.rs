@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, Model, block, squares};
 use crate::diagnose::search::{Explained, Search};
+use crate::infer::constants::RIDGE;
 use crate::infer::{Basis, students_t};
 
 /// Visits that are left out one after the other; of more, visits that follow each other go together.
@@ -19,9 +20,6 @@ const MOST_EXACT: usize = 100_000;
 /// Part of a number's standard deviation by which it is moved for a difference: far above rounding, and
 /// within what is linear.
 const STEP: f64 = 0.1;
-
-/// Kept in the normal matrix of the other visits where one alone decides a direction.
-const RIDGE: f64 = 1e-9;
 
 /// How well the numbers of a fit are known.
 pub(crate) struct Certainty {

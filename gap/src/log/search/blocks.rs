@@ -6,6 +6,7 @@
 //! two blocks stand as many rows as the filter reaches, which belong to neither.
 
 use super::segments::Segment;
+use crate::infer::constants::FOLDS;
 use crate::log::signal::Signals;
 
 /// Correlation times of a block.
@@ -16,9 +17,6 @@ pub const LEAST: usize = 8;
 
 /// Whole runs are held out where there are so many.
 const RUNS: usize = 3;
-
-/// Folds of blocks.
-const FOLDS: usize = 10;
 
 /// A block of time.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -53,8 +53,7 @@ impl Sums {
             let all = columns(entry);
             (self.products(bordered, &all, weights), self.squares(&all, weights))
         };
-        let each: Vec<(Vec<DMatrix<f64>>, Vec<DMatrix<f64>>)> =
-            entries.par_iter().map(beside).collect();
+        let each: Vec<_> = entries.par_iter().map(beside).collect();
         let sizes: Vec<usize> = entries.iter().map(|entry| columns(entry).len()).collect();
         let of_block = |(block, own): (usize, &DMatrix<f64>)| {
             let mut products = Products::zeros(last, &sizes);

@@ -114,7 +114,7 @@ fn beyond_chance(
         let found = sorted.by.sizes(&DMatrix::repeat(count, 1, 1.0))[0];
         let p_value = signs.p_value(&highest, found);
         let (place, of) = (Spot::of_joint(sorted.joint).to_string(), sorted.of.named(sorted.joint));
-        (p_value <= SIGNIFICANT).then(|| Dependence { place, of, share: sorted.share, p_value })
+        (p_value <= SIGNIFICANT).then_some(Dependence { place, of, share: sorted.share, p_value })
     };
     let counted = all.iter().filter(|sorted| counts(sorted.joint, sorted.of));
     let mut found: Vec<Dependence> = counted.filter_map(told).collect();
