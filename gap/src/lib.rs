@@ -23,6 +23,7 @@ pub mod excite;
 mod fixture;
 pub mod gap;
 pub mod identify;
+mod infer;
 pub mod io;
 pub mod log;
 pub mod measurement;

@@ -29,7 +29,6 @@ pub enum Stream {
     Truths = 107,
     Arm = 108,
     Visits = 109,
-    Logs = 110,
 }
 
 /// A seed for the `k`-th of many things that one seed decides (SplitMix64's finaliser).

@@ -4,13 +4,14 @@ use nalgebra::Vector6;
 use rayon::prelude::*;
 
 use super::data::{LARGEST, Precision, Problem, fitting};
-use super::fit::{Basis, Model};
+use super::fit::Model;
 use super::options::DiagnoseError;
 use super::report::{CannotSee, Gauge, LeftOut, Part, Share};
 use super::search::{Explained, Search};
 use super::verdict::Held;
 use crate::effects::Effect;
 use crate::gap::Statistics;
+use crate::infer::Basis;
 
 /// A gap below this, relative to the arm's reach, is rounding error.
 const ROUNDING: f64 = 1e-12;

@@ -14,8 +14,8 @@ use super::model::Acting;
 use super::scene::{Column, Domain};
 use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, weights};
-use super::search::sums::Solver;
 use super::signal::{Signals, Span};
+use crate::infer::Basis;
 
 /// Rows that are gone through at once.
 const ROWS: usize = 4096;
@@ -52,8 +52,8 @@ impl Equations {
 
     /// What is not seen beside what stands before it stays zero, as in the fit.
     fn solved(&self) -> Option<DVector<f64>> {
-        let seen = Solver::of(&self.own).seen;
-        let told: Vec<usize> = (0..seen.len()).filter(|k| seen[*k]).collect();
+        let (basis, count) = (Basis::ordered(&self.own), self.own.nrows());
+        let told: Vec<usize> = (0..count).filter(|k| basis.decides(*k)).collect();
         // Columns of one size: newton-metres per radian and second are of many.
         let scale = |k: usize| 1.0 / self.own[(told[k], told[k])].sqrt();
         let at = |row: usize, column: usize| {
@@ -62,7 +62,7 @@ impl Equations {
         let crossed = DMatrix::from_fn(told.len(), told.len(), at);
         let right = DVector::from_fn(told.len(), |k, _| self.right[told[k]] * scale(k));
         let found = crossed.lu().solve(&right)?;
-        let mut all = DVector::zeros(seen.len());
+        let mut all = DVector::zeros(count);
         told.iter().enumerate().for_each(|(k, to)| all[*to] = found[k] * scale(k));
         all.iter().all(|x| x.is_finite()).then_some(all)
     }

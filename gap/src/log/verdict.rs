@@ -15,21 +15,22 @@ use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, Simple, Wanted};
+use super::search::converge::converged;
+use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
 use super::search::judge::{Judged, Verdict};
 use super::search::nested::nested;
-use super::search::rest::rests;
-use super::search::settle::settled;
+use super::search::residual::dependences;
 use super::search::springs::Springs;
-use super::search::stock::{Mixed, Stock};
 use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
 use super::sight::hidden;
 use super::signal::Signals;
+use crate::infer::interval;
 use crate::measurement::Body;
-use crate::report::log::{Dependence, Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
+use crate::report::log::{Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
 use crate::report::{Alternative, Finding, HeldOutGap, Left, Parameter};
-use crate::shrink::{Shrink, interval};
+use crate::shrink::Shrink;
 
 /// A joint that is slower than this part of its largest speed counts as standing.
 const STILL: f64 = 0.005;
@@ -112,49 +113,43 @@ pub fn diagnosed_with(
             effect.carried(arm, *spot).is_none_or(|carried| carried.run.is_some())
         });
     }
-    let mut stock = Stock::of(&case, &simple, &wanted, 1);
-    let told = Told { arm, kind: case.kind, current, sizes: sizes(&stock) };
+    let mut dict = Dictionary::of(&case, &simple, &wanted, 1);
+    let told = Told { arm, kind: case.kind, current, sizes: sizes(&dict) };
     let history = RefCell::new(History::default());
     let mut terms: Vec<Term> = Vec::new();
     let mut again = 0;
     let verdict = loop {
-        let offers: Vec<usize> = (0..stock.offers.len()).collect();
+        let offers: Vec<usize> = (0..dict.offers.len()).collect();
         let mut each = |round: &Round| {
             each(round.fit.terms.len());
-            history.borrow_mut().note(&stock, &told, round);
+            history.borrow_mut().note(&dict, &told, round);
         };
-        let last = search::search(&stock, &terms, &links, &offers, options.seed, &mut each);
-        let verdict = settled(&stock, &last, &offers, options.seed, &mut each);
-        if again == AGAIN || !moved_on(&stock, &verdict.fit.terms) {
+        let last = search::search(&dict, &terms, &links, &offers, options.seed, &mut each);
+        let verdict = converged(&dict, &last, &offers, options.seed, &mut each);
+        if again == AGAIN || !moved_on(&dict, &verdict.fit.terms) {
             break verdict;
         }
         again += 1;
         let more = about(&wanted, &verdict.fit.terms);
-        stock = Stock::of(&case, &simple, &more, 1);
-        terms = verdict.fit.terms.iter().map(|term| again_of(&stock, term)).collect();
+        dict = Dictionary::of(&case, &simple, &more, 1);
+        terms = verdict.fit.terms.iter().map(|term| again_of(&dict, term)).collect();
     };
     let History { before, left, hidden: unseen, alone } = history.into_inner();
-    let after = Unseen::of(&stock, &verdict.fit, &verdict.sizes, &verdict.blocks);
+    let after = Unseen::of(&dict, &verdict.fit, &verdict.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
     let (first, spread) = if verdict.findings.is_empty() {
         (&after.sizes, 0.0)
     } else {
-        let none = Fitted::of(&stock, &[], &links, &verdict.sizes);
-        let sizes = none.sizes(&stock);
-        let none = Unseen::of(&stock, &Fitted::of(&stock, &[], &links, &sizes), &sizes, blocks);
+        let none = Fitted::of(&dict, &[], &links, &verdict.sizes);
+        let sizes = none.sizes(&dict);
+        let none = Unseen::of(&dict, &Fitted::of(&dict, &[], &links, &sizes), &sizes, blocks);
         (&before, after.spread(&none, &told.sizes, options.seed))
     };
-    let nested = options.nested.then(|| nested(&stock, blocks, &links, options.seed));
-    let rests = rests(&stock, &verdict, options.seed).into_iter().map(|rest| Dependence {
-        place: Spot::of_joint(rest.joint).to_string(),
-        of: rest.of,
-        share: rest.share,
-        p_value: rest.chance,
-    });
-    let depends_on: Vec<Dependence> = rests.collect();
+    let nested = options.nested.then(|| nested(&dict, blocks, &links, options.seed));
+    let depends_on = dependences(&dict, &verdict, options.seed);
     let rigid = |fitted: &[f64]| match &links {
         Links::Known(values) => values.clone(),
-        Links::Free => fitted[..stock.base].to_vec(),
+        Links::Free => fitted[..dict.base].to_vec(),
     };
     let acting =
         |term: &Term| Acting { effect: term.effect, spot: term.spot, values: term.values.clone() };
@@ -170,7 +165,7 @@ pub fn diagnosed_with(
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
-        springs: Springs::of(&stock, &verdict),
+        springs: Springs::of(&dict, &verdict),
     };
     let asked = instrument::Asked {
         case: &case,
@@ -196,16 +191,16 @@ pub fn diagnosed_with(
             standstill: still.clone(),
         },
         evidence: Evidence {
-            effective: effective(&stock.used, &verdict.correlation, &signals),
+            effective: effective(&dict.used, &verdict.correlation, &signals),
             correlation_time: verdict.correlation.clone(),
-            rows: stock.used.iter().sum::<f64>() as usize,
+            rows: dict.used.iter().sum::<f64>() as usize,
             blocks: blocks.all.len(),
             block_length: blocks.length,
             long_enough: blocks.long_enough,
             held_out_by: if blocks.by_run { "run" } else { "block" }.into(),
             folds: blocks.folds,
         },
-        rigid_parameters: if links == Links::Free { stock.base } else { 0 },
+        rigid_parameters: if links == Links::Free { dict.base } else { 0 },
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
         shrink: told.shrink([first, &after.sizes], spread, blocks.all.len()),
         findings: told.findings(&left, &verdict, &after, by_command.as_deref()),
@@ -252,11 +247,11 @@ fn links(case: &Case<'_>, options: &LogOptions) -> Links {
 }
 
 /// Sizes of the joints' torques, or of their position errors.
-fn sizes(stock: &Stock<'_>) -> Vec<f64> {
-    let rows = stock.sampled(&[Mixed::one(stock.target)], &[1.0]);
+fn sizes(dict: &Dictionary<'_>) -> Vec<f64> {
+    let rows = dict.sampled(&[Mixed::one(dict.target)], &[1.0]);
     let size = |rows: &Vec<Option<f64>>| {
         let count = rows.iter().flatten().count().max(1) as f64;
-        let mean = match stock.case.kind.0 {
+        let mean = match dict.case.kind.0 {
             Domain::Torque => rows.iter().flatten().sum::<f64>() / count,
             Domain::Position => 0.0,
         };
@@ -267,9 +262,9 @@ fn sizes(stock: &Stock<'_>) -> Vec<f64> {
 }
 
 /// Whether terms that bend have left the values about which they are linearised.
-fn moved_on(stock: &Stock<'_>, terms: &[Term]) -> bool {
+fn moved_on(dict: &Dictionary<'_>, terms: &[Term]) -> bool {
     let moved = |term: &Term| {
-        let pairs = stock.entry(term).at.iter().zip(&term.values);
+        let pairs = dict.entry(term).at.iter().zip(&term.values);
         pairs.into_iter().any(|(at, is)| (is - at).abs() > FOUND * is.abs())
     };
     terms.iter().any(|term| term.effect.bends() && moved(term))
@@ -284,9 +279,9 @@ fn about(wanted: &[Wanted], terms: &[Term]) -> Vec<Wanted> {
     wanted
 }
 
-/// The same term in another stock, about its own values if it bends.
-fn again_of(stock: &Stock<'_>, term: &Term) -> Term {
-    let entry = if term.effect.bends() { stock.offers[term.offer].entries.len() - 1 } else { 0 };
+/// The same term in another dictionary, about its own values if it bends.
+fn again_of(dict: &Dictionary<'_>, term: &Term) -> Term {
+    let entry = if term.effect.bends() { dict.offers[term.offer].entries.len() - 1 } else { 0 };
     Term { entry, ..term.clone() }
 }
 
@@ -304,8 +299,8 @@ struct History {
 }
 
 impl History {
-    fn note(&mut self, stock: &Stock<'_>, told: &Told<'_>, round: &Round) {
-        let unseen = Unseen::of(stock, &round.fit, &round.sizes, &round.blocks).sizes;
+    fn note(&mut self, dict: &Dictionary<'_>, told: &Told<'_>, round: &Round) {
+        let unseen = Unseen::of(dict, &round.fit, &round.sizes, &round.blocks).sizes;
         let names = round.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
         self.left.push((names.collect(), told.mean(&unseen)));
         if self.before.is_empty() {

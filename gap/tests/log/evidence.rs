@@ -7,8 +7,8 @@ use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Domain, Scene};
 use stiffarm_gap::log::search::Round;
 use stiffarm_gap::log::search::case::{Case, Simple};
+use stiffarm_gap::log::search::dictionary::Dictionary;
 use stiffarm_gap::log::search::fit::Links;
-use stiffarm_gap::log::search::stock::Stock;
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Signal, TorqueSide};
 use stiffarm_kernels::generic::Arm;
@@ -69,9 +69,9 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
         loaded: &[None],
     };
     let wanted = [(&UNRELATED as &dyn InMotion, Spot::of_joint(0), vec![vec![0.0]])];
-    let stock = Stock::of(&case, &Simple::default(), &wanted, 1);
-    let round = Round::of(&stock, &[], &Links::Free, &[1.0], &[0], seed);
-    (round.asked.chances[0], round.correlation[0])
+    let dict = Dictionary::of(&case, &Simple::default(), &wanted, 1);
+    let round = Round::of(&dict, &[], &Links::Free, &[1.0], &[0], seed);
+    (round.asked.p_values[0], round.correlation[0])
 }
 
 /// By samples it is significant at 5 % in four trials of five (`docs/logs.md`); by blocks of five

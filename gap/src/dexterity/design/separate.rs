@@ -16,7 +16,7 @@ use super::candidates::{Block, Posture};
 use super::suspect::{Number, Suspect};
 use super::trial::{LineUp, Trial};
 use crate::dexterity::DexterityError;
-use crate::diagnose::fit::Basis;
+use crate::infer::Basis;
 use crate::measurement::Row;
 use crate::rng::{Rng, Stream};
 use crate::whole::Whole;

@@ -1,14 +1,12 @@
 //! Which poses are held out together, and which rows are resampled or flipped together.
 
 use crate::diagnose::options::{DiagnoseError, Options};
+use crate::infer::constants::FOLDS;
 use crate::measurement::Measurements;
 use crate::rng::{Rng, Stream};
 
 /// Up to this many poses each is held out alone.
 const MOST_SINGLE: usize = 30;
-
-/// Folds of poses beyond that.
-const USUAL: usize = 10;
 
 /// Blocks of poses: beyond this, poses that were measured one after another share a block, so that
 /// cost and memory stay linear.
@@ -34,7 +32,7 @@ impl Folds {
         if poses < 2 {
             return Err(DiagnoseError::TooFewPoses { file: data.file.clone(), found: poses });
         }
-        let usual = if poses <= MOST_SINGLE { poses } else { USUAL };
+        let usual = if poses <= MOST_SINGLE { poses } else { FOLDS };
         let count = options.folds.unwrap_or(usual);
         if !(2..=poses).contains(&count) {
             let file = data.file.clone();

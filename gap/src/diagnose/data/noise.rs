@@ -7,16 +7,13 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use super::problem::Problem;
 use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
+use crate::infer::constants::UNEXPLAINED;
 
 /// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
 const LEAST_REPEATS: usize = 3;
 
 /// A noise below this is none, m or rad.
 const LEAST: f64 = 1e-30;
-
-/// What remains is more than noise if noise alone were to leave as much in fewer than this part of
-/// cases.
-const LEVEL: f64 = 0.01;
 
 /// A standard deviation is not known better than this: what remains must exceed it by the factor.
 const EXCESS: f64 = 1.05;
@@ -168,7 +165,7 @@ impl Noise {
             let freedom = (rows * level.components) as f64 - share * parameters as f64;
             let more = squares > freedom * (EXCESS * level.sd).powi(2);
             let chance = level.chance(squares, freedom);
-            more && chance.is_some_and(|p| p * (judged as f64) < LEVEL)
+            more && chance.is_some_and(|p| p * (judged as f64) < UNEXPLAINED)
         })
     }
 }

@@ -5,20 +5,15 @@
 //! **Out:** the [`Fit`]: the model with the values of least squares, and what it [`Predicted`] of
 //! every row, so the residual.
 //!
-//! [`aligned`] is where it begins when frames are unknown. A [`Basis`] tells which directions of the
-//! parameters the data decide; [`Squares`] are least over the values that are physical. Every other
-//! room solves its least squares with these two.
+//! [`aligned`] is where it begins when frames are unknown. Least squares are solved by
+//! [`infer`](crate::infer).
 
 mod align;
 mod axes;
-mod basis;
-mod bounded;
 mod model;
 mod refit;
 
 pub(crate) use align::{aligned, rigid};
 pub(crate) use axes::Axes;
-pub(crate) use basis::{Basis, RANK, principal};
-pub(crate) use bounded::Squares;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, refit_below, squares, step, strain};

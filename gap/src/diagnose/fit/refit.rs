@@ -8,11 +8,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
-use super::basis::RANK;
-use super::bounded::Squares;
 use super::model::{Model, Predicted};
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::DiagnoseError;
+use crate::infer::{RANK, Squares};
 use crate::simulate::Sim;
 
 /// Most steps: the blocks leave out terms of second order, so that the error falls by a factor of

@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Basis, Model, Predicted, block, squares};
+use crate::diagnose::fit::{Model, Predicted, block, squares};
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::search::{Explained, Search};
+use crate::infer::Basis;
 
 /// Part by which a leverage changes with the arm that it is worked out for: the corrections themselves are
 /// some thousandths of what they correct.

@@ -7,10 +7,14 @@ use nalgebra::{DMatrix, Vector6};
 
 use super::first::First;
 use super::forward::{Explained, Search};
-use super::lingering::{Lingering, by_steps};
+use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, normal_equations};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen, Wanted};
+use crate::infer::Autoregression;
+
+/// Steps of time, at most: of more visits neighbours are one step, so that the cost is bounded.
+const MOST_STEPS: usize = 1024;
 
 impl<'s> Search<'s, '_> {
     /// All candidates beside the model, gathered when first asked for.
@@ -50,7 +54,7 @@ impl<'s> Search<'s, '_> {
         Gathered::new(&wanted, self.folds, &now.weights)
     }
 
-    /// The chance that errors that linger as long as what `fit` leaves make as much of a pattern as what an effect that
+    /// The chance that errors as autocorrelated as what `fit` leaves make as much of a pattern as an effect that
     /// follows time does, which is `asked` for, all its forms.
     pub(crate) fn chance_in_time(
         &self,
@@ -79,7 +83,7 @@ impl<'s> Search<'s, '_> {
         }
         let squares = left().map(|gap| gap.norm_squared()).sum();
         let variance = self.scale(now).variance(squares, fit.model.parameters(problem));
-        let errors = Lingering::of(&problem.measured, &told, variance);
+        let errors = Autoregression::of(&problem.measured, &told, variance);
         let Some(errors) = errors else { return Ok(1.0) };
         let rank = asked.iter().map(|k| found[*k].values.len()).sum();
         let tried = self.candidates.iter().filter(|c| c.follows_time()).count();
@@ -118,6 +122,23 @@ impl<'s> Search<'s, '_> {
         kept: Kept<'_>,
         candidates: &'c [Candidate],
     ) -> Screen<'c> {
-        Screen::new(self.problem, self.folds, gathered, &now.fit.model, kept, candidates)
+        Screen::of(self.problem, self.folds, gathered, &now.fit.model, kept, candidates)
     }
+}
+
+/// Sums of each step of time over the root of its rows: in units of one row's noise.
+fn by_steps(
+    problem: &Problem<'_>,
+    of_rows: impl Iterator<Item = Vector6<f64>>,
+) -> Vec<Vector6<f64>> {
+    let visits = problem.visits.count();
+    let count = visits.min(MOST_STEPS);
+    let mut sums = vec![(Vector6::zeros(), 0.0); count];
+    for (row, it) in of_rows.enumerate().filter(|(row, _)| problem.fits[*row]) {
+        let (sum, rows) = &mut sums[problem.visits.of_row[row] * count / visits];
+        *sum += it;
+        *rows += 1.0;
+    }
+    let there = sums.into_iter().filter(|(_, rows)| *rows > 0.0);
+    there.map(|(sum, rows): (Vector6<f64>, f64)| sum / rows.sqrt()).collect()
 }

@@ -4,9 +4,10 @@
 use nalgebra::DVector;
 
 use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Basis, Fit, Fitted, Model};
+use crate::diagnose::fit::{Fit, Fitted, Model};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::{Candidate, Kept};
+use crate::infer::Basis;
 
 /// Rounds of taking back and exchanging after each addition.
 const MOST_ROUNDS: usize = 12;

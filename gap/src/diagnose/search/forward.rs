@@ -1,20 +1,17 @@
 //! Which effects: added one by one, each judged beside all that is already there, and each taken
 //! back or exchanged when what came later makes it superfluous or another better.
 
-use super::evidence::{Flips, Scale};
+use super::evidence::Scale;
 use crate::diagnose::data::{Folds, Noise, Problem};
-use crate::diagnose::fit::{
-    Basis, Fit, Fitted, Model, Predicted, principal, refit, refit_below, squares, strain,
-};
+use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, refit_below, squares, strain};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
-use crate::diagnose::sums::{Candidate, Gathered, Kept, Score, Screen};
+use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen};
 use crate::effects::{Effect, Forms, Spot};
+use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
+use crate::infer::{Basis, Flips, Score, principal};
 use nalgebra::{DMatrix, DVector, Vector6};
 use std::sync::{Arc, OnceLock};
-
-/// A finding's largest p value.
-pub(crate) const SIGNIFICANT: f64 = 0.05;
 
 /// Most effects that are added.
 const MOST_FOUND: usize = 40;
@@ -37,9 +34,6 @@ pub(crate) const OWN: f64 = 0.01;
 
 /// A value beyond what is usual by more than this is none that an arm has.
 const IMPOSSIBLE: f64 = 100.0;
-
-/// At least this many measured numbers for each parameter.
-const NUMBERS_EACH: usize = 3;
 
 /// Rounds in which weights and fit settle.
 const MOST_WEIGHED: usize = 6;
@@ -231,6 +225,7 @@ impl Search<'_, '_> {
         let (resolved, found) = (self.resolved(), &now.fit.model.found);
         let told =
             ranked.iter().filter(|r| screen.candidates[r.candidate].is_apart(&resolved, found));
+        let variance = scale.variance(screen.left(), screen.basis.rank());
         let (mut flips, mut tries) = (None, 0);
         let mut lingering: Vec<&Candidate> = Vec::new();
         for one in told.clone() {
@@ -248,8 +243,8 @@ impl Search<'_, '_> {
             if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
                 continue;
             }
-            let flips =
-                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
+            let flips = flips
+                .get_or_insert_with(|| Flips::new(&screen, &tried, variance, self.options.seed));
             if flips.chance(&one.score) > SIGNIFICANT {
                 continue;
             }

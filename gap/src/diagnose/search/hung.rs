@@ -5,10 +5,7 @@ use nalgebra::Isometry3;
 use super::forward::{Explained, Search};
 use crate::diagnose::fit::{Axes, Model, refit_below, squares, strain};
 use crate::diagnose::options::DiagnoseError;
-
-/// By how much more likely the data have to be in other axes than in those of convention. Where they stand in these,
-/// noise makes others as much more likely in one of so many campaigns, or fewer.
-const ODDS: f64 = 20.0;
+use crate::infer::constants::DISTINGUISHABLE;
 
 /// A base leans by no more, rad: what leans further stands in no frame that was levelled, or is meant to.
 const MOST_LEAN: f64 = 0.1;
@@ -34,7 +31,7 @@ impl Search<'_, '_> {
         let mut other = model.clone();
         other.axes = Axes::Measuring;
         other.found.retain(|found| !found.effect.tilts_gravity());
-        let below = left + variance * (cost - 2.0 * ODDS.ln());
+        let below = left + variance * (cost - DISTINGUISHABLE);
         let fit = refit_below(problem, other, None, &now.weights, below);
         let fit = match fit {
             // A frame that lies on its side lets the arm fall.

@@ -6,9 +6,10 @@
 //!
 //! `forward` adds one effect after the other: the one with the most evidence (`evidence`: what it
 //! explains against what its parameters cost, and the chance that noise explains as much), if it
-//! shrinks the held-out gap. `refined` places a jump in time, `lingering` tells what follows time
-//! from errors that linger, `hung` whose axes loads are told in, `exchange` takes back or replaces what came too early. All ask the sums that were gathered [`beside`](Search::screen) the model. What
-//! is gathered [`First`], before anything is found, also tells what the data could show.
+//! shrinks the held-out gap. `refined` places a jump in time, `hung` says in whose axes loads act, `exchange`
+//! removes or replaces what was added too early. All ask the sums that were gathered [`beside`](Search::screen)
+//! the model, where what follows time is also compared with autocorrelated errors. What is gathered [`First`],
+//! before anything is found, also says what the data could show.
 
 mod beside;
 mod evidence;
@@ -16,9 +17,7 @@ mod exchange;
 mod first;
 mod forward;
 mod hung;
-mod lingering;
 mod refined;
 
-pub(crate) use evidence::Flips;
 pub(crate) use first::First;
-pub(crate) use forward::{Explained, OWN, Ranked, SIGNIFICANT, Search};
+pub(crate) use forward::{Explained, OWN, Ranked, Search};

@@ -2,8 +2,9 @@
 
 use super::forward::{Explained, Ranked, Search};
 use crate::diagnose::fit::Fitted;
-use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+use crate::diagnose::sums::{Candidate, Kept, Screen};
 use crate::effects::{Forms, Spot};
+use crate::infer::Score;
 
 /// Moments of a jump that are tried at once; of more, an even choice, and then those about the best.
 const MOST_NEAR: usize = 256;

@@ -1,13 +1,12 @@
 //! Freedoms of the geometry: numbers of the table of which the data see only sums. Parallel axes
 //! share their `d`, the first offset is a turn of the base, the last lengths are the tool's.
 
-use nalgebra::{DMatrix, DVector};
-
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::Gauge;
 use crate::diagnose::search::{First, Search};
 use crate::diagnose::sums::Candidate;
 use crate::effects::{Place, Spot};
+use crate::infer::Dependent;
 
 /// A number whose column has less than this part left beside those before it is one with them: the
 /// square of a ratio of sizes of 3e-3. What is left is how the loads follow the arm.
@@ -24,13 +23,14 @@ impl Search<'_, '_> {
             return Vec::new();
         }
         let names = self.names(&first.geometry);
-        dependent(&first.gathered.total.zz)
-            .into_iter()
-            .map(|(number, with)| Gauge {
-                parameter: names[number].clone(),
-                same_as: with.into_iter().map(|k| names[k].clone()).collect(),
-            })
-            .collect()
+        let normal = &first.gathered.total.zz;
+        let seen = (0..normal.nrows()).filter(|k| normal[(*k, *k)] > 0.0);
+        let told = Dependent::of(normal, seen, SAME).others.into_iter().map(|(number, parts)| {
+            let with = parts.iter().filter(|(_, part)| part.abs() > NAMED);
+            let same_as = with.map(|(k, _)| names[*k].clone()).collect();
+            Gauge { parameter: names[number].clone(), same_as }
+        });
+        told.collect()
     }
 
     fn names(&self, geometry: &[Candidate]) -> Vec<String> {
@@ -61,44 +61,5 @@ impl Search<'_, '_> {
             all.into_iter().map(|p| p.name.into_owned()).collect::<Vec<_>>()
         });
         frames.chain(markers).chain(centres).chain(along).chain(each).collect()
-    }
-}
-
-/// The columns of a normal matrix that those before them make up, with these; columns that are
-/// zero throughout are left out.
-fn dependent(normal: &DMatrix<f64>) -> Vec<(usize, Vec<usize>)> {
-    let scale = normal.diagonal().map(|d| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 });
-    let scaled = |r: usize, c: usize| normal[(r, c)] * scale[r] * scale[c];
-    let mut free: Vec<usize> = Vec::new();
-    let mut found = Vec::new();
-    for column in (0..normal.nrows()).filter(|c| scale[*c] > 0.0) {
-        let own = DMatrix::from_fn(free.len(), free.len(), |r, c| scaled(free[r], free[c]));
-        let cross = DVector::from_fn(free.len(), |r, _| scaled(free[r], column));
-        let parts = match own.cholesky() {
-            Some(root) => root.solve(&cross),
-            None => DVector::zeros(free.len()),
-        };
-        if 1.0 - cross.dot(&parts) > SAME {
-            free.push(column);
-        } else {
-            let with = free.iter().zip(parts.iter()).filter(|(_, part)| part.abs() > NAMED);
-            found.push((column, with.map(|(k, _)| *k).collect()));
-        }
-    }
-    found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_sum_of_columns_is_named_with_its_parts() {
-        // Column 2 is column 0 less twice column 1; column 3 is zero.
-        let rows = DMatrix::from_fn(6, 5, |r, c| {
-            let (a, b) = ((1.7 * r as f64).sin(), (0.9 * r as f64).cos());
-            [a, b, a - 2.0 * b, 0.0, (r * r) as f64][c]
-        });
-        assert_eq!(dependent(&rows.tr_mul(&rows)), [(2, vec![0, 1])]);
     }
 }

@@ -5,11 +5,9 @@ use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::{Candidate, Kept};
 use crate::effects::Group;
 use crate::gap::rms;
+use crate::infer::constants::NUMBERS_EACH;
 use crate::measurement::Row;
 use nalgebra::Vector6;
-
-/// At least this many measured numbers for each column.
-const NUMBERS_EACH: usize = 3;
 
 /// Slices along one thing.
 const SLICES: usize = 4;

@@ -4,6 +4,7 @@
 use crate::diagnose::search::{Explained, First, OWN, Search};
 use crate::diagnose::sums::{Kept, Screen};
 use crate::effects::{Effect, Place};
+use crate::infer::constants::NUMBERS_EACH;
 use crate::report::{CannotSee, Hidden};
 
 /// An effect that moves what is measured by less than this part of what it does at its strongest
@@ -44,7 +45,7 @@ impl Search<'_, '_> {
             let largest = looks.iter().map(|(_, l)| l.size).fold(0.0, f64::max);
             for (place, look) in looks {
                 let relative = if largest > 0.0 { look.size / largest } else { 0.0 };
-                let room = self.problem.numbers() / 3;
+                let room = self.problem.numbers() / NUMBERS_EACH;
                 if relative < IDLE {
                     unseen.push(entry(effect, place, relative, effect.idle()));
                 } else if look.own < OWN.max(SEEN) {

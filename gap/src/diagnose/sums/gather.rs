@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::layout::Layout;
-use super::products::{Choice, Products};
 use super::stack::{Seen, Stack, Sum};
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Fit;
+use crate::infer::{Choice, Products};
 
 /// Rows whose columns stand beside each other before their products are taken: few enough for a
 /// cache.
@@ -22,6 +22,9 @@ const CHUNK: usize = 64;
 
 /// Blocks of poses that are worked on at once, for each thread.
 const AT_ONCE: usize = 2;
+
+/// No candidates.
+const NONE: &[Candidate] = &[];
 
 /// Products of a fit's parameters and of further columns with candidates.
 pub(crate) struct Gathered {
@@ -69,7 +72,7 @@ impl Gathered {
             (white, main)
         };
         let kept = if wanted.candidates.is_empty() { k } else { wanted.parameters() };
-        let (own, alone) = (Choice::first(kept, wanted.candidates), Choice::first(kept, &[]));
+        let (own, alone) = (Choice::first(kept, wanted.candidates), Choice::first(kept, NONE));
         let narrow = |products: Products| if kept < k { products.chosen(&own) } else { products };
         let mut total = Products::zeros(k, &layout.sizes);
         let mut plain = vec![Products::zeros(kept, &layout.sizes); folds.count];
@@ -98,7 +101,7 @@ impl Gathered {
             blocks: each(&self.blocks, &choice),
             total: self.total.chosen(&choice),
             plain: each(&self.plain, &choice),
-            plain_blocks: each(&self.plain_blocks, &Choice::first(parameters, &[])),
+            plain_blocks: each(&self.plain_blocks, &Choice::first(parameters, NONE)),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::candidate::{Candidate, Source};
 use super::probe::Probe;
 use crate::effects::{Carrier, Effect, Scene, Spot};
+use crate::infer::starts;
 use nalgebra::{DMatrix, Matrix6xX};
 
 /// A candidate that moves a carrier.
@@ -170,16 +171,6 @@ impl Layout {
     ) -> usize {
         self.at[moving.candidate] + motion * borne.columns.len() + column
     }
-}
-
-/// Where each of parts so large begins.
-pub(crate) fn starts(sizes: &[usize]) -> Vec<usize> {
-    let begins = sizes.iter().scan(0, |next, size| {
-        let here = *next;
-        *next += size;
-        Some(here)
-    });
-    begins.collect()
 }
 
 /// All pairs of so many, the first not after the second.

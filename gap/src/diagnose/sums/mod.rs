@@ -5,7 +5,7 @@
 //! **Out:** [`Gathered`]: the products of the model's columns, the candidates' columns and the
 //! residual, by blocks of poses, from one pass over the data; and from these, without looking at a
 //! row again, a [`Screen`] (some of the columns are the model's, the others stand beside it) that
-//! gives the [`Score`] of each candidate and its held-out squares.
+//! gives the [`Score`](crate::infer::Score) of each candidate and its held-out squares.
 //!
 //! Candidates that move the same joint or frame share its columns (`layout`, `stack`); what they
 //! share is multiplied once.
@@ -14,8 +14,6 @@ mod candidate;
 mod gather;
 mod layout;
 mod probe;
-mod products;
-mod score;
 mod screen;
 mod stack;
 mod usual;
@@ -23,7 +21,5 @@ mod usual;
 pub(crate) use candidate::{Candidate, Source};
 pub(crate) use gather::{Gathered, Wanted};
 pub(crate) use probe::{About, Probe};
-pub(crate) use products::Products;
-pub(crate) use score::{Own, Score};
 pub(crate) use screen::{Kept, Screen};
 pub(crate) use usual::scale_elastic;

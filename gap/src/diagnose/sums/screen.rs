@@ -1,36 +1,28 @@
-//! The candidates against a fitted model: some of the gathered columns are the model's, in
-//! coordinates in which its normal matrix is the identity, some are the candidates'.
+//! The candidates against a model of a campaign: some of the gathered columns are the model's, each
+//! parameter and each candidate's number held to what is usual of it.
 
 use std::sync::Arc;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::gather::Gathered;
-use super::layout::starts;
-use super::products::{Choice, Products};
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Basis, Model};
+use crate::diagnose::fit::Model;
+use crate::infer::{self, Basis, Choice, Columns, Products, Score, principal};
+
+/// Rounds in which a variance and what is left at it settle: each is nearer by the part of the
+/// numbers that are hardly decided.
+const ROUNDS: usize = 6;
 
 /// The candidates against a fitted model.
-pub(crate) struct Screen<'c> {
-    pub(crate) candidates: &'c [Candidate],
-    /// First number of each candidate.
-    pub(crate) at: Vec<usize>,
-    pub(crate) basis: Basis,
-    /// Of all rows, and of what the model's parameters and each candidate's numbers are held to; `z`
-    /// in the coordinates of `basis`.
-    pub(crate) total: Products,
-    /// The part of `total` that is what the parameters are held to, a measurement of each.
-    pub(crate) prior: Products,
-    /// The same of each block of poses; none where they were not wanted.
-    pub(crate) blocks: Vec<Products>,
-    /// The same of each fold.
-    pub(crate) folds: Vec<Products>,
-    /// Of each fold, what is measured first alone (positions, or rotations without them), in m or
-    /// rad.
-    pub(crate) plain: Vec<Products>,
+pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
+
+impl Columns for Candidate {
+    fn least(&self) -> &[f64] {
+        &self.least
+    }
 }
 
 /// What the model keeps fitted while candidates are screened.
@@ -72,7 +64,7 @@ impl Kept<'_> {
 
 impl<'c> Screen<'c> {
     /// `candidates` are the first of those that were gathered.
-    pub(crate) fn new(
+    pub(crate) fn of(
         problem: &Problem<'_>,
         folds: &Folds,
         gathered: &Gathered,
@@ -80,8 +72,8 @@ impl<'c> Screen<'c> {
         kept: Kept<'_>,
         candidates: &'c [Candidate],
     ) -> Self {
-        let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let choice = kept.choice(problem, model, candidates);
+        let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let mut prior = held(problem, model, &choice, &sizes);
         if !kept.free {
             hold(&mut prior, candidates);
@@ -89,38 +81,46 @@ impl<'c> Screen<'c> {
         let mut total = gathered.total.chosen(&choice);
         total.add(&prior);
         let basis = Basis::new(&total.zz);
-        total.turned(&basis.t);
-        prior.turned(&basis.t);
-        let turned = |of: &[Products]| -> Vec<Products> {
-            let each = of.par_iter().map(|products| {
-                let mut chosen = products.chosen(&choice);
-                chosen.turned(&basis.t);
-                chosen
-            });
-            each.collect()
-        };
-        let (mut blocks, mut of_folds, mut plain) = (Vec::new(), Vec::new(), Vec::new());
-        if !kept.whole {
-            blocks = turned(&gathered.blocks);
-            plain = turned(&gathered.plain);
-            of_folds = vec![Products::zeros(basis.rank(), &sizes); folds.count];
-            for (block, products) in blocks.iter().enumerate() {
-                of_folds[folds.of_block[block]].add(products);
-            }
+        let screen = Self::new(candidates, basis, total, prior);
+        if kept.whole {
+            return screen;
         }
-        let at = starts(&sizes);
-        Self { candidates, at, basis, total, prior, blocks, folds: of_folds, plain }
+        let chosen = |of: &[Products]| -> Vec<Products> {
+            of.par_iter().map(|p| p.chosen(&choice)).collect()
+        };
+        let (blocks, plain) = (chosen(&gathered.blocks), chosen(&gathered.plain));
+        screen.by_block(blocks, plain, &folds.of_block, folds.count)
     }
 
-    /// Columns of a candidate in the products.
-    pub(crate) fn range(&self, candidate: usize) -> std::ops::Range<usize> {
-        let from = self.at[candidate];
-        from..from + self.candidates[candidate].size
-    }
-
-    /// Sum of squares left without any candidate, and what it costs to hold the parameters.
-    pub(crate) fn left(&self) -> f64 {
-        self.total.rr - self.total.zr.norm_squared()
+    /// A candidate of many numbers, each held to its tolerance, fitted to all rows at the variance
+    /// of what it leaves, which `variance` makes of squares and a number of parameters; and its cost:
+    /// how far its numbers are from 0, and by how much the data narrow them (the evidence of a linear
+    /// model with a normal prior, MacKay 1992).
+    pub(crate) fn tolerated(
+        &self,
+        candidate: usize,
+        variance: impl Fn(f64, usize) -> f64,
+    ) -> (Score, f64) {
+        let own = self.own(candidate);
+        let held = DVector::from_column_slice(&self.candidates[candidate].held);
+        let scaled = |m: DMatrix<f64>| m.map_with_location(|r, c, x| x / (held[r] * held[c]));
+        let size = held.len();
+        let data = scaled(&own.xx - own.zx.tr_mul(&own.zx)) - DMatrix::identity(size, size);
+        let (seen, turn) = principal(data);
+        let right = turn.tr_mul(&(&own.xr - own.zx.tr_mul(&self.total.zr)).component_div(&held));
+        let mut unit = variance(self.left(), 0);
+        let (mut drop, mut decided) = (0.0, 0.0);
+        let mut values = DVector::zeros(size);
+        for _ in 0..ROUNDS {
+            values = right.zip_map(&seen, |u, seen| u / (seen + unit));
+            drop = 2.0 * values.dot(&right) - values.dot(&values.component_mul(&seen));
+            decided = seen.map(|seen| seen / (seen + unit)).sum();
+            unit = variance((self.left() - drop).max(0.0), decided.round() as usize);
+        }
+        let narrowed: f64 = seen.map(|seen| (seen / unit).ln_1p()).sum();
+        let cost = values.norm_squared() + narrowed;
+        let values = (turn * values).component_div(&held);
+        (Score { drop, values, rank: decided.round() as usize, own: 1.0 }, cost)
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 
 use super::layout::{Borne, Layout, pairs};
-use super::products::Products;
+use crate::infer::Products;
 
 /// One row: the changes of the reading by all carriers, by the model's
 /// parameters, and by candidates with columns of their own; and all motions.

@@ -5,32 +5,7 @@ use crate::gap::percentile;
 use crate::rng::{Rng, Stream};
 
 /// Resamplings of each interval.
-pub(crate) const DRAWS: usize = 10_000;
-
-/// Central 95 % of a statistic of resampled poses; `statistic` gets the sum of each quantity over
-/// the drawn poses. `quantities[k][pose]`.
-fn interval<const K: usize>(
-    quantities: [&[f64]; K],
-    seed: u64,
-    statistic: impl Fn([f64; K]) -> f64,
-) -> [f64; 2] {
-    let poses = quantities[0].len();
-    let mut generator = Rng::new(seed, Stream::Bootstrap);
-    let mut values: Vec<f64> = (0..DRAWS)
-        .map(|_| {
-            let mut sums = [0.0; K];
-            for _ in 0..poses {
-                let pose = generator.index(poses);
-                for (sum, quantity) in sums.iter_mut().zip(quantities) {
-                    *sum += quantity[pose];
-                }
-            }
-            statistic(sums)
-        })
-        .collect();
-    values.sort_by(f64::total_cmp);
-    [percentile(&values, 0.025), percentile(&values, 0.975)]
-}
+const DRAWS: usize = 10_000;
 
 /// 1 − rms after / rms before, from sums of squares; 0 if there is nothing to shrink.
 pub(crate) fn shrink(before: f64, after: f64) -> f64 {
@@ -40,7 +15,20 @@ pub(crate) fn shrink(before: f64, after: f64) -> f64 {
 /// 95 % interval of the mean over rows of a difference, from its sum over each pose and the rows of
 /// each pose.
 pub(crate) fn mean_interval(differences: &[f64], rows: &[f64], seed: u64) -> [f64; 2] {
-    interval([differences, rows], seed, |[sum, rows]| sum / rows.max(1.0))
+    let poses = differences.len();
+    let mut rng = Rng::new(seed, Stream::Bootstrap);
+    let mut mean = || {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for _ in 0..poses {
+            let pose = rng.index(poses);
+            sum += differences[pose];
+            count += rows[pose];
+        }
+        sum / f64::max(count, 1.0)
+    };
+    let mut means: Vec<f64> = (0..DRAWS).map(|_| mean()).collect();
+    means.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|p| percentile(&means, p))
 }
 
 /// Whether an interval leaves out 0.

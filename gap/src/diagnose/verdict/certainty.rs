@@ -3,11 +3,12 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Basis, Fit, Model, block, squares};
+use crate::diagnose::fit::{Fit, Model, block, squares};
 use crate::diagnose::search::{Explained, Search};
+use crate::infer::constants::RIDGE;
+use crate::infer::{Basis, students_t};
 
 /// Visits that are left out one after the other; of more, visits that follow each other go together.
 const MOST_CLUSTERS: usize = 400;
@@ -19,9 +20,6 @@ const MOST_EXACT: usize = 100_000;
 /// Part of a number's standard deviation by which it is moved for a difference: far above rounding, and
 /// within what is linear.
 const STEP: f64 = 0.1;
-
-/// Kept in the normal matrix of the other visits where one alone decides a direction.
-const RIDGE: f64 = 1e-9;
 
 /// How well the numbers of a fit are known.
 pub(crate) struct Certainty {
@@ -84,11 +82,8 @@ impl Search<'_, '_> {
         let basis = Basis::new(&normal);
         let covariance = &basis.t * basis.t.transpose() * variance;
         let jackknife = jackknife(&basis, &sums);
-        let quantile = |freedom: f64| {
-            StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975))
-        };
-        let t = [scale.freedom(parameters), clusters.len().saturating_sub(1).max(1) as f64]
-            .map(quantile);
+        let t = [scale.freedom(parameters), clusters.len().saturating_sub(1) as f64]
+            .map(|freedom| students_t(freedom, 0.975));
         let half = (0..parameters).map(|k| {
             let both = [covariance[(k, k)], jackknife[k]].map(|v| v.max(0.0).sqrt());
             (t[0] * both[0]).max(t[1] * both[1])

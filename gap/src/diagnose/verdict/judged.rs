@@ -8,8 +8,9 @@ use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
 use crate::diagnose::report::{Finding, Observability, Residual, Unexplained};
-use crate::diagnose::search::{Explained, SIGNIFICANT, Search};
+use crate::diagnose::search::{Explained, Search};
 use crate::gap::Statistics;
+use crate::infer::constants::SIGNIFICANT;
 use crate::shrink::Shrink;
 
 /// Findings that are taken out, one after the other.

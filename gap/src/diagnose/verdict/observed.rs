@@ -1,10 +1,11 @@
 //! How well the data tell the fitted numbers from each other.
 
 use super::certainty::Certainty;
-use crate::diagnose::fit::{Fit, Model, RANK, principal};
+use crate::diagnose::fit::{Fit, Model};
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::{Correlation, CorrelationMatrix, Observability};
 use crate::diagnose::search::Search;
+use crate::infer::{RANK, principal};
 
 /// Pairs that are named.
 const MOST: usize = 5;

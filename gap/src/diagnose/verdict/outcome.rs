@@ -4,10 +4,10 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Basis, Fit, Model, RANK, block};
+use crate::diagnose::fit::{Fit, Model, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
-use crate::diagnose::sums::Products;
+use crate::infer::{Basis, Products, RANK};
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
@@ -40,48 +40,12 @@ pub(crate) struct Held<'h> {
     folds: &'h Folds,
     fit: &'h Fit,
     /// Weighted, all effects given back.
-    of_fold: Vec<Normal>,
-    total: Normal,
+    of_fold: Vec<Products>,
+    total: Products,
     /// Of each block of poses, weighted and as it is measured first, m or rad.
-    pub(super) blocks: Vec<[Normal; 2]>,
+    pub(super) blocks: Vec<[Products; 2]>,
     /// Which parameters belong to which effect; what is fitted along to none.
     owner: Vec<Option<usize>>,
-}
-
-/// A normal matrix, its right-hand side, and the squares to be explained.
-#[derive(Clone)]
-pub(super) struct Normal {
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
-    squares: f64,
-}
-
-impl Normal {
-    pub(super) fn zeros(k: usize) -> Self {
-        Self { matrix: DMatrix::zeros(k, k), right: DVector::zeros(k), squares: 0.0 }
-    }
-
-    /// Adds the products of some rows, the parameters' `values` given back to what is left.
-    fn add(&mut self, products: &Products, values: &DVector<f64>) {
-        let model = &products.zz * values;
-        self.squares += products.rr + values.dot(&model) + 2.0 * values.dot(&products.zr);
-        self.matrix += &products.zz;
-        self.right += &products.zr + model;
-    }
-}
-
-impl Normal {
-    /// Adds another so many times.
-    pub(super) fn add_times(&mut self, other: &Normal, times: f64) {
-        self.matrix += &other.matrix * times;
-        self.right += &other.right * times;
-        self.squares += other.squares * times;
-    }
-
-    /// Squares that such values leave.
-    pub(super) fn left(&self, values: &DVector<f64>) -> f64 {
-        self.squares + values.dot(&(&self.matrix * values)) - 2.0 * values.dot(&self.right)
-    }
 }
 
 impl<'h> Held<'h> {
@@ -93,22 +57,15 @@ impl<'h> Held<'h> {
             owner.extend(std::iter::repeat_n(own, found.values.len()));
         }
         let values = DVector::from_vec(fit.model.values(problem));
-        let mut of_fold = vec![Normal::zeros(owner.len()); folds.count];
-        let mut total = Normal::zeros(owner.len());
+        let mut of_fold = vec![Products::zeros(owner.len(), &[]); folds.count];
+        let mut total = Products::zeros(owner.len(), &[]);
         let gathered = search.gathered(now);
         let both = gathered.blocks.iter().zip(&gathered.plain_blocks);
-        let blocks: Vec<[Normal; 2]> = both
-            .map(|(white, plain)| {
-                [white, plain].map(|products| {
-                    let mut normal = Normal::zeros(owner.len());
-                    normal.add(products, &values);
-                    normal
-                })
-            })
-            .collect();
+        let blocks: Vec<[Products; 2]> =
+            both.map(|both| <[&Products; 2]>::from(both).map(|p| p.given_back(&values))).collect();
         for (block, [white, _]) in blocks.iter().enumerate() {
-            of_fold[folds.of_block[block]].add_times(white, 1.0);
-            total.add_times(white, 1.0);
+            of_fold[folds.of_block[block]].add(white);
+            total.add(white);
         }
         Self { problem, folds, fit, of_fold, total, blocks, owner }
     }
@@ -119,7 +76,7 @@ impl<'h> Held<'h> {
         let kept = self.kept(groups);
         let each = self.of_fold.iter().map(|own| {
             let mut others = self.total.clone();
-            others.add_times(own, -1.0);
+            others.add_scaled(own, -1.0);
             self.solved(&others, &kept)
         });
         DMatrix::from_columns(&each.collect::<Vec<_>>())
@@ -138,11 +95,11 @@ impl<'h> Held<'h> {
     }
 
     /// The values of all parameters of which some are kept; those of the others are 0.
-    pub(super) fn solved(&self, rows: &Normal, kept: &[usize]) -> DVector<f64> {
+    pub(super) fn solved(&self, rows: &Products, kept: &[usize]) -> DVector<f64> {
         let held = self.fit.model.held(self.problem);
-        let mut matrix = rows.matrix.select_rows(kept).select_columns(kept);
+        let mut matrix = rows.zz.select_rows(kept).select_columns(kept);
         kept.iter().enumerate().for_each(|(k, at)| matrix[(k, k)] += held[*at].powi(2));
-        let right = rows.right.select_rows(kept);
+        let right = rows.zr.select_rows(kept);
         let found = match matrix.clone().cholesky().filter(|root| is_decided(root, &matrix)) {
             Some(root) => root.solve(&right),
             None => Basis::new(&matrix).solve(&right),

@@ -4,11 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::outcome::{Group, Held, Normal};
-use crate::rng::{Rng, Stream};
-
-/// Pairs of campaigns: a standard deviation of so many is known to 3 %.
-const DRAWS: usize = 500;
+use super::outcome::{Group, Held};
+use crate::infer::{Products, drawn};
 
 /// Logarithms of the gap's root mean square in campaigns drawn from the poses of this one: before the
 /// first of some groups and after each, a row for each draw. The parameters are fitted to one such
@@ -20,15 +17,12 @@ impl Refitted {
         let steps: Vec<Vec<usize>> = (0..=groups.len())
             .map(|count| held.kept(&groups[..count].iter().collect::<Vec<_>>()))
             .collect();
-        let mut dice = Rng::new(seed, Stream::Bootstrap);
-        let blocks = held.blocks.len();
-        let draws: Vec<[Vec<f64>; 2]> =
-            (0..DRAWS).map(|_| [drawn(&mut dice, blocks), drawn(&mut dice, blocks)]).collect();
+        let draws = drawn(held.blocks.len(), seed);
         let rows = draws.par_iter().map(|[fitted, measured]| {
             let sum = |times: &[f64], which: usize| {
-                let mut sum = Normal::zeros(held.parameters());
+                let mut sum = Products::zeros(held.parameters(), &[]);
                 let several = held.blocks.iter().zip(times).filter(|(_, times)| **times > 0.0);
-                several.for_each(|(block, times)| sum.add_times(&block[which], *times));
+                several.for_each(|(block, times)| sum.add_scaled(&block[which], *times));
                 sum
             };
             let (white, plain) = (sum(fitted, 0), sum(measured, 1));
@@ -44,11 +38,4 @@ impl Refitted {
     pub(crate) fn spread(&self, from: usize, to: usize) -> f64 {
         (2.0 * (self.0.column(to) - self.0.column(from)).variance()).sqrt()
     }
-}
-
-/// How often each of so many is drawn in as many draws.
-fn drawn(dice: &mut Rng, count: usize) -> Vec<f64> {
-    let mut times = vec![0.0; count];
-    (0..count).for_each(|_| times[dice.index(count)] += 1.0);
-    times
 }

@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::{Share, Unexplained};
-use crate::diagnose::search::{Explained, First, Flips, Search};
+use crate::diagnose::search::{Explained, First, Search};
 use crate::diagnose::sums::{About, Candidate, Kept, Probe, Source};
 use crate::effects::Place;
-
-/// A dependence that noise alone shows this often, over all that was tried, is none.
-const LEVEL: f64 = 0.01;
+use crate::infer::Flips;
+use crate::infer::constants::UNEXPLAINED;
 
 /// Displacements of free form that are tried beside each other.
 const MOST_FORMS: usize = 6;
@@ -39,6 +38,7 @@ impl Search<'_, '_> {
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();
         let mut about: BTreeMap<About, f64> = BTreeMap::new();
         let mut significant = false;
+        let variance = scale.variance(screen.left(), fitted);
         let mut flips = None;
         for one in &ranked {
             let Source::Probe(probe) = &screen.candidates[one.candidate].source else { continue };
@@ -48,12 +48,12 @@ impl Search<'_, '_> {
                 continue;
             }
             let chance = scale.chance(&one.score, screen.left(), fitted, tried.len());
-            if chance > LEVEL {
+            if chance > UNEXPLAINED {
                 continue;
             }
-            let flips =
-                flips.get_or_insert_with(|| Flips::new(&screen, &tried, &scale, self.options.seed));
-            if flips.chance(&one.score) > LEVEL {
+            let flips = flips
+                .get_or_insert_with(|| Flips::new(&screen, &tried, variance, self.options.seed));
+            if flips.chance(&one.score) > UNEXPLAINED {
                 continue;
             }
             significant = true;
@@ -110,7 +110,7 @@ impl Search<'_, '_> {
             let whole = *whole.get_or_insert(left);
             let ranked = self.ranked(&screen, start);
             let Some(best) = ranked.first().filter(|best| best.gain > 0.0) else { break };
-            if scale.chance(&best.score, left, screen.basis.rank(), ranked.len()) > LEVEL {
+            if scale.chance(&best.score, left, screen.basis.rank(), ranked.len()) > UNEXPLAINED {
                 break;
             }
             if let Source::Probe(probe) = &all[best.candidate].source {

@@ -5,13 +5,11 @@ use rayon::prelude::*;
 
 use super::outcome::Group;
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::search::{Explained, Flips, Ranked, Search};
-use crate::diagnose::sums::{Candidate, Kept, Score, Screen};
+use crate::diagnose::search::{Explained, Ranked, Search};
+use crate::diagnose::sums::{Candidate, Kept, Screen};
+use crate::infer::constants::DISTINGUISHABLE;
+use crate::infer::{Flips, Score};
 use crate::report::{Alternative, Left};
-
-/// A rival whose evidence is less than the finding's by no more than this is not told from it: odds
-/// of about 20 to 1.
-const EVEN: f64 = 6.0;
 
 /// Up to this much evidence the poses must agree on it: where few of them carry it, chance may.
 const WEAK: f64 = 30.0;
@@ -66,8 +64,8 @@ impl Search<'_, '_> {
             let (effect, spot) = candidate.effect()?;
             let evidence = (screen.left() - one.score.drop) / variance + one.cost - own;
             let weak = evidence <= WEAK || !at_noise;
-            let apart =
-                evidence > EVEN && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
+            let apart = evidence > DISTINGUISHABLE
+                && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
             let held_out = screen.held_out(&trained, Some(one.candidate));
             let alternative = Alternative {
                 effect: effect.identifier().into(),
@@ -144,7 +142,8 @@ impl Search<'_, '_> {
     ) -> f64 {
         let scale = self.scale(now);
         let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
-        let flips = Flips::new(screen, tried, &scale, self.options.seed);
+        let variance = scale.variance(screen.left(), screen.basis.rank());
+        let flips = Flips::new(screen, tried, variance, self.options.seed);
         chance.max(flips.chance(finding))
     }
 }

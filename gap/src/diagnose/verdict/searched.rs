@@ -3,11 +3,11 @@
 
 use nalgebra::{DMatrix, Matrix6xX};
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::diagnose::fit::{Basis, Fitted, block, squares};
+use crate::diagnose::fit::{Fitted, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::{Forms, Quantity, Scene, Spot};
+use crate::infer::{Basis, students_t};
 
 /// Rows whose products are added up by one thread.
 const CHUNK: usize = 256;
@@ -43,8 +43,7 @@ impl Search<'_, '_> {
         let (scale, parameters) = (self.scale(now), normal.nrows());
         let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let variances = Basis::new(&normal).variances() * scale.variance(left, parameters);
-        let freedom = scale.freedom(parameters);
-        let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::MAX, |t| t.inverse_cdf(0.975));
+        let t = students_t(scale.freedom(parameters), 0.975);
         variances.iter().map(|variance| t * variance.max(0.0).sqrt()).collect()
     }
 

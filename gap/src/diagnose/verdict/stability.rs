@@ -4,9 +4,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::diagnose::fit::Basis;
 use crate::diagnose::search::{Explained, OWN, Search};
-use crate::diagnose::sums::{Own, Products, Screen};
+use crate::diagnose::sums::Screen;
+use crate::infer::{Basis, Own, Products};
 use crate::rng::{Rng, Stream};
 
 /// Random halves.
@@ -73,7 +73,7 @@ impl Search<'_, '_> {
                 own.xx += &block.xx[candidate];
             }
             own.zx = basis.t.tr_mul(&own.zx);
-            let score = own.score(&zr, &screen.candidates[candidate].least);
+            let score = own.score(&zr, &screen.candidates[candidate]);
             let it = &screen.candidates[candidate];
             let values = score.values.iter().zip(&it.usual);
             let seen = score.own > OWN;

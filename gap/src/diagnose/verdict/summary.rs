@@ -12,8 +12,9 @@ use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::rms;
+use crate::infer::interval;
 use crate::report::{Finding, HeldOutGap, Parameter};
-use crate::shrink::{Shrink, interval};
+use crate::shrink::Shrink;
 
 impl Search<'_, '_> {
     /// Each group with what it takes of the gap, and its rivals, still without its numbers. `before`

@@ -1,9 +1,9 @@
 //! Which of the unknowns the rows determine.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::Unknown;
-use crate::diagnose::fit::{Basis, RANK};
+use crate::infer::{Dependent, RANK};
 
 /// A column below this part of the largest of its kind is rounding.
 const EMPTY: f64 = 1e-9;
@@ -34,27 +34,19 @@ pub(super) fn choose(normal: &DMatrix<f64>, unknowns: &[Unknown]) -> Choice {
     };
     let mut order: Vec<usize> = (0..unknowns.len()).collect();
     order.sort_by(|&a, &b| rank(a).cmp(&rank(b)).then(norms[b].total_cmp(&norms[a])));
-    let (mut found, mut held): (Vec<usize>, Vec<(usize, Vec<usize>)>) = Default::default();
-    for k in order {
-        if norms[k] <= EMPTY * largest(rank(k)) {
-            held.push((k, Vec::new()));
-            continue;
-        }
-        let with_found = normal.column(k).select_rows(&found);
-        let beside = normal.select_rows(&found).select_columns(&found);
-        let parts: DVector<f64> = Basis::new(&beside).solve(&with_found);
-        let own = 1.0 - parts.dot(&with_found) / normal[(k, k)];
-        // So that of as many columns together no direction is undecided.
-        if own > RANK * unknowns.len() as f64 {
-            found.push(k);
-            continue;
-        }
-        let belongs = |(of, part): &(&usize, &f64)| part.abs() * norms[**of] > BELONGS * norms[k];
-        let mut with: Vec<usize> =
-            found.iter().zip(parts.iter()).filter(belongs).map(|(of, _)| *of).collect();
+    // One that leaves no trace is no part of others.
+    let is_empty = |k: &usize| norms[*k] <= EMPTY * largest(rank(*k));
+    let (empty, order): (Vec<usize>, Vec<usize>) = order.into_iter().partition(is_empty);
+    // So that of as many columns together no direction is undecided.
+    let least = RANK * unknowns.len() as f64;
+    let Dependent { apart: mut found, others } = Dependent::of(normal, order.into_iter(), least);
+    let mut held: Vec<(usize, Vec<usize>)> = empty.into_iter().map(|k| (k, Vec::new())).collect();
+    held.extend(others.into_iter().map(|(k, parts)| {
+        let belongs = parts.iter().filter(|(_, part)| part.abs() > BELONGS);
+        let mut with: Vec<usize> = belongs.map(|(of, _)| *of).collect();
         with.sort_unstable();
-        held.push((k, with));
-    }
+        (k, with)
+    }));
     found.sort_unstable();
     held.sort_unstable_by_key(|(k, _)| *k);
     Choice { found, held }

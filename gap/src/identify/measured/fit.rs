@@ -4,17 +4,17 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 use stiffarm_kernels::generic::Arm;
 
 use super::choose::{Choice, choose};
 use super::{Answer, Gap, MeasuredError, Noise, Parameter, Question, Status, Uncertainty, Unknown};
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Basis, Fit, Model, normal_equations, refit, squares, step};
+use crate::diagnose::fit::{Fit, Model, normal_equations, refit, squares, step};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
+use crate::infer::{Basis, students_t};
 use crate::measurement::Measurements;
 
 /// The fit has not come to its end if another step promises more than this part of what there was.
@@ -171,9 +171,7 @@ fn answer(
     let variances = basis.variances() * scale.variance(left, fitted);
     // What the fit has held at its bound is told as the rows have it, be it below zero.
     let values = DVector::from_vec(now.fit.model.values(problem)) + basis.solve(&right);
-    let students = StudentsT::new(0.0, 1.0, freedom);
-    let upper = 0.5 + question.confidence / 2.0;
-    let factor = students.map_or(f64::INFINITY, |t| t.inverse_cdf(upper));
+    let factor = students_t(freedom, 0.5 + question.confidence / 2.0);
     let parameters = unknowns.iter().enumerate().map(|(k, &unknown)| {
         let file = unknown.file(problem.arm);
         let Some(at) = choice.found.iter().position(|found| *found == k) else {

@@ -27,10 +27,8 @@ use super::pull::Pull;
 use crate::diagnose::{DiagnoseError, Options};
 use crate::effects::Known;
 use crate::gap::Statistics;
+use crate::infer::constants::FOLDS;
 use crate::measurement::Measurements;
-
-/// By default each pose is held out in turn up to so many poses.
-const FOLDS: usize = 10;
 
 /// What to look for, and how.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,8 @@
 //! told from zero, and its part is taken by the other then, with an interval that knows nothing of it: the
 //! friction of a wrist's motor comes out too large by half of what the last joint has.
 
+use super::dictionary::Dictionary;
 use super::fit::Term;
-use super::stock::Stock;
 use crate::log::scene::Loads;
 
 use super::case::Simple;
@@ -21,11 +21,11 @@ pub fn is_along(term: &Term, terms: &[Term]) -> bool {
 }
 
 /// The terms, and what stands beside them; what the robot file has already is there.
-pub fn with_along(stock: &Stock<'_>, mut terms: Vec<Term>, offers: &[usize]) -> Vec<Term> {
+pub fn with_along(dict: &Dictionary<'_>, mut terms: Vec<Term>, offers: &[usize]) -> Vec<Term> {
     let (loads, simple) = (Loads::default(), Simple::default());
-    let scene = stock.case.scene(&simple, stock.case.signals, &loads);
+    let scene = dict.case.scene(&simple, dict.case.signals, &loads);
     for offer in offers {
-        let term = stock.term(*offer, 0);
+        let term = dict.term(*offer, 0);
         let stands =
             terms.iter().any(|t| t.offer == *offer) || term.effect.in_file(&scene, term.spot);
         if !stands && is_along(&term, &terms) {

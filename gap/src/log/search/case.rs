@@ -2,9 +2,9 @@
 
 use stiffarm_kernels::generic::Arm;
 
+use super::dictionary::{Dictionary, Mixed};
 use super::fit::{Fitted, Links};
 use super::ripples;
-use super::stock::{Mixed, Stock};
 use crate::effects::Place;
 use crate::log::effects::{COULOMB, LATENCY, LogEffect, OFFSET, Spot, VISCOUS};
 use crate::log::model::Acting;
@@ -73,18 +73,18 @@ impl Simple {
         let spots = (0..joints).map(Spot::of_joint);
         let wanted: Vec<Wanted> =
             spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]]))).collect();
-        let stock = Stock::of(case, &nothing, &wanted, thinned);
-        let terms = (0..stock.offers.len()).map(|offer| stock.term(offer, 0)).collect::<Vec<_>>();
-        let rough = Fitted::of(&stock, &terms, &Links::Free, &sizes);
-        let fit = Fitted::of(&stock, &terms, &Links::Free, &rough.sizes(&stock));
+        let dict = Dictionary::of(case, &nothing, &wanted, thinned);
+        let terms = (0..dict.offers.len()).map(|offer| dict.term(offer, 0)).collect::<Vec<_>>();
+        let rough = Fitted::of(&dict, &terms, &Links::Free, &sizes);
+        let fit = Fitted::of(&dict, &terms, &Links::Free, &rough.sizes(&dict));
         let values = |effect: usize| fit.terms.iter().skip(effect).step_by(3).map(|t| t.values[0]);
         Simple {
             friction: values(0)
                 .zip(values(1))
                 .map(|(coulomb, viscous)| [coulomb, viscous])
                 .collect(),
-            ripples: ripples::found(&stock, &fit.sampled(&stock), seed),
-            values: fit.values[..stock.base].to_vec(),
+            ripples: ripples::found(&dict, &fit.sampled(&dict), seed),
+            values: fit.values[..dict.base].to_vec(),
             delay: 0.0,
         }
     }
@@ -96,12 +96,12 @@ fn delay(case: &Case<'_>, nothing: &Simple, thinned: usize) -> f64 {
     let loads = Loads::default();
     let probes =
         LATENCY.probes(&case.scene(nothing, case.signals, &loads), Spot::at(Place::Interface));
-    let stock =
-        Stock::of(&case, nothing, &[(LATENCY, Spot::at(Place::Interface), probes)], thinned);
-    let sizes = stock.sizes(&[stock.left(&Links::Free, &[])], &[1.0]);
-    let fits = (0..stock.offers[0].entries.len()).map(|entry| {
-        let fit = Fitted::of(&stock, &[stock.term(0, entry)], &Links::Free, &sizes);
-        (fit.sizes(&stock).iter().map(|size| size.ln()).sum::<f64>(), fit.terms[0].values[0])
+    let dict =
+        Dictionary::of(&case, nothing, &[(LATENCY, Spot::at(Place::Interface), probes)], thinned);
+    let sizes = dict.sizes(&[dict.left(&Links::Free, &[])], &[1.0]);
+    let fits = (0..dict.offers[0].entries.len()).map(|entry| {
+        let fit = Fitted::of(&dict, &[dict.term(0, entry)], &Links::Free, &sizes);
+        (fit.sizes(&dict).iter().map(|size| size.ln()).sum::<f64>(), fit.terms[0].values[0])
     });
     fits.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, delay)| delay.max(0.0))
 }

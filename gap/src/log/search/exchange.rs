@@ -3,14 +3,15 @@
 //! Effects are added by what they take for each of their numbers. What has two (friction that falls as it
 //! begins), or is in proportion to all others (a scale), may be taken bit by bit by others before its turn comes.
 
-use super::candidates::Ground;
+use super::Round;
+use super::candidates::Asked;
+use super::dictionary::Dictionary;
 use super::fit::{Fitted, Term};
-use super::stock::Stock;
-use super::{Asked, CHANCE, Round};
+use crate::infer::constants::SIGNIFICANT;
 
 /// A round's terms and another; or one in place of all at its joint, if it leaves no more of what is held out.
 pub fn added(
-    stock: &Stock<'_>,
+    dict: &Dictionary<'_>,
     round: &Round,
     term: &Term,
     offers: &[usize],
@@ -23,14 +24,15 @@ pub fn added(
     if terms.len() - others.len() < 2 {
         return terms;
     }
-    let sums = stock.sums(&round.blocks);
-    let whole = Fitted::of(stock, &terms, links, sizes);
-    let whole: f64 = Ground::of(stock, &whole, sizes, &round.blocks, &sums).squares.iter().sum();
-    let lacks = Fitted::of(stock, &others, links, sizes);
-    let here = |offer: &&usize| stock.offers[**offer].spot == term.spot;
+    let sums = dict.sums(&round.blocks);
+    let divided = (&round.blocks, &sums);
+    let whole = Fitted::of(dict, &terms, links, sizes);
+    let whole: f64 = Asked::of(dict, &whole, sizes, divided, &[], seed).squares.iter().sum();
+    let lacks = Fitted::of(dict, &others, links, sizes);
+    let here = |offer: &&usize| dict.offers[**offer].spot == term.spot;
     let here: Vec<usize> = offers.iter().filter(here).copied().collect();
-    let asked = Asked::of(stock, &lacks, sizes, (&round.blocks, &sums), &here, seed);
-    let told = asked.candidates.iter().zip(&asked.chances).filter(|(_, p)| **p <= CHANCE);
+    let asked = Asked::lacking(dict, &lacks, sizes, divided, &here, seed);
+    let told = asked.candidates.iter().zip(&asked.p_values).filter(|(_, p)| **p <= SIGNIFICANT);
     let left = told
         .filter(|(candidate, _)| candidate.term.effect.may_be(&candidate.term.values))
         .map(|(candidate, _)| (candidate.squares.iter().sum::<f64>(), &candidate.term));

@@ -1,16 +1,17 @@
 //! A model of a log, fitted: what the rigid links ask, and effects at their places.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::stock::{Entry, Mixed, Stock};
-use super::sums::{Solver, sum};
+use super::dictionary::{Dictionary, Entry, Mixed};
+use super::sums::sum;
+use crate::infer::Basis;
 use crate::log::effects::{LogEffect, Spot};
 
 /// An effect at a place, with its values.
 #[derive(Clone)]
 pub struct Term {
-    /// Which of the stock's offers.
+    /// Which of the dictionary's offers.
     pub offer: usize,
     /// About which values it is linearised.
     pub entry: usize,
@@ -46,7 +47,7 @@ pub struct Fitted {
     pub links: Links,
 }
 
-impl Stock<'_> {
+impl Dictionary<'_> {
     /// An effect at a place where it is linearised.
     pub fn term(&self, offer: usize, entry: usize) -> Term {
         let of = &self.offers[offer];
@@ -74,20 +75,20 @@ impl Stock<'_> {
 impl Fitted {
     /// Fits the links, if they are free, and these terms by least squares, each joint's rows told in
     /// its size.
-    pub fn of(stock: &Stock<'_>, terms: &[Term], links: &Links, sizes: &[f64]) -> Fitted {
-        let base = if *links == Links::Free { stock.base } else { 0 };
-        let own = terms.iter().flat_map(|term| stock.entry(term).columns.clone());
+    pub fn of(dict: &Dictionary<'_>, terms: &[Term], links: &Links, sizes: &[f64]) -> Fitted {
+        let base = if *links == Links::Free { dict.base } else { 0 };
+        let own = terms.iter().flat_map(|term| dict.entry(term).columns.clone());
         let columns: Vec<Mixed> = (0..base).map(Mixed::one).chain(own).collect();
-        let left = stock.left(links, terms);
+        let left = dict.left(links, terms);
         let mut all = columns.clone();
         all.push(left.clone());
-        let products = stock.whole().squares(&all, &weights(sizes));
+        let products = dict.whole().squares(&all, &weights(sizes));
         let products = sum(products.iter()).unwrap_or_else(|| DMatrix::zeros(all.len(), all.len()));
         let values = minimum(&products);
         let mut found = values[base..].iter();
         let mut terms = terms.to_vec();
         for term in &mut terms {
-            let entry = stock.entry(term);
+            let entry = dict.entry(term);
             // What is linearised is sought beside the values there; what is in proportion whole.
             let from = entry.at.iter().map(|at| if entry.done.is_some() { *at } else { 0.0 });
             term.values = from.zip(&mut found).map(|(from, by)| from + by).collect();
@@ -102,21 +103,21 @@ impl Fitted {
     }
 
     /// Root mean square of what is left of each joint.
-    pub fn sizes(&self, stock: &Stock<'_>) -> Vec<f64> {
+    pub fn sizes(&self, dict: &Dictionary<'_>) -> Vec<f64> {
         let (columns, values) = self.bordered();
-        stock.sizes(&columns, &values)
+        dict.sizes(&columns, &values)
     }
 
     /// What is left at the rows of the sample, of each joint.
-    pub fn sampled(&self, stock: &Stock<'_>) -> Vec<Vec<Option<f64>>> {
+    pub fn sampled(&self, dict: &Dictionary<'_>) -> Vec<Vec<Option<f64>>> {
         let (columns, values) = self.bordered();
         let values: Vec<f64> = values.iter().map(|x| -x).collect();
-        stock.sampled(&columns, &values)
+        dict.sampled(&columns, &values)
     }
 
     /// The correlation time of what is left, of each joint, s.
-    pub fn correlation(&self, stock: &Stock<'_>) -> Vec<f64> {
-        self.sampled(stock).par_iter().map(|rows| stock.correlation(rows)).collect()
+    pub fn correlation(&self, dict: &Dictionary<'_>) -> Vec<f64> {
+        self.sampled(dict).par_iter().map(|rows| dict.correlation(rows)).collect()
     }
 }
 
@@ -129,7 +130,6 @@ pub fn weights(sizes: &[f64]) -> Vec<f64> {
 pub fn minimum(products: &DMatrix<f64>) -> Vec<f64> {
     let n = products.nrows() - 1;
     let matrix = products.view((0, 0), (n, n)).into_owned();
-    let right = products.view((0, n), (n, 1)).into_owned();
-    let solved: DVector<f64> = Solver::of(&matrix).solve(&right).column(0).into_owned();
-    solved.iter().copied().collect()
+    let right = products.view((0, n), (n, 1)).column(0).into_owned();
+    Basis::ordered(&matrix).solve(&right).iter().copied().collect()
 }

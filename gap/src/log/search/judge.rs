@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::along::{is_along, with_along};
 use super::blocks::Blocks;
-use super::candidates::Ground;
+use super::candidates::Asked;
+use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
-use super::stock::Stock;
-use super::{Asked, CHANCE, Round, is_worse};
+use super::{Round, is_worse};
 use crate::effects::Place;
+use crate::infer::constants::SIGNIFICANT;
 use crate::log::effects::{LINKS, Spot};
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
@@ -65,28 +66,29 @@ pub struct Verdict {
 /// Judges each term beside the others, and drops those that are not told from accident, or have become
 /// what no such thing is, one after the other. What stands beside another on any such arm is tried once more
 /// without them.
-pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
+pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
     let (mut fit, mut sizes) = (last.fit.clone(), last.sizes.clone());
     let mut tried = false;
     loop {
         // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
-        let correlation = fit.correlation(stock);
+        let correlation = fit.correlation(dict);
         let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
-        let sums = stock.sums(&blocks);
+        let blocks = Blocks::of(&dict.segments, dict.case.signals, longest);
+        let sums = dict.sums(&blocks);
+        let divided = (&blocks, &sums);
         let without = |k: usize| -> Judged {
             let mut others = fit.terms.clone();
             let term = others.remove(k);
-            let near = |offer: &&usize| stock.offers[**offer].spot.meets(term.spot);
+            let near = |offer: &&usize| dict.offers[**offer].spot.meets(term.spot);
             let asked: Vec<usize> = offers.iter().filter(near).copied().collect();
-            let lacks = Fitted::of(stock, &others, &fit.links, &sizes);
+            let lacks = Fitted::of(dict, &others, &fit.links, &sizes);
             let mut judged =
-                Asked::of(stock, &lacks, &sizes, (&blocks, &sums), &asked, seed).judge(term);
+                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(term);
             if fit.links != Links::Free
-                && judged.term.effect.carried(stock.case.arm, judged.term.spot).is_none()
+                && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
             {
-                let free = Fitted::of(stock, &others, &Links::Free, &sizes);
-                let squares = Ground::of(stock, &free, &sizes, &blocks, &sums).squares;
+                let free = Fitted::of(dict, &others, &Links::Free, &sizes);
+                let squares = Asked::of(dict, &free, &sizes, divided, &[], seed).squares;
                 judged.beside_links(&squares);
             }
             judged
@@ -94,7 +96,7 @@ pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> V
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
         let wrong = |j: &Judged| !j.term.effect.may_be(&j.term.values);
         let doubted =
-            |j: &Judged| wrong(j) || (j.chance > CHANCE && !is_along(&j.term, &fit.terms));
+            |j: &Judged| wrong(j) || (j.chance > SIGNIFICANT && !is_along(&j.term, &fit.terms));
         let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
             let doubt = |k: &usize| (wrong(&all[*k]), all[*k].chance);
             let (a, b) = (doubt(a), doubt(b));
@@ -102,13 +104,13 @@ pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> V
         });
         match worst {
             None => {
-                let terms = with_along(stock, fit.terms.clone(), offers);
+                let terms = with_along(dict, fit.terms.clone(), offers);
                 if tried || terms.len() == fit.terms.len() {
                     return Verdict { findings: all, fit, sizes, correlation, blocks };
                 }
                 tried = true;
-                fit = Fitted::of(stock, &terms, &fit.links, &sizes);
-                sizes = fit.sizes(stock);
+                fit = Fitted::of(dict, &terms, &fit.links, &sizes);
+                sizes = fit.sizes(dict);
             }
             Some(worst) => {
                 let mut terms = fit.terms.clone();
@@ -117,8 +119,8 @@ pub fn judged(stock: &Stock<'_>, last: &Round, offers: &[usize], seed: u64) -> V
                 terms.retain(|t| {
                     t.spot != gone.spot || t.effect.beside() != Some(gone.effect.identifier())
                 });
-                fit = Fitted::of(stock, &terms, &fit.links, &sizes);
-                sizes = fit.sizes(stock);
+                fit = Fitted::of(dict, &terms, &fit.links, &sizes);
+                sizes = fit.sizes(dict);
             }
         }
     }
@@ -137,7 +139,7 @@ impl Asked {
             .filter(|k| {
                 let rival = &self.candidates[*k];
                 *k != own
-                    && self.chances[*k] <= RIVAL
+                    && self.p_values[*k] <= RIVAL
                     && rival.term.effect.may_be(&rival.term.values)
                     && !is_worse(&rival.squares, best)
             })
@@ -147,6 +149,6 @@ impl Asked {
         let ratio = |k: usize| (left(k) / left(own)).sqrt();
         let rivals = rivals.into_iter().map(|k| (self.candidates[k].term.clone(), ratio(k)));
         let squares = best.clone();
-        Judged { chance: self.chances[own], squares, rivals: rivals.collect(), term }
+        Judged { chance: self.p_values[own], squares, rivals: rivals.collect(), term }
     }
 }

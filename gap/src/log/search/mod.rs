@@ -9,34 +9,31 @@ mod along;
 pub mod blocks;
 pub mod candidates;
 pub mod case;
+pub mod converge;
+pub mod dictionary;
 mod exchange;
 pub mod fit;
-pub mod grains;
 pub mod judge;
 pub mod nested;
-pub mod rest;
+pub mod residual;
 pub mod ripples;
-pub mod settle;
+pub mod segments;
 pub mod springs;
-pub mod stock;
 pub mod sums;
 pub mod unseen;
 
-use statrs::distribution::{ContinuousCDF, StudentsT};
-
 use blocks::Blocks;
-use candidates::{Candidate, Ground};
+use candidates::{Asked, Candidate};
 use case::{Case, Simple, Wanted};
+use dictionary::Dictionary;
 use fit::{Fitted, Links, Term};
-use stock::Stock;
 use sums::Sums;
 
 use super::effects::{CATALOGUE, Catalogue, LogEffect, Spot};
 use super::scene::Loads;
 use super::signal::Signals;
-
-/// A chance above this is not told from accident.
-const CHANCE: f64 = 0.05;
+use crate::infer::constants::SIGNIFICANT;
+use crate::infer::students_t;
 
 /// So many candidates are asked again by blocks of their own.
 const AGAIN: usize = 4;
@@ -56,16 +53,6 @@ pub struct Round {
     pub blocks: Blocks,
     /// Who was asked, and what they said.
     pub asked: Asked,
-}
-
-/// What could be added to a model.
-pub struct Asked {
-    /// Squares that the model leaves of each block, held out, in the sizes.
-    pub squares: Vec<f64>,
-    /// All that were asked.
-    pub candidates: Vec<Candidate>,
-    /// Of each the chance that something unrelated does as well.
-    pub chances: Vec<f64>,
 }
 
 /// Effects and places that are asked for, and about which values.
@@ -93,25 +80,25 @@ pub fn wanted(
 impl Round {
     /// Fits the terms and asks for others among the offers.
     pub fn of(
-        stock: &Stock<'_>,
+        dict: &Dictionary<'_>,
         terms: &[Term],
         links: &Links,
         sizes: &[f64],
         offers: &[usize],
         seed: u64,
     ) -> Round {
-        let fit = Fitted::of(stock, terms, links, sizes);
+        let fit = Fitted::of(dict, terms, links, sizes);
         // Once more, each joint told in what is left of it.
-        let fit = Fitted::of(stock, &fit.terms, links, &fit.sizes(stock));
-        let sizes = fit.sizes(stock);
-        let correlation = fit.correlation(stock);
+        let fit = Fitted::of(dict, &fit.terms, links, &fit.sizes(dict));
+        let sizes = fit.sizes(dict);
+        let correlation = fit.correlation(dict);
         let divided = |correlation: &[f64]| {
             let longest = correlation.iter().copied().fold(0.0, f64::max);
-            Blocks::of(&stock.grains, stock.case.signals, longest)
+            Blocks::of(&dict.segments, dict.case.signals, longest)
         };
         let ask = |blocks: &Blocks| {
-            let sums = stock.sums(blocks);
-            Asked::of(stock, &fit, &sizes, (blocks, &sums), offers, seed)
+            let sums = dict.sums(blocks);
+            Asked::lacking(dict, &fit, &sizes, (blocks, &sums), offers, seed)
         };
         let blocks = divided(&correlation);
         let asked = ask(&blocks);
@@ -128,13 +115,13 @@ impl Round {
         let looks = most.len() as f64;
         for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
-            let correlation = Fitted::of(stock, &with, links, &sizes).correlation(stock);
+            let correlation = Fitted::of(dict, &with, links, &sizes).correlation(dict);
             let blocks = divided(&correlation);
             if blocks.all.len() <= round.blocks.all.len() {
                 continue;
             }
             let mut asked = ask(&blocks);
-            for (chance, candidate) in asked.chances.iter_mut().zip(&asked.candidates) {
+            for (chance, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
                 // Each look is another question that chance may answer (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;
                 *chance = if is_it { (looks * *chance).min(1.0) } else { 1.0 };
@@ -151,11 +138,12 @@ impl Round {
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
     /// does not explain.
     pub fn best(&self) -> Option<&Candidate> {
-        let Asked { squares, candidates, chances } = &self.asked;
+        let Asked { squares, candidates, p_values } = &self.asked;
         let whole: f64 = squares.iter().sum();
         let left = |c: &Candidate| c.squares.iter().sum::<f64>();
         let gain = |c: &Candidate| (whole - left(c)) / c.things();
-        let told = candidates.iter().zip(chances).filter(|(_, p)| **p <= CHANCE).map(|(c, _)| c);
+        let told =
+            candidates.iter().zip(p_values).filter(|(_, p)| **p <= SIGNIFICANT).map(|(c, _)| c);
         let told = told.filter(|c| left(c) < whole && c.term.effect.may_be(&c.term.values));
         told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
     }
@@ -166,7 +154,7 @@ impl Asked {
     /// which does first.
     fn most(&self, least: f64) -> Vec<&Candidate> {
         let open =
-            self.candidates.iter().zip(&self.chances).filter(|(_, chance)| **chance > CHANCE);
+            self.candidates.iter().zip(&self.p_values).filter(|(_, chance)| **chance > SIGNIFICANT);
         let may = open.map(|(c, _)| c).filter(|c| c.term.effect.may_be(&c.term.values));
         let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
         most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
@@ -175,60 +163,57 @@ impl Asked {
     }
 
     /// Asks a model for those of the offers that it lacks.
-    fn of(
-        stock: &Stock<'_>,
+    fn lacking(
+        dict: &Dictionary<'_>,
         fit: &Fitted,
         sizes: &[f64],
-        (blocks, sums): (&Blocks, &Sums),
+        divided: (&Blocks, &Sums),
         offers: &[usize],
         seed: u64,
     ) -> Asked {
-        let ground = Ground::of(stock, fit, sizes, blocks, sums);
         let has = |name: &str, spot: Spot| {
             fit.terms.iter().any(|t| t.effect.identifier() == name && t.spot == spot)
         };
         let loads = Loads::default();
         let simple = Simple::default();
-        let scene = stock.case.scene(&simple, stock.case.signals, &loads);
+        let scene = dict.case.scene(&simple, dict.case.signals, &loads);
         let stands = |name: &str, spot: Spot| {
             let named = CATALOGUE.iter().find(|e| e.identifier() == name);
             has(name, spot) || named.is_some_and(|e| e.in_file(&scene, spot))
         };
         let lacks = |offer: &&usize| {
-            let of = &stock.offers[**offer];
+            let of = &dict.offers[**offer];
             !has(of.effect.identifier(), of.spot)
                 && of.effect.beside().is_none_or(|other| stands(other, of.spot))
         };
         let asked: Vec<usize> = offers.iter().filter(lacks).copied().collect();
-        let candidates = ground.candidates(&asked);
-        let chances = ground.chances(&candidates, seed);
-        Asked { squares: ground.squares, candidates, chances }
+        Asked::of(dict, fit, sizes, divided, &asked, seed)
     }
 }
 
 /// Looks for effects among the offers beside some terms, one after the other. `each` is told every
 /// round; the last, in which none was added, is returned.
 pub fn search(
-    stock: &Stock<'_>,
+    dict: &Dictionary<'_>,
     terms: &[Term],
     links: &Links,
     offers: &[usize],
     seed: u64,
     each: &mut dyn FnMut(&Round),
 ) -> Round {
-    let mut sizes = vec![1.0; stock.case.signals.joints()];
+    let mut sizes = vec![1.0; dict.case.signals.joints()];
     if terms.is_empty() {
-        sizes = stock.sizes(&[stock.left(links, &[])], &[1.0]);
+        sizes = dict.sizes(&[dict.left(links, &[])], &[1.0]);
     }
     let mut terms = terms.to_vec();
     let mut rounds = 0;
     loop {
-        let round = Round::of(stock, &terms, links, &sizes, offers, seed);
+        let round = Round::of(dict, &terms, links, &sizes, offers, seed);
         each(&round);
         let Some(best) = round.best().filter(|_| rounds < MOST) else { return round };
         rounds += 1;
-        terms = exchange::added(stock, &round, &best.term, offers, seed);
-        terms = along::with_along(stock, terms, offers);
+        terms = exchange::added(dict, &round, &best.term, offers, seed);
+        terms = along::with_along(dict, terms, offers);
         sizes = round.sizes;
     }
 }
@@ -244,9 +229,7 @@ pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
     let n = differences.len() as f64;
     let mean = differences.iter().sum::<f64>() / n;
     let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
-    let limit =
-        StudentsT::new(0.0, 1.0, n - 1.0).map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - LEFT_OUT));
-    mean > limit * variance.sqrt()
+    mean > students_t(n - 1.0, 1.0 - LEFT_OUT) * variance.sqrt()
 }
 
 /// Independent numbers that the rows of the joints hold.

@@ -3,22 +3,22 @@
 use rayon::prelude::*;
 
 use super::blocks::Blocks;
+use super::converge::converged;
+use super::dictionary::Dictionary;
 use super::fit::Links;
 use super::search;
-use super::settle::settled;
-use super::stock::Stock;
 use super::sums::quadratic;
 
 /// Root mean square that is left of each joint by what a search finds that has not seen a fold, over all
 /// folds; 0 of a joint that has no rows.
-pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> Vec<f64> {
-    let joints = stock.case.signals.joints();
-    let offers: Vec<usize> = (0..stock.offers.len()).collect();
-    let sums = stock.sums(blocks);
+pub fn nested(dict: &Dictionary<'_>, blocks: &Blocks, links: &Links, seed: u64) -> Vec<f64> {
+    let joints = dict.case.signals.joints();
+    let offers: Vec<usize> = (0..dict.offers.len()).collect();
+    let sums = dict.sums(blocks);
     let of_fold = |fold: usize| -> Vec<f64> {
-        let seen = stock.without(blocks, fold);
+        let seen = dict.without(blocks, fold);
         let last = search(&seen, &[], links, &offers, seed, &mut |_| {});
-        let (columns, values) = settled(&seen, &last, &offers, seed, &mut |_| {}).fit.bordered();
+        let (columns, values) = converged(&seen, &last, &offers, seed, &mut |_| {}).fit.bordered();
         let values = nalgebra::DVector::from_vec(values);
         let left = |joint: usize| {
             let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
@@ -30,7 +30,7 @@ pub fn nested(stock: &Stock<'_>, blocks: &Blocks, links: &Links, seed: u64) -> V
     };
     let squares: Vec<Vec<f64>> = (0..blocks.folds).into_par_iter().map(of_fold).collect();
     let size = |joint: usize| {
-        let rows: f64 = stock.rows_of(blocks, joint).iter().sum();
+        let rows: f64 = dict.rows_of(blocks, joint).iter().sum();
         let sum: f64 = squares.iter().map(|fold| fold[joint]).sum();
         if rows > 0.0 { (sum / rows).sqrt() } else { 0.0 }
     };

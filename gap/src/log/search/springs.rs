@@ -3,9 +3,9 @@
 
 use nalgebra::DMatrix;
 
+use super::dictionary::Dictionary;
 use super::fit::{minimum, weights};
 use super::judge::Verdict;
-use super::stock::Stock;
 use super::sums::sum;
 use super::unseen::half_widths;
 use crate::log::effects::{DROOP, ELASTICITY, LogEffect, Spot};
@@ -32,13 +32,13 @@ pub struct Springs {
 
 impl Springs {
     /// Of a log's model and the joints that may have a spring.
-    pub fn of(stock: &Stock<'_>, verdict: &Verdict) -> Springs {
+    pub fn of(dict: &Dictionary<'_>, verdict: &Verdict) -> Springs {
         let fit = &verdict.fit;
-        let effect = if stock.case.kind.0 == Domain::Position { DROOP } else { ELASTICITY };
+        let effect = if dict.case.kind.0 == Domain::Position { DROOP } else { ELASTICITY };
         let is_spring = |of: &dyn LogEffect| of.identifier() == effect.identifier();
         let (mut columns, fitted) = (fit.columns.clone(), fit.columns.len());
         let mut asked = Vec::new();
-        for offer in stock.offers.iter().filter(|offer| is_spring(offer.effect)) {
+        for offer in dict.offers.iter().filter(|offer| is_spring(offer.effect)) {
             let Some(joint) = offer.spot.joint() else { continue };
             let terms = fit.terms.iter();
             let is_own = |t: &&super::fit::Term| is_spring(t.effect) && t.spot == offer.spot;
@@ -53,16 +53,16 @@ impl Springs {
                     columns.len() - 1
                 }
             };
-            let known = stock.case.known.iter();
+            let known = dict.case.known.iter();
             let known = known.filter(|k| is_spring(k.effect) && k.spot == offer.spot);
             asked.push((joint, column, known.map(|k| k.values[0]).sum()));
         }
         columns.push(fit.left.clone());
         let weights = weights(&verdict.sizes);
-        let whole = stock.whole().squares(&columns, &weights);
+        let whole = dict.whole().squares(&columns, &weights);
         let n = columns.len();
         let products = sum(whole.iter()).unwrap_or_else(|| DMatrix::zeros(n, n));
-        let blocks = stock.sums(&verdict.blocks).squares(&columns, &weights);
+        let blocks = dict.sums(&verdict.blocks).squares(&columns, &weights);
         // What was found is told as it was fitted; what was not, beside that.
         let own: Vec<usize> = (0..fitted).chain([n - 1]).collect();
         let of = |k: &[usize]| {
@@ -81,7 +81,7 @@ impl Springs {
         let mut from = vec![0.0; fitted];
         let mut at = fitted - fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
         for term in &fit.terms {
-            let entry = stock.entry(term);
+            let entry = dict.entry(term);
             for value in &entry.at {
                 from[at] = if entry.done.is_some() { *value } else { 0.0 };
                 at += 1;

@@ -1,12 +1,12 @@
 //! Least squares of many rows by their products, block by block.
 
-use nalgebra::{DMatrix, DVector, DVectorViewMut};
+use std::sync::Arc;
 
-use super::stock::Mixed;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
-/// A column of which less than this part of its square stands apart from those before it says nothing
-/// of its own.
-const APART: f64 = 1e-9;
+use super::dictionary::{Entry, Mixed};
+use crate::infer::Products;
 
 /// Products of the stored columns of each joint, block by block.
 #[derive(Clone, Debug, Default)]
@@ -35,6 +35,42 @@ impl Sums {
         let mut all = self.summed(columns, columns, weights, |column, other| column >= other);
         all.iter_mut().for_each(DMatrix::fill_upper_triangle_with_lower_triangle);
         all
+    }
+
+    /// Of each block the products of some columns, the last of which is what is to be explained, and of
+    /// entries beside them.
+    pub(crate) fn linearized(
+        &self,
+        bordered: &[Mixed],
+        entries: &[&Entry],
+        weights: &[f64],
+    ) -> Vec<Products> {
+        let last = bordered.len() - 1;
+        let columns = |entry: &&Entry| -> Vec<Mixed> {
+            entry.columns.iter().chain(&entry.done).cloned().collect()
+        };
+        let beside = |entry: &&Entry| {
+            let all = columns(entry);
+            (self.products(bordered, &all, weights), self.squares(&all, weights))
+        };
+        let each: Vec<_> = entries.par_iter().map(beside).collect();
+        let sizes: Vec<usize> = entries.iter().map(|entry| columns(entry).len()).collect();
+        let of_block = |(block, own): (usize, &DMatrix<f64>)| {
+            let mut products = Products::zeros(last, &sizes);
+            products.zz.copy_from(&own.view((0, 0), (last, last)));
+            products.zr.copy_from(&own.view((0, last), (last, 1)));
+            products.rr = own[(last, last)];
+            let mut at = 0;
+            for (cross, _) in &each {
+                let (cross, size) = (&cross[block], cross[block].ncols());
+                products.zx.columns_mut(at, size).copy_from(&cross.rows(0, last));
+                products.xr.rows_mut(at, size).tr_copy_from(&cross.row(last));
+                at += size;
+            }
+            products.xx = Arc::new(each.iter().map(|(_, own)| own[block].clone()).collect());
+            products
+        };
+        self.squares(bordered, weights).iter().enumerate().map(of_block).collect()
     }
 
     /// Products of those pairs that are wanted, by their indices.
@@ -112,75 +148,6 @@ pub fn quadratic(matrix: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
     x.dot(&(matrix * x)).max(0.0)
 }
 
-/// The least of the squares `xᵀ A x − 2 bᵀ x`; unknowns that say nothing beside those before them stay
-/// zero.
-#[derive(Clone, Debug)]
-pub struct Solver {
-    /// Rows of Cholesky's factor of the matrix scaled to a diagonal of one; of unknowns that are left
-    /// out nothing.
-    factor: DMatrix<f64>,
-    scale: DVector<f64>,
-    /// Which unknowns are solved for.
-    pub seen: Vec<bool>,
-}
-
-impl Solver {
-    /// Of a symmetric matrix.
-    pub fn of(matrix: &DMatrix<f64>) -> Solver {
-        let n = matrix.nrows();
-        let scale = DVector::from_fn(n, |k, _| {
-            let size = matrix[(k, k)];
-            if size > 0.0 { 1.0 / size.sqrt() } else { 0.0 }
-        });
-        let mut factor = DMatrix::<f64>::zeros(n, n);
-        let mut seen = vec![false; n];
-        for row in 0..n {
-            for column in 0..=row {
-                let known: f64 = (0..column).map(|k| factor[(row, k)] * factor[(column, k)]).sum();
-                let rest = matrix[(row, column)] * scale[row] * scale[column] - known;
-                if row == column {
-                    seen[row] = rest > APART;
-                    factor[(row, row)] = if seen[row] { rest.sqrt() } else { 0.0 };
-                } else if seen[column] {
-                    factor[(row, column)] = rest / factor[(column, column)];
-                }
-            }
-            if !seen[row] {
-                (0..row).for_each(|k| factor[(row, k)] = 0.0);
-            }
-        }
-        Solver { factor, scale, seen }
-    }
-
-    /// The first half of a solution, in place.
-    fn forwards(&self, mut column: DVectorViewMut<'_, f64>) {
-        for row in 0..self.seen.len() {
-            let known: f64 = (0..row).map(|k| self.factor[(row, k)] * column[k]).sum();
-            column[row] = match self.seen[row] {
-                true => (column[row] * self.scale[row] - known) / self.factor[(row, row)],
-                false => 0.0,
-            };
-        }
-    }
-
-    /// For right-hand sides, one a column.
-    pub fn solve(&self, right: &DMatrix<f64>) -> DMatrix<f64> {
-        let n = self.seen.len();
-        let mut x = right.clone();
-        for mut column in x.column_iter_mut() {
-            self.forwards(column.as_view_mut());
-            for row in (0..n).rev() {
-                let known: f64 = (row + 1..n).map(|k| self.factor[(k, row)] * column[k]).sum();
-                if self.seen[row] {
-                    column[row] = (column[row] - known) / self.factor[(row, row)];
-                }
-            }
-            column.component_mul_assign(&self.scale);
-        }
-        x
-    }
-}
-
 /// The sum of a list of matrices; `None` of none.
 pub fn sum<'m>(matrices: impl Iterator<Item = &'m DMatrix<f64>>) -> Option<DMatrix<f64>> {
     let mut sum: Option<DMatrix<f64>> = None;
@@ -191,28 +158,4 @@ pub fn sum<'m>(matrices: impl Iterator<Item = &'m DMatrix<f64>>) -> Option<DMatr
         }
     }
     sum
-}
-
-impl Solver {
-    /// What is left of columns of these squares, without those of which nothing is.
-    pub fn apart(left: &DMatrix<f64>, squares: &DVector<f64>) -> DMatrix<f64> {
-        let mut told = left.clone();
-        for k in (0..left.nrows()).filter(|k| left[(*k, *k)] <= APART * squares[*k]) {
-            told.row_mut(k).fill(0.0);
-            told.column_mut(k).fill(0.0);
-        }
-        told
-    }
-
-    /// `L⁻¹` of what is left `L Lᵀ` of columns of these squares, so that `|L⁻¹ v|²` tells `v` in what it
-    /// weighs; rows of 0 of those that say nothing.
-    pub fn inverse_root(left: &DMatrix<f64>, squares: &DVector<f64>) -> DMatrix<f64> {
-        let n = left.nrows();
-        let solver = Solver::of(&Solver::apart(left, squares));
-        let mut root = DMatrix::identity(n, n);
-        for mut column in root.column_iter_mut() {
-            solver.forwards(column.as_view_mut());
-        }
-        root
-    }
 }

@@ -3,17 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::blocks::Blocks;
-use super::candidates::without_each;
+use super::dictionary::Dictionary;
 use super::fit::{Fitted, minimum, weights};
-use super::stock::Stock;
-use super::sums::{Solver, quadratic, sum};
-use crate::dice::{Dice, Stream};
-
-/// Pairs of logs: a standard deviation of so many is known to 3 %.
-const DRAWS: usize = 500;
+use super::sums::{quadratic, sum};
+use crate::infer::{Basis, drawn, students_t};
 
 /// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.
 pub struct Unseen {
@@ -47,12 +42,12 @@ impl Joint {
 
 impl Unseen {
     /// Of a fit told in these sizes.
-    pub fn of(stock: &Stock<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
-        let sums = stock.sums(blocks);
+    pub fn of(dict: &Dictionary<'_>, fit: &Fitted, sizes: &[f64], blocks: &Blocks) -> Unseen {
+        let sums = dict.sums(blocks);
         let (columns, _) = fit.bordered();
         let products = sums.squares(&columns, &weights(sizes));
-        let values: Vec<_> =
-            without_each(&products, blocks).into_iter().map(|values| values.push(-1.0)).collect();
+        let values: Vec<DVector<f64>> =
+            (0..blocks.folds).map(|fold| without(&products, blocks, fold)).collect();
         let count = sizes.len();
         let of_joint = |joint: usize| {
             let alone: Vec<f64> = (0..count).map(|j| f64::from(u8::from(j == joint))).collect();
@@ -60,7 +55,7 @@ impl Unseen {
             let left = own.iter().zip(&blocks.fold);
             Joint {
                 squares: left.map(|(own, fold)| quadratic(own, &values[*fold])).collect(),
-                rows: stock.rows_of(blocks, joint),
+                rows: dict.rows_of(blocks, joint),
                 whole: sum(own.iter()).unwrap_or_default(),
             }
         };
@@ -79,19 +74,11 @@ impl Unseen {
     /// have been. Blocks are drawn again, once for those that are fitted and once for those on which the gap is
     /// measured.
     pub fn spread(&self, before: &Unseen, sizes: &[f64], seed: u64) -> f64 {
-        let count = self.products.len();
-        let mut dice = Dice::new(seed, Stream::Logs);
-        let mut drawn = || {
-            let mut times = vec![0.0; count];
-            (0..count).for_each(|_| times[dice.below(count)] += 1.0);
-            times
-        };
-        let draws: Vec<[Vec<f64>; 2]> = (0..DRAWS).map(|_| [drawn(), drawn()]).collect();
         let log = |[fitted, measured]: &[Vec<f64>; 2]| {
             let left = |of: &Unseen| of.left(fitted, measured, sizes).max(f64::MIN_POSITIVE).ln();
             left(self) - left(before)
         };
-        let logs: Vec<f64> = draws.par_iter().map(log).collect();
+        let logs: Vec<f64> = drawn(self.products.len(), seed).par_iter().map(log).collect();
         (2.0 * DVector::from_vec(logs).variance()).sqrt()
     }
 
@@ -116,22 +103,24 @@ impl Unseen {
     }
 }
 
+/// Values of least squares without a fold, and −1 of the left side.
+fn without(products: &[DMatrix<f64>], blocks: &Blocks, fold: usize) -> DVector<f64> {
+    let n = products.first().map_or(1, DMatrix::nrows);
+    let others = products.iter().zip(&blocks.fold).filter(|(_, of)| **of != fold).map(|(p, _)| p);
+    let others = sum(others).unwrap_or_else(|| DMatrix::zeros(n, n));
+    DVector::from_vec(minimum(&others)).push(-1.0)
+}
+
 /// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
 /// Student's t of as many.
 pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
     let n = values.len();
     let count = products.len() as f64;
     let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };
-    let mut left = values.to_vec();
-    left.iter_mut().for_each(|x| *x = -*x);
-    left.push(1.0);
-    let pulls: Vec<_> = products
-        .iter()
-        .map(|product| product.rows(0, n) * nalgebra::DVector::from_column_slice(&left))
-        .collect();
-    let solver = Solver::of(&whole.view((0, 0), (n, n)).into_owned());
-    let solved = solver.solve(&DMatrix::from_columns(&pulls));
-    let t = StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0));
-    let t = t.map_or(f64::INFINITY, |t| t.inverse_cdf(0.975)) * (count / (count - 1.0)).sqrt();
-    (0..n).map(|k| t * solved.row(k).norm()).collect()
+    let left = DVector::from_fn(n + 1, |k, _| values.get(k).map_or(1.0, |x| -x));
+    let pulls: Vec<_> = products.iter().map(|product| product.rows(0, n) * &left).collect();
+    let t = Basis::ordered(&whole.view((0, 0), (n, n)).into_owned()).t;
+    let solved = &t * t.tr_mul(&DMatrix::from_columns(&pulls));
+    let off = students_t(count - 1.0, 0.975) * (count / (count - 1.0)).sqrt();
+    (0..n).map(|k| off * solved.row(k).norm()).collect()
 }

@@ -9,7 +9,7 @@ const COUNT: usize = 64;
 
 /// Rows that stand beside each other in one run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Grain {
+pub struct Segment {
     /// Index of the run.
     pub run: usize,
     /// Its rows.
@@ -19,7 +19,7 @@ pub struct Grain {
 }
 
 /// A division of the rows, none shorter than the filter's reach.
-pub fn grains(signals: &Signals) -> Vec<Grain> {
+pub fn segments(signals: &Signals) -> Vec<Segment> {
     let reach = (signals.reach() / signals.step()).ceil() as usize;
     let length = reach.max(signals.rows() / COUNT).max(1);
     let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
@@ -34,7 +34,7 @@ pub fn grains(signals: &Signals) -> Vec<Grain> {
         let edge = move |k: usize| rows.start + rows.len() * k / count;
         (0..count).map(move |k| {
             let rows = edge(k)..edge(k + 1);
-            Grain { run, head: rows.start..(rows.start + reach).min(rows.end), rows }
+            Segment { run, head: rows.start..(rows.start + reach).min(rows.end), rows }
         })
     };
     runs.into_iter().flat_map(of).collect()

@@ -1,7 +1,7 @@
 //! All columns that a log may be explained by, and their products, summed in one pass.
 //!
 //! A million samples of seven joints are some hundred columns of which none is kept: the log goes by in
-//! stretches, each brings its columns to the [`Grain`]s that it covers, and what is asked later is asked
+//! stretches, each brings its columns to the [`Segment`]s that it covers, and what is asked later is asked
 //! of these sums. Every so-manyth row is kept beside them, for what sums cannot tell: how long what is
 //! left remembers, and what it depends on.
 
@@ -11,10 +11,11 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::blocks::{Block, Blocks, correlation_time};
+use super::blocks::{Block, Blocks};
 use super::case::{Case, Simple, Wanted};
-use super::grains::{Grain, grains};
+use super::segments::{Segment, segments};
 use super::sums::Sums;
+use crate::infer::correlation_time;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::signal::Signals;
 
@@ -68,14 +69,14 @@ struct Own {
     columns: Vec<usize>,
     /// Where a stored column stands among them.
     at: Vec<Option<usize>>,
-    /// Products of its columns, of each grain's head and of what is behind it.
+    /// Products of its columns, of each segment's head and of what is behind it.
     parts: Vec<[DMatrix<f64>; 2]>,
     /// Its columns at the rows that are kept, zero where a row does not count.
     sample: Vec<Vec<f32>>,
 }
 
 /// Columns and their products.
-pub struct Stock<'a> {
+pub struct Dictionary<'a> {
     /// The log.
     pub case: &'a Case<'a>,
     /// Which rows count, of each joint.
@@ -83,7 +84,7 @@ pub struct Stock<'a> {
     /// How many of those that were gone through.
     pub used: Vec<f64>,
     /// The finest parts of the time.
-    pub grains: Vec<Grain>,
+    pub segments: Vec<Segment>,
     /// Effects that may be asked for.
     pub offers: Vec<Offer>,
     /// The first so many stored columns are the rigid links'.
@@ -93,14 +94,14 @@ pub struct Stock<'a> {
     /// Rows of the sample.
     pub rows: Vec<usize>,
     joints: Arc<Vec<Own>>,
-    /// Of each grain, whether its head and what is behind it count.
+    /// Of each segment, whether its head and what is behind it count.
     kept: Vec<[bool; 2]>,
     whole: Sums,
 }
 
-/// Rows of grains that are gone through at once.
+/// Rows of segments that are gone through at once.
 struct Stretch {
-    grains: Range<usize>,
+    segments: Range<usize>,
     rows: Range<usize>,
 }
 
@@ -111,18 +112,23 @@ struct Brought {
     sample: Vec<Vec<f32>>,
 }
 
-impl<'a> Stock<'a> {
+impl<'a> Dictionary<'a> {
     /// Of a log and the effects that may be asked for, with loads as the simple model has them. Every
     /// `thinned`-th stretch alone is gone through where so much is enough.
-    pub fn of(case: &'a Case<'a>, simple: &Simple, wanted: &[Wanted], thinned: usize) -> Stock<'a> {
+    pub fn of(
+        case: &'a Case<'a>,
+        simple: &Simple,
+        wanted: &[Wanted],
+        thinned: usize,
+    ) -> Dictionary<'a> {
         let signals = case.signals;
-        let (grains, counts) = (grains(signals), case.counts());
-        let all = stretches(&grains, signals);
+        let (segments, counts) = (segments(signals), case.counts());
+        let all = stretches(&segments, signals);
         let every = signals.rows().div_ceil(SAMPLE);
         let went: Vec<&Stretch> = all.iter().step_by(thinned).collect();
         let brought: Vec<Vec<Brought>> = went
             .par_iter()
-            .map(|stretch| bring(case, simple, wanted, stretch, &grains, &counts, every))
+            .map(|stretch| bring(case, simple, wanted, stretch, &segments, &counts, every))
             .collect();
         let base = case.base.map_or(0, |base| base.columns.len());
         let (offers, target) = offers(case, wanted, base);
@@ -131,42 +137,55 @@ impl<'a> Stock<'a> {
         let used = |counts: &Vec<bool>| went.iter().flat_map(of).filter(|k| counts[*k]).count();
         let used = counts.iter().map(|counts| used(counts) as f64).collect();
         let mut joints: Vec<Own> =
-            (0..signals.joints()).map(|_| Own::new(target, grains.len())).collect();
+            (0..signals.joints()).map(|_| Own::new(target, segments.len())).collect();
         for (stretch, brought) in went.iter().zip(brought) {
             joints.iter_mut().zip(brought).for_each(|(own, more)| own.take(stretch, more));
         }
-        let (kept, whole) = (vec![[true; 2]; grains.len()], Sums::default());
+        let (kept, whole) = (vec![[true; 2]; segments.len()], Sums::default());
         let joints = Arc::new(joints);
-        let mut stock =
-            Stock { case, counts, used, grains, offers, base, target, rows, joints, kept, whole };
-        stock.whole = stock.sums(&Blocks::whole(&stock.grains));
-        stock
+        let mut dict = Dictionary {
+            case,
+            counts,
+            used,
+            segments,
+            offers,
+            base,
+            target,
+            rows,
+            joints,
+            kept,
+            whole,
+        };
+        dict.whole = dict.sums(&Blocks::whole(&dict.segments));
+        dict
     }
 
     /// The same without the rows of a fold, nor those behind them that the filter still reaches from there.
     #[must_use]
-    pub fn without(&self, blocks: &Blocks, fold: usize) -> Stock<'a> {
+    pub fn without(&self, blocks: &Blocks, fold: usize) -> Dictionary<'a> {
         let (mut kept, mut counts) = (self.kept.clone(), self.counts.clone());
         let mut leave = |rows: Range<usize>| {
             counts.iter_mut().for_each(|counts| counts[rows.clone()].fill(false));
         };
         for (block, _) in blocks.all.iter().zip(&blocks.fold).filter(|(_, of)| **of == fold) {
-            kept[block.grains.clone()].fill([false; 2]);
-            let (first, last) = (block.grains.start, block.grains.end - 1);
-            leave(self.grains[first].rows.start..self.grains[last].rows.end);
-            let next = self.grains.get(last + 1);
+            kept[block.segments.clone()].fill([false; 2]);
+            let (first, last) = (block.segments.start, block.segments.end - 1);
+            leave(self.segments[first].rows.start..self.segments[last].rows.end);
+            let next = self.segments.get(last + 1);
             if let Some(next) = next.filter(|next| next.run == block.run) {
                 kept[last + 1][0] = false;
                 leave(next.head.clone());
             }
         }
         let used = counts.iter().map(|c| c.iter().filter(|c| **c).count() as f64).collect();
-        let (grains, offers, rows) = (self.grains.clone(), self.offers.clone(), self.rows.clone());
+        let (segments, offers, rows) =
+            (self.segments.clone(), self.offers.clone(), self.rows.clone());
         let joints = Arc::clone(&self.joints);
         let whole = Sums::default();
-        let mut stock = Stock { counts, used, grains, offers, rows, joints, kept, whole, ..*self };
-        stock.whole = stock.sums(&Blocks::whole(&stock.grains));
-        stock
+        let mut dict =
+            Dictionary { counts, used, segments, offers, rows, joints, kept, whole, ..*self };
+        dict.whole = dict.sums(&Blocks::whole(&dict.segments));
+        dict
     }
 
     /// Products of all columns of each joint over whole runs.
@@ -180,9 +199,9 @@ impl<'a> Stock<'a> {
             let block = |block: &Block| {
                 let n = own.columns.len();
                 let mut sum = DMatrix::zeros(n, n);
-                for grain in block.grains.clone() {
-                    let ([head, body], kept) = (&own.parts[grain], self.kept[grain]);
-                    if kept[0] && !(block.purged && grain == block.grains.start) {
+                for segment in block.segments.clone() {
+                    let ([head, body], kept) = (&own.parts[segment], self.kept[segment]);
+                    if kept[0] && !(block.purged && segment == block.segments.start) {
                         add(&mut sum, head);
                     }
                     if kept[1] {
@@ -203,10 +222,10 @@ impl<'a> Stock<'a> {
     /// Rows of a joint that count, of each block.
     pub fn rows_of(&self, blocks: &Blocks, joint: usize) -> Vec<f64> {
         let of = |block: &Block| {
-            let (first, last) = (block.grains.start, block.grains.end - 1);
-            let head = &self.grains[first].head;
+            let (first, last) = (block.segments.start, block.segments.end - 1);
+            let head = &self.segments[first].head;
             let start = if block.purged { head.end } else { head.start };
-            let counts = &self.counts[joint][start..self.grains[last].rows.end];
+            let counts = &self.counts[joint][start..self.segments[last].rows.end];
             counts.iter().filter(|counts| **counts).count() as f64
         };
         blocks.all.iter().map(of).collect()
@@ -246,20 +265,22 @@ impl<'a> Stock<'a> {
         self.joints.par_iter().enumerate().map(|(k, own)| joint((k, own))).collect()
     }
 
-    fn grain_of(&self, row: usize) -> usize {
-        self.grains.partition_point(|grain| grain.rows.end <= row)
+    fn segment_of(&self, row: usize) -> usize {
+        self.segments.partition_point(|segment| segment.rows.end <= row)
     }
 
     fn run_of(&self, row: usize) -> usize {
-        self.grains[self.grain_of(row)].run
+        self.segments[self.segment_of(row)].run
     }
 
     /// The block that a row is in; `None` of one between two blocks.
     pub fn block_of(&self, blocks: &Blocks, row: usize) -> Option<usize> {
-        let grain = self.grain_of(row);
-        let at = blocks.all.partition_point(|block| block.grains.end <= grain);
+        let segment = self.segment_of(row);
+        let at = blocks.all.partition_point(|block| block.segments.end <= segment);
         let block = &blocks.all[at];
-        let head = block.purged && block.grains.start == grain && row < self.grains[grain].head.end;
+        let head = block.purged
+            && block.segments.start == segment
+            && row < self.segments[segment].head.end;
         (!head).then_some(at)
     }
 
@@ -276,27 +297,27 @@ impl<'a> Stock<'a> {
     }
 }
 
-/// Adds what there is; a grain that nothing was brought to has an empty matrix.
+/// Adds what there is; a segment that nothing was brought to has an empty matrix.
 fn add(sum: &mut DMatrix<f64>, more: &DMatrix<f64>) {
     if more.nrows() > 0 {
         *sum += more;
     }
 }
 
-/// Neighbouring grains of one run, so many that a stretch is worth its ends.
-fn stretches(grains: &[Grain], signals: &Signals) -> Vec<Stretch> {
+/// Neighbouring segments of one run, so many that a stretch is worth its ends.
+fn stretches(segments: &[Segment], signals: &Signals) -> Vec<Stretch> {
     let most = STRETCH / (signals.t.len() / signals.rows().max(1)).max(1);
     let mut all: Vec<Stretch> = Vec::new();
-    for (k, grain) in grains.iter().enumerate() {
+    for (k, segment) in segments.iter().enumerate() {
         match all.last_mut() {
             Some(last)
-                if grains[last.grains.start].run == grain.run
-                    && grain.rows.end - last.rows.start <= most =>
+                if segments[last.segments.start].run == segment.run
+                    && segment.rows.end - last.rows.start <= most =>
             {
-                last.grains.end = k + 1;
-                last.rows.end = grain.rows.end;
+                last.segments.end = k + 1;
+                last.rows.end = segment.rows.end;
             }
-            _ => all.push(Stretch { grains: k..k + 1, rows: grain.rows.clone() }),
+            _ => all.push(Stretch { segments: k..k + 1, rows: segment.rows.clone() }),
         }
     }
     all
@@ -334,14 +355,14 @@ fn bring(
     simple: &Simple,
     wanted: &[Wanted],
     stretch: &Stretch,
-    grains: &[Grain],
+    segments: &[Segment],
     counts: &[Vec<bool>],
     every: usize,
 ) -> Vec<Brought> {
     let signals = case.signals;
     let joints = signals.joints();
     let mut brought: Vec<Brought> = Vec::new();
-    let own = &grains[stretch.grains.clone()];
+    let own = &segments[stretch.segments.clone()];
     for span in &signals.spans {
         let rows = stretch.rows.start.max(span.kept.start)..stretch.rows.end.min(span.kept.end);
         if rows.is_empty() {
@@ -364,9 +385,9 @@ fn bring(
                 });
             }
             let to = &mut brought[joint];
-            for (grain, sums) in own.iter().zip(&mut to.parts) {
-                let behind = grain.head.end..grain.rows.end;
-                for (range, sum) in [&grain.head, &behind].into_iter().zip(sums) {
+            for (segment, sums) in own.iter().zip(&mut to.parts) {
+                let behind = segment.head.end..segment.rows.end;
+                for (range, sum) in [&segment.head, &behind].into_iter().zip(sums) {
                     let used = range.start.max(rows.start)..range.end.min(rows.end);
                     let used: Vec<usize> = used.filter(|row| counts[joint][*row]).collect();
                     if used.is_empty() {
@@ -392,12 +413,12 @@ fn bring(
 }
 
 impl Own {
-    fn new(target: usize, grains: usize) -> Own {
+    fn new(target: usize, segments: usize) -> Own {
         let none = || [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)];
         Own {
             columns: Vec::new(),
             at: vec![None; target + 1],
-            parts: (0..grains).map(|_| none()).collect(),
+            parts: (0..segments).map(|_| none()).collect(),
             sample: Vec::new(),
         }
     }
@@ -408,8 +429,8 @@ impl Own {
             self.sample = vec![Vec::new(); more.columns.len()];
             self.columns = more.columns;
         }
-        for (grain, sums) in stretch.grains.clone().zip(more.parts) {
-            self.parts[grain] = sums;
+        for (segment, sums) in stretch.segments.clone().zip(more.parts) {
+            self.parts[segment] = sums;
         }
         self.sample.iter_mut().zip(more.sample).for_each(|(to, rows)| to.extend(rows));
     }

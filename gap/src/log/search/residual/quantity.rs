@@ -1,17 +1,17 @@
-//! On what a rest may depend: rows sorted by a quantity into parts of equally many.
+//! On what a residual may depend: rows sorted by a quantity into parts of equally many.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
+use super::super::dictionary::{Dictionary, Mixed};
 use super::super::fit::Fitted;
-use super::super::stock::{Mixed, Stock};
 use crate::log::scene::Domain;
 
 /// Parts into which a quantity is divided.
 pub(super) const PARTS: usize = 8;
 
-/// On what a rest may depend: of the joint itself, or of another.
+/// On what a residual may depend: of the joint itself, or of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Of {
     Angle(usize),
@@ -22,7 +22,7 @@ pub(super) enum Of {
     /// several angles at once, and with each of them alone perhaps not.
     Weight(usize),
     Time,
-    /// What brakes has the sign of the motion: a rest with that sign may depend on the speed's size, the load's, or
+    /// What brakes has the sign of the motion: a residual with that sign may depend on the speed's size, the load's, or
     /// the time.
     BrakingSpeed,
     BrakingLoad,
@@ -36,7 +36,7 @@ pub(super) enum Of {
 }
 
 impl Of {
-    /// Everything that the rest of a joint may depend on.
+    /// Everything that the residual of a joint may depend on.
     fn all(joints: usize) -> impl Iterator<Item = Of> {
         let each = (0..joints).flat_map(|k| [Of::Angle(k), Of::Speed(k), Of::Acceleration(k)]);
         let braking = [Of::BrakingSpeed, Of::BrakingLoad, Of::BrakingTime];
@@ -83,7 +83,7 @@ pub(super) struct Parts {
     pub(super) rows: Vec<Vec<(usize, f64)>>,
 }
 
-/// The rows of the sample: what a rest may depend on.
+/// The rows of the sample: what a residual may depend on.
 struct Rows {
     q: Vec<Vec<f64>>,
     qd: Vec<Vec<f64>>,
@@ -96,19 +96,19 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(stock: &Stock<'_>, fit: &Fitted) -> Rows {
-        let signals = stock.case.signals;
+    fn of(dict: &Dictionary<'_>, fit: &Fitted) -> Rows {
+        let signals = dict.case.signals;
         let at = |fine: &Vec<f64>| -> Vec<f64> {
             let kept = signals.kept(fine);
-            stock.rows.iter().map(|row| kept[*row]).collect()
+            dict.rows.iter().map(|row| kept[*row]).collect()
         };
         let joints = |of: &[Vec<f64>]| -> Vec<Vec<f64>> { of.iter().map(at).collect() };
         let q = joints(&signals.q);
-        let loads = match stock.case.kind.0 {
-            Domain::Torque => asked(stock, fit),
-            Domain::Position => weights(stock.case.arm, &q),
+        let loads = match dict.case.kind.0 {
+            Domain::Torque => asked(dict, fit),
+            Domain::Position => weights(dict.case.arm, &q),
         };
-        let arm = stock.case.arm;
+        let arm = dict.case.arm;
         let weights = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
             let gravity = axis * arm.gravity.norm();
             weights(&Arm { gravity, ..arm.clone() }, &q)
@@ -142,12 +142,12 @@ impl Rows {
 }
 
 /// What a fit asks of each joint.
-fn asked(stock: &Stock<'_>, fit: &Fitted) -> Vec<Vec<f64>> {
+fn asked(dict: &Dictionary<'_>, fit: &Fitted) -> Vec<Vec<f64>> {
     let (mut columns, mut values) = fit.bordered();
     // The target less what is left of it.
-    columns.push(Mixed::one(stock.target));
+    columns.push(Mixed::one(dict.target));
     values.push(1.0);
-    let asked = stock.sampled(&columns, &values).into_iter();
+    let asked = dict.sampled(&columns, &values).into_iter();
     asked.map(|rows| rows.into_iter().map(Option::unwrap_or_default).collect()).collect()
 }
 
@@ -164,8 +164,8 @@ fn weights(arm: &Arm, q: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 /// Of each joint all quantities that change over its rows; `left` has holes where a row does not count.
-pub(super) fn all(stock: &Stock<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]) -> Vec<Parts> {
-    let rows = Rows::of(stock, fit);
+pub(super) fn all(dict: &Dictionary<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]) -> Vec<Parts> {
+    let rows = Rows::of(dict, fit);
     let sorted = |(joint, of): (usize, Of)| {
         let counts = (0..left[joint].len()).filter(|k| left[joint][*k].is_some());
         let mut sorted: Vec<(f64, usize)> = counts.map(|k| (rows.value(joint, of, k), k)).collect();

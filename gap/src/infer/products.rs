@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidate::Candidate;
+use super::screen::Columns;
 
 /// Products of one set of rows: `z` are the model's parameters, `x` the candidates' numbers, `r`
 /// what is left of the gap.
@@ -35,13 +35,13 @@ pub(crate) struct Choice {
 
 impl Choice {
     /// The first parameters and candidates, as they are.
-    pub(crate) fn first(parameters: usize, candidates: &[Candidate]) -> Self {
+    pub(crate) fn first(parameters: usize, candidates: &[impl Columns]) -> Self {
         Choice {
             kept: (0..parameters).collect(),
             back: Vec::new(),
             values: DVector::zeros(0),
             candidates: candidates.len(),
-            numbers: candidates.iter().map(|c| c.size).sum(),
+            numbers: candidates.iter().map(Columns::columns).sum(),
         }
     }
 }
@@ -78,8 +78,24 @@ impl Products {
         }
     }
 
+    /// The same of the model's columns alone, what these do with such values given back to what is left.
+    pub(crate) fn given_back(&self, values: &DVector<f64>) -> Self {
+        let model = &self.zz * values;
+        Self {
+            rr: self.rr + values.dot(&model) + 2.0 * values.dot(&self.zr),
+            zr: &self.zr + model,
+            zz: self.zz.clone(),
+            ..Self::zeros(0, &[])
+        }
+    }
+
+    /// Squares that such values of the model's columns leave.
+    pub(crate) fn left(&self, values: &DVector<f64>) -> f64 {
+        self.rr + values.dot(&(&self.zz * values)) - 2.0 * values.dot(&self.zr)
+    }
+
     /// In other coordinates of the model, `z t`.
-    pub(crate) fn turned(&mut self, t: &DMatrix<f64>) {
+    pub(crate) fn turn(&mut self, t: &DMatrix<f64>) {
         let back = t.transpose();
         self.zz = &back * &self.zz * t;
         self.zr = &back * &self.zr;
@@ -112,6 +128,16 @@ impl Products {
         }
         chosen
     }
+}
+
+/// Where each of parts so large begins.
+pub(crate) fn starts(sizes: &[usize]) -> Vec<usize> {
+    let begins = sizes.iter().scan(0, |next, size| {
+        let here = *next;
+        *next += size;
+        Some(here)
+    });
+    begins.collect()
 }
 
 #[cfg(test)]
@@ -158,7 +184,7 @@ mod tests {
             close(turned.zx.as_slice(), direct.zx.as_slice());
             close(turned.xr.as_slice(), direct.xr.as_slice());
             close(&[turned.rr, turned.xx[1][0]], &[direct.rr, direct.xx[1][0]]);
-            turned.turned(&t);
+            turned.turn(&t);
             direct =
                 of(&(z.select_columns(&[0, 3]) * &t), &x.columns(0, 2).into_owned(), &given_back);
         }

@@ -1,21 +1,24 @@
-//! On what it depends that is left.
+//! On what the residual depends.
 //!
 //! What is left is sorted by joint value, speed, load and time into parts of equally many rows. A mean of
 //! a part, or of all rows, that chance does not make says that something is still to be found there: under the signs
 //! of whole blocks the largest of all joints and quantities is seldom as large. So do neighbours in a quantity's order
 //! that are alike, though they are of different times: of what comes and goes within a part.
 
-mod foretold;
+mod predicted;
 mod quantity;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::blocks::Blocks;
-use super::stock::Stock;
-use super::{CHANCE, judge::Verdict};
-use crate::dice::{Dice, Stream};
-use foretold::foretold;
+use super::dictionary::Dictionary;
+use super::judge::Verdict;
+use crate::effects::Spot;
+use crate::infer::constants::SIGNIFICANT;
+use crate::infer::{Signs, deviate};
+use crate::report::log::Dependence;
+use predicted::predicted;
 use quantity::{Of, Parts};
 
 /// Neighbours in a quantity's order that are held against each other.
@@ -23,21 +26,6 @@ const NEAR: usize = 8;
 
 /// Below it a sum is as good as normal.
 const LEAST_SKEW: f64 = 0.01;
-
-/// Random signs.
-const FLIPS: usize = 999;
-
-/// What is left of a joint, as far as it depends on something.
-pub struct Rest {
-    /// The joint, from 0.
-    pub joint: usize,
-    /// On what.
-    pub of: String,
-    /// The part of the squares that goes with it.
-    pub share: f64,
-    /// The chance that it is accident, among all joints and quantities.
-    pub chance: f64,
-}
 
 /// What is left at the rows of the sample, of each joint.
 type Left = Vec<Vec<Option<f64>>>;
@@ -60,100 +48,88 @@ enum By {
 }
 
 impl By {
-    /// How large it is under these signs, each row of all blocks, as a normal number.
+    /// How large it is under these signs, each column of all blocks, as a normal number.
     fn sizes(&self, signs: &DMatrix<f64>) -> Vec<f64> {
         match self {
             By::Means(sums) => {
-                let (pulls, parts) = (signs * sums, sums.ncols() as f64);
-                pulls.row_iter().map(|row| normal(row.norm_squared(), parts)).collect()
+                let (pulls, parts) = (sums.tr_mul(signs), sums.ncols() as f64);
+                pulls.column_iter().map(|sums| deviate(sums.norm_squared(), parts)).collect()
             }
             By::Neighbours(products, count) => {
-                let pulls = signs * products;
-                let sums = pulls.row_iter().zip(signs.row_iter()).map(|(a, b)| a.dot(&b));
-                sums.map(|sum| normal(count + sum * (2.0 * count).sqrt(), *count)).collect()
+                let pulls = products * signs;
+                let sums = pulls.column_iter().zip(signs.column_iter()).map(|(a, b)| a.dot(&b));
+                sums.map(|sum| deviate(count + sum * (2.0 * count).sqrt(), *count)).collect()
             }
         }
     }
 }
 
-/// On what a verdict's rest depends; the largest share first.
-pub fn rests(stock: &Stock<'_>, verdict: &Verdict, seed: u64) -> Vec<Rest> {
-    let left = verdict.fit.sampled(stock);
-    let all = quantity::all(stock, &verdict.fit, &left);
-    let told = |rests: Vec<(Of, Rest)>| rests.into_iter().map(|(_, rest)| rest).collect();
-    let rests = beyond_chance(stock, &left, &all, &verdict.blocks, seed);
-    if !rests.is_empty() {
-        return told(rests);
+/// On what the residual of a verdict depends beyond chance, of all joints and quantities; the largest share
+/// first.
+pub fn dependences(dict: &Dictionary<'_>, verdict: &Verdict, seed: u64) -> Vec<Dependence> {
+    let left = verdict.fit.sampled(dict);
+    let all = quantity::all(dict, &verdict.fit, &left);
+    let found = beyond_chance(dict, &left, &all, &verdict.blocks, seed, |_, _| true);
+    if !found.is_empty() {
+        return found;
     }
-    // What depends on something slow remembers long, and few blocks tell nothing. What other times foretell of it
-    // is no accident: what is left beside that remembers for as long as accident does, and so long are the blocks.
+    // What depends on something slow is autocorrelated, and few blocks tell nothing. What other times predict of it
+    // is no chance: the blocks are as long as the correlation of the residual beside that asks for.
     let (beside, by): (Left, Vec<Vec<Of>>) = (0..left.len())
         .into_par_iter()
         .map(|joint| {
             let own: Vec<&Parts> =
                 all.iter().filter(|parts| parts.joint == joint && !parts.of.is_fine()).collect();
-            foretold(stock, &left[joint], &own, &verdict.blocks)
+            predicted(dict, &left[joint], &own, &verdict.blocks)
         })
         .unzip();
-    let correlation = beside.par_iter().map(|rows| stock.correlation(rows));
+    let correlation = beside.par_iter().map(|rows| dict.correlation(rows));
     let longest = correlation.reduce(|| 0.0, f64::max);
-    let blocks = Blocks::of(&stock.grains, stock.case.signals, longest);
+    let blocks = Blocks::of(&dict.segments, dict.case.signals, longest);
     if blocks.all.len() <= verdict.blocks.all.len() {
         return Vec::new();
     }
-    let mut again = beyond_chance(stock, &left, &all, &blocks, seed);
-    again.retain(|(of, rest)| by[rest.joint].contains(of));
-    told(again)
+    beyond_chance(dict, &left, &all, &blocks, seed, |joint, of| by[joint].contains(&of))
 }
 
-/// What is left of some blocks' rows beyond chance.
+/// What is left of some blocks' rows beyond chance, of the joints and quantities that count.
 fn beyond_chance(
-    stock: &Stock<'_>,
+    dict: &Dictionary<'_>,
     left: &Left,
     all: &[Parts],
     blocks: &Blocks,
     seed: u64,
-) -> Vec<(Of, Rest)> {
-    let sorted =
-        all.par_iter().filter_map(|parts| sorted(stock, &left[parts.joint], parts, blocks));
+    counts: impl Fn(usize, Of) -> bool,
+) -> Vec<Dependence> {
+    let sorted = all.par_iter().filter_map(|parts| sorted(dict, &left[parts.joint], parts, blocks));
     let all: Vec<Sorted> = sorted.collect();
     let count = blocks.all.len();
-    let mut dice = Dice::new(seed, Stream::Visits);
-    let signs = DMatrix::from_fn(FLIPS, count, |_, _| dice.sign());
-    let mut largest = vec![f64::NEG_INFINITY; FLIPS];
+    let signs = Signs::new(count, seed);
+    let mut highest = vec![f64::NEG_INFINITY; signs.patterns.ncols()];
     for sorted in &all {
-        let sizes = sorted.by.sizes(&signs);
-        largest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
+        let sizes = sorted.by.sizes(&signs.patterns);
+        highest.iter_mut().zip(sizes).for_each(|(most, x)| *most = most.max(x));
     }
     let told = |sorted: &Sorted| {
-        let found = sorted.by.sizes(&DMatrix::repeat(1, count, 1.0))[0];
-        let as_good = largest.iter().filter(|x| **x >= found - 1e-9).count();
-        let chance = (1 + as_good) as f64 / (FLIPS + 1) as f64;
-        let (joint, of) = (sorted.joint, sorted.of.named(sorted.joint));
-        (sorted.of, Rest { joint, of, share: sorted.share, chance })
+        let found = sorted.by.sizes(&DMatrix::repeat(count, 1, 1.0))[0];
+        let p_value = signs.p_value(&highest, found);
+        let (place, of) = (Spot::of_joint(sorted.joint).to_string(), sorted.of.named(sorted.joint));
+        (p_value <= SIGNIFICANT).then_some(Dependence { place, of, share: sorted.share, p_value })
     };
-    let mut rests: Vec<(Of, Rest)> =
-        all.iter().map(told).filter(|(_, rest)| rest.chance <= CHANCE).collect();
-    rests.sort_by(|a, b| b.1.share.total_cmp(&a.1.share));
-    rests
-}
-
-/// A sum of so many squares of normal numbers as one normal number, so that a mean's one is held against sums of more
-/// (Wilson & Hilferty 1931).
-fn normal(squares: f64, count: f64) -> f64 {
-    let spread = 2.0 / (9.0 * count);
-    ((squares / count).cbrt() - (1.0 - spread)) / spread.sqrt()
+    let counted = all.iter().filter(|sorted| counts(sorted.joint, sorted.of));
+    let mut found: Vec<Dependence> = counted.filter_map(told).collect();
+    found.sort_by(|a, b| b.share.total_cmp(&a.share));
+    found
 }
 
 fn sorted(
-    stock: &Stock<'_>,
+    dict: &Dictionary<'_>,
     left: &[Option<f64>],
     parts: &Parts,
     blocks: &Blocks,
 ) -> Option<Sorted> {
-    let in_block = |(k, sign): &(usize, f64)| {
-        Some((stock.block_of(blocks, stock.rows[*k])?, *sign, left[*k]?))
-    };
+    let in_block =
+        |(k, sign): &(usize, f64)| Some((dict.block_of(blocks, dict.rows[*k])?, *sign, left[*k]?));
     let part = |part: &Vec<(usize, f64)>| part.iter().filter_map(in_block).collect();
     let rows: Vec<Vec<(usize, f64, f64)>> = parts.rows.iter().map(part).collect();
     if rows.iter().any(Vec::is_empty) {

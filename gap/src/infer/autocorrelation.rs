@@ -1,20 +1,18 @@
-//! Errors that linger look like what follows time: how long they do decides how much they make of a
-//! slow pattern by chance.
+//! How long errors last, and what autocorrelated errors make of a slow pattern by chance.
 //!
-//! What is left at visits that follow each other is taken for noise of two parts: one that is forgotten
-//! from step to step, and one of which a part stays (a first-order autoregression). Shares and memory are
-//! the likeliest beside a mean and the pattern itself, which takes from what lingers as it is fitted
-//! (restricted likelihood: Patterson & Thompson 1971; by the Kalman filter: Harvey & Phillips 1979). Told so that
-//! steps are independent, what is left says how much of the pattern chance makes: generalised least squares (Aitken 1936).
+//! Residuals at steps that follow each other are the sum of white noise and a first-order
+//! autoregression. Its share and its correlation time are estimated by restricted maximum likelihood beside a
+//! mean and the pattern itself, which takes from them as it is fitted (Patterson & Thompson 1971; by the
+//! Kalman filter: Harvey & Phillips 1979). Generalised least squares (Aitken 1936) then give the F test of
+//! the pattern.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use super::forward::SIGNIFICANT;
-use crate::diagnose::data::Problem;
+use super::constants::SIGNIFICANT;
 
-/// Steps of time, at most: of more visits neighbours are one step, so that the cost is bounded.
-const MOST_STEPS: usize = 1024;
+/// A window of so many correlation times holds the correlation (Sokal: 4 to 10).
+const WINDOW: f64 = 5.0;
 
 /// Shares of what lingers that are tried.
 const SHARES: [f64; 10] = [0.07, 0.15, 0.3, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98, 1.0];
@@ -25,9 +23,9 @@ const LONGER: f64 = std::f64::consts::SQRT_2;
 /// Less of a pattern beside the others is nothing of its own.
 const OWN: f64 = 1e-9;
 
-/// By how much the squares fall with a pattern, of steps that are told so that none remembers another.
+/// By how much the squares fall with a pattern, beside autocorrelated errors.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lingering {
+pub(crate) struct Autoregression {
     /// In units of the variance of a step.
     fall: f64,
     /// Numbers beyond those that were fitted.
@@ -59,11 +57,11 @@ struct Likely {
     variance: f64,
 }
 
-impl Lingering {
+impl Autoregression {
     /// Of the components that are `measured`, positions and rotations each with a memory of their own. `told`
-    /// is [`by_steps`] what is left beside all that follows time, a mean, and what each such effect does, that
-    /// which is asked for first, in units of the noise; `variance` is that of a row. `None` of fewer steps than can tell.
-    pub(super) fn of(
+    /// are at each step the residual beside all that follows time, a mean, and what each such effect does, that
+    /// which is asked for first, in units of the noise; `variance` is that of a row. `None` of too few steps.
+    pub(crate) fn of(
         measured: &[usize],
         told: &[Vec<Vector6<f64>>],
         variance: f64,
@@ -99,7 +97,7 @@ impl Lingering {
     }
 
     /// The chance of a fall as large, where the best of `tried` patterns of so many numbers was taken (Bonferroni).
-    pub(super) fn chance(&self, rank: usize, tried: usize) -> f64 {
+    pub(crate) fn chance(&self, rank: usize, tried: usize) -> f64 {
         // A number less than components is one of them all; more are the shape of the pattern.
         let rank = rank.max(self.components) as f64;
         let chance = FisherSnedecor::new(rank, self.freedom).map(|f| f.sf(self.fall / rank));
@@ -185,27 +183,34 @@ fn likeliest(all: &[Series]) -> (Memory, Likely) {
     best.filter(|(_, it)| it.unlikely + enough < none.1.unlikely).unwrap_or(none)
 }
 
-/// What is told of each row at steps of time. A step of many rows counts as many, in units of one row's noise.
-pub(super) fn by_steps(
-    problem: &Problem<'_>,
-    of_rows: impl Iterator<Item = Vector6<f64>>,
-) -> Vec<Vector6<f64>> {
-    let visits = problem.visits.count();
-    let count = visits.min(MOST_STEPS);
-    let mut sums = vec![(Vector6::zeros(), 0.0); count];
-    for (row, it) in of_rows.enumerate().filter(|(row, _)| problem.fits[*row]) {
-        let (sum, rows) = &mut sums[problem.visits.of_row[row] * count / visits];
-        *sum += it;
-        *rows += 1.0;
+/// The correlation time, s, of samples every `step`: half the integral of the correlation over all lags, up
+/// to where the sum no longer matters (Sokal 1997). Parts are independent; what does not count is a hole.
+pub(crate) fn correlation_time(parts: &[Vec<Option<f64>>], step: f64) -> f64 {
+    let all = || parts.iter().flatten().filter_map(|x| *x);
+    let mean = all().sum::<f64>() / all().count().max(1) as f64;
+    let at = |lag: usize| {
+        let pairs = parts.iter().flat_map(|part| part.iter().zip(part.iter().skip(lag)));
+        let both = pairs.filter_map(|(a, b)| Some((*a)? - mean).zip(Some((*b)? - mean)));
+        let (sum, count) = both.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + a * b, n + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    };
+    let whole = at(0);
+    let longest = parts.iter().map(Vec::len).max().unwrap_or(0);
+    let mut time = 0.5;
+    if whole > 0.0 {
+        for lag in 1..longest / 2 {
+            time += at(lag) / whole;
+            if lag as f64 >= WINDOW * time {
+                break;
+            }
+        }
     }
-    let there = sums.into_iter().filter(|(_, rows)| *rows > 0.0);
-    there.map(|(sum, rows): (Vector6<f64>, f64)| sum / rows.sqrt()).collect()
+    time.max(0.5) * step
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::tests::normal;
     use crate::rng::{Rng, Stream};
 
     /// Steps of a campaign, and the jumps that are tried in it.
@@ -218,11 +223,11 @@ mod tests {
         let mut dice = Rng::new(seed, Stream::Signs);
         let stays = if memory > 0.0 { (-1.0 / memory).exp() } else { 0.0 };
         std::array::from_fn(|component| {
-            let mut error = normal(&mut dice);
+            let mut error = dice.normal();
             let step = |k: usize| {
-                error = stays * error + (1.0 - stays * stays).sqrt() * normal(&mut dice);
+                error = stays * error + (1.0 - stays * stays).sqrt() * dice.normal();
                 let off = if component == 0 && k >= 2 * STEPS / 5 { jump } else { 0.0 };
-                error + off + normal(&mut dice) / 3.0
+                error + off + dice.normal() / 3.0
             };
             (0..STEPS).map(step).collect()
         })
@@ -251,7 +256,7 @@ mod tests {
 
     fn is_claimed(seed: u64, memory: f64, jump: f64) -> bool {
         let series = best(&campaign(seed, memory, jump));
-        let errors = Lingering::of_kind(&series, 0.0).expect("steps enough");
+        let errors = Autoregression::of_kind(&series, 0.0).expect("steps enough");
         errors.chance(3, JUMPS) <= SIGNIFICANT
     }
 

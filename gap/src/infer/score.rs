@@ -1,21 +1,18 @@
 //! What a candidate added to the model explains: on all rows, and on rows that no fit has seen.
 
+use std::ops::Range;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::basis::Basis;
+use super::bounded::Squares;
+use super::constants::RIDGE;
 use super::products::Products;
-use super::screen::Screen;
-use crate::diagnose::fit::{Basis, Squares, principal};
+use super::screen::{Columns, Screen};
 
 /// A direction of a candidate whose part left beside the model is smaller than this is not its own:
 /// the square of a ratio of sizes of 1e-4.
 const OWN: f64 = 1e-8;
-
-/// Rounds in which a variance and what is left at it settle: each is nearer by the part of the
-/// numbers that are hardly decided.
-const ROUNDS: usize = 6;
-
-/// Kept in a fold's normal matrix where the rows that are left do not decide a direction.
-const RIDGE: f64 = 1e-9;
 
 /// A candidate fitted beside the model.
 #[derive(Clone, Debug)]
@@ -48,12 +45,12 @@ pub(crate) struct Own {
 
 impl Own {
     /// The candidate fitted beside the model, whose products with the gap are `zr`.
-    pub(crate) fn score(&self, zr: &DVector<f64>, least: &[f64]) -> Score {
+    pub(crate) fn score(&self, zr: &DVector<f64>, of: &impl Columns) -> Score {
         let v = &self.xx - self.zx.tr_mul(&self.zx);
         let u = &self.xr - self.zx.tr_mul(zr);
         let size = self.xx.trace();
         let own = if size > 0.0 { (v.trace() / size).max(0.0).sqrt() } else { 0.0 };
-        let (values, rank) = solve(&v, &self.xx, &u, least);
+        let (values, rank) = solve(v.clone(), &self.xx, u.clone(), of);
         let drop = 2.0 * values.dot(&u) - values.dot(&(&v * &values));
         Score { drop, values, rank, own }
     }
@@ -61,16 +58,28 @@ impl Own {
 
 /// Minimum of `xᵀ v x − 2 uᵀ x` over the values that are physical; the directions that are `own`.
 fn solve(
-    v: &DMatrix<f64>,
+    v: DMatrix<f64>,
     sizes: &DMatrix<f64>,
-    u: &DVector<f64>,
-    least: &[f64],
+    mut u: DVector<f64>,
+    of: &impl Columns,
 ) -> (DVector<f64>, usize) {
-    Squares { matrix: v, right: u, sizes: sizes.diagonal(), decided: OWN }.solve(least)
+    let sizes = sizes.diagonal();
+    if !of.is_linearized() {
+        return Squares { matrix: &v, right: &u, sizes, decided: OWN }.solve(of.least());
+    }
+    // The last column is added once, whatever the values of the others.
+    let last = v.ncols() - 1;
+    u -= v.column(last);
+    let (matrix, right) = (v.view((0, 0), (last, last)).into_owned(), u.rows(0, last).into_owned());
+    let sizes = sizes.rows(0, last).into_owned();
+    let squares = Squares { matrix: &matrix, right: &right, sizes, decided: OWN };
+    let (values, rank) = squares.solve(of.least());
+    (values.push(1.0), rank)
 }
 
-impl Screen<'_> {
-    fn own(&self, candidate: usize) -> Own {
+impl<C: Columns> Screen<'_, C> {
+    /// Its products.
+    pub(crate) fn own(&self, candidate: usize) -> Own {
         let (range, t) = (self.range(candidate), &self.total);
         Own {
             zx: t.zx.columns_range(range.clone()).into_owned(),
@@ -81,49 +90,20 @@ impl Screen<'_> {
 
     /// A candidate fitted to all rows.
     pub(crate) fn score(&self, candidate: usize) -> Score {
-        self.own(candidate).score(&self.total.zr, &self.candidates[candidate].least)
-    }
-
-    /// A candidate of many numbers, each held to its tolerance, fitted to all rows at the variance
-    /// of what it leaves, which `variance` makes of squares and a number of parameters; and its cost:
-    /// how far its numbers are from 0, and by how much the data narrow them (the evidence of a linear
-    /// model with a normal prior, MacKay 1992).
-    pub(crate) fn tolerated(
-        &self,
-        candidate: usize,
-        variance: impl Fn(f64, usize) -> f64,
-    ) -> (Score, f64) {
-        let own = self.own(candidate);
-        let held = DVector::from_column_slice(&self.candidates[candidate].held);
-        let scaled = |m: DMatrix<f64>| m.map_with_location(|r, c, x| x / (held[r] * held[c]));
-        let size = held.len();
-        let data = scaled(&own.xx - own.zx.tr_mul(&own.zx)) - DMatrix::identity(size, size);
-        let (seen, turn) = principal(data);
-        let right = turn.tr_mul(&(&own.xr - own.zx.tr_mul(&self.total.zr)).component_div(&held));
-        let mut unit = variance(self.left(), 0);
-        let (mut drop, mut decided) = (0.0, 0.0);
-        let mut values = DVector::zeros(size);
-        for _ in 0..ROUNDS {
-            values = right.zip_map(&seen, |u, seen| u / (seen + unit));
-            drop = 2.0 * values.dot(&right) - values.dot(&values.component_mul(&seen));
-            decided = seen.map(|seen| seen / (seen + unit)).sum();
-            unit = variance((self.left() - drop).max(0.0), decided.round() as usize);
-        }
-        let narrowed: f64 = seen.map(|seen| (seen / unit).ln_1p()).sum();
-        let cost = values.norm_squared() + narrowed;
-        let values = (turn * values).component_div(&held);
-        (Score { drop, values, rank: decided.round() as usize, own: 1.0 }, cost)
+        self.own(candidate).score(&self.total.zr, &self.candidates[candidate])
     }
 
     /// Each block's part in the fall of the squares: `Σ_b` over these, flipped in sign or not, is
     /// what the candidate would explain of a gap so flipped. Columns are whitened so that their
     /// sum's square is the fall. `left` is [`Screen::left_by_block`].
     pub(crate) fn shares(&self, candidate: usize, left: &[DVector<f64>]) -> DMatrix<f64> {
-        let range = self.range(candidate);
+        let from = self.at[candidate];
+        let range = from..from + self.candidates[candidate].least().len();
         let t = &self.total;
         let zx = t.zx.columns_range(range.clone());
-        let v = &t.xx[candidate] - zx.tr_mul(&zx);
-        let whiten = Basis::decided(&v, &t.xx[candidate].diagonal(), OWN).t;
+        let xx = t.xx[candidate].view((0, 0), (range.len(), range.len()));
+        let v = xx - zx.tr_mul(&zx);
+        let whiten = Basis::decided(&v, &xx.diagonal(), OWN).t;
         let mut shares = DMatrix::zeros(whiten.ncols(), self.blocks.len());
         for (b, (block, left)) in self.blocks.iter().zip(left).enumerate() {
             let cross = block.zx.columns_range(range.clone());
@@ -148,31 +128,22 @@ impl Screen<'_> {
     pub(crate) fn held_out(&self, trained: &[Trained], candidate: Option<usize>) -> HeldOut {
         let mut sum = HeldOut::default();
         for fold in trained {
-            let (y, values, range) = match candidate {
-                None => (fold.right.clone(), DVector::zeros(0), 0..0),
-                Some(c) => {
-                    let (y, values) = fold.fit(self, c);
-                    (y, values, self.range(c))
-                }
-            };
-            let z = fold.back(&y);
-            let left = |p: &Products| {
-                let zx = p.zx.columns_range(range.clone());
-                let model = z.dot(&(&p.zz * &z)) - 2.0 * z.dot(&p.zr);
-                let own = match candidate {
-                    None => 0.0,
-                    Some(c) => {
-                        values.dot(&(&p.xx[c] * &values))
-                            - 2.0 * values.dot(&p.xr.rows_range(range.clone()))
-                            + 2.0 * z.dot(&(zx * &values))
-                    }
-                };
-                p.rr + model + own
-            };
-            sum.white += left(&self.folds[fold.fold]);
-            sum.plain += left(&self.plain[fold.fold]);
+            let fit = fold.with(self, candidate);
+            sum.white += fit.left(&self.folds[fold.fold]);
+            sum.plain += fit.left(&self.plain[fold.fold]);
         }
         HeldOut { white: sum.white.max(0.0), plain: sum.plain.max(0.0) }
+    }
+
+    /// The same of each block, weighted.
+    pub(crate) fn held_out_by_block(
+        &self,
+        trained: &[Trained],
+        candidate: Option<usize>,
+    ) -> Vec<f64> {
+        let fits: Vec<With> = trained.iter().map(|fold| fold.with(self, candidate)).collect();
+        let blocks = self.blocks.iter().zip(&self.fold_of_block);
+        blocks.map(|(block, fold)| fits[*fold].left(block).max(0.0)).collect()
     }
 }
 
@@ -186,7 +157,7 @@ pub(crate) struct Trained {
 }
 
 impl Trained {
-    fn new(screen: &Screen<'_>, fold: usize) -> Self {
+    fn new<C>(screen: &Screen<'_, C>, fold: usize) -> Self {
         let (t, f) = (&screen.total, &screen.folds[fold]);
         let k = t.zz.nrows();
         let normal = DMatrix::identity(k, k) * (1.0 + RIDGE) - &f.zz;
@@ -200,17 +171,21 @@ impl Trained {
         Self { fold, right, zx, root }
     }
 
-    /// The candidate's values, and the model's in the root's coordinates.
-    fn fit(&self, screen: &Screen<'_>, candidate: usize) -> (DVector<f64>, DVector<f64>) {
-        let range = screen.range(candidate);
+    /// The model with a candidate, or without any.
+    fn with<C: Columns>(&self, screen: &Screen<'_, C>, candidate: Option<usize>) -> With {
+        let Some(c) = candidate else {
+            let values = DVector::zeros(0);
+            return With { candidate, range: 0..0, z: self.back(&self.right), values };
+        };
+        let range = screen.range(c);
         let (t, f) = (&screen.total, &screen.folds[self.fold]);
         let zx = self.zx.columns_range(range.clone());
-        let sizes = &t.xx[candidate] - &f.xx[candidate];
+        let sizes = &t.xx[c] - &f.xx[c];
         let v = &sizes - zx.tr_mul(&zx);
-        let right = t.xr.rows_range(range.clone()) - f.xr.rows_range(range);
+        let right = t.xr.rows_range(range.clone()) - f.xr.rows_range(range.clone());
         let u = right - zx.tr_mul(&self.right);
-        let (values, _) = solve(&v, &sizes, &u, &screen.candidates[candidate].least);
-        (&self.right - zx * &values, values)
+        let (values, _) = solve(v, &sizes, u, &screen.candidates[c]);
+        With { candidate, range, z: self.back(&(&self.right - zx * &values)), values }
     }
 
     /// From the root's coordinates to the model's.
@@ -218,5 +193,28 @@ impl Trained {
         let mut z = y.clone();
         self.root.l_dirty().tr_solve_lower_triangular_mut(&mut z);
         z
+    }
+}
+
+/// Values of the model and of a candidate, or of the model alone.
+struct With {
+    candidate: Option<usize>,
+    /// The candidate's columns.
+    range: Range<usize>,
+    z: DVector<f64>,
+    values: DVector<f64>,
+}
+
+impl With {
+    /// Squares that they leave of some rows.
+    fn left(&self, p: &Products) -> f64 {
+        let Self { candidate, range, z, values } = self;
+        let zx = p.zx.columns_range(range.clone());
+        let model = z.dot(&(&p.zz * z)) - 2.0 * z.dot(&p.zr);
+        let own = candidate.map_or(0.0, |c| {
+            values.dot(&(&p.xx[c] * values)) - 2.0 * values.dot(&p.xr.rows_range(range.clone()))
+                + 2.0 * z.dot(&(zx * values))
+        });
+        p.rr + model + own
     }
 }

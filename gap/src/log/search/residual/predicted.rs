@@ -1,10 +1,10 @@
-//! What other times foretell of a rest.
+//! Cross-validated prediction of a residual from other times.
 
 use super::super::blocks::Blocks;
-use super::super::stock::Stock;
+use super::super::dictionary::Dictionary;
 use super::quantity::{Of, PARTS, Parts};
 
-/// Quantities are asked one after the other so often: by then what depends on several is foretold.
+/// Quantities are asked one after the other so often: by then what depends on several is predicted.
 const STEPS: usize = 6;
 
 /// The fold and the part of a row, and the sign that what is left has there.
@@ -48,15 +48,15 @@ impl Means {
     }
 }
 
-/// What is left of a joint beside what the means of its parts in other folds foretell, and by which quantities:
-/// at every step by the one that foretells most, until none does.
-pub(super) fn foretold(
-    stock: &Stock<'_>,
+/// What is left of a joint beside what the means of its parts in other folds predict, and by which quantities:
+/// at every step by the one that predicts most, until none does.
+pub(super) fn predicted(
+    dict: &Dictionary<'_>,
     left: &[Option<f64>],
     quantities: &[&Parts],
     blocks: &Blocks,
 ) -> (Vec<Option<f64>>, Vec<Of>) {
-    let fold = |k: usize| Some(blocks.fold[stock.block_of(blocks, stock.rows[k])?]);
+    let fold = |k: usize| Some(blocks.fold[dict.block_of(blocks, dict.rows[k])?]);
     let folds: Vec<Option<usize>> = (0..left.len()).map(fold).collect();
     let places = |parts: &Parts| {
         let mut places = vec![None; left.len()];

@@ -1,0 +1,30 @@
+//! Inference from normal equations of independent blocks: a campaign's visits, a log's stretches of time.
+//!
+//! **In:** [`Products`] of a model's columns, of candidates' columns and of what is to be explained, block by
+//! block, whatever the observations are.
+//! **Out:** a [`Screen`] that gives the [`Score`] of each candidate beside the model, the squares that it
+//! leaves on blocks that no fit has seen, and each block's share in it, whose signs [`Flips`] set at random.
+//!
+//! Least squares are solved by a [`Basis`], with bounds by [`Squares`]; `autocorrelation` says how long errors
+//! last, `resample` how far a shrink scatters when blocks are drawn again.
+
+mod autocorrelation;
+mod basis;
+mod bounded;
+pub(crate) mod constants;
+mod dependent;
+mod products;
+mod resample;
+mod score;
+mod screen;
+mod signs;
+
+pub(crate) use autocorrelation::{Autoregression, correlation_time};
+pub(crate) use basis::{Basis, RANK, principal};
+pub(crate) use bounded::Squares;
+pub(crate) use dependent::Dependent;
+pub(crate) use products::{Choice, Products, starts};
+pub(crate) use resample::{drawn, interval, students_t};
+pub(crate) use score::{Own, Score};
+pub(crate) use screen::{Columns, Screen};
+pub(crate) use signs::{Flips, Signs, deviate, unit};
