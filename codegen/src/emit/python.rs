@@ -3,8 +3,10 @@
 use stiffarm_kernels::Form;
 
 use super::asked;
-use super::docs::{docs, inputs};
+use super::cells::world;
+use super::docs::{ALL_ZERO, docs, inputs};
 use super::hash::provenance;
+use super::legend::legend;
 use super::lines::{Lines, WIDTH};
 use super::literal::constant;
 use crate::derive::{Held, Program, Size};
@@ -133,8 +135,10 @@ fn head(module: &Module, out: &mut Lines) {
             .to_owned(),
     ]
     .into_iter()
+    .chain(world(robot))
     .chain(readings)
     .chain(unstable)
+    .chain([legend(module)])
     .collect();
     docstring(out, &paragraphs);
     out.blank();
@@ -378,11 +382,12 @@ impl Printer<'_> {
         if let Some(place) = &self.of.place {
             said.push(format!("What is said of the tool here is of {place}: the tool is there."));
         }
-        let given = inputs(self.of.program.inputs(), false, self.of.own());
+        let given = inputs(self.of.program.inputs(), self.of.own());
         let extras = self.module.readings.extras.iter();
         let extras: String = extras.map(|e| format!(" {}: {}.", e.name(), e.sentence())).collect();
         said.push(format!("{}{extras}", given.replace('`', "")));
         said.push(format!("Worked out in {}.", self.of.program.frame()));
+        said.extend(self.of.is_zero().then(|| ALL_ZERO.to_owned()));
         said
     }
 
