@@ -53,7 +53,7 @@ pub struct Ops {
 }
 
 impl Ops {
-    /// Additions and multiplications together.
+    /// Additions and multiplications together; those of sines, cosines and of a linear solve are not counted.
     pub const fn flops(self) -> u32 {
         self.add + self.mul
     }

@@ -1,11 +1,13 @@
 //! The printer of CUDA C: the C printer's functions as a GPU's, and for each a kernel with one posture a thread.
 
 use super::asked;
-use super::c::comment::harmless;
+use super::c::comment::{harmless, plain};
 use super::c::header::{sentences, structures};
 use super::c::source::systems;
 use super::c::{COptions, Module, Precision, Sines, SymbolicTable};
+use super::cells::world;
 use super::hash::provenance;
+use super::legend::legend;
 use super::lines::Lines;
 use crate::derive::Program;
 use crate::ir::{Extra, Function};
@@ -63,7 +65,7 @@ fn head(module: &Module, precision: Precision, out: &mut Lines) {
         Precision::F32 => "f32",
         Precision::F64 => "f64",
     };
-    out.comment(&[
+    let said = [
         format!("{}: closed-form kernels, CUDA C. {}", harmless(&robot.name), provenance(robot)),
         "Not to be edited; to compare this file with a table:".to_owned(),
         format!(
@@ -79,7 +81,10 @@ fn head(module: &Module, precision: Precision, out: &mut Lines) {
         "Where status is not 0, the load leaves no stable equilibrium, or a joint moves no mass: what depends on it \
          is not written."
             .to_owned(),
-    ]);
+        plain(&legend(&module.ir)),
+    ];
+    let world = world(robot).map(|world| plain(&world));
+    out.comment(&said.into_iter().chain(world).collect::<Vec<_>>());
     out.blank();
     out.code("#ifdef __cplusplus");
     out.code("extern \"C\" {");

@@ -4,6 +4,9 @@ use stiffarm_kernels::{Form, Input, Output, Side};
 
 use crate::derive::{Held, Own, Quantity, Size};
 
+/// Of a function that computes nothing for this arm.
+pub(super) const ALL_ZERO: &str = "Every entry is zero for this table.";
+
 /// What it is; what its rows and columns are, and their units; of an output its formula and where that is
 /// printed. `order` says how a language indexes a matrix.
 pub(super) fn docs(held: &Held, n: usize, order: &str) -> Vec<String> {
@@ -58,19 +61,10 @@ fn sides(rows: &str, columns: Side) -> String {
     format!("rows {rows}; columns {}", columns.parts().join(", "))
 }
 
-/// What goes into a function, each input with its unit; the joint values as a `posture` or as they are.
-pub(super) fn inputs(
-    taken: impl IntoIterator<Item = Input>,
-    posture: bool,
-    own: Option<&Own>,
-) -> String {
+/// What goes into a function, each input with its unit.
+pub(super) fn inputs(taken: impl IntoIterator<Item = Input>, own: Option<&Own>) -> String {
     let own = own.into_iter().flat_map(|own| &own.inputs);
     let own = own.map(|input| format!("`{}`: {}, in {}", input.name, input.sentence, input.unit));
-    let each = taken.into_iter().map(|input| match input {
-        Input::Joints if posture => {
-            "`posture`: sines and cosines of the joint values, displacements in m".to_string()
-        }
-        input => format!("`{}`: {}", input.name(), input.sentence()),
-    });
+    let each = taken.into_iter().map(|input| format!("`{}`: {}", input.name(), input.sentence()));
     format!("{}.", each.chain(own).collect::<Vec<_>>().join("; "))
 }

@@ -4,11 +4,13 @@
 #[cfg(feature = "urdf")]
 mod bodies;
 mod c;
+mod cells;
 mod cuda;
 mod docs;
 mod dot;
 mod hash;
 mod latex;
+mod legend;
 mod lines;
 mod literal;
 #[cfg(feature = "urdf")]

@@ -3,8 +3,10 @@
 use stiffarm_kernels::Form;
 
 use super::asked;
-use super::docs::{docs, inputs};
+use super::cells::world;
+use super::docs::{ALL_ZERO, docs, inputs};
 use super::hash::provenance;
+use super::legend::legend;
 use super::lines::{Lines, WIDTH};
 use super::literal::constant;
 use crate::derive::{Held, Program, Size};
@@ -133,8 +135,10 @@ fn head(module: &Module, out: &mut Lines) {
             .to_owned(),
     ]
     .into_iter()
+    .chain(world(robot))
     .chain(readings)
     .chain(unstable)
+    .chain([legend(module)])
     .collect();
     docstring(out, &paragraphs);
     out.blank();
@@ -149,48 +153,10 @@ fn head(module: &Module, out: &mut Lines) {
 }
 
 /// Checks shapes, and the shape of what is given to one function together.
-const GIVEN: &str = r#"
-
-def _given(**arrays):
-    """The inputs as arrays of doubles, each a pair with its number of entries, and the shape of the batch."""
-    found = {name: np.asarray(array, dtype=float) for name, (array, _) in arrays.items()}
-    for name, (_, size) in arrays.items():
-        if size and found[name].shape[-1:] != (size,):
-            raise ValueError(f"{name}: found the shape {found[name].shape}, expected (..., {size})")
-    shapes = [x.shape[:-1] if arrays[name][1] else x.shape for name, x in found.items()]
-    return [*found.values(), np.broadcast_shapes(*shapes)]
-"#;
+const GIVEN: &str = include_str!("numpy/given.py");
 
 /// The kernels' solve, over a batch.
-const SOLVE: &str = r#"
-
-def _solve(batch, matrix, right, leading):
-    """The solution of a linear system by elimination, matrix column by column; nan where the symmetric part of the
-    matrix is not positive definite. Nothing depends on the unknowns from number leading on."""
-    n = len(right)
-    a = [np.broadcast_to(x, batch) for x in matrix]
-    a = np.stack(a, axis=-1).reshape(*batch, n, n).swapaxes(-1, -2).copy()
-    b = np.stack([np.broadcast_to(x, batch) for x in right], axis=-1)
-    twice = a + a.swapaxes(-1, -2)
-    definite = np.ones(batch, dtype=bool)
-    with np.errstate(all="ignore"):
-        for k in range(n):
-            definite &= twice[..., k, k] > 0.0
-            column = twice[..., k + 1 :, k] / twice[..., k, k, None]
-            twice[..., k + 1 :, k + 1 :] -= column[..., :, None] * twice[..., None, k, k + 1 :]
-        for k in range(leading):
-            factor = a[..., k + 1 : leading, k] / a[..., k, k, None]
-            a[..., k + 1 : leading, k + 1 :] -= factor[..., :, None] * a[..., None, k, k + 1 :]
-            b[..., k + 1 : leading] -= factor * b[..., k, None]
-        for k in reversed(range(leading)):
-            b[..., k] /= a[..., k, k]
-            b[..., :k] -= a[..., :k, k] * b[..., k, None]
-        for k in range(leading, n):
-            b[..., k] -= np.sum(a[..., k, :leading] * b[..., :leading], axis=-1)
-            b[..., k] /= a[..., k, k]
-    b[~definite] = np.nan
-    return np.moveaxis(b, -1, 0)
-"#;
+const SOLVE: &str = include_str!("numpy/solve.py");
 
 /// The class of what the functions need of the symbolic parameters.
 fn constants(module: &Module, out: &mut Lines) {
@@ -269,14 +235,6 @@ fn joints(module: &Module, out: &mut Lines) {
     out.dedent();
 }
 
-/// The inside of a tuple's brackets.
-fn tuple(entries: &[String]) -> String {
-    match entries {
-        [one] => format!("{one},"),
-        all => all.join(", "),
-    }
-}
-
 /// How the array of a result is shaped.
 struct Shape {
     sizes: Vec<usize>,
@@ -339,7 +297,7 @@ impl Printer<'_> {
             let Shape { sizes, homogeneous, .. } = Shape::of(&block.held, self.of.program.dof);
             let array = self.array(&block.held);
             let sizes: Vec<String> = sizes.iter().map(usize::to_string).collect();
-            out.code(&format!("{array} = np.zeros(batch + ({}))", tuple(&sizes)));
+            out.code(&format!("{array} = np.zeros([*batch, {}])", sizes.join(", ")));
             if homogeneous {
                 out.code(&format!("{array}[..., 3, 3] = 1.0"));
             }
@@ -378,11 +336,12 @@ impl Printer<'_> {
         if let Some(place) = &self.of.place {
             said.push(format!("What is said of the tool here is of {place}: the tool is there."));
         }
-        let given = inputs(self.of.program.inputs(), false, self.of.own());
+        let given = inputs(self.of.program.inputs(), self.of.own());
         let extras = self.module.readings.extras.iter();
         let extras: String = extras.map(|e| format!(" {}: {}.", e.name(), e.sentence())).collect();
         said.push(format!("{}{extras}", given.replace('`', "")));
         said.push(format!("Worked out in {}.", self.of.program.frame()));
+        said.extend(self.of.is_zero().then(|| ALL_ZERO.to_owned()));
         said
     }
 

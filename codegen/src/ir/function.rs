@@ -155,6 +155,11 @@ impl Function {
         })
     }
 
+    /// Whether all that it computes is structurally zero.
+    pub fn is_zero(&self) -> bool {
+        self.blocks().iter().flat_map(|block| &block.entries).all(|e| e.is_zero())
+    }
+
     /// Block and entry of what is structurally zero.
     pub fn zeros(&self) -> impl Iterator<Item = (usize, usize)> {
         self.blocks().iter().enumerate().flat_map(|(at, block)| {

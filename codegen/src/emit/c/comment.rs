@@ -47,7 +47,7 @@ pub(in crate::emit) fn harmless(text: &str) -> String {
 }
 
 /// Formulas in plain characters.
-pub(super) fn plain(text: &str) -> String {
+pub(in crate::emit) fn plain(text: &str) -> String {
     let spelled = [
         ("⁻¹", "^-1"),
         ("⁺", "^+"),

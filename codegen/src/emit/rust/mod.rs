@@ -61,7 +61,7 @@ pub fn rust(robot: &Robot, options: &RustOptions) -> String {
 pub(crate) fn rust_with(robot: &Robot, own: &[&Program], options: &RustOptions) -> String {
     let module = Module::new(robot, own, options.fused);
     let style = Rust { fused: options.fused, constants: "constants" };
-    let mut text = table::header(robot, own.is_empty(), options);
+    let mut text = table::header(&module, own.is_empty(), options);
     if module.is_symbolic() {
         text.push_str(&table::parameters(robot, &module.constants));
     }

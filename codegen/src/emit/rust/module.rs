@@ -7,9 +7,9 @@ use super::function::{Function, parameter};
 use super::posture::{self, INLINE, readings, values};
 use super::shapes;
 use crate::derive::Block;
-use crate::emit::docs::{docs, inputs};
+use crate::emit::docs::{ALL_ZERO, docs, inputs};
 use crate::emit::lines::Lines;
-use crate::ir::{Given, Statement};
+use crate::ir::Statement;
 
 impl Function<'_> {
     /// The function and its module.
@@ -84,24 +84,10 @@ impl Function<'_> {
 
     /// The documentation of the kernel itself.
     pub fn kernel_docs(&self, out: &mut Lines) {
-        if self.fused() {
-            out.doc(&format!("The kernel: everything that [`{}`] holds.", self.structure()));
-        } else {
-            self.output(out);
-        }
-        let mut read: Vec<Input> = self.of.program.inputs().collect();
-        read.retain(|input| match input {
-            Input::Joints => !self.of.reads.is_empty(),
-            beside => self.of.arguments.iter().any(|a| a.of == Given::Arm(*beside) && a.is_read()),
-        });
-        if !read.is_empty() || self.of.own().is_some_and(|own| !own.inputs.is_empty()) {
-            out.doc("");
-            out.doc(&inputs(read, true, self.of.own()));
-        }
-        if self.of.own().is_none() {
-            out.doc("");
-            out.doc("Additions and multiplications only, where no load is to be solved for.");
-        }
+        let name = self.of.name();
+        out.doc(&format!(
+            "[`{name}`](fn@super::{name}) of a posture, which may serve several functions."
+        ));
         self.errors(out);
     }
 
@@ -130,7 +116,7 @@ impl Function<'_> {
             self.output(out);
         }
         out.doc("");
-        let given = inputs(self.of.program.inputs(), false, self.of.own());
+        let given = inputs(self.of.program.inputs(), self.of.own());
         let joints = format!("`{}`: {}", Input::Joints.name(), Input::Joints.sentence());
         out.doc(&given.replacen(&joints, &readings(&self.module.readings), 1));
         out.doc("");
@@ -148,12 +134,21 @@ impl Function<'_> {
             0 => {}
             more => trigonometry.push_str(&format!(" and of {more} more")),
         }
+        let solves: String = self
+            .of
+            .solves()
+            .map(|solve| format!(", beside a linear system of {}", solve.right.len()))
+            .collect();
         out.doc(&format!(
-            "{} additions, {} multiplications{division}, {trigonometry}; worked out in {}.",
+            "{} additions, {} multiplications{division}, {trigonometry}{solves}; worked out in {}.",
             ops.add,
             ops.mul,
             self.of.program.frame()
         ));
+        if self.of.is_zero() {
+            out.doc("");
+            out.doc(ALL_ZERO);
+        }
         if self.of.own().is_some() && ops.div > 0 {
             out.doc("");
             out.doc("Where a divisor, or what a root is taken of, is zero, what depends on it is not finite.");
@@ -194,7 +189,10 @@ impl Function<'_> {
     fn figures(&self, out: &mut Lines) {
         let ops = self.of.program.ops();
         out.blank();
-        out.doc("Operations beyond the sines and cosines.");
+        out.doc(match self.of.solves().next() {
+            None => "Operations beyond the sines and cosines.",
+            Some(_) => "Operations beyond the sines and cosines, and beyond the solution of the linear system.",
+        });
         out.code(&format!(
             "pub const OPS: Ops = Ops {{ add: {}, mul: {}, neg: {}, div: {}, sin_cos: {} }};",
             ops.add, ops.mul, self.of.negations, ops.div, ops.sin_cos
@@ -224,8 +222,10 @@ impl Function<'_> {
         for Block { held, .. } in self.of.blocks() {
             let sentences = docs(held, n, shapes::ORDER);
             out.doc(&sentences[0]);
-            out.doc("");
-            out.doc(&sentences[1]);
+            if held.output().is_none() {
+                out.doc("");
+                out.doc(&sentences[1]);
+            }
             out.code(&format!("pub {}: {},", held.name(), shapes::ty(held, n)));
         }
         out.dedent();

@@ -2,8 +2,9 @@
 
 use stiffarm_kernels::Form;
 
+use super::super::cells;
 use super::RustOptions;
-use super::table::{angle, listed, value};
+use super::table::listed;
 use crate::emit::lines::Lines;
 use crate::ir::{Group, Module};
 use crate::robot::Robot;
@@ -43,12 +44,10 @@ fn docs(out: &mut Lines, robot: &Robot, place: &str) {
     let place_is = match robot.frames.iter().find(|named| named.name == place) {
         Some(named) => {
             let joint = &robot.joints[named.row].name;
-            let list = |cells: [String; 3]| cells.join(", ");
-            let at = list(named.frame.translation.each_ref().map(value));
-            let turned = list(named.frame.rotation.each_ref().map(angle));
             format!(
-                "the frame at [{at}] m, turned by the rotation vector [{turned}], in frame {}, that of {joint}. \
+                "the frame {}, in frame {}, that of {joint}. \
                  Joints beyond it do not enter.",
+                cells::place(&named.frame),
                 named.row + 1
             )
         }
