@@ -6,4 +6,3 @@ mod jweeg;
 mod knapczyk;
 mod ledger;
 mod lin;
-mod printed;

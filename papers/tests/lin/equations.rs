@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::arms::{Links, draws, near, planar, weight};
-use crate::printed::Printed;
+use super::printed::Printed;
 
 /// Eq. 32 is the exact deflection of the clamped chain, as the textbook has it; eqs. 27 and 28 leave out
 /// what the slope of link 1 does through link 2, and eq. 46 counts the slopes of the links again:

@@ -5,4 +5,5 @@
 
 mod arms;
 mod equations;
+mod printed;
 mod table_5;

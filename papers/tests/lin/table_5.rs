@@ -2,7 +2,7 @@
 //! judged in the ledger, as are Tables I to III.
 
 use super::arms::{Links, draws, elbow, near, printed_elbow, weight};
-use crate::printed::Printed;
+use super::printed::Printed;
 
 /// theta1 to theta6 in degrees, deflection in inches.
 const TABLE_5: [([f64; 6], f64); 8] = [
