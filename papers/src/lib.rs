@@ -7,10 +7,10 @@
 //! 2. [`latex`]: the equation is cut at its equals signs and into the cells of its matrices
 //!    ([`latex::formula`]), each cell becomes tokens in the paper's notation ([`latex::lexer`]) and
 //!    a tree ([`latex::parser`]).
-//! 3. [`exact`]: what it should be is derived from the graph ([`exact::derived`]); both are brought
-//!    to one quotient of polynomials in symbols, sines and cosines ([`exact::rational`]) in which
-//!    equal functions are equal. What has no exact form is evaluated modulo a prime ([`exact::field`]);
-//!    one walk of the tree ([`exact::evaluate`]) serves these, doubles and matrices.
+//! 3. [`exact`]: what it should be is derived in the generator's graph ([`exact::derived`]), and what is
+//!    printed is read into it ([`exact::forms`]). Both are evaluated at random points modulo a prime,
+//!    where nothing is rounded ([`exact::field`]): three points decide ([`exact::reader`]). A formula with
+//!    roots is evaluated in doubles.
 //! 4. [`matrix`]: a relation between matrices is evaluated at random postures, loads and parameters.
 //! 5. [`mend`]: where the two differ, the smallest change of what is printed that makes it true.
 //! 6. [`ledger`]: the finding becomes a [`Verdict`] with its correction, its change and a joint
@@ -22,11 +22,10 @@
 //!
 //! # Ours, and libraries
 //!
-//! The exact forms are ours: polynomials whose symbols may have negative powers, in which s² + c² = 1
-//! is eliminated and which say so when a coefficient overflows. So are the readers of LaTeX: which
-//! letters make a name is known only once a paper's notation is read, a mistake points at its
-//! character, and mending works on tokens as they are printed. JSON, the page, MathML, matrices and
-//! rational numbers are those of libraries.
+//! The graph is the generator's. A formula is multiplied out where a correction is printed, and nowhere
+//! else ([`exact::polynomial`]). The readers of LaTeX are ours: which letters make a name is known only
+//! once a paper's notation is read, a mistake points at its character, and mending works on tokens as
+//! they are printed. JSON, the page, MathML, matrices and rational numbers are those of libraries.
 #![forbid(unsafe_code)]
 
 pub mod exact;

@@ -1,13 +1,13 @@
 //! What a printed equation should say: an entry of what the generator derives of a robot, or of a
 //! product of elementary transforms.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
-use super::graph::Reading;
+use super::arithmetic::Arithmetic;
+use super::forms::{Forms, Reading};
 use super::product::{Matrix, product};
-use super::rational::Rational;
 use crate::latex::notation::Notation;
-use crate::latex::tree::Angle;
+use crate::latex::tree::{Angle, Tree};
 use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};
 use stiffarm_codegen::robot::Robot;
 
@@ -28,11 +28,11 @@ pub struct Setting {
     /// Angles of its joints; `theta1`, `theta2`, … where none are given.
     pub joints: Option<Vec<Angle>>,
     /// The wrench on its tool.
-    pub wrench: Vec<Rational>,
+    pub wrench: Vec<Tree>,
     /// The equation's product of transforms.
     pub product: Vec<String>,
-    /// What names stand for, in the formulas and in the robot's table.
-    pub defined: HashMap<String, Rational>,
+    /// What names stand for, in the formulas and in the robot's table; each may use those before it.
+    pub defined: Vec<(String, Tree)>,
     /// Symbols that grow without bounds: what they divide vanishes.
     pub infinite: Vec<String>,
 }
@@ -85,6 +85,14 @@ impl<'p> Path<'p> {
         let wrong = || format!("the index lies outside of {rows}×{columns}");
         inside.then_some(Some(entry)).ok_or_else(wrong)
     }
+
+    /// What the path names of a matrix.
+    fn of(&self, whole: Matrix) -> Result<Matrix, String> {
+        Ok(match self.entry((whole.rows(), whole.columns))? {
+            None => whole,
+            Some(entry) => Matrix { columns: 1, entries: vec![whole.at(entry)] },
+        })
+    }
 }
 
 fn index(text: &str) -> Result<usize, String> {
@@ -96,23 +104,21 @@ fn index(text: &str) -> Result<usize, String> {
 ///
 /// # Errors
 /// Why it cannot be derived.
-pub fn derived(path: &str, setting: &Setting, shared: Shared<'_>) -> Result<Matrix, String> {
+pub fn derived(
+    path: &str,
+    setting: &Setting,
+    shared: Shared<'_>,
+    forms: &Forms,
+) -> Result<Matrix, String> {
     let path = Path::read(path)?;
-    let product = || product(&setting.product, shared.notation, &setting.defined);
-    let transport = || product()?.transport().map_err(|why| format!("{why:?}"));
+    let product = || product(&setting.product, shared.notation, forms);
     let whole = match path.name {
         "product" => product()?,
-        "transport" => transport()?,
-        "transport_transposed" => transport()?.transposed(),
-        name => return output(name, &path, setting, shared.robots),
+        "transport" => product()?.transport(forms)?,
+        "transport_transposed" => product()?.transport(forms)?.transposed(),
+        name => return output(name, &path, setting, shared.robots, forms),
     };
-    Ok(match path.entry((whole.rows(), whole.columns))? {
-        None => whole,
-        Some((row, column)) => Matrix {
-            columns: 1,
-            entries: vec![whole.entries[row * whole.columns + column].clone()],
-        },
-    })
+    path.of(whole)
 }
 
 /// What of a robot's derivation a path names.
@@ -158,6 +164,7 @@ fn output(
     path: &Path<'_>,
     setting: &Setting,
     robots: &BTreeMap<String, Robot>,
+    forms: &Forms,
 ) -> Result<Matrix, String> {
     let derivation = Derivation::read(name)?;
     let which = path.robot.or(setting.robot.as_deref()).ok_or("no robot is named")?;
@@ -179,31 +186,59 @@ fn output(
     if joints.len() != n {
         return Err(format!("{} angles are given for {n} joints", joints.len()));
     }
-    let parameters = setting.defined.clone();
-    let reading = Reading { joints, wrench: setting.wrench.clone(), parameters };
-    let entries = &program.blocks[0].entries;
-    let of = |row: usize, column: usize| {
-        let exact = reading.of(&program.graph, entries[column * rows + row]);
-        let exact = exact.map_err(|why| format!("entry {},{}: {why:?}", row + 1, column + 1))?;
-        limited(exact, &setting.infinite)
-    };
-    let (columns, places): (_, Vec<_>) = match path.entry((rows, columns))? {
-        Some(place) => (1, vec![place]),
-        None => (columns, (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))).collect()),
-    };
-    let entries = places.into_iter().map(|(r, c)| of(r, c)).collect::<Result<_, _>>()?;
-    Ok(Matrix { columns, entries })
-}
-
-/// With some symbols grown without bounds.
-pub(crate) fn limited(value: Rational, infinite: &[String]) -> Result<Rational, String> {
-    if infinite.is_empty() {
-        return Ok(value);
-    }
-    let message = "the limit needs a polynomial that does not grow with the symbol";
-    let polynomial = value.polynomial().ok_or(message)?;
-    Ok(polynomial.limit(infinite).ok_or(message)?.into())
+    let wrench = setting.wrench.iter().map(|tree| forms.tree(tree)).collect::<Result<_, _>>()?;
+    // The generator's columns as rows.
+    let places = (0..rows).flat_map(|r| (0..columns).map(move |c| c * rows + r));
+    let entries = places.map(|at| program.blocks[0].entries[at]).collect();
+    let mut named = path.of(Matrix { columns, entries })?;
+    let reading = Reading { joints, wrench };
+    named.entries = reading.values(forms, &program.graph, &named.entries)?;
+    Ok(named)
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::latex::parser::parse;
+
+    const ARM: &str = "name = \"x\"\nconvention = \"standard\"\n\
+        [[joint]]\ntype = \"revolute\"\na = \"L1\"\nstiffness = \"k1\"\n\
+        [[joint]]\ntype = \"revolute\"\na = \"L2\"\nstiffness = \"k2\"\n";
+
+    fn of(path: &str, forms: &Forms) -> Result<Matrix, String> {
+        let robots = BTreeMap::from([("arm".to_owned(), Robot::from_toml(ARM, "x").unwrap().0)]);
+        let setting = Setting {
+            robot: Some("arm".into()),
+            product: vec!["Rz(\\theta_1)".into(), "Tx(L_1)".into()],
+            ..Setting::default()
+        };
+        derived(path, &setting, Shared { robots: &robots, notation: &Notation::default() }, forms)
+    }
+
+    #[test]
+    fn paths_name_entries() {
+        for (path, text) in [
+            ("jacobian[1][2]", "-L_2\\sin(\\theta_1+\\theta_2)"),
+            ("arm: compliance[1][1] of joint 2", "\\frac{L_2^2\\sin(\\theta_1+\\theta_2)^2}{k_2}"),
+            ("product[2][4]", "L_1\\sin\\theta_1"),
+        ] {
+            let forms = Forms::new(&[], &[]).unwrap();
+            let entry = of(path, &forms).unwrap().entries[0];
+            let wanted = forms.tree(&parse(text, &Notation::default()).unwrap()).unwrap();
+            let apart = forms.sub(entry, wanted).unwrap();
+            let truth = forms.truth(1, vec![apart]).unwrap();
+            assert!(truth.form(truth.entries[0]).is_zero(), "{path}");
+        }
+        assert_eq!(of("pose", &Forms::new(&[], &[]).unwrap()).unwrap().rows(), 3);
+    }
+
+    #[test]
+    fn what_cannot_be_derived_says_why() {
+        let why = |path: &str| of(path, &Forms::new(&[], &[]).unwrap()).unwrap_err();
+        assert!(why("jacobain[1][1]").contains("is none of"));
+        assert!(why("jacobian[7][1]").contains("outside of 6×2"));
+        assert!(why("jacobian[0][1]").contains("counted from 1"));
+        assert!(why("other: pose").contains("no robot `other`"));
+        assert!(why("product[1").contains("never closed"));
+    }
+}

@@ -2,13 +2,13 @@
 //! operation is exact. Two different formulas agree at a random point with a probability below
 //! 10⁻¹⁵, so one point rejects and a few points convince.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
-use std::sync::Mutex;
 
 use num_rational::Ratio;
 
-use super::evaluate::{Arithmetic, NoValue};
-use crate::latex::tree::{Angle, Function, Tree};
+use super::arithmetic::Arithmetic;
+use crate::latex::tree::{Angle, Function};
 
 /// 2⁶¹ − 1.
 const P: u64 = (1 << 61) - 1;
@@ -19,7 +19,9 @@ pub struct Modular {
     seed: u64,
     /// Names that stand for a formula, with its value here.
     pub defined: HashMap<String, u64>,
-    circle: Mutex<HashMap<String, (u64, u64)>>,
+    /// A name whose residue is another one.
+    pub moved: Option<String>,
+    circle: RefCell<HashMap<String, (u64, u64)>>,
 }
 
 impl Modular {
@@ -30,7 +32,8 @@ impl Modular {
 
     fn residue(&self, salt: u64, name: &str) -> u64 {
         // FNV-1a, then splitmix64: the same point on every machine.
-        let start = 0xcbf2_9ce4_8422_2325 ^ salt;
+        let moved = u64::from(self.moved.as_deref() == Some(name));
+        let start = 0xcbf2_9ce4_8422_2325 ^ salt ^ moved;
         let hash =
             name.bytes().fold(start, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
         let mut z = hash.wrapping_add(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
@@ -39,10 +42,14 @@ impl Modular {
         ((z ^ (z >> 31)) % (P - 1000)) + 500
     }
 
+    /// A double from 0 to 1 that follows from the point and a name.
+    pub fn part(&self, name: &str) -> f64 {
+        self.residue(0, name) as f64 / P as f64
+    }
+
     /// Sine and cosine of one angle: (2t, 1 − t²)/(1 + t²).
     fn sin_cos(&self, name: &str) -> (u64, u64) {
-        let mut circle = self.circle.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if let Some(known) = circle.get(name) {
+        if let Some(known) = self.circle.borrow().get(name) {
             return *known;
         }
         let t = self.residue(0x5151, name);
@@ -50,7 +57,7 @@ impl Modular {
         // −1 is no square modulo P, so 1 + t² has an inverse.
         let inverse = power(add(1, square), P - 2);
         let pair = (mul(add(t, t), inverse), mul(minus(1, square), inverse));
-        circle.insert(name.to_owned(), pair);
+        self.circle.borrow_mut().insert(name.to_owned(), pair);
         pair
     }
 }
@@ -85,18 +92,18 @@ fn power(mut base: u64, mut n: u64) -> u64 {
 
 impl Arithmetic for Modular {
     type Value = u64;
-    type Error = NoValue;
+    type Error = &'static str;
 
-    fn number(&self, n: Ratio<i128>) -> Result<u64, NoValue> {
+    fn number(&self, n: Ratio<i128>) -> Result<u64, &'static str> {
         let residue = |i: i128| i.rem_euclid(i128::from(P)) as u64;
         self.div(residue(*n.numer()), residue(*n.denom()))
     }
 
-    fn named(&self, key: &str) -> Result<u64, NoValue> {
+    fn named(&self, key: &str) -> Result<u64, &'static str> {
         Ok(self.defined.get(key).copied().unwrap_or_else(|| self.residue(0, key)))
     }
 
-    fn trig(&self, function: Function, angle: &Angle) -> Result<u64, NoValue> {
+    fn trig(&self, function: Function, angle: &Angle) -> Result<u64, &'static str> {
         let (mut s, mut c) = (0, 1);
         for (name, times) in angle.terms() {
             let (one, other) = self.sin_cos(name);
@@ -108,30 +115,26 @@ impl Arithmetic for Modular {
         Ok(if function == Function::Sin { s } else { c })
     }
 
-    fn add(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+    fn add(&self, a: u64, b: u64) -> Result<u64, &'static str> {
         Ok(add(a, b))
     }
 
-    fn sub(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+    fn sub(&self, a: u64, b: u64) -> Result<u64, &'static str> {
         Ok(minus(a, b))
     }
 
-    fn mul(&self, a: u64, b: u64) -> Result<u64, NoValue> {
+    fn mul(&self, a: u64, b: u64) -> Result<u64, &'static str> {
         Ok(mul(a, b))
     }
 
-    fn div(&self, a: u64, b: u64) -> Result<u64, NoValue> {
-        if b != 0 { Ok(mul(a, power(b, P - 2))) } else { Err(NoValue) }
+    fn div(&self, a: u64, b: u64) -> Result<u64, &'static str> {
+        if b != 0 { Ok(mul(a, power(b, P - 2))) } else { Err("a division by zero") }
     }
 
     /// The root that is a square itself.
-    fn sqrt(&self, a: u64) -> Result<u64, NoValue> {
+    fn sqrt(&self, a: u64) -> Result<u64, &'static str> {
         let root = power(a, P.div_ceil(4));
-        if mul(root, root) == a { Ok(root) } else { Err(NoValue) }
-    }
-
-    fn other(&self, _: &Tree) -> Result<u64, NoValue> {
-        Err(NoValue)
+        if mul(root, root) == a { Ok(root) } else { Err("a root of what is no square") }
     }
 }
 
@@ -146,7 +149,7 @@ mod tests {
         assert_ne!(a, b);
         assert_eq!(f.mul(f.div(a, b).unwrap(), b), Ok(a));
         assert_eq!(f.sub(add(a, b), b), Ok(a));
-        assert_eq!(f.div(a, 0), Err(NoValue));
+        assert!(f.div(a, 0).is_err());
         let square = mul(a, a);
         let root = f.sqrt(square).unwrap();
         assert!(root == a || root == P - a);

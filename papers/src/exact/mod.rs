@@ -1,10 +1,10 @@
-//! Exact forms: quotients of polynomials in symbols, sines and cosines.
+//! What an equation should be, in the generator's graph, and how what is printed is held against it.
 
+pub mod arithmetic;
 pub mod derived;
-pub mod evaluate;
 pub mod field;
-pub mod graph;
+pub mod forms;
 pub mod polynomial;
 pub(crate) mod print;
 pub mod product;
-pub mod rational;
+pub mod reader;

@@ -1,20 +1,29 @@
-//! An exact form written in a paper's notation.
+//! A formula written in a paper's notation.
 
 use std::collections::HashMap;
 
 use num_rational::Ratio;
 use num_traits::{One, Signed};
 
-use super::polynomial::{Polynomial, Variable};
-use super::rational::Rational;
+use super::forms::Form;
+use super::polynomial::{Expanded, Polynomial, Variable};
 use crate::latex::lexer::Lexeme;
 use crate::latex::name::key;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Function;
 use crate::mend::Inventory;
 
-/// The exact form, sines and cosines of single angles, in the paper's letters where it has them.
-pub fn exact(value: &Rational, notation: &Notation, inventory: &Inventory) -> String {
+/// The formula multiplied out, sines and cosines of single angles, in the paper's letters where it
+/// has them.
+///
+/// # Errors
+/// It is too long, or has a root.
+pub fn expanded(
+    formula: Form<'_>,
+    notation: &Notation,
+    inventory: &Inventory,
+) -> Result<String, &'static str> {
+    let value = formula.value(&Expanded)?;
     let mut names: HashMap<String, String> = HashMap::new();
     for token in inventory.tokens() {
         if let Lexeme::Name(name) = &token.is {
@@ -24,9 +33,9 @@ pub fn exact(value: &Rational, notation: &Notation, inventory: &Inventory) -> St
     let printer = Printer { notation, names };
     let above = printer.sum(&value.above);
     if value.below == Polynomial::one() {
-        return above;
+        return Ok(above);
     }
-    format!("\\frac{{{above}}}{{{}}}", printer.sum(&value.below))
+    Ok(format!("\\frac{{{above}}}{{{}}}", printer.sum(&value.below)))
 }
 
 struct Printer<'a> {
@@ -36,7 +45,7 @@ struct Printer<'a> {
 
 impl Printer<'_> {
     fn sum(&self, p: &Polynomial) -> String {
-        if p.is_zero() {
+        if *p == Polynomial::default() {
             return "0".into();
         }
         let mut text = String::new();
@@ -49,7 +58,7 @@ impl Printer<'_> {
             };
             text.push_str(sign);
             let factors = |positive: bool| {
-                let chosen = monomial.iter().filter(move |(_, p)| (*p > 0) == positive);
+                let chosen = monomial.iter().filter(move |(_, p)| (**p > 0) == positive);
                 chosen.map(|(v, p)| self.factor(v, p.unsigned_abs())).collect::<Vec<_>>().join(" ")
             };
             let (above, below) = (factors(true), factors(false));
@@ -124,22 +133,24 @@ pub fn decimal(text: &str) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::evaluate::Arithmetic;
-    use crate::exact::rational::Exact;
+    use crate::exact::arithmetic::Arithmetic;
+    use crate::exact::forms::Forms;
     use crate::latex::lexer::lex;
     use crate::latex::parser::parse;
 
     #[test]
-    fn exact_forms_are_written_in_the_papers_letters() {
+    fn what_is_multiplied_out_is_written_in_the_papers_letters() {
         let functions = vec![("s".to_owned(), Function::Sin, "\\theta".to_owned())];
         let notation = Notation { functions, ..Notation::default() };
         let text = "\\lambda_6 s_1/2 - \\cos\\theta_2 a^2";
         let mut inventory = Inventory::default();
         inventory.add(&lex(text, &notation).unwrap());
         let tree = parse(text, &notation).unwrap();
-        let value = Exact(&HashMap::new()).tree(&tree).unwrap();
+        let forms = Forms::new(&[], &[]).unwrap();
+        let value = forms.tree(&tree).unwrap();
+        let truth = forms.truth(1, vec![value]).unwrap();
         assert_eq!(
-            exact(&value, &notation, &inventory),
+            expanded(truth.form(truth.entries[0]), &notation, &inventory).unwrap(),
             "-a^2 \\cos \\theta_2 + \\frac{\\lambda_6 s_1}{2}"
         );
     }

@@ -1,117 +1,119 @@
 //! A printed equation of a data file.
 
-use std::collections::HashMap;
+use ::serde::Deserialize;
 
-use super::formulas::{definitions, exact, symbol, tree};
-use super::section::{Notes, Section, string};
+use super::formulas::{definitions, symbol, tree};
+use super::notes::{Named, Notes, Text, plain};
 use super::{About, Equation};
 use crate::exact::derived::Setting;
-use crate::exact::rational::Rational;
 use crate::latex::formula::{Piece, formula};
 use crate::latex::lexer::lex;
 use crate::latex::notation::Notation;
 use crate::latex::parser::{collect, parse};
-use crate::latex::tree::Angle;
+use crate::latex::tree::{Angle, Tree};
 use crate::matrix::{self, Relation};
 
-/// The keys of an equation.
-pub(super) const KEYS: &[&str] = &[
-    "number",
-    "latex",
-    "of",
-    "truth",
-    "matrices",
-    "definition",
-    "robot",
-    "joints",
-    "wrench",
-    "product",
-    "let",
-    "where",
-    "infinite",
-    "group",
-    "note",
-    "correct",
-    "printed",
-];
+/// An equation as it is written in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Written {
+    number: Text,
+    latex: Option<Text>,
+    of: Option<Text>,
+    truth: Option<Text>,
+    #[serde(default)]
+    matrices: Named<Text>,
+    definition: Option<Text>,
+    robot: Option<Text>,
+    joints: Option<Vec<Text>>,
+    #[serde(default)]
+    wrench: Vec<Text>,
+    #[serde(default)]
+    product: Vec<Text>,
+    #[serde(default, rename = "let")]
+    lets: Named<Text>,
+    #[serde(default, rename = "where")]
+    defined: Named<Text>,
+    #[serde(default)]
+    infinite: Vec<Text>,
+    group: Option<Text>,
+    note: Option<Text>,
+    correct: Option<Text>,
+    printed: Option<Text>,
+}
 
 /// Reads an equation; one that is not `printed` has no LaTeX.
 pub(super) fn read(
-    section: &Section<'_, '_>,
+    written: Written,
     printed: bool,
-    shared: &HashMap<String, Rational>,
+    shared: &[(String, Tree)],
     notation: &Notation,
     notes: &mut Notes<'_>,
-) -> Option<Equation> {
-    let number = section.required("number", notes)?.text;
-    let latex = match printed {
-        true => section.required("latex", notes)?,
-        false => Piece::default(),
-    };
-    let defined = definitions(section, shared, notation, notes);
-    let path = section.string("of", notes).map(About::Path);
-    let mut matrices = Vec::new();
-    if let Some(symbols) = section.section("matrices", &[], notes) {
-        for (symbol, value) in symbols.entries() {
-            if matrix::single(&symbol.text).is_none() {
-                let message = format!("`{}` is no symbol of a matrix", symbol.text);
-                notes.wrong(symbol.place(), message);
-            }
-            matrices.extend(string(value, notes).map(|source| (symbol.text, source)));
-        }
+) -> Equation {
+    let number = notes.piece(&written.number);
+    if printed && written.latex.is_none() {
+        notes.wrong(number.place(), "`latex` is missing here");
     }
-    let truth = section.string("truth", notes);
+    let piece =
+        |text: &Option<Text>, notes: &Notes<'_>| text.as_ref().map(|text| notes.piece(text));
+    let latex = piece(&written.latex, notes).unwrap_or_default();
+    let truth = piece(&written.truth, notes);
+    let mut matrices = Vec::new();
+    for (symbol, source) in &written.matrices {
+        let symbol = notes.piece(symbol);
+        if matrix::single(&symbol.text).is_none() {
+            let message = format!("`{}` is no symbol of a matrix", symbol.text);
+            notes.wrong(symbol.place(), message);
+        }
+        matrices.push((symbol.text, notes.piece(source)));
+    }
     let (truth, relation) = match matrices.is_empty() {
         true => (truth.map(About::Formula), None),
         false => (None, Some(About::Relation(Relation { matrices, truth }))),
     };
-    let definition = section.string("definition", notes).map(|w| About::Definition(w.text));
+    let path = piece(&written.of, notes).map(About::Path);
+    let definition = plain(written.definition).map(About::Definition);
     let mut given = [path, truth, relation, definition].into_iter().flatten();
     let about = given.next();
     if about.is_none() || given.next().is_some() {
-        notes.wrong(
-            section.at(),
-            "an equation has one of `of`, `truth`, `matrices` and `definition`",
-        );
+        let message = "an equation has one of `of`, `truth`, `matrices` and `definition`";
+        notes.wrong(number.place(), message);
     }
     check(&latex, about.as_ref(), notation, notes);
-    let mut joints = None;
-    if let Some(written) = section.strings("joints", notes) {
-        joints = Some(written.iter().filter_map(|w| angle(w, notation, notes)).collect());
-    }
-    let wrench = section.strings("wrench", notes).unwrap_or_default();
-    let wrench = wrench.iter().filter_map(|w| exact(w, notation, &defined, notes)).collect();
-    let mut lets = Vec::new();
-    if let Some(names) = section.section("let", &[], notes) {
-        for (name, value) in names.entries() {
-            let name = symbol(&name, notation, notes);
-            if let (Some(name), Some(path)) = (name, string(value, notes)) {
-                lets.push((name, path));
-            }
-        }
-    }
-    let infinite = section.strings("infinite", notes).unwrap_or_default();
+    let pieces = |texts: &[Text], notes: &Notes<'_>| -> Vec<Piece> {
+        texts.iter().map(|text| notes.piece(text)).collect()
+    };
+    let joints = written.joints.map(|joints| pieces(&joints, notes));
+    let joints = joints
+        .map(|joints| joints.iter().filter_map(|joint| angle(joint, notation, notes)).collect());
+    let wrench = pieces(&written.wrench, notes);
+    let wrench = wrench.iter().filter_map(|w| tree(w, notation, notes)).collect();
+    let infinite = pieces(&written.infinite, notes);
     let infinite = infinite.iter().filter_map(|w| symbol(w, notation, notes)).collect();
-    let product = section.strings("product", notes).unwrap_or_default();
+    let mut lets = Vec::new();
+    for (name, path) in &written.lets {
+        let (name, path) = (notes.piece(name), notes.piece(path));
+        lets.extend(symbol(&name, notation, notes).map(|name| (name, path)));
+    }
     let setting = Setting {
-        robot: section.string("robot", notes).map(|w| w.text),
+        robot: plain(written.robot),
         joints,
         wrench,
-        product: product.into_iter().map(|w| w.text).collect(),
-        defined,
+        product: pieces(&written.product, notes).into_iter().map(|w| w.text).collect(),
+        defined: definitions(&written.defined, shared, notation, notes),
         infinite,
     };
-    Some(Equation {
-        number,
+    Equation {
+        number: number.text,
         latex,
         about: about.unwrap_or_default(),
         setting,
         lets,
-        group: section.string("group", notes).map(|w| w.text),
-        note: section.string("note", notes).map(|w| w.text),
-        printed: section.string("printed", notes).map(|w| w.text),
-        correct: section.string("correct", notes),
-    })
+        group: plain(written.group),
+        note: plain(written.note),
+        printed: plain(written.printed),
+        correct: piece(&written.correct, notes),
+    }
 }
 
 /// What is printed must be made of tokens (whether they make a formula is for the judgement: a

@@ -1,10 +1,6 @@
 //! Symbols and formulas of a data file.
 
-use std::collections::HashMap;
-
-use super::section::{Notes, Section, string};
-use crate::exact::evaluate::Arithmetic;
-use crate::exact::rational::{Exact, Rational};
+use super::notes::{Named, Notes, Text};
 use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, lex};
 use crate::latex::notation::Notation;
@@ -32,32 +28,20 @@ pub(super) fn tree(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> Opt
     parse(&w.text, notation).map_err(|mistake| notes.mistakes.push(mistake.moved(w.at))).ok()
 }
 
-pub(super) fn exact(
-    w: &Piece,
-    notation: &Notation,
-    defined: &HashMap<String, Rational>,
-    notes: &mut Notes<'_>,
-) -> Option<Rational> {
-    let tree = tree(w, notation, notes)?;
-    let exact = Exact(defined).tree(&tree);
-    exact.map_err(|why| notes.wrong(w.place(), format!("this has no exact form: {why:?}"))).ok()
-}
-
-/// The `where` of a table on top of what is defined already; a definition may use another.
+/// The `where` of a table on top of what is defined already: a definition may use another, and stands
+/// behind those that it uses.
 pub(super) fn definitions(
-    section: &Section<'_, '_>,
-    outer: &HashMap<String, Rational>,
+    written: &Named<Text>,
+    outer: &[(String, Tree)],
     notation: &Notation,
     notes: &mut Notes<'_>,
-) -> HashMap<String, Rational> {
-    let mut defined = outer.clone();
-    let Some(section) = section.section("where", &[], notes) else { return defined };
+) -> Vec<(String, Tree)> {
+    let mut defined = outer.to_vec();
     let mut open = Vec::new();
-    for (name, value) in section.entries() {
-        let name = symbol(&name, notation, notes);
-        let (Some(name), Some(value)) = (name, string(value, notes)) else { continue };
-        let Some(tree) = tree(&value, notation, notes) else { continue };
-        open.push((name, value, tree));
+    for (name, value) in written {
+        let (name, value) = (notes.piece(name), notes.piece(value));
+        let (name, tree) = (symbol(&name, notation, notes), tree(&value, notation, notes));
+        open.extend(name.zip(tree).map(|(name, tree)| (name, value, tree)));
     }
     while !open.is_empty() {
         let names: Vec<String> = open.iter().map(|(name, ..)| name.clone()).collect();
@@ -68,8 +52,8 @@ pub(super) fn definitions(
             tree.each_name(&mut |used, _| waits |= names.iter().any(|n| n == used));
             if waits {
                 waiting.push((name, value, tree));
-            } else if let Some(exact) = exact(&value, notation, &defined, notes) {
-                defined.insert(name, exact);
+            } else {
+                defined.push((name, tree));
             }
         }
         if waiting.len() == before {

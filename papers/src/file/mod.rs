@@ -48,8 +48,8 @@
 
 mod equation;
 mod formulas;
+mod notes;
 mod read;
-mod section;
 mod table;
 
 use std::collections::{BTreeMap, HashMap};
@@ -66,10 +66,6 @@ use stiffarm_codegen::robot::Robot;
 /// A paper's data file.
 #[derive(Clone, Debug, Default)]
 pub struct Paper {
-    /// The file's name, for messages.
-    pub path: String,
-    /// The file's text.
-    pub text: String,
     /// Short name.
     pub id: String,
     /// Authors, year, title.

@@ -1,59 +1,93 @@
 //! Reads a paper's data file.
 
-use std::collections::HashMap;
-
-use ::toml::de::DeTable;
+use ::serde::Deserialize;
 
 use super::formulas::{definitions, symbol};
-use super::section::{Notes, Section, number, string};
+use super::notes::{Named, Notes, Text, plain};
 use super::{Paper, equation, table};
 use crate::latex::mistake::{Mistake, file_error};
 use crate::latex::notation::{Notation, Slash, squeezed};
 use crate::latex::tree::Function;
 use stiffarm_codegen::robot::{FileError, Robot};
 
-const PAPER: &[&str] =
-    &["paper", "title", "notation", "robot", "where", "values", "equation", "quantity", "table"];
-const NOTATION: &[&str] = &["sine", "cosine", "names", "slash"];
+/// A file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    paper: Text,
+    title: Option<Text>,
+    #[serde(default)]
+    notation: WrittenNotation,
+    #[serde(default)]
+    robot: Vec<WrittenRobot>,
+    #[serde(default, rename = "where")]
+    defined: Named<Text>,
+    #[serde(default)]
+    values: Named<f64>,
+    #[serde(default)]
+    equation: Vec<equation::Written>,
+    #[serde(default)]
+    quantity: Vec<equation::Written>,
+    #[serde(default)]
+    table: Vec<table::Written>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct WrittenNotation {
+    sine: Named<Text>,
+    cosine: Named<Text>,
+    names: Vec<Text>,
+    slash: Option<Text>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenRobot {
+    name: Text,
+    table: Text,
+}
 
 /// Reads a data file. `path` is only used in messages.
 ///
 /// # Errors
-/// Every mistake in the file, each at its character.
+/// Every mistake in the file's formulas, each at its character; the first one in its TOML.
 pub fn read(text: &str, path: &str) -> Result<Paper, FileError> {
-    let (root, errors) = DeTable::parse_recoverable(text);
     let mut notes = Notes { text, mistakes: Vec::new() };
-    for error in errors {
-        let at = error.span().unwrap_or(0..0);
-        notes.wrong(at, format!("this is no TOML: {}", error.message()));
-    }
-    if notes.mistakes.is_empty() {
-        let section = Section::open(root.get_ref(), root.span(), PAPER, &mut notes);
-        let paper = paper(&section, path, &mut notes);
-        if notes.mistakes.is_empty() {
-            return Ok(paper);
+    match ::toml::from_str(text) {
+        Err(error) => notes.wrong(error.span().unwrap_or(0..0), error.message()),
+        Ok(written) => {
+            let paper = paper(written, &mut notes);
+            if notes.mistakes.is_empty() {
+                return Ok(paper);
+            }
         }
     }
     Err(file_error(path, text, notes.mistakes))
 }
 
-fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
-    let notation = root.section("notation", NOTATION, notes);
-    let notation = notation.map(|s| self::notation(&s, notes)).unwrap_or_default();
+fn paper(written: Written, notes: &mut Notes<'_>) -> Paper {
+    let notation = notation(written.notation, notes);
+    let shared = definitions(&written.defined, &[], &notation, notes);
+    let mut read = |equations: Vec<equation::Written>, printed| {
+        let each = equations.into_iter();
+        each.map(|equation| equation::read(equation, printed, &shared, &notation, notes)).collect()
+    };
+    let (equations, quantities) = (read(written.equation, true), read(written.quantity, false));
+    let tables = written.table.into_iter().map(|table| table::read(table, &notation, notes));
     let mut out = Paper {
-        path: path.to_owned(),
-        text: notes.text.to_owned(),
-        id: root.required("paper", notes).unwrap_or_default().text,
-        title: root.string("title", notes).unwrap_or_default().text,
-        notation,
+        id: written.paper.into_inner(),
+        title: plain(written.title).unwrap_or_default(),
+        equations,
+        quantities,
+        tables: tables.collect(),
         ..Paper::default()
     };
-    for robot in root.sections("robot", &["name", "table"], notes) {
-        let name = robot.required("name", notes);
-        let (Some(name), Some(table)) = (name, robot.required("table", notes)) else { continue };
-        match Robot::from_toml(&table.text, &name.text) {
+    for WrittenRobot { name, table } in &written.robot {
+        let table = notes.piece(table);
+        match Robot::from_toml(&table.text, name.get_ref()) {
             Ok((robot, _)) => {
-                out.robots.insert(name.text, robot);
+                out.robots.insert(name.get_ref().clone(), robot);
             }
             Err(error) => notes.mistakes.extend(error.errors.into_iter().map(|e| Mistake {
                 at: e.span.start + table.at..e.span.end + table.at,
@@ -62,49 +96,30 @@ fn paper(root: &Section<'_, '_>, path: &str, notes: &mut Notes<'_>) -> Paper {
             })),
         }
     }
-    if let Some(values) = root.section("values", &[], notes) {
-        for (name, value) in values.entries() {
-            let name = symbol(&name, &out.notation, notes);
-            if let (Some(name), Some(value)) = (name, number(value, notes)) {
-                out.values.insert(name, value);
-            }
-        }
+    for (name, value) in &written.values {
+        let name = symbol(&notes.piece(name), &notation, notes);
+        out.values.extend(name.map(|name| (name, *value)));
     }
-    let shared = definitions(root, &HashMap::new(), &out.notation, notes);
-    for section in root.sections("equation", equation::KEYS, notes) {
-        let found = equation::read(&section, true, &shared, &out.notation, notes);
-        out.equations.extend(found);
-    }
-    for section in root.sections("quantity", equation::KEYS, notes) {
-        let quantity = equation::read(&section, false, &shared, &out.notation, notes);
-        out.quantities.extend(quantity);
-    }
-    for section in root.sections("table", table::KEYS, notes) {
-        out.tables.extend(table::read(&section, &out.notation, notes));
-    }
-    out
+    Paper { notation, ..out }
 }
 
-fn notation(section: &Section<'_, '_>, notes: &mut Notes<'_>) -> Notation {
-    let mut functions = Vec::new();
-    for (key, function) in [("sine", Function::Sin), ("cosine", Function::Cos)] {
-        let Some(letters) = section.section(key, &[], notes) else { continue };
-        for (letter, value) in letters.entries() {
-            if let Some(angle) = string(value, notes) {
-                functions.push((squeezed(&letter.text), function, squeezed(&angle.text)));
-            }
-        }
-    }
-    let names = section.strings("names", notes).unwrap_or_default();
-    let slash = match section.string("slash", notes) {
-        Some(w) if w.text == "product" => Slash::Product,
-        Some(w) if w.text != "factor" => {
-            notes.wrong(w.place(), "`slash` is \"product\" or \"factor\"");
+fn notation(written: WrittenNotation, notes: &mut Notes<'_>) -> Notation {
+    let letters = |letters: Named<Text>, function| {
+        letters.into_iter().map(move |(letter, angle)| {
+            (squeezed(letter.get_ref()), function, squeezed(angle.get_ref()))
+        })
+    };
+    let sines = letters(written.sine, Function::Sin);
+    let functions = sines.chain(letters(written.cosine, Function::Cos)).collect();
+    let slash = match &written.slash {
+        Some(slash) if slash.get_ref() == "product" => Slash::Product,
+        Some(slash) if slash.get_ref() != "factor" => {
+            notes.wrong(slash.span(), "`slash` is \"product\" or \"factor\"");
             Slash::Factor
         }
         _ => Slash::Factor,
     };
-    let names = names.into_iter().map(|w| w.text).collect();
+    let names = written.names.into_iter().map(::toml::Spanned::into_inner).collect();
     Notation { functions, names, slash, matrices: false }
 }
 

@@ -2,8 +2,10 @@
 
 use std::collections::HashMap;
 
+use ::serde::Deserialize;
+
 use super::formulas::{symbol, tree};
-use super::section::{Notes, Section, number};
+use super::notes::{Named, Notes, Text, plain};
 use crate::latex::formula::Piece;
 use crate::latex::notation::Notation;
 use crate::latex::tree::Tree;
@@ -53,61 +55,74 @@ impl Column {
     }
 }
 
-pub(super) const KEYS: &[&str] = &["number", "column", "rows", "values", "note"];
-const COLUMN: &[&str] =
-    &["name", "symbol", "degrees", "formula", "equations", "rounded", "computed", "why", "note"];
+/// A table as it is written in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Written {
+    number: Text,
+    #[serde(default)]
+    column: Vec<WrittenColumn>,
+    #[serde(default)]
+    rows: Vec<Vec<Text>>,
+    #[serde(default)]
+    values: Named<f64>,
+    note: Option<Text>,
+}
 
-pub(super) fn read(
-    section: &Section<'_, '_>,
-    notation: &Notation,
-    notes: &mut Notes<'_>,
-) -> Option<Table> {
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenColumn {
+    name: Text,
+    symbol: Option<Text>,
+    degrees: Option<Text>,
+    formula: Option<Text>,
+    #[serde(default)]
+    equations: Named<Text>,
+    rounded: Option<Text>,
+    computed: Option<Text>,
+    why: Option<Text>,
+    note: Option<Text>,
+}
+
+pub(super) fn read(written: Written, notation: &Notation, notes: &mut Notes<'_>) -> Table {
+    let rows = written.rows.iter();
     let mut out = Table {
-        number: section.required("number", notes)?.text,
-        note: section.string("note", notes).map(|w| w.text),
-        rows: section.rows("rows", notes),
+        number: written.number.get_ref().clone(),
+        note: plain(written.note),
+        rows: rows.map(|row| row.iter().map(|cell| notes.piece(cell)).collect()).collect(),
         ..Table::default()
     };
-    for column in section.sections("column", COLUMN, notes) {
-        let formula = column.string("formula", notes);
+    for column in written.column {
+        let mut named = |text: &Text| symbol(&notes.piece(text), notation, notes);
         let mut equations = Vec::new();
-        if let Some(names) = column.section("equations", &[], notes) {
-            for (name, value) in names.entries() {
-                let name = symbol(&name, notation, notes);
-                let number = super::section::string(value, notes);
-                equations.extend(name.zip(number.map(|w| w.text)));
-            }
+        for (name, number) in &column.equations {
+            equations.extend(named(name).map(|name| (name, number.get_ref().clone())));
         }
-        let rounded = column.string("rounded", notes);
-        let named = column.string("symbol", notes);
-        let flag = |key: &str, notes: &mut Notes<'_>| {
-            column.string(key, notes).is_some_and(|w| w.text == "yes")
-        };
+        let (symbol, rounded) = (
+            column.symbol.as_ref().and_then(&mut named),
+            column.rounded.as_ref().and_then(&mut named),
+        );
+        let formula = column.formula.map(|formula| notes.piece(&formula));
         out.columns.push(Column {
-            name: column.required("name", notes)?.text,
-            symbol: named.and_then(|w| symbol(&w, notation, notes)),
-            degrees: flag("degrees", notes),
-            formula: formula.and_then(|w| tree(&w, notation, notes)),
+            name: column.name.into_inner(),
+            symbol,
+            degrees: plain(column.degrees).as_deref() == Some("yes"),
+            formula: formula.and_then(|formula| tree(&formula, notation, notes)),
             equations,
-            rounded: rounded.and_then(|w| symbol(&w, notation, notes)),
-            computed: column.string("computed", notes).map(|w| w.text),
-            why: column.string("why", notes).map(|w| w.text),
-            note: column.string("note", notes).map(|w| w.text),
+            rounded,
+            computed: plain(column.computed),
+            why: plain(column.why),
+            note: plain(column.note),
         });
     }
-    if let Some(values) = section.section("values", &[], notes) {
-        for (name, value) in values.entries() {
-            let name = symbol(&name, notation, notes);
-            out.values.extend(name.zip(number(value, notes)));
-        }
+    for (name, value) in &written.values {
+        let name = symbol(&notes.piece(name), notation, notes);
+        out.values.extend(name.map(|name| (name, *value)));
     }
-    for row in &out.rows {
-        if row.len() != out.columns.len() {
-            let at = row.first().map_or(section.at(), Piece::place);
-            let message =
-                format!("this row has {} cells for {} columns", row.len(), out.columns.len());
-            notes.wrong(at, message);
-        }
+    for row in out.rows.iter().filter(|row| row.len() != out.columns.len()) {
+        let at = row.first().map_or(written.number.span(), Piece::place);
+        let message = format!("this row has {} cells for {} columns", row.len(), out.columns.len());
+        notes.wrong(at, message);
     }
-    Some(out)
+    out
 }

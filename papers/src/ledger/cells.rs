@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::judge::truth;
-use crate::exact::evaluate::{Arithmetic, NoValue, Real};
+use crate::exact::arithmetic::{Arithmetic, Real};
+use crate::exact::forms::Truth;
 use crate::exact::print::{decimal, short};
-use crate::exact::rational::Rational;
 use crate::file::{Column, Paper, Table};
 use crate::verdict::{Entry, Kind, Verdict};
 
@@ -19,7 +19,7 @@ pub(super) fn cells(paper: &Paper, methods: Methods<'_>) -> Vec<Entry> {
 }
 
 /// What the names of a column's formula are given by other equations.
-type Given = Result<HashMap<String, Rational>, String>;
+type Given = Result<HashMap<String, Truth>, String>;
 
 fn cells_of(paper: &Paper, table: &Table, methods: Methods<'_>) -> Vec<Entry> {
     let given: Vec<Given> = table.columns.iter().map(|column| lookup(paper, column)).collect();
@@ -81,9 +81,7 @@ fn lookup(paper: &Paper, column: &Column) -> Given {
         let equation =
             paper.equations.iter().chain(&paper.quantities).find(|e| e.number == *number);
         let equation = equation.ok_or_else(|| format!("there is no equation {number}"))?;
-        let value = truth(paper, equation)?;
-        let single = value.get(0, 0).cloned().ok_or("an empty equation")?;
-        out.insert(name.clone(), single);
+        out.insert(name.clone(), truth(paper, equation)?);
     }
     Ok(out)
 }
@@ -96,13 +94,13 @@ fn by_formula(
 ) -> Result<Option<f64>, String> {
     let Some(formula) = &column.formula else { return Ok(None) };
     let given = given.as_ref().map_err(Clone::clone)?;
-    let plain = Real(|name: &str| values.get(name).copied());
     let resolved = Real(|name: &str| match given.get(name) {
-        Some(exact) => plain.rational(exact).ok(),
+        Some(truth) => {
+            truth.form(*truth.entries.first()?).real(|name| values.get(name).copied()).ok()
+        }
         None => values.get(name).copied(),
     });
-    let value = resolved.tree(formula);
-    value.map(Some).map_err(|NoValue| "a symbol of the formula has no value".into())
+    Ok(Some(resolved.tree(formula)?))
 }
 
 fn judge(entry: &mut Entry, column: &Column, printed: &str, value: Result<Option<f64>, String>) {

@@ -1,55 +1,48 @@
 //! Judges the printed equations of a paper.
 
-use std::collections::HashMap;
-
 use super::labels::{Member, shifted};
-use super::reader::Reader;
 use super::witness::witness;
-use crate::exact::derived::{derived, limited};
-use crate::exact::evaluate::Arithmetic;
+use crate::exact::arithmetic::Arithmetic;
+use crate::exact::derived::derived;
+use crate::exact::forms::{Form, Forms, Truth};
+use crate::exact::print::expanded;
 use crate::exact::product::Matrix;
-use crate::exact::rational::{Exact, Rational};
+use crate::exact::reader::Reader;
 use crate::file::{About, Equation, Paper};
-use crate::latex::formula::{Formula, formula};
+use crate::latex::formula::{Formula, Piece, formula};
 use crate::latex::lexer::{Token, lex};
 use crate::latex::parser::{parse, parse_tokens};
 use crate::mend::{Inventory, Search, mend, written};
 use crate::verdict::{Entry, Kind, Verdict};
 
-/// What names stand for in an equation, derived values among them.
-fn definitions(paper: &Paper, equation: &Equation) -> Result<HashMap<String, Rational>, String> {
-    let mut defined = equation.setting.defined.clone();
-    for (name, path) in &equation.lets {
-        let value = derived(&path.text, &equation.setting, paper.shared())?;
-        let value = value.get(0, 0).cloned().ok_or("a name stands for a single entry")?;
-        defined.insert(name.clone(), value);
-    }
-    Ok(defined)
-}
-
-/// What an equation should be: a matrix of exact forms.
+/// What an equation should be: a matrix of formulas.
 ///
 /// # Errors
 /// Why that cannot be derived.
-pub fn truth(paper: &Paper, equation: &Equation) -> Result<Matrix, String> {
+pub fn truth(paper: &Paper, equation: &Equation) -> Result<Truth, String> {
     let setting = &equation.setting;
+    let mut forms = Forms::new(&setting.defined, &setting.infinite)?;
+    for (name, path) in &equation.lets {
+        let value = derived(&path.text, setting, paper.shared(), &forms)?;
+        forms.names.insert(name.clone(), *value.entries.first().ok_or("an empty matrix")?);
+    }
     let written = match &equation.about {
-        About::Path(path) => return derived(&path.text, setting, paper.shared()),
+        About::Path(path) => {
+            let Matrix { columns, entries } = derived(&path.text, setting, paper.shared(), &forms)?;
+            return forms.truth(columns, entries);
+        }
         About::Formula(written) => written,
         About::Definition(_) | About::Relation(_) | About::Nothing => {
             return Err("there is nothing to derive".into());
         }
     };
-    let defined = definitions(paper, equation)?;
     let side = formula(&written.text).sides.into_iter().next().ok_or("the truth is empty")?;
-    let columns = side.rows.first().map_or(0, Vec::len);
-    let mut entries = Vec::new();
-    for cell in side.rows.iter().flatten() {
+    let entry = |cell: &Piece| {
         let tree = parse(&cell.text, &paper.notation).map_err(|m| m.message)?;
-        let exact = Exact(&defined).tree(&tree).map_err(|why| format!("{why:?}"))?;
-        entries.push(limited(exact, &setting.infinite)?);
-    }
-    Ok(Matrix { columns, entries })
+        Ok::<_, String>(forms.tree(&tree)?)
+    };
+    let entries = side.rows.iter().flatten().map(entry).collect::<Result<_, _>>()?;
+    forms.truth(side.rows.first().map_or(0, Vec::len), entries)
 }
 
 /// An equation made ready: its tokens, cell by cell, and what they should be.
@@ -58,8 +51,7 @@ struct Ready<'p> {
     printed: Formula,
     /// Per side, per cell.
     tokens: Vec<Vec<Vec<Token>>>,
-    truth: Result<Matrix, String>,
-    defined: HashMap<String, Rational>,
+    truth: Result<Truth, String>,
 }
 
 /// Judges every equation of a paper, in order.
@@ -79,8 +71,7 @@ pub fn equations(paper: &Paper) -> Vec<Entry> {
                 if nothing { Vec::new() } else { printed.sides.iter().map(cells).collect() };
             tokens.iter().flatten().for_each(|cell| inventory.add(cell));
             let truth = if nothing { Err(String::new()) } else { truth(paper, equation) };
-            let defined = definitions(paper, equation).unwrap_or_default();
-            Ready { equation, printed, tokens, truth, defined }
+            Ready { equation, printed, tokens, truth }
         })
         .collect();
     (0..ready.len()).map(|at| entry(paper, &ready, at, &inventory)).collect()
@@ -124,7 +115,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
         }
         (_, Ok(truth)) => truth,
     };
-    let read = Reader { notation: &paper.notation, defined: &this.defined };
+    let read = Reader::new(&paper.notation, truth);
     let mut corrections = Vec::new();
     let mut changes = Vec::new();
     entry.verdict = Verdict::Agrees;
@@ -142,8 +133,9 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
         }
         let pieces = side.rows.iter().flatten();
         let each = cells.iter().zip(&truth.entries).zip(pieces).enumerate();
-        for (k, ((tokens, truth), piece)) in each {
-            match read.agrees(tokens, truth) {
+        for (k, ((tokens, wanted), piece)) in each {
+            let wanted = truth.form(*wanted);
+            match read.agrees(tokens, wanted) {
                 Some(Verdict::AgreesAtPoints) if entry.verdict == Verdict::Agrees => {
                     entry.verdict = Verdict::AgreesAtPoints;
                 }
@@ -159,17 +151,17 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
                         entry.witness = tree
                             .as_ref()
                             .ok()
-                            .and_then(|tree| witness(tree, truth, &this.defined, &paper.values));
+                            .and_then(|tree| witness(tree, wanted, truth, &paper.values));
                     }
                     let stated =
                         equation.correct.as_ref().map(|w| w.text.as_str()).filter(|text| {
-                            lex(text, &paper.notation).is_ok_and(|t| read.is(&t, truth))
+                            lex(text, &paper.notation).is_ok_and(|t| read.is(&t, wanted))
                         });
                     // What the data file states is better than a patchwork of slips.
                     let single =
                         |(.., slips): &(String, String, usize)| *slips == 1 || stated.is_none();
                     let found = label(ready, at, &read).or_else(|| {
-                        let small = small(tokens, truth, &read, inventory).filter(single);
+                        let small = small(tokens, wanted, &read, inventory).filter(single);
                         small.map(|(mended, change, _)| (mended, change))
                     });
                     if entry.verdict != Verdict::Unreadable {
@@ -181,8 +173,10 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
                             changes.push(format!("{place}{change}"));
                         }
                         None => {
-                            let derived =
-                                || crate::exact::print::exact(truth, &paper.notation, inventory);
+                            let derived = || {
+                                let text = expanded(wanted, &paper.notation, inventory);
+                                text.unwrap_or_else(|why| format!("what is derived: {why}"))
+                            };
                             let whole = stated.map_or_else(derived, str::to_owned);
                             corrections.push(format!("{place}{whole}"));
                             if let Err(mistake) = &tree {
@@ -215,12 +209,13 @@ fn label(ready: &[Ready<'_>], at: usize, read: &Reader<'_>) -> Option<(String, S
     let mut members = Vec::new();
     for (k, other) in ready.iter().enumerate() {
         let (Ok(truth), [cells]) = (&other.truth, other.tokens.as_slice()) else { continue };
-        let ([tokens], [truth]) = (cells.as_slice(), truth.entries.as_slice()) else { continue };
+        let ([tokens], [entry]) = (cells.as_slice(), truth.entries.as_slice()) else { continue };
         if other.equation.group.as_ref() == Some(group) {
             if k == at {
                 own = Some(members.len());
             }
-            members.push(Member { number: &other.equation.number, tokens, truth });
+            let (number, truth) = (&other.equation.number, truth.form(*entry));
+            members.push(Member { number, tokens, truth });
         }
     }
     shifted(&members, own?, read)
@@ -229,12 +224,11 @@ fn label(ready: &[Ready<'_>], at: usize, read: &Reader<'_>) -> Option<(String, S
 /// The smallest change of the tokens: what they then are, what was changed, how many slips that is.
 fn small(
     tokens: &[Token],
-    truth: &Rational,
+    truth: Form<'_>,
     read: &Reader<'_>,
     inventory: &Inventory,
 ) -> Option<(String, String, usize)> {
-    let (notation, defined) = (read.notation, read.defined);
-    let search = Search { tokens, notation, inventory, truth, defined };
+    let search = Search { tokens, inventory, read, truth };
     let edits = mend(&search, |tokens| read.is(tokens, truth))?;
     let all: Vec<_> = edits.iter().collect();
     let mended = written(&crate::mend::apply(tokens, &all));

@@ -1,8 +1,8 @@
 //! Labels that have slipped: the right formula stands in the same group, under another label, run
 //! together with its neighbour, or in two halves.
 
-use super::reader::Reader;
-use crate::exact::rational::Rational;
+use crate::exact::forms::Form;
+use crate::exact::reader::Reader;
 use crate::latex::lexer::Token;
 use crate::mend::written;
 
@@ -13,7 +13,7 @@ pub struct Member<'a> {
     /// As printed.
     pub tokens: &'a [Token],
     /// What it should be.
-    pub truth: &'a Rational,
+    pub truth: Form<'a>,
 }
 
 /// What should stand at member `at`, found elsewhere in the group, and where.
@@ -56,7 +56,7 @@ pub fn shifted(members: &[Member<'_>], at: usize, read: &Reader<'_>) -> Option<(
 /// A head or a tail that is the right formula, where two have run together.
 fn part<'t>(
     tokens: &'t [Token],
-    truth: &Rational,
+    truth: Form<'_>,
     read: &Reader<'_>,
 ) -> Option<(&'t [Token], &'static str)> {
     for cut in 1..tokens.len() {
@@ -64,10 +64,10 @@ fn part<'t>(
         if read.seems(head, truth) && read.seems(tail, truth) {
             continue;
         }
-        if read.is(head, truth) && read.reads(tail) && !starts_sum(tail) {
+        if read.is(head, truth) && read.tree(tail).is_some() && !starts_sum(tail) {
             return Some((head, "first"));
         }
-        if read.is(tail, truth) && read.reads(head) && !starts_sum(tail) {
+        if read.is(tail, truth) && read.tree(head).is_some() && !starts_sum(tail) {
             return Some((tail, "second"));
         }
     }

@@ -7,7 +7,6 @@ mod judge;
 mod labels;
 mod mathml;
 mod page;
-mod reader;
 mod render;
 mod witness;
 

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::exact::evaluate::{Arithmetic, Real};
-use crate::exact::rational::Rational;
+use crate::exact::arithmetic::{Arithmetic, Real};
+use crate::exact::forms::{Form, Truth};
 use crate::latex::tree::Tree;
 use crate::verdict::Witness;
 
@@ -14,8 +14,8 @@ const DEGREES: [f64; 9] = [20.0, 35.0, -50.0, 65.0, 40.0, -25.0, 15.0, 70.0, -10
 /// the data file; angles in radians.
 pub fn witness(
     printed: &Tree,
-    derived: &Rational,
-    defined: &HashMap<String, Rational>,
+    derived: Form<'_>,
+    truth: &Truth,
     given: &HashMap<String, f64>,
 ) -> Option<Witness> {
     let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
@@ -25,9 +25,9 @@ pub fn witness(
     derived.names(&mut angles, &mut symbols);
     let used: Vec<String> = symbols.iter().cloned().collect();
     for name in used {
-        if let Some(value) = defined.get(&name) {
+        if let Some(value) = truth.names.get(&name) {
             symbols.remove(&name);
-            value.names(&mut angles, &mut symbols);
+            truth.form(*value).names(&mut angles, &mut symbols);
         }
     }
     for shift in 0..DEGREES.len() {
@@ -41,12 +41,12 @@ pub fn witness(
             let value = 1.0 + 0.25 * (k + shift) as f64;
             values.insert(name.clone(), given.get(name).copied().unwrap_or(value));
         }
-        let plain = Real(|name: &str| values.get(name).copied());
-        let resolved = Real(|name: &str| match defined.get(name) {
-            Some(value) if !values.contains_key(name) => plain.rational(value).ok(),
-            _ => values.get(name).copied(),
+        let value = |name: &str| values.get(name).copied();
+        let resolved = Real(|name: &str| match truth.names.get(name) {
+            Some(form) if value(name).is_none() => truth.form(*form).real(value).ok(),
+            _ => value(name),
         });
-        let (Ok(p), Ok(d)) = (resolved.tree(printed), plain.rational(derived)) else {
+        let (Ok(p), Ok(d)) = (resolved.tree(printed), derived.real(value)) else {
             continue;
         };
         if (p - d).abs() > 1e-6 * p.abs().max(d.abs()) {
@@ -65,20 +65,23 @@ pub fn witness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational::Exact;
+    use crate::exact::forms::Forms;
     use crate::latex::notation::Notation;
     use crate::latex::parser::parse;
 
     #[test]
     fn a_witness_tells_two_formulas_apart() {
         let read = |text: &str| parse(text, &Notation::default()).unwrap();
-        let exact = Exact(&HashMap::new()).tree(&read("a \\cos\\theta_1")).unwrap();
+        let forms = Forms::new(&[], &[]).unwrap();
+        let derived = forms.tree(&read("a \\cos\\theta_1")).unwrap();
+        let truth = &forms.truth(1, vec![derived]).unwrap();
+        let derived = truth.form(truth.entries[0]);
         let given = HashMap::from([("a".to_owned(), 2.0)]);
-        let found = witness(&read("a \\sin\\theta_1"), &exact, &HashMap::new(), &given).unwrap();
+        let found = witness(&read("a \\sin\\theta_1"), derived, truth, &given).unwrap();
         assert_eq!(found.angles.len(), 1);
         assert_eq!(found.symbols, [("a".to_owned(), 2.0)]);
         assert!((found.derived - 2.0 * 20f64.to_radians().cos()).abs() < 1e-12);
-        let same = witness(&read("a \\cos\\theta_1"), &exact, &HashMap::new(), &given);
+        let same = witness(&read("a \\cos\\theta_1"), derived, truth, &given);
         assert_eq!(same, None);
     }
 }

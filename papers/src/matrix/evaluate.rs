@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use num_rational::Ratio;
 
 use super::dense::{Dense, blocks, inverse, is_scalar, product, scalar, shape, sum};
-use crate::exact::evaluate::{Arithmetic, NoValue, Real};
+use crate::exact::arithmetic::{Arithmetic, Real};
 use crate::latex::name::{Name, count};
 use crate::latex::tree::{Angle, Function, Tree};
 
@@ -76,7 +76,7 @@ impl Arithmetic for Point<'_> {
 
     fn number(&self, n: Ratio<i128>) -> Found<Value> {
         let number = Real(|_: &str| None).number(n);
-        number.map(|x| Value::One(scalar(x))).map_err(|NoValue| format!("{n} is too large"))
+        Ok(Value::One(scalar(number?)))
     }
 
     fn named(&self, key: &str) -> Found<Value> {

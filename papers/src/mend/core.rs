@@ -1,6 +1,6 @@
 //! The part of a formula in which slips add up.
 
-use crate::exact::evaluate::Arithmetic;
+use crate::exact::arithmetic::Arithmetic;
 use crate::exact::field::{Modular, minus};
 use crate::latex::tree::Tree;
 

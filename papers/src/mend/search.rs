@@ -6,27 +6,23 @@ use super::brackets::{brackets, moved_brackets};
 use super::core::{Core, Pair};
 use super::edit::{Edit, Slip, apply};
 use super::slips::{Inventory, slips};
-use crate::exact::evaluate::Arithmetic;
+use crate::exact::arithmetic::Arithmetic;
 use crate::exact::field::{Modular, minus};
-use crate::exact::rational::Rational;
+use crate::exact::forms::Form;
+use crate::exact::reader::Reader;
 use crate::latex::lexer::{Lexeme, Token};
 use crate::latex::name::Name;
-use crate::latex::notation::Notation;
-use crate::latex::parser::parse_tokens;
-use crate::latex::tree::Tree;
 
 /// What is to be mended, and into what.
 pub struct Search<'a> {
     /// As printed.
     pub tokens: &'a [Token],
-    /// The paper's notation.
-    pub notation: &'a Notation,
     /// Names that may have been confused.
     pub inventory: &'a Inventory,
+    /// How tokens are read.
+    pub read: &'a Reader<'a>,
     /// What the formula should be.
-    pub truth: &'a Rational,
-    /// What names stand for.
-    pub defined: &'a HashMap<String, Rational>,
+    pub truth: Form<'a>,
 }
 
 /// More slips than this are not combined.
@@ -40,7 +36,7 @@ const SHORT: usize = 14;
 pub fn mend(search: &Search<'_>, confirm: impl Fn(&[Token]) -> bool) -> Option<Vec<Edit>> {
     let eye = Eye::new(search)?;
     let inventory = wanted_names(search);
-    let single = slips(search.tokens, search.notation, search.inventory, &inventory);
+    let single = slips(search.tokens, search.read.notation, search.inventory, &inventory);
     let bracket = brackets(search.tokens);
     let accept = |edits: &[&Edit]| {
         let tokens = apply(search.tokens, edits);
@@ -160,13 +156,8 @@ impl<'a> Eye<'a> {
     fn new(search: &'a Search<'a>) -> Option<Self> {
         let mut points = Vec::new();
         let mut truth = Vec::new();
-        for seed in 1..40 {
-            let mut point = Modular::point(seed);
-            for (name, value) in search.defined {
-                let value = point.rational(value).ok()?;
-                point.defined.insert(name.clone(), value);
-            }
-            if let Ok(value) = point.rational(search.truth) {
+        for point in (1..40).filter_map(|seed| search.read.point(seed)) {
+            if let Ok(value) = search.truth.value(&point) {
                 points.push(point);
                 truth.push(value);
             }
@@ -179,12 +170,8 @@ impl<'a> Eye<'a> {
         Some(Eye { search, points, truth })
     }
 
-    fn tree(&self, tokens: &[Token]) -> Option<Tree> {
-        parse_tokens(tokens, self.search.notation, 0).ok()
-    }
-
     fn agrees(&self, tokens: &[Token]) -> bool {
-        let Some(tree) = self.tree(tokens) else { return false };
+        let Some(tree) = self.search.read.tree(tokens) else { return false };
         (0..2).all(|k| self.points[k].tree(&tree) == Ok(self.truth[k]))
     }
 
@@ -198,13 +185,13 @@ impl<'a> Eye<'a> {
         accept: &dyn Fn(&[&Edit]) -> bool,
     ) -> Option<Vec<&'e Edit>> {
         let printed = apply(self.search.tokens, base);
-        let start = Core::of(&self.tree(&printed)?, &self.points)?;
+        let start = Core::of(&self.search.read.tree(&printed)?, &self.points)?;
         let wanted = start.wanted(self.truth, &self.points)?;
         let mut changes: Vec<(Pair, &Edit)> = Vec::new();
         for edit in slips.iter().take(MOST).filter(|e| !base.iter().any(|b| b.clashes(e))) {
             let mut edits = base.to_vec();
             edits.push(edit);
-            let tree = self.tree(&apply(self.search.tokens, &edits));
+            let tree = self.search.read.tree(&apply(self.search.tokens, &edits));
             let Some(core) = tree.and_then(|t| Core::of(&t, &self.points)) else { continue };
             if core.rest == start.rest && core.root == start.root && core.value != start.value {
                 changes.push((difference(core.value, start.value), edit));

@@ -5,7 +5,7 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_papers::methods::bicchi::{ForceError, Loaded, Outcome, Task, compensate};
 
-use crate::arms::*;
+use super::arms::*;
 
 fn law(task: &Task<'_>, start: &[f64], limit: Option<f64>) -> Outcome {
     compensate(task, start, limit, 1e-6, 1000).unwrap()

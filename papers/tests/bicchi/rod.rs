@@ -45,12 +45,12 @@ pub fn exact(arm: &Arm, q: &[f64], [fx, fy, m]: [f64; 3], stretch: bool) -> ([f6
 
 #[test]
 fn a_link_under_a_moment_is_an_arc() {
-    let mut arm = crate::arms::arm(3, 500.0);
+    let mut arm = super::arms::arm(3, 500.0);
     arm.joints.truncate(1);
     arm.joints[0].compliance = 0.0;
     let curvature = 100.0 / 500.0_f64;
     let (wrench, tip) = exact(&arm, &[0.0], [0.0, 0.0, 100.0], true);
     let arc = [curvature.sin() / curvature, (1.0 - curvature.cos()) / curvature, curvature];
-    crate::arms::assert_close(&tip, &arc, 1e-13);
+    super::arms::assert_close(&tip, &arc, 1e-13);
     assert_eq!(wrench, [0.0, 0.0, 100.0]);
 }

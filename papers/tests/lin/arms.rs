@@ -51,10 +51,6 @@ const AREA: f64 = 1e15;
 const YOUNG: f64 = 10e6;
 const SHEAR: f64 = 3.8e6;
 
-/// Distributed weights of the planar arm in lb/in. The paper does not print them; with these Table
-/// I comes back to the printed digits and Table II to one unit of the last.
-pub const WEIGHTS: [f64; 2] = [0.2245, 0.0987];
-
 /// Table IV: a2, a3, a4, d6, in.
 pub const ELBOW: [f64; 4] = [24.0, 24.0, 10.0, 3.5];
 
@@ -102,13 +98,7 @@ fn arm(joints: Vec<Joint>, gravity: Vector3<f64>) -> Arm {
     }
 }
 
-/// The data of Tables II and III.
-pub fn two_link(weights: [f64; 2], load: f64) -> Links<2> {
-    let rigidity = [YOUNG * 1.920, YOUNG * 0.289];
-    Links { lengths: [24.0, 24.0], rigidity, weights, load }
-}
-
-/// The same arm as a table.
+/// The planar arm of two links.
 pub fn planar(links: &Links<2>) -> Arm {
     let of =
         |k: usize| row(links.lengths[k], 0.0, 0.0, Some((links.rigidity[k], links.weights[k])));

@@ -1,4 +1,5 @@
 use super::*;
+use crate::verdict::Verdict;
 
 const GOOD: &str = "paper = \"x\"\n[notation]\nsine = { s = '\\theta' }\nslash = \"product\"\n\
     [where]\n'b_1' = 'c_1 a'\n'c_1' = '2 a'\n\
@@ -8,7 +9,12 @@ const GOOD: &str = "paper = \"x\"\n[notation]\nsine = { s = '\\theta' }\nslash =
 fn definitions_may_use_each_other() {
     let paper = read(GOOD, "x.toml").unwrap();
     let equation = &paper.equations[0];
-    assert_eq!(equation.setting.defined["b1"].above.terms().len(), 1);
+    let names: Vec<&str> = equation.setting.defined.iter().map(|(name, _)| &**name).collect();
+    assert_eq!(names, ["c1", "b1"]);
+    assert_eq!(
+        crate::Ledger::of(core::slice::from_ref(&paper)).entries[0].verdict,
+        Verdict::Agrees
+    );
     assert_eq!(&GOOD[equation.latex.at..][..1], "y");
     assert_eq!(paper.notation.slash, Slash::Product);
 }
@@ -26,7 +32,7 @@ fn mistakes_point_into_the_file() {
     let bad = GOOD.replace("'2 a'", "'b_1'");
     assert_eq!(messages(&bad)[0].2, "this definition goes round in a circle");
     let bad = GOOD.replace("truth", "turth");
-    assert!(messages(&bad).iter().any(|m| m.2.contains("is no key here")));
+    assert!(messages(&bad).iter().any(|m| m.2.contains("unknown field `turth`")));
     let bad = GOOD.replace("'c_1 a'", "'c_1 + )'");
     assert_eq!(messages(&bad)[0], (6, 16, "`)` stands where a term is expected".into()));
     assert_eq!(messages("paper = ")[0].0, 1);

@@ -1,6 +1,8 @@
 use super::*;
-use crate::exact::rational::Exact;
+use crate::exact::forms::Forms;
 use crate::latex::lexer::lex;
+use crate::latex::notation::Notation;
+use crate::latex::parser::parse;
 use crate::latex::tree::Function;
 
 fn changes(printed: &str, truth: &str) -> Option<Vec<String>> {
@@ -8,22 +10,14 @@ fn changes(printed: &str, truth: &str) -> Option<Vec<String>> {
     let functions = vec![f("s", Function::Sin), f("c", Function::Cos)];
     let notation = Notation { functions, ..Notation::default() };
     let tokens = lex(printed, &notation).unwrap();
-    let exact = |tokens: &[Token]| {
-        let tree = parse_tokens(tokens, &notation, 0).ok()?;
-        Exact(&HashMap::new()).tree(&tree).ok()
-    };
-    let truth = exact(&lex(truth, &notation).unwrap()).unwrap();
+    let forms = Forms::new(&[], &[]).unwrap();
+    let entry = forms.tree(&parse(truth, &notation).unwrap()).unwrap();
+    let truth = &forms.truth(1, vec![entry]).unwrap();
+    let (read, truth) = (&Reader::new(&notation, truth), truth.form(truth.entries[0]));
     let mut inventory = Inventory::default();
     inventory.add(&tokens);
-    let defined = HashMap::new();
-    let search = Search {
-        tokens: &tokens,
-        notation: &notation,
-        inventory: &inventory,
-        truth: &truth,
-        defined: &defined,
-    };
-    let found = mend(&search, |t| exact(t).is_some_and(|e| e.equals(&truth) == Ok(true)))?;
+    let search = Search { tokens: &tokens, inventory: &inventory, read, truth };
+    let found = mend(&search, |tokens| read.is(tokens, truth))?;
     Some(found.into_iter().map(|e| e.what).collect())
 }
 

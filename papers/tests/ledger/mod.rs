@@ -16,96 +16,9 @@ fn text<'e>(entry: &'e Value, key: &str) -> &'e str {
     entry[key].as_str().unwrap_or_default()
 }
 
-/// Entries of a paper with a verdict, by their numbers.
-fn numbers(paper: &str, kind: &str, verdict: &str) -> Vec<&'static str> {
-    let chosen = |e: &&Value| {
-        (text(e, "paper"), text(e, "kind"), text(e, "verdict")) == (paper, kind, verdict)
-    };
-    LEDGER.iter().filter(chosen).map(|e| text(e, "number")).collect()
-}
-
 #[test]
 fn the_ledger_is_pinned() {
     insta::assert_snapshot!(WHOLE.to_text());
-}
-
-#[test]
-fn the_known_misprints_are_found_and_no_others() {
-    let misprints = |paper| numbers(paper, "equation", "misprint");
-    assert_eq!(
-        misprints("dumas2011"),
-        ["(11)", "(31) J_{32}", "(31) J_{33}", "(31) J_{34}", "(31) J_{35}"]
-    );
-    assert_eq!(
-        misprints("knapczyk"),
-        [
-            "(1)",
-            "K_C below (6)",
-            "(A.1) to (A.3), prefactors",
-            "(A.1) c_{11}, joint 2",
-            "(A.2) c_{22}, joint 1",
-            "(A.3) c_{33}, joint 2",
-            "(A.3) c_{33}, joint 3",
-            "(A.3) c_{33}, joint 4",
-            "(A.3) c_{33}, joint 5",
-        ]
-    );
-    assert_eq!(
-        misprints("lin1991"),
-        [
-            "(28)",
-            "(38)",
-            "(45)",
-            "App. dy_1, E_6I_6 term",
-            "App. A",
-            "App. B",
-            "App. C",
-            "App. D",
-            "App. dy_2, E_4I_4 term",
-            "App. dy_2, E_3I_3 term",
-        ]
-    );
-    assert_eq!(
-        misprints("jweeg2012"),
-        ["(4)", "(13)", "(18) A_{31}", "(35)", "(37)", "(45)", "(47)", "(48)"]
-    );
-    assert_eq!(
-        misprints("bicchi"),
-        [
-            "(5)",
-            "(12)",
-            "(14)",
-            "sect. 4, p_kin, component 1",
-            "sect. 4, p_kin, component 2",
-            "sect. 4, p_kin, component 3",
-            "sect. 4, p_joint, component 2",
-            "sect. 4, p_joint, component 3",
-            "sect. 4, R_joint",
-            "sect. 4, T_i",
-        ]
-    );
-}
-
-/// Relations between matrices, and numbers that need a paper's whole method.
-#[test]
-fn relations_and_methods_are_judged() {
-    for (paper, relation) in [
-        ("dumas2011", "(8)"),
-        ("dumas2011", "(9)"),
-        ("dumas2011", "(10)"),
-        ("knapczyk", "(5)"),
-        ("bicchi", "(6)"),
-        ("bicchi", "(11)"),
-        ("bicchi", "(15)"),
-        ("bicchi", "(18)"),
-    ] {
-        let found = numbers(paper, "equation", "agrees_at_points");
-        assert!(found.contains(&relation), "{paper} {relation}: {found:?}");
-    }
-    let reproduced = |paper, number| numbers(paper, "cell", "reproduced").contains(&number);
-    assert!(reproduced("dumas2011", "sect. 2.2 (L, m) printed"));
-    assert!(reproduced("jweeg2012", "Figs. 14 and 15, p_y of p_x (p_y) m"));
-    assert!(reproduced("bicchi", "case study 1, half the E I (m_z) B_e"));
 }
 
 #[test]

@@ -1,11 +1,8 @@
 //! Knapczyk & Ryska, "Stiffness matrix analysis of six-revolute serial manipulator": the FANUC
-//! S-420F, its compliance elements, and what does and does not follow from the printed example.
+//! S-420F, what does and does not follow from the printed example. The
+//! elements of its compliance are judged in the ledger.
 
-mod apparent;
-mod appendix;
 mod example;
-#[path = "../support/printed.rs"]
-mod printed;
 
 use stiffarm_kernels::generic::Arm;
 

@@ -5,7 +5,6 @@
 #[allow(dead_code, reason = "what is generated stays whole")]
 #[rustfmt::skip]
 mod closed_form;
-mod gauge;
 mod rpy;
 mod two_link;
 

@@ -3,7 +3,6 @@
 
 use std::collections::HashMap;
 
-use stiffarm_papers::exact::evaluate::{Arithmetic, Real};
 use stiffarm_papers::{Paper, ledger, read};
 
 /// The equations of a data file.
@@ -20,8 +19,8 @@ impl Printed {
     pub fn entries(&self, number: &str, values: &HashMap<String, f64>) -> Vec<f64> {
         let equation = self.0.equations.iter().find(|equation| equation.number == number);
         let truth = ledger::truth(&self.0, equation.expect(number)).expect(number);
-        let plain = Real(|name: &str| values.get(name).copied());
-        let value = |entry| plain.rational(entry).unwrap_or_else(|_| panic!("{number}: {entry:?}"));
+        let plain = |name: &str| values.get(name).copied();
+        let value = |entry: &_| truth.form(*entry).real(plain).expect(number);
         truth.entries.iter().map(value).collect()
     }
 }
