@@ -13,10 +13,17 @@ mod section;
 mod symbols;
 mod write;
 
-pub(crate) use cells::{Language, Reader};
+pub(crate) use cells::Language;
+#[cfg(feature = "macro")]
+pub(crate) use cells::Reader;
+#[cfg(feature = "macro")]
 pub(crate) use field::keys;
+#[cfg(feature = "macro")]
 pub(crate) use fields::{BEAM, JOINT, SECTION};
 pub(crate) use node::{Content, Node, Pair, Table};
-pub(crate) use read::{carry, outputs, read};
+pub(crate) use read::read;
+#[cfg(feature = "macro")]
+pub(crate) use read::{carry, outputs};
+#[cfg(feature = "macro")]
 pub(crate) use section::{BOX, TUBE};
 pub use symbols::Symbol;
