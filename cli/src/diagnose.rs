@@ -1,4 +1,4 @@
-//! `stiffarm diagnose`: the gap between model and measurement, and what closes it.
+//! `stiffarm diagnose`: the error between model and measurement, and which effects explain it.
 
 mod accepted;
 mod campaign;
@@ -48,19 +48,19 @@ Examples:
   stiffarm diagnose arm.toml run1.csv log.csv --write-robot better.toml
   stiffarm diagnose lin_planar robots/data/lin1991_table3.csv --rival ycd --rival ytd
 
-DATA has a header row of columns `name` or `name[unit]`: readings q1 … qn; the wrench fx fy fz mx my
-mz, or a payload by name; what was measured, x y z [rx ry rz] or dx dy dz [drx dry drz] or a distance
-[from_x from_y from_z]; and optionally pose, session, marker, s1 … sn, temperature, time, the instrument's
+DATA has a header row of columns `name` or `name[unit]`: joint values q1 … qn; the wrench fx fy fz mx my
+mz, or a payload by name; the measurement, x y z [rx ry rz] or dx dy dz [drx dry drz] or a distance
+[from_x from_y from_z]; optionally pose, session, marker, s1 … sn, temperature, time, the instrument's
 standard deviations sigma (of all positions) or sigma_x …, and your own simulator's sim_x … or sim_dx ….
 
-A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; docs/logs.md says more. With both
-every joint's spring is told by both.";
+A joint log has t, q1 … qn, and tau1 … (N·m), i1 … (A) or q_cmd1 …; see docs/logs.md. If both are given,
+the joints' compliances are estimated from both.";
 
 /// Why the real arm is not where the model says, at rest or in motion
 ///
-/// The gap between robot file and measurements, or a log of joint values with torques, currents or
-/// commands; which unmodelled effects cause it and how far it shrinks with them, judged on poses, or
-/// on time, that no fit has seen.
+/// Compares the robot file with measurements, or with a log of joint values and torques, currents or
+/// commands. Reports which unmodelled effects cause the error, and how far it is reduced with them on
+/// held-out poses or time.
 #[derive(Clone, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
@@ -69,24 +69,24 @@ pub struct Args {
     /// The measurement file (CSV), or a joint log of one or several files, or both
     #[arg(required = true)]
     data: Vec<PathBuf>,
-    /// What is known to be unknown, fitted along and never a finding: base_frame, tool_frame,
-    /// geometry (zeros, lengths and twists, within --tolerance)
+    /// Nuisance parameters, co-estimated and never a finding: base_frame, tool_frame, geometry (zeros,
+    /// lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]
     nuisance: Vec<String>,
-    /// How well the maker holds lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
+    /// Manufacturing tolerance of lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
     tolerance: Option<String>,
-    /// What is usual of an effect's numbers, beyond which a value pays: joint_compliance=2e-6,
-    /// link_compliance:bending=1e-6; several times
+    /// Prior scale of an effect's parameters: joint_compliance=2e-6, link_compliance:bending=1e-6; may be
+    /// repeated
     #[arg(long = "usual", value_name = "EFFECT[:NUMBER]=SIZE")]
     priors: Vec<String>,
-    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else estimated]
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from the residuals]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else estimated]
+    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from the residuals]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
-    /// Fit and count rows that do not fit all the same
+    /// Keep outliers: fit and count rows that do not fit
     #[arg(long)]
     keep_all: bool,
     /// Try only these effects
@@ -95,7 +95,7 @@ pub struct Args {
     /// Number of folds [default: one per pose up to 30 poses, else 10]
     #[arg(long, value_name = "K")]
     folds: Option<usize>,
-    /// Run the search again for each fold on the others, and tell the gap that it leaves there
+    /// Nested cross-validation: repeat the search without each fold, and report the error on it
     #[arg(long)]
     nested: bool,
     /// Seed of folds, permutations and intervals; the same seed gives the same bytes
@@ -104,23 +104,23 @@ pub struct Args {
     /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
     #[arg(long = "rival", value_name = "PREFIX")]
     rivals: Vec<String>,
-    /// Predict another file of the same arm with what was found
+    /// Predict another file of the same arm with the findings
     #[arg(long, value_name = "OTHER.csv")]
     check: Option<PathBuf>,
-    /// Compare with an earlier diagnosis of the arm (JSON): what came, what went, what changed
+    /// Compare with an earlier diagnosis of the arm (JSON): what was added, removed and changed
     #[arg(long, value_name = "LAST.json")]
     compare: Option<PathBuf>,
-    /// The position error that is accepted of the corrected arm in 95 % of the rows, held out or of
-    /// --check; exit status 1 if it is larger
+    /// Tolerance for the position error of the corrected arm in 95 % of the rows, held out or of --check;
+    /// exit status 1 if the error is larger
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     accept: Option<String>,
-    /// Write the robot file with what was found put into it
+    /// Write the robot file with the findings
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
-    /// Write the arm with what was found as a URDF, as far as one can hold it; what is lost is said
+    /// Write the arm with the findings as a URDF; a note names what a URDF cannot hold
     #[arg(long, value_name = "OUT.urdf")]
     write_urdf: Option<Target>,
-    /// The same as an MJCF model for MuJoCo, with the joints' springs
+    /// Write the arm with the findings as an MJCF model for MuJoCo, with the joints' springs
     #[arg(long, value_name = "OUT.xml")]
     write_mjcf: Option<Target>,
     /// Write the diagnosis as JSON (`-`: to standard output, in place of the screen)
@@ -129,6 +129,9 @@ pub struct Args {
     /// Write the diagnosis as one self-contained page
     #[arg(long, value_name = "OUT.html")]
     report: Option<Target>,
+    /// Print every finding, parameter and reason, however small
+    #[arg(long)]
+    all: bool,
     #[command(flatten)]
     log: log::LogArgs,
 }
@@ -169,7 +172,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&found.text())?;
+        print(&found.text(args.all))?;
     }
     Ok(if found.is_accepted() { Verdict::Good } else { Verdict::Failed })
 }
@@ -231,13 +234,14 @@ impl Found {
         }
     }
 
-    /// The diagnosis as it stands on a screen.
-    pub fn text(&self) -> String {
-        match self {
-            Found::Campaign(found) => found.text(),
-            Found::Motion(found) => found.text(),
-            Found::Together(found) => found.text(),
-        }
+    /// The diagnosis as it stands on a screen, or `all` of it.
+    pub fn text(&self, all: bool) -> String {
+        let document = match self {
+            Found::Campaign(found) => found.document(),
+            Found::Motion(found) => found.document(),
+            Found::Together(found) => found.document(),
+        };
+        document.text(all)
     }
 
     /// The page in HTML.
@@ -245,11 +249,12 @@ impl Found {
     /// # Errors
     /// [`Failure`] if it cannot be made.
     pub fn page(&self) -> Result<String, Failure> {
-        match self {
-            Found::Campaign(found) => found.page(),
-            Found::Motion(found) => found.page(),
-            Found::Together(found) => found.page(),
-        }
+        let (document, embedded) = match self {
+            Found::Campaign(found) => found.paged()?,
+            Found::Motion(found) => found.paged()?,
+            Found::Together(found) => found.paged()?,
+        };
+        document.html(&embedded)
     }
 
     /// The robot file with all that was found.

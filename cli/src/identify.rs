@@ -1,7 +1,6 @@
 //! `stiffarm identify`: stiffnesses from loaded measurements.
 
-mod page;
-mod screen;
+mod document;
 mod words;
 mod written;
 
@@ -19,7 +18,6 @@ use stiffarm_gap::measurement::Dimension;
 use super::Verdict;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::{data, quantity};
-use crate::report::identified::Identified;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
@@ -38,9 +36,9 @@ of them; or with poses x y z [rx ry rz], each pose under two loads or more: only
 between the loads of a pose count then, so that base, tool and geometry need not be exact.
 `stiffarm poses` plans such a file.
 
-Every spring is compared with the robot file at static equilibrium, weights and loaded geometry
-included. What the file does not show is held at the robot file's value, with the pull that would
-show it. The gap is judged on poses that the fit has not seen.";
+The robot file's arm is evaluated at static equilibrium, with weights and loaded geometry. A compliance
+that the data do not determine is held at the robot file's value, and the load that would determine it is
+named. The error is judged on held-out poses.";
 
 /// Joint stiffnesses, and if asked those of links and base, from loaded measurements
 #[derive(clap::Args)]
@@ -56,10 +54,10 @@ pub struct Args {
     /// Identify the foundation too: three translations, three rotations
     #[arg(long)]
     base: bool,
-    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from what is left]
+    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from the residuals]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from what is left]
+    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from the residuals]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
     /// Number of folds [default: one per pose up to 10]
@@ -68,13 +66,13 @@ pub struct Args {
     /// Seed of the folds; the same seed gives the same bytes
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Write what was found as JSON (`-`: to standard output, in place of the screen)
+    /// Write the result as JSON (`-`: to standard output, in place of the screen)
     #[arg(long, value_name = "OUT")]
     json: Option<Target>,
-    /// Write the robot file with what was found
+    /// Write the robot file with the identified springs
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
-    /// Write what was found as one self-contained page
+    /// Write the result as one self-contained page
     #[arg(long, value_name = "OUT.html")]
     report: Option<Target>,
 }
@@ -113,32 +111,22 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(target) = &args.write_robot {
         target.write(&written::robot(&source, &answer, &data.file)?)?;
     }
-    let (said, units) = (words::said(&source, &answer), page::units(&answer));
-    let positions = data.kind.components()[..3].contains(&true);
-    let main = &units[usize::from(!positions)];
-    let sentence = words::sentence(&source, &answer, main, positions);
+    let identified = document::Identified {
+        source: &source,
+        arm: &arm,
+        data: &data,
+        question: &question,
+        answer: &answer,
+    };
     if let Some(target) = &args.report {
-        let identified = Identified {
-            data: &data,
-            arm: &arm,
-            answer: &answer,
-            sentence: sentence.clone(),
-            said: said.clone(),
-            advice: words::advice(&answer),
-            facts: page::facts(&question, &source, &data, &answer),
-            units,
-            json: json::value(&result)?,
-            version: env!("CARGO_PKG_VERSION"),
-        };
-        let page = identified.html();
-        let page = page.map_err(|e| Failure::new(format!("cannot make the report: {e}")))?;
-        target.write(&page)?;
+        let document = identified.document(true);
+        target.write(&document.html(&identified.embedded(&json::value(&result)?)?)?)?;
     }
     let written: Vec<_> =
         [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
     let enough = quiet && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&screen::text(&source, &data, &answer, &said, &sentence))?;
+        print(&identified.document(false).text(false))?;
     }
     Ok(Verdict::Good)
 }

@@ -2,13 +2,14 @@
 //! do the same for another program, which hands over files and takes what is told ([`inside`]).
 //!
 //! One file per command; what they share lies in rooms: `input` (robots, data, numbers as they are given), `terminal` (text, errors, progress,
-//! files written), `screen` (a diagnosis in words), `plot`, `report`.
+//! files written), `document` (what a command reports, printed to a screen or as a page), `plot`.
 #![forbid(unsafe_code)]
 
 mod check;
 mod compensate;
 mod completions;
 mod diagnose;
+mod document;
 mod effects;
 mod eval;
 mod generate;
@@ -24,9 +25,7 @@ mod papers;
 mod plot;
 mod poses;
 mod predict;
-mod report;
 mod robots;
-mod screen;
 mod simulate;
 mod terminal;
 mod withhold;

@@ -13,10 +13,10 @@ use stiffarm_gap::whole::Whole;
 use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
+use crate::document::Unit;
 use crate::input::data;
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
-use crate::screen::Size;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::{Target, print};
@@ -119,7 +119,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 fn screen(source: &Source, data: &Measurements, written: &Written<'_>) -> String {
     let rows = counted(written.rows, "row");
     let covered = source.covers.as_ref().map_or_else(String::new, |_| {
-        format!(", {} of them within what was diagnosed", written.inside)
+        format!(", {} of them within the range of the diagnosed data", written.inside)
     });
     let mut text =
         format!("{}\n{}\n", bold(written.robot), dim(format!("{}: {rows}{covered}", written.file)));
@@ -133,17 +133,20 @@ fn screen(source: &Source, data: &Measurements, written: &Written<'_>) -> String
     };
     let components = data.kind.components();
     if components[..3].contains(&true) {
-        let size = Size::of("m", gap.position_max);
+        let size = Unit::of("m", gap.position_max);
         text.push_str(&format!(
-            "The gap is {} rms, 95 % of the rows within {}, the largest {}.\n",
+            "The position error is {} rms; 95 % of the rows are below {}, all below {}.\n",
             size.with_unit(gap.position_rms),
             size.with_unit(gap.position_p95),
             size.with_unit(gap.position_max)
         ));
     }
     if components[3..].contains(&true) {
-        let size = Size::of("rad", gap.rotation_rms);
-        text.push_str(&format!("In rotation it is {} rms.\n", size.with_unit(gap.rotation_rms)));
+        let size = Unit::of("rad", gap.rotation_rms);
+        text.push_str(&format!(
+            "The rotation error is {} rms.\n",
+            size.with_unit(gap.rotation_rms)
+        ));
     }
     text
 }

@@ -40,7 +40,7 @@ impl Found {
 
     /// As it stands on a screen.
     fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| self.found.text())
+        py.detach(|| self.found.text(false))
     }
 
     /// The robot file with what was found; None of a log of currents.

@@ -14,10 +14,10 @@ use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, Format, made_from};
 use super::{Accepted, Args, Check, Compared, Hashes, Provenance, in_words, plain};
+use crate::document::campaign::{Campaign as Reported, Fitted};
+use crate::document::{Document, Embedded};
 use crate::input::source::Source;
 use crate::input::{data, quantity};
-use crate::report::Report;
-use crate::screen::Screen;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::progress::Stages;
@@ -180,41 +180,35 @@ impl Campaign {
         Corrections::new(&self.source, &self.data, &self.diagnosed)
     }
 
-    /// The diagnosis as it stands on a screen.
-    pub fn text(&self) -> String {
-        self.screen().text()
+    /// The diagnosis as a document.
+    pub fn document(&self) -> Document {
+        self.reported(None).document()
     }
 
-    fn screen(&self) -> Screen<'_> {
-        Screen {
-            found: &self.diagnosed.diagnosis,
-            data: &self.data,
-            arm: &self.arm,
-            catalogue: &self.options.catalogue,
-            rivals: &self.options.rivals,
-            check: self.check.as_ref(),
-            accepted: self.accepted.as_ref(),
-            compared: self.compared.as_ref(),
-        }
-    }
-
-    /// The page of the diagnosis, in HTML.
+    /// The same with everything that a page has, and what the page embeds.
     ///
     /// # Errors
     /// [`Failure`] if the page cannot be made.
-    pub fn page(&self) -> Result<String, Failure> {
+    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
         let explanation = &self.diagnosed.explanation;
-        let report = Report {
+        let gaps = explanation.predict(&self.data).map_err(plain)?;
+        let fitted = Fitted { placed: explanation.arm(), gaps: &gaps };
+        let reported = self.reported(Some(fitted));
+        Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
+    }
+
+    fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
+        Reported {
             found: &self.diagnosed.diagnosis,
             data: &self.data,
             arm: &self.arm,
-            placed: explanation.arm(),
-            gaps: &explanation.predict(&self.data).map_err(plain)?,
             options: &self.options,
-            words: &self.screen().words(),
+            check: self.check.as_ref(),
+            accepted: self.accepted.as_ref(),
+            compared: self.compared.as_ref(),
             made: &self.made,
-        };
-        report.html().map_err(|e| Failure::new(format!("cannot make the report: {e}")))
+            fitted,
+        }
     }
 
     /// What the models before and after make of other measurements of the arm.

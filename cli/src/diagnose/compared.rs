@@ -47,9 +47,9 @@ pub struct Compared {
     /// Now.
     pub now: Reached,
     /// Effects and places that only this one has.
-    pub came: Vec<(Word, String)>,
+    pub added: Vec<(Word, String)>,
     /// Those that only the earlier one has.
-    pub went: Vec<(Word, String)>,
+    pub removed: Vec<(Word, String)>,
     /// The numbers of what both have.
     pub numbers: Vec<Number>,
 }
@@ -101,8 +101,8 @@ impl Compared {
             same_robot: robot_sha256.map(|hash| hash == now.robot_sha256),
             last: Reached::from(&last.gap.shrink),
             now: Reached::from(&found.gap.shrink),
-            came: only(now_found, then),
-            went: only(then, now_found),
+            added: only(now_found, then),
+            removed: only(then, now_found),
             numbers: in_both.flat_map(|(last, now)| numbers_of(last, now)).collect(),
             file: name,
         })

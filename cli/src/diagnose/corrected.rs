@@ -11,8 +11,8 @@ use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
 use stiffarm_gap::effects;
 
+use crate::document::words::capital;
 use crate::input::source::Source;
-use crate::report::capital;
 use crate::terminal::failure::Failure;
 
 /// The corrected arm, worked out once something asks for it.
@@ -168,12 +168,12 @@ fn line(outcome: &Outcome) -> String {
     format!("  {} at {}: {} {number}, in {entry}", outcome.effect, outcome.place, p.name)
 }
 
-/// A frame that was fitted along.
+/// A co-estimated frame.
 fn frame(n: &NuisanceReport) -> String {
     let list = |v: [f64; 3]| v.map(|x| format!("{x:.9}")).join(", ");
     let (at, turned) = (list(n.translation), list(n.rotation));
     let of = n.session.as_ref().map_or_else(String::new, |name| format!(" in session {name}"));
-    format!("  {}{of}, fitted along: at [{at}] m, turned by [{turned}] rad", n.name)
+    format!("  {}{of}, co-estimated: at [{at}] m, turned by [{turned}] rad", n.name)
 }
 
 /// A line of comment, whatever the names in it hold.

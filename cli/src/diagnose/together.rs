@@ -13,9 +13,8 @@ use super::corrected::{exported, file};
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
 use super::{Args, Campaign, Catalogues, Format, Motion};
+use crate::document::{Document, Embedded, figure, together};
 use crate::input::source::Source;
-use crate::report::both::Both;
-use crate::screen::together as screen;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 
@@ -131,25 +130,21 @@ impl Together {
         })
     }
 
-    /// Both diagnoses as they stand on a screen, and what they say together.
-    pub fn text(&self) -> String {
-        let parts = [self.campaign.text(), self.motion.text(), screen::text(&self.said)];
-        parts.join("\n")
+    /// What they show together, and both diagnoses, as a document.
+    pub fn document(&self) -> Document {
+        let parts = [self.campaign.document(), self.motion.document()].map(|part| (part, None));
+        together::document(self.motion.robot(), &self.said, parts)
     }
 
-    /// The page in HTML.
+    /// The same with everything that a page has, and what the page embeds.
     ///
     /// # Errors
-    /// [`Failure`] if it cannot be made.
-    pub fn page(&self) -> Result<String, Failure> {
-        Both {
-            robot: self.motion.robot(),
-            said: &self.said,
-            campaign: self.campaign.page()?,
-            log: self.motion.page()?,
-        }
-        .html()
-        .map_err(|e| Failure::new(format!("cannot make the report: {e}")))
+    /// [`Failure`] if the page cannot be made.
+    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
+        let [campaign, log] = [self.campaign.paged()?, self.motion.paged()?];
+        let parts = [campaign, log].map(|(part, embedded)| (part, Some(embedded)));
+        let document = together::document(self.motion.robot(), &self.said, parts);
+        Ok((document, Embedded::new((), &self.said, figure::WITHIN)?))
     }
 
     /// The robot file with what both found.
@@ -158,7 +153,7 @@ impl Together {
     /// [`Failure`]: a log of currents, which tell no newton-metres.
     pub fn corrected(&self) -> Result<String, Failure> {
         let (mut lines, robot) = self.robot()?;
-        lines.insert(1, screen::sentences(&self.said).join(" "));
+        lines.insert(1, together::sentences(&self.said).join(" "));
         Ok(file(lines, &robot))
     }
 

@@ -1,17 +1,32 @@
-//! What was identified, as it is said: for the screen and for the page.
+//! What was identified, in words.
 
 use stiffarm_gap::identify::measured::{Answer, Parameter, Status, Unknown};
 
 use super::{is_translation, stiffness};
+use crate::document::Unit;
+use crate::document::words::joined;
 use crate::input::source::Source;
-use crate::report::Unit;
-use crate::report::identified::Said;
 use crate::terminal::text::short;
 
 /// Springs that the sentence names.
 const NAMED: usize = 3;
 
-/// Every number that was looked for, in the order of the answer.
+/// A spring as it is reported.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    /// `joint 2`.
+    pub place: String,
+    /// With its unit, or that it is held.
+    pub found: String,
+    /// 95 %; empty if it is held.
+    pub interval: String,
+    /// What the robot file has.
+    pub file: String,
+    /// Why it is held, or that it is weak.
+    pub verdict: String,
+}
+
+/// Every parameter that was asked for, in the order of the answer.
 pub fn said(source: &Source, answer: &Answer) -> Vec<Said> {
     answer.parameters.iter().map(|parameter| one(source, parameter)).collect()
 }
@@ -29,8 +44,8 @@ fn one(source: &Source, parameter: &Parameter) -> Said {
     };
     if let Status::Held { with, .. } = &parameter.status {
         let verdict = match with[..] {
-            [] => "leaves no trace".to_owned(),
-            _ => format!("shows only together with {}", listing(with)),
+            [] => "has no effect on the rows".to_owned(),
+            _ => format!("not distinguishable from {}", listing(with)),
         };
         return Said { place, found: "held".to_owned(), interval: String::new(), file, verdict };
     }
@@ -41,19 +56,25 @@ fn one(source: &Source, parameter: &Parameter) -> Said {
         let end = |c: f64| stiff(c).unwrap_or_else(|| "∞".to_owned());
         let found = match (stiff(parameter.value), stiff(high)) {
             (Some(k), _) => format!("{k} {unit}"),
-            // Of what does not give way a bound is known.
+            // Of what is not compliant a bound is known.
             (None, Some(least)) => format!("at least {least} {unit}"),
             (None, None) => "compliance below zero".to_owned(),
         };
         (found, format!("[{} to {}]", end(high), end(low)))
     };
     let weak = matches!(parameter.status, Status::Weak(_));
-    Said { place, found, interval, file, verdict: if weak { "weak" } else { "" }.to_owned() }
+    Said {
+        place,
+        found,
+        interval,
+        file,
+        verdict: if weak { "poorly determined" } else { "" }.to_owned(),
+    }
 }
 
-/// `joint 1, joint 2`.
+/// `joint 1 and joint 2`.
 fn listing(unknowns: &[Unknown]) -> String {
-    unknowns.iter().map(Unknown::to_string).collect::<Vec<_>>().join(", ")
+    joined(&unknowns.iter().map(Unknown::to_string).collect::<Vec<_>>(), " and ")
 }
 
 /// What would show what is hidden or weak.
@@ -63,13 +84,13 @@ pub fn advice(answer: &Answer) -> Vec<String> {
         let Unknown::Joint(_) = parameter.unknown else { continue };
         let (what, pull) = match &parameter.status {
             Status::Determined => continue,
-            Status::Weak(pull) => ("to know it better", pull),
-            Status::Held { pull, .. } => ("to show it", pull),
+            Status::Weak(pull) => ("to determine it better", pull),
+            Status::Held { pull, .. } => ("to determine it", pull),
         };
         lines.push(match pull {
             Some(pull) => format!("{}: {what}, {pull}", parameter.unknown),
             None => format!(
-                "{}: no load shows it in what is measured: measure rotations, or a point off its \
+                "{}: no load determines it from what is measured; measure rotations, or a point off its \
                  axis",
                 parameter.unknown
             ),
@@ -78,8 +99,8 @@ pub fn advice(answer: &Answer) -> Vec<String> {
     lines
 }
 
-/// The springs that are not the file's, and what putting them in does to the gap.
-pub fn sentence(source: &Source, answer: &Answer, unit: &Unit, positions: bool) -> String {
+/// The springs that differ from the file's, and how far the error is reduced with them.
+pub fn sentence(source: &Source, answer: &Answer, unit: Unit<'_>, error: &str) -> String {
     let mut changed: Vec<&Parameter> =
         answer.parameters.iter().filter(|p| p.usable() && p.differs()).collect();
     let surprise = |p: &Parameter| {
@@ -87,55 +108,47 @@ pub fn sentence(source: &Source, answer: &Answer, unit: &Unit, positions: bool) 
         ((p.value - p.file) / deviation).abs()
     };
     changed.sort_by(|a, b| surprise(b).total_cmp(&surprise(a)));
-    let gap = &answer.gap;
     let size = |s: &stiffarm_gap::gap::Statistics| {
-        if positions { s.position_rms } else { s.rotation_rms }
+        if error.starts_with("position") { s.position_rms } else { s.rotation_rms }
     };
-    let (before, after) = (size(&gap.before), size(&gap.held_out));
-    let sizes = format!("{} → {}", unit.number(before), unit.with_unit(after));
+    let (before, after) = (size(&answer.gap.before), size(&answer.gap.held_out));
     if changed.is_empty() {
         return format!(
-            "No spring differs from the robot file by more than this data leaves open; the gap is \
-             {}.",
+            "No spring differs significantly from the robot file; the {error} is {} rms.",
             unit.with_unit(before)
         );
     }
-    let rest = changed.len().saturating_sub(NAMED);
     let mut named: Vec<String> =
         changed.iter().take(NAMED).map(|p| difference(source, p)).collect();
     named[0].push_str(match changed[0].file {
         0.0 => " where the robot file has none",
-        _ => " as the robot file says",
+        _ => " as in the robot file",
     });
-    match rest {
+    match changed.len().saturating_sub(NAMED) {
         0 => {}
         1 => named.push("1 more differs".to_owned()),
-        _ => named.push(format!("{rest} more differ")),
+        rest => named.push(format!("{rest} more differ")),
     }
-    let list = match named.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, before)) => format!("{}, and {last}", before.join(", ")),
-        None => String::new(),
-    };
-    let list = list.replacen("joint", "Joint", 1);
+    let list = joined(&named, ", and ").replacen("joint", "Joint", 1);
+    let sizes = unit.change(before, after);
     if after >= before {
-        return format!("{list}; but on poses that no fit has seen this does not help: {sizes}.");
+        return format!(
+            "{list}; but this does not reduce the {error} on held-out poses: {sizes} rms."
+        );
     }
     let part = 100.0 * (1.0 - after / before);
     format!(
-        "{list}; with the springs found, {part:.0} % of the gap goes on poses that no fit has seen, \
-         {sizes}."
+        "{list}; the identified springs remove {part:.0} % of the {error} on held-out poses, {sizes} rms."
     )
 }
 
-/// `joint 2 1.83 times as soft`.
+/// `joint 2 is 1.83 times as compliant`.
 fn difference(source: &Source, p: &Parameter) -> String {
     let place = p.unknown.to_string();
     let ratio = p.value / p.file;
-    let soft = if matches!(p.unknown, Unknown::Link(_)) { "flexible" } else { "soft" };
     match p.file {
         0.0 => format!("{place} has a spring of {}", one(source, p).found),
-        _ if ratio > 1.0 => format!("{place} is {} times as {soft}", short(ratio)),
+        _ if ratio > 1.0 => format!("{place} is {} times as compliant", short(ratio)),
         _ => format!("{place} is {} times as stiff", short(1.0 / ratio)),
     }
 }

@@ -7,9 +7,9 @@ use stiffarm_kernels::generic::Arm;
 
 use super::Args;
 use crate::Verdict;
+use crate::document::words::words;
 use crate::input::source::Source;
 use crate::motion;
-use crate::screen::words;
 use crate::simulate::plain;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::{Target, print};

@@ -4,9 +4,9 @@ use stiffarm_gap::dexterity::design::{DEVIATIONS, Design, Expected, Plan, Planne
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 
+use crate::document::Unit;
 use crate::input::quantity;
 use crate::input::source::Source;
-use crate::screen::Size;
 use crate::terminal::text::{Align, bold, dim, indented, short, table};
 
 /// At most a screen.
@@ -60,13 +60,13 @@ fn apart(found: &Design) -> String {
     let heads = ["from a displacement of", "or from"].map(dim);
     let mut rows = vec![[vec![bold("Told from the other")], heads.to_vec()].concat()];
     for told in &found.told {
-        let moved = told.smallest.map(|m| Size::of("m", m).with_unit(m));
+        let moved = told.smallest.map(|m| Unit::of("m", m).with_unit(m));
         let moved = moved.unwrap_or_else(|| "not in all its forms".to_owned());
         let mut before = vec![told.effect.clone(), moved];
         for (number, deviation) in &told.numbers {
             let size = deviation.map(|sd| {
                 let least = DEVIATIONS * sd;
-                format!("{} of {}", number.name, Size::of(number.unit, least).with_unit(least))
+                format!("{} of {}", number.name, Unit::of(number.unit, least).with_unit(least))
             });
             before.push(size.unwrap_or_else(|| format!("{}: the same", number.name)));
             rows.push(std::mem::replace(&mut before, vec![String::new(); 2]));

@@ -110,7 +110,7 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let also = ["--effects", "viscous_friction", "--report", &page];
     let json = stiffarm(&[&run[..], &also].concat()).good();
     let page = std::fs::read_to_string(page).expect("written");
-    assert!(page.contains("joint logs: 3 runs") && page.contains("viscous_friction"), "{page}");
+    assert!(page.contains("3 runs of ") && page.contains("viscous_friction"), "{page}");
     let json: Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json["failed"], 0, "{json}");
 }

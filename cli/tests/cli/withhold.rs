@@ -48,7 +48,7 @@ fn the_json_has_every_case_and_the_seed_decides() {
 #[test]
 fn one_screen_says_what_is_found() {
     let out = stiffarm(&SMALL).good();
-    assert!(out.contains("an effect where there is none"), "{out}");
+    assert!(out.contains("no effect: something is found"), "{out}");
     assert!(out.contains("the payload design: 18 measurements at 6 poses"), "{out}");
     let lines: Vec<&str> = out.lines().collect();
     assert!(lines.len() <= 24 && lines.iter().all(|l| l.chars().count() <= 120), "{out}");

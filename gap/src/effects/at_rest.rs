@@ -183,7 +183,7 @@ pub trait AtRest: Law {
             return "always approached from one side, or so unevenly that the zero of the joint does \
                     the same";
         }
-        "lengths, twists, zeros and frames of the arm do the same on this data"
+        "not distinguishable from lengths, twists, zeros and frames of the arm on these data"
     }
 
     /// What must be known of a row, beyond readings and load, to predict and to compensate it.

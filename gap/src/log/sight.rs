@@ -28,8 +28,8 @@ pub fn hidden(
         tell(
             "torque_scale",
             Spot::at(Place::Arm).to_string(),
-            "with free masses all inertias and frictions grow with it, exactly: only a payload of \
-             known mass tells",
+            "with free masses it is not distinguishable from a scale of all inertias and frictions; only a \
+             payload of known mass determines it",
         );
     }
     let loads = Loads::default();
@@ -42,7 +42,7 @@ pub fn hidden(
         effect.identifier() == "torque_scale" && spot.place == Place::Arm
     };
     for (effect, spot) in unseen.iter().filter(|(e, s)| !scale(e, s)) {
-        let reason = "what is fitted along does the same in this motion";
+        let reason = "not distinguishable from the co-estimated parameters in this motion";
         tell(effect.identifier(), spot.to_string(), reason);
     }
     let pace = Pace { signals: case.signals, still: case.still, period };

@@ -393,6 +393,10 @@ impl Told<'_> {
             // The first round that had it, and the one before.
             let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
             let numbers = term.effect.parameters().iter().zip(&term.values).zip(&mut widths);
+            let held_out = HeldOutGap::InMotion {
+                held_out_before: left[with - 1].1,
+                held_out_after: left[with].1,
+            };
             Finding {
                 effect: name.0.into(),
                 place: term.spot.to_string(),
@@ -405,10 +409,8 @@ impl Told<'_> {
                         by_command: told_by_command.next(),
                     })
                     .collect(),
-                held_out: HeldOutGap::InMotion {
-                    held_out_before: left[with - 1].1,
-                    held_out_after: left[with].1,
-                },
+                share: held_out.share(left[0].1),
+                held_out,
                 p_value: judged.chance,
                 stability: None,
                 alternatives: judged.rivals.iter().map(alternative).collect(),

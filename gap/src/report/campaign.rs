@@ -75,9 +75,9 @@ impl Diagnosis {
     /// What the gap before is that of.
     pub fn before_is(&self) -> &'static str {
         match (self.nuisances.is_empty(), self.geometry_along) {
-            (true, false) => "as the robot file is",
-            (false, false) => "with the unknown frames fitted",
-            (true, true) => "with its geometry fitted",
+            (true, false) => "robot file as it is",
+            (false, false) => "with unknown frames fitted",
+            (true, true) => "with geometry fitted",
             (false, true) => "with frames and geometry fitted",
         }
     }

@@ -62,6 +62,10 @@ impl Report {
     }
 }
 
+/// A finding that removes less than this part of the held-out gap is shown in one line with others: it
+/// decides what is shown first, never what is found.
+pub const MATTERS: f64 = 0.02;
+
 /// An effect at a place that explains the gap, or part of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
@@ -74,6 +78,10 @@ pub struct Finding {
     /// How far the gap shrinks.
     #[serde(flatten)]
     pub held_out: HeldOutGap,
+    /// The part of the held-out gap before any finding that it removes; 0 in reports of versions that did not
+    /// write it.
+    #[serde(default)]
+    pub share: f64,
     /// The probability that the best of all candidates does as well without a cause.
     pub p_value: f64,
     /// Part of random halves of the poses in which the finding is the best explanation again; of
@@ -144,6 +152,11 @@ impl HeldOutGap {
             Self::AtRest { held_out } => held_out.after,
             Self::InMotion { held_out_after, .. } => *held_out_after,
         }
+    }
+
+    /// The part of a gap, `whole` before any finding, that the finding removes.
+    pub(crate) fn share(&self, whole: f64) -> f64 {
+        if whole > 0.0 { (self.before() - self.after()) / whole } else { 0.0 }
     }
 
     /// The shrink with its interval; of campaigns only.

@@ -20,7 +20,7 @@ use crate::terminal::failure::Failure;
 
 /// What may be said of a log.
 #[derive(Clone, clap::Args)]
-#[command(next_help_heading = "Of a joint log")]
+#[command(next_help_heading = "For joint logs")]
 pub struct LogArgs {
     /// Where its torques are measured: motor (joint side of the gear), link (a sensor behind it),
     /// current, commanded [default: as the log says]
@@ -29,21 +29,20 @@ pub struct LogArgs {
     /// Which rows, where a log has both [default: torque]
     #[arg(long, value_name = "ROWS")]
     rows: Option<Rows>,
-    /// Edge of the low-pass that everything goes through: 50Hz [default: where the joint values stand
-    /// clear of their noise]
+    /// Cut-off frequency of the low-pass: 50Hz [default: where the joint values exceed their noise]
     #[arg(long, value_name = "FREQUENCY", value_parser = hertz)]
     band: Option<f64>,
-    /// Speed, rad/s or m/s, below which a joint's torque tells nothing [default: 0.5 % of its largest]
+    /// Speed, rad/s or m/s, below which a joint's torque is not used [default: 0.5 % of its largest]
     #[arg(long, value_name = "SPEED")]
     standstill: Option<f64>,
-    /// Take the robot file's masses and inertias for known: what a link has beyond is a finding [default:
-    /// the links are fitted along]
+    /// Take the robot file's masses and inertias as known; a difference is a finding [default: they are
+    /// co-estimated]
     #[arg(long)]
     known_masses: bool,
-    /// What its columns are called: ros, rtde, libfranka, lerobot, sage, pace, or a map (TOML)
+    /// Names of the columns: ros, rtde, libfranka, lerobot, sage, pace, or a map (TOML)
     #[arg(long, value_name = "MAP")]
     map: Option<String>,
-    /// Of a bag, the topic that has the arm's joints, where several do
+    /// Topic of a bag with the arm's joints, if several have any
     #[arg(long, value_name = "TOPIC")]
     topic: Option<String>,
 }
@@ -51,9 +50,9 @@ pub struct LogArgs {
 /// Which rows.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Rows {
-    /// What drives the joints
+    /// Joint torques or currents
     Torque,
-    /// Where they are, less where they were to be
+    /// Position errors: joint values minus commands
     Position,
 }
 

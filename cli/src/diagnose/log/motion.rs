@@ -17,11 +17,11 @@ use super::super::{Args, Format, PredictedLog};
 use super::files::{self, Part};
 use super::written::Written;
 use super::{Check, Rows};
+use crate::document::log::{Fitted, Log as Reported, left};
+use crate::document::{Document, Embedded};
 use crate::input::data::layout;
 use crate::input::quantity::counted;
 use crate::input::source::Source;
-use crate::report::logged::Logged;
-use crate::screen::log as screen;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
@@ -162,23 +162,24 @@ impl Motion {
         self.found.files.join(", ")
     }
 
-    /// The diagnosis as it stands on a screen.
-    pub fn text(&self) -> String {
-        screen::text(&self.found, self.check.as_ref())
+    /// The diagnosis as a document.
+    pub fn document(&self) -> Document {
+        self.reported(None).document()
     }
 
-    /// The page in HTML.
+    /// The same with everything that a page has, and what the page embeds.
     ///
     /// # Errors
-    /// [`Failure`] if it cannot be made.
-    pub fn page(&self) -> Result<String, Failure> {
-        let page = Logged {
-            found: &self.found,
-            explained: &self.model.explain(&self.arm, &self.log).map_err(plain)?,
-            arm: &self.arm,
-            check: self.check.as_ref().map(|check| screen::checked(&self.found, check)),
-        };
-        page.html().map_err(|e| Failure::new(format!("cannot make the report: {e}")))
+    /// [`Failure`] if the page cannot be made.
+    pub(in super::super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
+        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
+        let fitted = Fitted { explained: &explained, arm: &self.arm };
+        let reported = self.reported(Some(fitted));
+        Ok((reported.document(), reported.embedded(&fitted, &self.found)?))
+    }
+
+    fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
+        Reported { found: &self.found, check: self.check.as_ref(), fitted }
     }
 
     /// The robot file with all that was found.
@@ -230,7 +231,7 @@ impl Motion {
     pub(in super::super) fn beside(&self, springs: &[Spring]) -> Result<(Model, f64), Failure> {
         let model = self.model.beside(springs);
         let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
-        let [_, left] = screen::left(&explained.gap(model.rows, &self.found.gap));
+        let [_, left] = left(&explained.gap(model.rows, &self.found.gap));
         Ok((model, left))
     }
 }

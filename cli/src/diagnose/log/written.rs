@@ -7,7 +7,7 @@ use stiffarm_gap::report::{Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{stands_in, without_own};
-use crate::report::capital;
+use crate::document::words::capital;
 use crate::terminal::failure::Failure;
 
 /// A robot with what was found in it, and what that is.

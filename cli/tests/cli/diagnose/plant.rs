@@ -128,7 +128,7 @@ fn two_effects_are_told_in_one_screen() {
         " µrad/(N·m) more than modelled",
         "he zero of joint 3 is off by 0.80",
         "; modelling both removes ",
-        " % of the gap, ",
+        " % of the position error, ",
         "stiffness 1.6",
     ] {
         assert!(whole.contains(sentence), "{sentence} in {out}");
@@ -140,8 +140,8 @@ fn two_effects_are_told_in_one_screen() {
     }
     assert!(out.contains("joint compliance at joint 2") && out.contains("joint offset at joint 3"));
     assert!(out.contains("with the findings, held out"), "{out}");
-    assert!(out.contains("Where  ") && out.contains("Cannot see  "), "{out}");
-    assert!(out.contains("Goes with     "), "{out}");
+    assert!(out.contains("Located at  ") && out.contains("Unobservable  "), "{out}");
+    assert!(out.contains("Depends on    "), "{out}");
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn what_is_found_adds_to_what_the_file_has() {
     assert!((after("; stiffness ") / 1e5 - 1.0).abs() < 0.02, "{out}");
     assert!(said.contains(" µrad/(N·m) [") && !out.contains("lbf"), "{out}");
     assert!(said.contains("Unexplained nothing beyond the noise"), "{out}");
-    assert!(said.contains("columns temprature (did you mean temperature?)"), "{out}");
+    assert!(said.contains("column temprature (did you mean temperature?)"), "{out}");
 }
 
 #[test]
@@ -176,8 +176,8 @@ fn unknown_frames_are_fitted_along() {
     let run = bench.measured("run.csv", &[SPRING], 2, true);
     let frames = ["--nuisance", "base_frame,tool_frame"];
     let out = bench.diagnose(&bench.robot, &run, &frames);
-    assert!(out.contains("with the unknown frames fitted"), "{out}");
-    assert!(out.contains("Fitted along  base frame at ("), "{out}");
+    assert!(out.contains("with unknown frames fitted"), "{out}");
+    assert!(out.contains("Co-estimated  base frame at ("), "{out}");
     let found = bench.json(&bench.robot, &run, &frames);
     assert_eq!(findings(&found), ["joint_compliance at joint 2"]);
     assert_eq!(found["nuisances"][1]["name"], "tool_frame");
@@ -187,7 +187,7 @@ fn unknown_frames_are_fitted_along() {
     bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
     let written = std::fs::read_to_string(&better).expect("written");
     for frame in ["tool_frame", "base_frame"] {
-        assert!(written.contains(&format!("#   {frame}, fitted along: at [")), "{written}");
+        assert!(written.contains(&format!("#   {frame}, co-estimated: at [")), "{written}");
     }
     assert!(written.contains("\n[base]\n") && written.contains("\n[tool]\n"), "{written}");
     assert_eq!(findings(&bench.json(&better, &run, &[])), [""; 0]);
@@ -217,7 +217,7 @@ fn the_corrected_robot_has_no_gap_left() {
     assert_eq!(findings(&bench.json(&better, &other, &[])), [""; 0]);
     let said = bench.diagnose(&better, &other, &["--noise-position", "20um"]);
     let said = flat(&said);
-    assert!(said.contains("is noise (") && said.contains("nothing is missing"), "{said}");
+    assert!(said.contains("is noise (") && said.contains("is missing from the model"), "{said}");
 
     let twice = bench.path("twice.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &twice]);
@@ -268,7 +268,7 @@ fn another_file_is_predicted() {
     let out = bench.diagnose(&bench.robot, &run, &["--check", &other]);
     let said = flat(&out);
     let part = format!("on {inside} of the 48 rows of ");
-    let outside = format!("{} outside are not judged", 48 - inside);
+    let outside = format!("{} rows outside are not judged", 48 - inside);
     assert!(said.contains(&part) && said.contains(&outside), "{out}");
 
     // Rows that all lie elsewhere are not judged at all.
@@ -300,8 +300,8 @@ fn the_rows_that_were_fitted_are_known_again() {
         assert!((ratio(&again["gap"]["before"]) - 1.0).abs() < 1e-3, "{kind}");
     }
     let said = flat(&bench.diagnose(&bench.robot, &run, &["--check", &run]));
-    assert!(said.contains("the same on its own rows"), "{said}");
-    assert!(said.contains("which are those that were fitted: on rows that no fit has"), "{said}");
+    assert!(said.contains("with the findings, on the fitted rows"), "{said}");
+    assert!(said.contains("which are the fitted rows: on new rows expect"), "{said}");
 }
 
 #[test]
@@ -383,6 +383,6 @@ fn a_marker_without_a_place_is_fitted() {
     let run = folder.file("run.csv", rows);
     let out = stiffarm(&["diagnose", &robot, &run]).good();
     assert!(!out.contains("Findings"), "{out}");
-    let fitted = line(&out, "Fitted along").join(" ");
-    assert!(fitted.starts_with("Fitted along smr at (40.0, −"), "{fitted}");
+    let fitted = line(&out, "Co-estimated").join(" ");
+    assert!(fitted.starts_with("Co-estimated smr at (40.0, −"), "{fitted}");
 }

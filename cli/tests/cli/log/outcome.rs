@@ -54,7 +54,7 @@ fn a_written_robot_does_what_is_announced() {
     let checked = text(&folder.path("checked.json"));
     let check = ["diagnose", &robot, &log, "--check", &other, "--json", &checked];
     let out = stiffarm(&check).good();
-    assert!(out.contains("nothing is fitted to it"), "{out}");
+    assert!(out.contains("with nothing fitted"), "{out}");
     let check = &json(&checked)["check"]["gap"][0];
     // 0.1 N·m of noise at 100 Hz, of which the band keeps a part.
     assert!(number(&check["after"]) < 0.1 && number(&check["before"]) > 1.0, "{check}");
@@ -172,10 +172,10 @@ fn a_page_holds_everything() {
     stiffarm(&["diagnose", &robot, &log, "--check", &other, "--report", &page, "--quiet"]).good();
     let page = read(&page);
     for part in [
-        "What each finding takes",
+        "What each finding contributes",
         "Torque against time",
         "Friction against speed",
-        "nothing is fitted",
+        "with nothing fitted",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -26,7 +26,9 @@ const READ: &str = r##"<script>
     const light = colour();
     theme.click();
     seen.dark = colour() !== light && theme.getAttribute("aria-pressed") === "true";
+    document.addEventListener("click", (event) => event.preventDefault());
     for (const link of document.querySelectorAll("a[download]")) {
+      link.click();
       const file = await (await fetch(link.href)).text();
       seen.files[link.download] = file.trimEnd().split("\n").length;
     }
@@ -81,9 +83,9 @@ const USE: &str = r##"<script>
     for (const link of document.querySelectorAll("a[data-csv], a[data-json]")) {
       link.click();
       const file = await (await fetch(link.href)).text();
-      const { csv, json } = link.dataset;
-      if (json) JSON.parse(file);
-      seen.files[csv ? `${csv}.csv` : `${json}.json`] = file.trimEnd().split("\n").length;
+      const { csv } = link.dataset;
+      if (!csv) JSON.parse(file);
+      seen.files[csv ? `${csv}.csv` : "report.json"] = file.trimEnd().split("\n").length;
     }
   } catch (error) {
     window.problems.push(String(error));

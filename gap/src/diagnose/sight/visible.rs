@@ -49,7 +49,7 @@ impl Search<'_, '_> {
                 if relative < IDLE {
                     unseen.push(entry(effect, place, relative, effect.idle()));
                 } else if look.own < OWN.max(SEEN) {
-                    let because = "the frames that are fitted along do the same";
+                    let because = "not distinguishable from the co-estimated frames";
                     unseen.push(entry(effect, place, look.own, because));
                 } else if geometry_shows && look.beside < SEEN && !effect.is_geometry() {
                     unseen.push(entry(effect, place, look.beside, effect.hidden()));

@@ -53,7 +53,7 @@ impl Search<'_, '_> {
         let Some((effect, spot)) = rival.effect() else { return String::new() };
         let there = format!("{} at {}", words(effect.identifier()), spot.place);
         let Some((white, index, wrench, plain)) = best.filter(|b| b.0 > 1.0) else {
-            return format!("no load at a pose of this data tells {here} from {there}");
+            return format!("no load at a pose of these data distinguishes {here} from {there}");
         };
         let size = if self.problem.measures_position() {
             format!("{:.3} mm", plain * 1e3)
@@ -65,7 +65,7 @@ impl Search<'_, '_> {
             None => format!("the pose of line {}", rows[index].line),
         };
         format!(
-            "measure {pose} with {}: there {here} and {there} predict readings {size} apart, {white:.1} \
+            "measure {pose} with {}: there {here} and {there} predict measurements {size} apart, {white:.1} \
              times the noise",
             load_in_words(&wrench)
         )

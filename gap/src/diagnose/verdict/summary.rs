@@ -29,19 +29,22 @@ impl Search<'_, '_> {
     ) -> Result<Vec<Finding>, DiagnoseError> {
         let mut findings = Vec::with_capacity(shrinking.groups.len());
         let mut last = before.to_vec();
+        let whole = rms(&self.problem.kept(before).copied().collect::<Vec<_>>());
         for (number, group) in shrinking.groups.iter().enumerate() {
             let first = &now.fit.model.found[group[0]];
             let after = shrinking.sizes_after(number + 1);
             let rivals = self.rivals(now, group, at_noise)?;
             let to_separate =
                 rivals.nearest.as_ref().map(|rival| self.separating(now, group, rival));
+            let held_out = HeldOutGap::AtRest {
+                held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
+            };
             findings.push(Finding {
                 effect: first.effect.identifier().into(),
                 place: first.spot.place.to_string(),
                 parameters: Vec::new(),
-                held_out: HeldOutGap::AtRest {
-                    held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
-                },
+                share: held_out.share(whole),
+                held_out,
                 p_value: rivals.p_value,
                 stability: Some(rivals.stability),
                 alternatives: rivals.alternatives,

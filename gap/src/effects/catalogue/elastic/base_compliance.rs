@@ -102,7 +102,7 @@ impl AtRest for BaseCompliance {
     }
 
     fn sentence(&self, _: &Told<'_>) -> String {
-        "the foundation gives under load".to_owned()
+        "the foundation is compliant".to_owned()
     }
 }
 

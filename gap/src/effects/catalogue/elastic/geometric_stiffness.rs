@@ -17,7 +17,7 @@ const AT_REST: &Facts = &Facts {
     formula: "Δx = J (Kθ − K_C)⁻¹ Jᵀ w, not J Kθ⁻¹ Jᵀ w",
     parameters: &[Parameter::free("fraction", Quantity::Ratio)],
     at: At::Arm,
-    idle: "nothing that the model has gives under load",
+    idle: "nothing in the model is compliant under load",
     ..Facts::NONE
 };
 
@@ -31,7 +31,7 @@ impl AtRest for GeometricStiffness {
     fn excluded(&self, data: &Measurements) -> Option<&'static str> {
         let own = data.sim_given.contains(&true);
         (!own).then_some(
-            "the model is at rest on the loaded geometry; only another simulator can lack it",
+            "the model uses the loaded geometry already; only another simulator can lack it",
         )
     }
 
@@ -45,7 +45,7 @@ impl AtRest for GeometricStiffness {
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {
-        format!("the simulator leaves out {} of what the loaded geometry does", told.size())
+        format!("the simulator neglects {} of the effect of the loaded geometry", told.size())
     }
 
     fn draw(&self, from: &mut Draw<'_>) -> Vec<(String, f64)> {

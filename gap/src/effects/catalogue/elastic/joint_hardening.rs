@@ -31,7 +31,7 @@ impl AtRest for JointHardening {
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {
-        format!("{} does not give in proportion to its torque", told.place)
+        format!("{} has a stiffness that changes with its torque", told.place)
     }
 
     fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {

@@ -74,7 +74,9 @@ impl AtRest for Geometry {
 
     fn excluded(&self, data: &Measurements) -> Option<&'static str> {
         let is_difference = data.kind.is_difference();
-        is_difference.then_some("between two readings of one pose lengths and angles cancel")
+        is_difference.then_some(
+            "lengths and angles cancel in the difference of two measurements of one pose",
+        )
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {

@@ -99,7 +99,10 @@ impl AtRest for MotorError {
         let [size, order] = [told.norm(&["cos", "sin"]), told.value("order")];
         let unit = told.numbers.iter().find(|p| p.name == "cos").map_or("rad", |p| &*p.unit);
         let size = (told.write)(unit, size, size);
-        format!("the motor's side of {} errs by {size} with {order} periods per turn", told.place)
+        format!(
+            "the input side of the gear of {} has a periodic error of {size} at {order} periods per turn",
+            told.place
+        )
     }
 
     fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {

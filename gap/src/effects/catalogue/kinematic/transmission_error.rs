@@ -99,9 +99,25 @@ impl AtRest for TransmissionError {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         let each = waves(told.numbers).into_iter().map(|(order, [c, s])| (order, c.hypot(s)));
-        let (order, amplitude) = each.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        let mut each: Vec<(usize, f64)> = each.collect();
+        each.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let Some((largest, amplitude)) = each.first().copied() else {
+            return format!("the gear of {} has a periodic error", told.place);
+        };
         let size = told.sized(amplitude);
-        format!("the gear of {} errs by {size} with {order} periods per turn", told.place)
+        let periods = if largest == 1 { "period" } else { "periods" };
+        let mut others: Vec<usize> = each[1..].iter().map(|(order, _)| *order).collect();
+        others.sort_unstable();
+        let others: Vec<String> = others.iter().map(usize::to_string).collect();
+        let others = match others.as_slice() {
+            [] => String::new(),
+            [one] => format!(", and less at {one}"),
+            [first @ .., last] => format!(", and less at {} and {last}", first.join(", ")),
+        };
+        format!(
+            "the gear of {} has a periodic error of {size} at {largest} {periods} per turn{others}",
+            told.place
+        )
     }
 
     fn curve<'a>(&self, numbers: &'a [ParameterReport]) -> Option<Curve<'a>> {

@@ -28,7 +28,7 @@ const AT_REST: &Facts = &Facts {
         Parameter::free("sin", Quantity::Moment),
     ],
     moves: Moves::Joint,
-    idle: "the joint does not give: the robot file has no stiffness of it, and none was found",
+    idle: "the joint is rigid: the robot file has no stiffness of it, and none was found",
     // Few arms have one, and at one joint; who has one knows of it. What does the same without one is named
     // first where the data do not decide.
     odds: 100,

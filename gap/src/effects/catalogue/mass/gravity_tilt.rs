@@ -32,7 +32,7 @@ const AT_REST: &Facts = &Facts {
         Parameter::free("x", Quantity::Angle).usually(0.01),
         Parameter::free("y", Quantity::Angle).usually(0.01),
     ],
-    idle: "nothing that the model has gives under the weight of links and loads",
+    idle: "nothing in the model is compliant under the weight of links and loads",
     ..Facts::NONE
 };
 

@@ -22,7 +22,7 @@ const AT_REST: &Facts = &Facts {
         Parameter::free("y", Quantity::Length).usually(0.1),
         Parameter::free("z", Quantity::Length).usually(0.1),
     ],
-    idle: "nothing that the model has gives under the weight of the link",
+    idle: "nothing in the model is compliant under the weight of the link",
     ..Facts::NONE
 };
 

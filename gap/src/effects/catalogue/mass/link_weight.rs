@@ -27,7 +27,7 @@ const AT_REST: &Facts = &Facts {
     separated_by: "Loads of known size, which tell compliance from weight.",
     formula: "m → m + mass",
     at: At::Links,
-    idle: "nothing that the model has gives under the weight of the link",
+    idle: "nothing in the model is compliant under the weight of the link",
     ..Facts::NONE
 };
 

@@ -18,7 +18,7 @@ const AT_REST: &Facts = &Facts {
         Parameter::free("z", Quantity::Length).usually(0.3),
     ],
     at: At::Tool,
-    idle: "there is no force on the tool, or nothing that the model has gives under it",
+    idle: "there is no force on the tool, or nothing in the model is compliant under it",
     ..Facts::NONE
 };
 
@@ -45,6 +45,6 @@ impl AtRest for PayloadCom {
 
     fn sentence(&self, told: &Told<'_>) -> String {
         let beside = (told.write)("m", 1e-3, told.norm(&["x", "y", "z"]));
-        format!("the load acts {beside} beside the tool origin")
+        format!("the load acts {beside} from the tool origin")
     }
 }

@@ -14,7 +14,7 @@ const AT_REST: &Facts = &Facts {
     formula: "w → (1 + scale) w",
     parameters: &[Parameter::free("scale", Quantity::Ratio).usually(0.3)],
     at: At::Tool,
-    idle: "there is no load, or nothing that the model has gives under it",
+    idle: "there is no load, or nothing in the model is compliant under it",
     ..Facts::NONE
 };
 

@@ -48,14 +48,14 @@ impl AtRest for Latency {
             return Some("a displacement is measured at rest: nothing moves between two clocks");
         }
         (!data.sessions().all(is_stream)).then_some(
-            "the rows are no stream: it takes rows in the order of their `time`, most of them \
+            "the rows are not a stream: latency needs rows in the order of their `time`, most of them \
              within a second of the one before",
         )
     }
 
     fn sentence(&self, told: &Told<'_>) -> String {
         let side = told.by_sign("younger", "older");
-        format!("positions are {} {side} than the joint readings beside them", told.size())
+        format!("positions are {} {side} than the joint values of their rows", told.size())
     }
 }
 

@@ -1,0 +1,76 @@
+//! Findings as they are reported: those that matter in full, the others together.
+
+use stiffarm_gap::report::{Alternative, Finding as Found, MATTERS};
+
+use super::words::{joined, named, p_value};
+use super::{Block, Finding};
+use crate::input::quantity::counted;
+
+/// Findings in order, with their numbers.
+pub type Numbered<'a> = Vec<(usize, &'a Found)>;
+
+/// The findings that matter, and the others; where none does, all are shown as if they did.
+pub fn weighed(findings: &[Found]) -> [Numbered<'_>; 2] {
+    let numbered = findings.iter().enumerate().map(|(k, finding)| (k + 1, finding));
+    let (large, small): (Vec<_>, Vec<_>) = numbered.partition(|(_, f)| f.share >= MATTERS);
+    if large.is_empty() { [small, large] } else { [large, small] }
+}
+
+/// `11 small effects, 4 µm together`, with `size` as what they remove is written; empty of none.
+pub fn summary(small: &Numbered<'_>, size: impl Fn(f64) -> String) -> String {
+    let removed = |(_, f): &(usize, &Found)| f.held_out.before() - f.held_out.after();
+    match small.len() {
+        0 => String::new(),
+        1 => format!("1 small effect, {}", size(removed(&small[0]))),
+        n => format!("{n} small effects, {} together", size(small.iter().map(removed).sum())),
+    }
+}
+
+/// The findings as `one` reports each.
+pub fn block(
+    findings: &[Found],
+    one: impl Fn(usize, &Found) -> Finding,
+    size: impl Fn(f64) -> String,
+) -> Block {
+    let [large, small] = weighed(findings);
+    let each = |of: &Numbered<'_>| of.iter().map(|(number, f)| one(*number, f)).collect();
+    Block::Findings { large: each(&large), summary: summary(&small, size), small: each(&small) }
+}
+
+/// What the first findings do, as `said` says it, and how many more there are.
+pub fn told(findings: &[Found], most: usize, and: &str, said: impl Fn(&Found) -> String) -> String {
+    let [large, small] = weighed(findings);
+    let first = if large.len() > most { most - 1 } else { large.len() };
+    let mut told: Vec<String> = large.iter().take(first).map(|(_, f)| said(f)).collect();
+    let more = [(large.len() - first, "more effect"), (small.len(), "small effect")];
+    let rest = more.iter().filter(|(count, _)| *count > 0);
+    told.extend(rest.map(|(count, what)| counted(*count, what)));
+    joined(&told, and)
+}
+
+impl Finding {
+    /// What findings of every kind of data have, with `rival` as what an alternative leaves is written
+    /// and `whole` the error before any finding.
+    pub fn of(
+        number: usize,
+        f: &Found,
+        whole: f64,
+        rival: impl Fn(&Alternative) -> String,
+    ) -> Finding {
+        let part = |x: f64| if whole > 0.0 { x / whole } else { 0.0 };
+        let other = |a: &Alternative| format!("{} ({})", named(&a.effect, &a.place), rival(a));
+        Finding {
+            number,
+            name: named(&f.effect, &f.place),
+            said: String::new(),
+            error: String::new(),
+            parts: [part(f.held_out.before()), part(f.held_out.after())],
+            less: String::new(),
+            parameters: Vec::new(),
+            evidence: p_value(f.p_value),
+            same: f.indistinguishable().map(&other).collect(),
+            next: f.alternatives.iter().find(|a| a.separable()).map(&other),
+            advice: f.advice().map(str::to_owned),
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! The document of a joint log.
+
+mod joints;
+mod notes;
+
+use serde::Serialize;
+use stiffarm_gap::log::model::Explained;
+use stiffarm_gap::log::report::JointGap;
+use stiffarm_gap::log::{Domain, LogDiagnosis};
+use stiffarm_gap::report::{Alternative, Finding, Parameter};
+use stiffarm_kernels::generic::Arm;
+
+use super::figure::{self, LOG, Step, waterfall};
+use super::findings::{block, told};
+use super::words::{less, named, percent};
+use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
+use crate::diagnose::LogCheck;
+use crate::input::quantity::counted;
+use crate::terminal::text::{decimals, fixed, minus, short};
+
+/// Findings that the sentence names.
+const NAMED: usize = 4;
+
+/// How every log is diagnosed.
+const METHOD: &str = "\
+Samples are resampled to even steps and go, with everything that is computed from them, through one zero-phase \
+low-pass. Of torques the base parameters of the rigid links are co-estimated. Effects are added one by one, each \
+judged on held-out blocks of time, against a sign-flip test of whole blocks. Intervals take each block as one \
+independent number. The pictures show the model that is fitted to all of the log.";
+
+/// What the document of a log is made of.
+pub struct Log<'a> {
+    /// The diagnosis.
+    pub found: &'a LogDiagnosis,
+    /// The prediction of another log.
+    pub check: Option<&'a LogCheck>,
+    /// What only a page shows.
+    pub fitted: Option<Fitted<'a>>,
+}
+
+/// The model that is fitted to all of the log.
+#[derive(Clone, Copy)]
+pub struct Fitted<'a> {
+    /// The log's rows, term by term.
+    pub explained: &'a Explained,
+    /// The arm of the robot file.
+    pub arm: &'a Arm,
+}
+
+impl Log<'_> {
+    /// The document.
+    pub fn document(&self) -> Document {
+        let found = self.found;
+        let mut blocks = vec![Block::Sentence(self.sentence())];
+        blocks.extend(self.check.map(|check| Block::Verdict(None, self.checked(check))));
+        blocks.push(self.errors());
+        blocks.extend(self.findings());
+        blocks.extend(self.notes());
+        blocks.extend(self.fitted.map(|_| Block::Page(self.details())));
+        Document {
+            robot: found.robot.clone(),
+            about: "what its drives do",
+            facts: format!("{}: {}", found.files.join(", "), self.facts()),
+            blocks,
+        }
+    }
+
+    /// What its page embeds; `whole` is the diagnosis as it is written.
+    ///
+    /// # Errors
+    /// [`crate::Failure`] if something in it is no JSON.
+    pub fn embedded(
+        &self,
+        fitted: &Fitted<'_>,
+        whole: &impl Serialize,
+    ) -> Result<Embedded, crate::Failure> {
+        Embedded::new(joints::Drawing::of(self.found, fitted), whole, LOG)
+    }
+
+    fn is_torque(&self) -> bool {
+        self.found.rows == Domain::Torque
+    }
+
+    /// Of what a part is given.
+    fn whole(&self) -> &'static str {
+        match self.is_torque() {
+            true => "of the torque's standard deviation",
+            false => "of the logged error",
+        }
+    }
+
+    fn error(&self) -> &'static str {
+        if self.is_torque() { "torque error" } else { "position error" }
+    }
+
+    /// What the rows are, how many, and how they are judged.
+    fn facts(&self) -> String {
+        let (found, evidence) = (self.found, &self.found.evidence);
+        let rows = match (found.rows, found.torque_side) {
+            (Domain::Torque, Some(side)) => {
+                format!("torques, {}", format!("{side:?}").to_lowercase())
+            }
+            (Domain::Torque, None) => "torques".to_owned(),
+            (Domain::Position, _) => "positions against commands".to_owned(),
+        };
+        let held = match &*evidence.held_out_by {
+            "run" => format!("each of {} held out in turn", counted(evidence.folds, "run")),
+            _ => format!("held out in {} folds of blocks", evidence.folds),
+        };
+        format!(
+            "{rows}; {} in {}; below {} Hz; effective number of samples {:.0}, blocks of {} s, {held}",
+            counted(found.samples, "sample"),
+            counted(found.runs, "run"),
+            short(found.filter.band),
+            evidence.effective,
+            short(evidence.block_length),
+        )
+    }
+
+    /// What the model lacks, and what remains.
+    fn sentence(&self) -> String {
+        let found = self.found;
+        let [before, after] = left(&found.gap).map(part);
+        let (what, error) = (self.whole(), self.error());
+        if found.findings.is_empty() {
+            return format!(
+                "Nothing is found: no effect that was tried reduces the rms {error}, {before} {what}, on held-out \
+                 time."
+            );
+        }
+        let lacks = told(&found.findings, NAMED, " and ", |f| named(&f.effect, &f.place));
+        let mut text = format!(
+            "The model lacks {lacks}; modelling {} reduces the rms {error} from {before} to {after} {what}, mean over \
+             the joints on held-out time: {}.",
+            if found.findings.len() == 1 { "it" } else { "them" },
+            less(&found.shrink)
+        );
+        if let Some(nested) = nested(&found.gap) {
+            text.push_str(&format!(
+                " With the search repeated without the held-out time, {} remains.",
+                part(nested)
+            ));
+        }
+        let open = found.findings.iter().filter(|f| !f.alternatives.is_empty()).count();
+        if open > 0 {
+            let findings = counted(open, "finding");
+            text.push_str(&format!(" This log does not distinguish {findings} from others."));
+        }
+        text
+    }
+
+    /// What remains of another log.
+    fn checked(&self, check: &LogCheck) -> String {
+        let [before, after] = left(&check.gap).map(part);
+        format!(
+            "On {} ({}) the same model, with nothing fitted, leaves an rms {} of {after} {}; without the findings {before}.",
+            check.files.join(", "),
+            counted(check.samples, "sample"),
+            self.error(),
+            self.whole(),
+        )
+    }
+
+    /// The error of each joint, before and after.
+    fn errors(&self) -> Block {
+        let found = self.found;
+        let (size, before) = match found.rows {
+            Domain::Torque => ("standard deviation", "rigid links alone"),
+            Domain::Position => ("as logged", "before"),
+        };
+        let is_nested = found.gap.iter().all(|g| g.nested.is_some());
+        let mut heads = vec!["", size, before, "with the findings"];
+        heads.extend(is_nested.then_some("search repeated"));
+        let row = |(joint, gap): (usize, &JointGap)| -> Row {
+            let (name, factor) = shown(&gap.unit);
+            let number = |x: f64| Cell::number(short(factor * x));
+            let mut row: Row = vec![format!("joint {}", joint + 1).into()];
+            row.push(Cell::number(format!("{} {name}", short(factor * gap.size))));
+            row.extend([gap.before, gap.after].map(number));
+            row.extend(gap.nested.map(number));
+            row.push(Cell::number(part(gap.after / gap.size)));
+            row.push(Cell::Bar(gap.after / gap.size.max(gap.before)));
+            row
+        };
+        let table = Table {
+            heads: heads.into_iter().map(str::to_owned).collect(),
+            rows: found.gap.iter().enumerate().map(row).collect(),
+            caption: String::new(),
+        };
+        let caption = "In order of addition; mean over the joints of rms errors as parts of their own size, held out.";
+        let unit = Unit { name: "% of the joints’ own, mean", si: 0.01, decimals: Some(1) };
+        let picture = Block::Figure(Box::new(waterfall(self.steps(), unit)), caption.to_owned());
+        let heading = if self.is_torque() { "Torque error, rms" } else { "Position error, rms" };
+        let page = Block::Page(vec![picture, Block::Csv("gap")]);
+        Block::section(heading, vec![Block::Table(table), page])
+    }
+
+    fn steps(&self) -> Vec<Step> {
+        let found = self.found;
+        let [before, after] = left(&found.gap);
+        let step = |label: String, class, from, to, text| Step {
+            label,
+            class,
+            from,
+            to,
+            interval: None,
+            text,
+        };
+        let first = if self.is_torque() { "rigid links alone" } else { "as logged" };
+        let mut steps = vec![step(first.to_owned(), "whole", 0.0, before, part(before))];
+        steps.extend(found.findings.iter().map(|f| {
+            let (from, to) = (f.held_out.after().min(f.held_out.before()), f.held_out.before());
+            let text = format!("→ {}", part(f.held_out.after()));
+            step(named(&f.effect, &f.place), "removed", from, to, text)
+        }));
+        let mut last = step("remains, held out".to_owned(), "left", 0.0, after, part(after));
+        if !found.findings.is_empty() {
+            last.interval = Some(found.shrink.after_ci95());
+            last.text = format!("{}, {}", last.text, less(&found.shrink));
+        }
+        steps.push(last);
+        steps
+    }
+
+    fn findings(&self) -> Option<Block> {
+        let found = self.found;
+        if found.findings.is_empty() {
+            return None;
+        }
+        let more = |a: &Alternative| format!("leaves {} more", percent(a.left.size() - 1.0));
+        let [whole, _] = left(&found.gap);
+        let one = |number, f: &Finding| super::Finding {
+            error: format!(
+                "{} → {}",
+                fixed(100.0 * f.held_out.before(), 1),
+                part(f.held_out.after())
+            ),
+            parameters: f.parameters.iter().map(parameter).collect(),
+            ..super::Finding::of(number, f, whole, more)
+        };
+        Some(Block::Section {
+            heading: "Findings".to_owned(),
+            remark: format!("in order of addition; mean {} of the joints, held out", self.error()),
+            blocks: vec![
+                block(&found.findings, one, part),
+                Block::Page(vec![Block::Csv("findings.parameters")]),
+            ],
+        })
+    }
+
+    /// What only a page has room for.
+    fn details(&self) -> Vec<Block> {
+        vec![
+            Block::section("Each joint", vec![figure::joints(self.is_torque())]),
+            Block::section(
+                "How it was computed",
+                vec![
+                    Block::Paragraph(METHOD.to_owned()),
+                    Block::Facts(self.settings()),
+                    Block::Json,
+                ],
+            ),
+        ]
+    }
+
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        let (found, evidence) = (self.found, &self.found.evidence);
+        let given = if found.filter.band_given { "as given" } else { "estimated from the log" };
+        let longest = evidence.correlation_time.iter().copied().fold(0.0, f64::max);
+        let mut settings = vec![
+            ("low-pass", format!("{} Hz, {given}", short(found.filter.band))),
+            ("sampling period", format!("{} s", short(found.filter.period))),
+            (
+                "effective number of samples",
+                format!("about {:.0} of {}", evidence.effective, evidence.rows),
+            ),
+            ("correlation time", format!("at most {} s", short(longest))),
+            ("blocks", format!("{} of {} s", evidence.blocks, short(evidence.block_length))),
+        ];
+        if found.damaged > 0 {
+            settings.push(("damaged samples", format!("{} left out", found.damaged)));
+        }
+        settings
+    }
+}
+
+/// Mean of the joints' errors as parts of their sizes, before and after.
+pub fn left(gap: &[JointGap]) -> [f64; 2] {
+    let mean = |of: fn(&JointGap) -> f64| {
+        gap.iter().map(|g| of(g) / g.size).sum::<f64>() / gap.len() as f64
+    };
+    [mean(|g| g.before), mean(|g| g.after)]
+}
+
+/// The same of a search that has not seen the time; where it was run.
+fn nested(gap: &[JointGap]) -> Option<f64> {
+    let parts: Option<Vec<f64>> =
+        gap.iter().map(|g| g.nested.map(|nested| nested / g.size)).collect();
+    parts.map(|parts| parts.iter().sum::<f64>() / parts.len() as f64)
+}
+
+/// A part in per cent.
+fn part(x: f64) -> String {
+    format!("{} %", fixed(100.0 * x, 1))
+}
+
+/// In what people read position errors, and how many of it one is.
+fn shown(unit: &str) -> (&str, f64) {
+    match unit {
+        "rad" => ("°", 180.0 / core::f64::consts::PI),
+        "m" => ("mm", 1e3),
+        other => (other, 1.0),
+    }
+}
+
+/// `viscous 8.13 [8.01 to 8.25] N·m·s/rad`.
+fn parameter(p: &Parameter) -> String {
+    let half = 0.5 * (p.ci95[1] - p.ci95[0]);
+    let digits = decimals(half, 2).min(decimals(p.value.abs(), 3).max(decimals(half, 1)));
+    let shown = |x: f64| match (1e-4..1e5).contains(&p.value.abs()) {
+        true => fixed(x, digits),
+        false => minus(format!("{x:.2e}")),
+    };
+    let [low, high] = p.ci95.map(shown);
+    format!("{} {} [{low} to {high}] {}", p.name, shown(p.value), p.unit)
+}

@@ -1,0 +1,102 @@
+//! What was co-estimated, what remains and depends on what, what this log cannot show.
+
+use stiffarm_gap::report::CannotSee;
+
+use super::Log;
+use crate::document::Block;
+use crate::document::words::{share, words};
+use crate::input::quantity::counted;
+use crate::terminal::text::{listed, short};
+
+/// Entries of a list before the rest is counted.
+const MOST: usize = 4;
+
+impl Log<'_> {
+    /// The remarks below the findings.
+    pub(super) fn notes(&self) -> Vec<Block> {
+        let found = self.found;
+        let rigid = match found.rigid_parameters {
+            0 => String::new(),
+            n => format!("the rigid links, {}", counted(n, "base parameter")),
+        };
+        let longest = found.evidence.correlation_time.iter().copied().fold(0.0, f64::max);
+        let short = match found.evidence.long_enough {
+            true => String::new(),
+            false => format!(
+                "there are too few blocks of five correlation times ({} s each); shorter blocks are used, so that \
+                 p values and intervals are too small",
+                short(longest)
+            ),
+        };
+        let note = |name, lines: Vec<String>, most| {
+            (!lines.is_empty()).then_some(Block::Note { name, lines, most })
+        };
+        let hidden = self.hidden();
+        let most = hidden.len();
+        let remarks = note("Rows", found.remarks.clone(), 0).map(|note| Block::Page(vec![note]));
+        let notes = [
+            Block::note("Co-estimated", rigid),
+            Block::note("Too short", short),
+            Block::note("Commands", self.by_command().unwrap_or_default()),
+            note("Unexplained", self.unexplained(), MOST),
+            note("Unobservable", hidden, most),
+            remarks,
+        ];
+        notes.into_iter().flatten().collect()
+    }
+
+    /// What the commanded motion as instrument changes; `None` where none is logged.
+    fn by_command(&self) -> Option<String> {
+        let all =
+            || self.found.findings.iter().flat_map(|f| f.parameters.iter().map(move |p| (f, p)));
+        let told: Vec<_> = all().filter_map(|(f, p)| Some((f, p, p.by_command?))).collect();
+        let off = told.iter().filter(|(_, p, other)| *other < p.ci95[0] || *other > p.ci95[1]);
+        let off: Vec<String> = off
+            .map(|(f, p, other)| {
+                let (value, other) = (short(p.value), short(*other));
+                let effect = words(&f.effect);
+                format!("{} of {effect} at {}, {other} for {value} {}", p.name, f.place, p.unit)
+            })
+            .collect();
+        let instrument = "with the commanded motion as instrumental variable, which is free of measurement noise,";
+        match (told.is_empty(), off.is_empty()) {
+            (true, _) => None,
+            (_, true) => Some(format!("{instrument} every parameter stays within its interval")),
+            _ => Some(format!("{instrument} parameters change: {}", listed(&off, MOST))),
+        }
+    }
+
+    /// On what the residuals depend, joint by joint; the largest share first.
+    fn unexplained(&self) -> Vec<String> {
+        let mut told: Vec<(&str, Vec<String>)> = Vec::new();
+        for rest in &self.found.unexplained.depends_on {
+            let part = format!("{} depends on its {}", share(rest.share), rest.of);
+            match told.iter_mut().find(|(place, _)| *place == rest.place) {
+                Some((_, parts)) => parts.push(part),
+                None => told.push((&rest.place, vec![part])),
+            }
+        }
+        let line = |(place, parts): (&str, Vec<String>)| {
+            format!("of the residuals of {place} {}", listed(&parts, MOST))
+        };
+        told.into_iter().map(line).collect()
+    }
+
+    /// What the log cannot show and why, places of the same kind in one line.
+    fn hidden(&self) -> Vec<String> {
+        let mut told: Vec<(&CannotSee, Vec<&str>)> = Vec::new();
+        for hidden in &self.found.cannot_see {
+            let same = |(first, _): &&mut (&CannotSee, Vec<&str>)| {
+                first.effect == hidden.effect && first.because() == hidden.because()
+            };
+            match told.iter_mut().find(same) {
+                Some((_, places)) => places.push(&hidden.place),
+                None => told.push((hidden, vec![&hidden.place])),
+            }
+        }
+        let line = |(first, places): (&CannotSee, Vec<&str>)| {
+            format!("{} at {}: {}", words(&first.effect), places.join(", "), first.because())
+        };
+        told.into_iter().map(line).collect()
+    }
+}

@@ -1,0 +1,65 @@
+//! Words and numbers that every document uses.
+
+use stiffarm_gap::shrink::Shrink;
+
+use crate::terminal::text::{decimals, fixed};
+
+/// `joint_compliance` as it is written in a sentence.
+pub fn words(identifier: &str) -> String {
+    identifier.replace('_', " ")
+}
+
+/// `joint compliance at joint 2`.
+pub fn named(effect: &str, place: &str) -> String {
+    format!("{} at {place}", words(effect))
+}
+
+/// With a capital letter at its beginning.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// `a, b and c`, with `and` as what stands before the last.
+pub fn joined(entries: &[String], and: &str) -> String {
+    match entries {
+        [first @ .., last] if !first.is_empty() => format!("{}{and}{last}", first.join(", ")),
+        _ => entries.concat(),
+    }
+}
+
+/// A part in per cent.
+pub fn percent(part: f64) -> String {
+    format!("{} %", fixed(100.0 * part, 0))
+}
+
+/// A share in per cent; one that is not nothing is not 0 %.
+pub fn share(part: f64) -> String {
+    if part > 0.0 && part < 0.005 { "less than 1 %".to_owned() } else { percent(part) }
+}
+
+/// How much less is left, with its 95 % interval.
+pub fn less(shrink: &Shrink) -> String {
+    let [low, high] = shrink.shrink_ci95.map(|x| fixed(100.0 * x, 0));
+    format!("{} less [{low} to {high}]", percent(shrink.shrink))
+}
+
+/// A p value with two digits; one that is smaller than rounding is only bounded.
+pub fn p_value(p: f64) -> String {
+    match p {
+        p if p < 1e-15 => "p < 1e-15".to_owned(),
+        p if p < 1e-3 => format!("p = {p:.1e}"),
+        p => format!("p = {p:.*}", decimals(p, 2)),
+    }
+}
+
+/// Where a noise is known from.
+pub fn noise_from(source: &str) -> &'static str {
+    match source {
+        "residual" => "estimated from the residuals",
+        "repeats" => "from repeats",
+        "columns" => "from the sigma columns",
+        _ => "as given",
+    }
+}
