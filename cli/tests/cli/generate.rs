@@ -155,7 +155,7 @@ fn base_parameters_are_listed() {
     assert!(out.contains("\n    55  xx6 - yy6\n"), "{out}");
     let refused =
         stiffarm(&["generate", "puma560", "--emit", "base", "--outputs", "pose"]).refused();
-    assert!(refused.contains("base are of the arm itself"), "{refused}");
+    assert!(refused.contains("base, which are of the arm itself"), "{refused}");
 }
 
 /// The block of docs/dynamics.md is what its command prints, but for the lines that `…` stands for.
