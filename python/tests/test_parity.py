@@ -134,8 +134,10 @@ def test_predict(cli, at_root, tmp_path):
 
 def test_effects(cli):
     assert stiffarm.effects() == json.loads(cli("effects", "--json"))
-    (one,) = stiffarm.effects("backlash")
-    assert one.effect == "backlash" and one.numbers
+    # Its laws at rest and in motion.
+    at_rest, in_motion = stiffarm.effects("backlash")
+    for law in (at_rest, in_motion):
+        assert law.effect == "backlash" and law.numbers
 
 
 def test_withhold(cli):

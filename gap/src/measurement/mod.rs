@@ -270,7 +270,7 @@ impl Measurements {
     /// Reads the bytes of a measurement file; `file` is what messages call it.
     ///
     /// # Errors
-    /// [`ReadError`]: all its mistakes, up to [`MOST_MISTAKES`](crate::io::MOST_MISTAKES).
+    /// [`ReadError`]: all its mistakes, up to [`MOST_MISTAKES`].
     pub fn from_bytes(
         file: &str,
         bytes: &[u8],
