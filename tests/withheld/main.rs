@@ -9,6 +9,7 @@ mod arms;
 mod campaigns;
 mod goals;
 mod logs;
+mod pairs;
 mod realistic;
 mod stream;
 mod suite;
