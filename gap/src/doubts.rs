@@ -4,6 +4,8 @@
 //! Each threshold is where no arm can be, so that a doubt is worth its sentence: it is told, and
 //! changes nothing.
 
+mod orientation;
+
 use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, Point3, Vector3, Vector6};
@@ -51,6 +53,9 @@ pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String>
     if reach > 0.0 {
         doubts.extend(lengths(data, reach));
         doubts.extend(loads(arm, data, reach));
+        if doubts.is_empty() {
+            doubts.extend(orientation::orientations(arm, data));
+        }
         // In other units no frame fits.
         if doubts.is_empty() {
             doubts.extend(frames(arm, data, along, reach));
@@ -215,6 +220,18 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
     ))
 }
 
+/// Rows spread over the file, and what is simulated of them: by the user where all of so many components are.
+fn spread<'d>(arm: &Arm, data: &'d Measurements, components: usize) -> Vec<(Reading, &'d Row)> {
+    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
+    let given = data.sim_given[..components].iter().all(|given| *given);
+    let simulated = |row: &Row| match &row.sim {
+        Some(sim) if given => Some(Reading::from_vector(sim)),
+        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
+    };
+    let rows = data.rows.iter().step_by(every);
+    rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect()
+}
+
 /// A gap that is large beside the arm and a motion of its frames.
 fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
     // Where a marker is unknown its place is fitted along in any case.
@@ -222,14 +239,7 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
     if !data.kind.is_pose() || data.poses < FEWEST_POSES || unknown {
         return None;
     }
-    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
-    let simulated = |row: &Row| match (&row.sim, data.sim_given[..3] == [true; 3]) {
-        (Some(sim), true) => Some(Reading::from_vector(sim)),
-        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
-    };
-    let rows = data.rows.iter().step_by(every);
-    let rows: Vec<(Reading, &Row)> =
-        rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect();
+    let rows = spread(arm, data, 3);
     let mut ends: Vec<usize> =
         rows.chunk_by(|a, b| a.1.session == b.1.session).map(<[_]>::len).collect();
     (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);

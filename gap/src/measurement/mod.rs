@@ -4,7 +4,8 @@
 //! `name[unit]`; the order is free. A file measures *either* poses (`x y z`, and all or none of `rx
 //! ry rz`) *or* some coordinates of positions (a touch probe's `x` alone) *or* displacements (any
 //! subset of `dx dy dz drx dry drz`) *or* distances from a fixed point (`distance`: a ball bar, a
-//! wire). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
+//! wire). `rx ry rz` are a rotation vector, or three turns if a comment above the header says so:
+//! `# orientation = zyx` ([`Convention`]). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
 //! kept as it is and reported.
 //!
 //! Rows of one `session` are one sitting of the instrument, and stand together: its frame is its own,
@@ -28,12 +29,12 @@ pub use role::{
     SIM_PREFIX, WRENCH_NAMES,
 };
 
-use crate::io::Mistakes;
-use crate::io::table::{Records, Separator};
+use crate::io::table::{Records, Separator, commented};
 #[doc(hidden)]
 pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
-}; // alias: old path
+};
+use crate::io::{Convention, Mistakes}; // alias: old path
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
@@ -331,6 +332,8 @@ fn read_into(
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let heads = header::read(line, &names, layout, mistakes);
     let kind = header::kind(&heads, line, layout, mistakes);
+    let has_turns = matches!(kind, Some((Kind::Pose { orientation: true }, _)));
+    let orientation = orientation(&records.above, has_turns)?;
     let mut extra = extra(&heads, layout);
     let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
     while let Some(record) = records.read()? {
@@ -341,7 +344,7 @@ fn read_into(
             return Err(fault.at(record.line, None));
         }
         let cells = record.texts()?;
-        match cells::row(record.line, &cells, &heads, layout, planned) {
+        match cells::row(record.line, &cells, &heads, layout, (planned, orientation)) {
             Ok(row) => {
                 rows.push(row);
                 extra.iter_mut().for_each(|extra| extra.take(&cells));
@@ -380,6 +383,26 @@ fn read_into(
         sim_given,
         poses,
     }))
+}
+
+/// How a comment above the header says that `rx ry rz` are written: `# orientation = zyx`.
+fn orientation(above: &[(u64, String)], has_turns: bool) -> Result<Convention, Mistake> {
+    let mut told = Convention::RotationVector;
+    for (line, name) in commented(above, "orientation") {
+        told = Convention::named(name).map_err(|fault| fault.at(line, None))?;
+        let found = format!("`orientation = {name}`");
+        let fault = match (has_turns, told.has_angles()) {
+            (true, true) => continue,
+            (true, false) => Fault::new(
+                found,
+                "an orientation of three angles",
+                "`stiffarm measurements` makes them of other numbers",
+            ),
+            (false, _) => Fault::new(found, "columns rx, ry, rz below it", "add them"),
+        };
+        return Err(fault.at(line, None));
+    }
+    Ok(told)
 }
 
 fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[header::Head]) {

@@ -109,6 +109,44 @@ fn a_payload_pulls_where_it_hangs() {
     }
 }
 
+/// A turn of 90° about z, then one of 90° about the x that it has made: x → y, y → z, z → x.
+#[test]
+fn an_orientation_may_be_three_turns() {
+    let angle = 2.0 * core::f64::consts::FRAC_PI_3 / 3f64.sqrt();
+    let third = Vector6::new(1.0, 2.0, 3.0, angle, angle, angle);
+    for (name, turns) in [
+        ("zyx", "90,0,90"),
+        ("abc", "90,0,90"),
+        ("fixed_xyz", "90,0,90"),
+        ("zxy", "90,0,90"),
+        ("zxz", "90,90,0"),
+        ("fixed_zxz", "0,90,90"),
+    ] {
+        let data = good(&format!(
+            "# orientation = {name}\nq1,q2,q3,x,y,z,rx[deg],ry[deg],rz[deg]\n0,0,0,1,2,3,{turns}\n"
+        ));
+        let found = data.rows[0].measured;
+        assert!((found - third).amax() < 1e-14, "{name} {found}");
+    }
+    for (text, told) in [
+        (
+            "# orientation = zz\nq1,q2,q3,x,y,z,rx,ry,rz\n0,0,0,1,1,1,0,0,0\n",
+            "line 1: found `orientation = \"zz\"`, expected",
+        ),
+        (
+            "# orientation = matrix\nq1,q2,q3,x,y,z,rx,ry,rz\n0,0,0,1,1,1,0,0,0\n",
+            "expected an orientation of three angles",
+        ),
+        (
+            "# orientation = zyx\nq1,q2,q3,x,y,z\n0,0,0,1,1,1\n",
+            "expected columns rx, ry, rz below it",
+        ),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
+}
+
 #[test]
 fn distances_and_single_coordinates_are_measured() {
     let ball = good("q1,q2,q3,distance[mm],from_x,from_y,from_z[mm]\n0,0,0,300,1,2,3000\n");

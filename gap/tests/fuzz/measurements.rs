@@ -93,7 +93,7 @@ fn reads(bytes: &[u8]) -> Result<(), TestCaseError> {
 /// What is imported is a table that the reader answers, in it no number that is not finite.
 fn imports(text: &str, map: &str) -> Result<(), TestCaseError> {
     let Ok(map) = Map::read("map.toml", map) else { return Ok(()) };
-    match import(&Sheet::new("raw.txt", text.as_bytes().to_vec()), &map) {
+    match import(&Sheet::new("raw.txt", text.as_bytes().to_vec()), None, &map) {
         Ok(imported) => {
             prop_assert!(!imported.said.is_empty());
             reads(imported.csv.as_bytes())
