@@ -45,13 +45,8 @@ const STIFFEST: f64 = 3e6;
 /// What is to be doubted of `data` as measured on `arm`, a sentence each; `along` are the frames that
 /// are fitted along.
 pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String> {
-    let reach = reach(arm);
-    let mut doubts = Vec::new();
-    let readings = |joint: usize| data.rows.iter().map(move |row| row.q[joint]);
-    doubts.extend(beyond(arm, &data.file, readings));
-    doubts.extend(angles(data));
+    let (reach, mut doubts) = (reach(arm), units(arm, data));
     if reach > 0.0 {
-        doubts.extend(lengths(data, reach));
         doubts.extend(loads(arm, data, reach));
         if doubts.is_empty() {
             doubts.extend(orientation::orientations(arm, data));
@@ -62,6 +57,14 @@ pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String>
         }
     }
     doubts
+}
+
+/// Whose units are to be doubted: of the readings, and of what is measured or aimed at.
+pub fn units(arm: &Arm, data: &Measurements) -> Vec<String> {
+    let readings = |joint: usize| data.rows.iter().map(move |row| row.q[joint]);
+    let reach = reach(arm);
+    let lengths = (reach > 0.0).then(|| lengths(data, reach)).flatten();
+    [beyond(arm, &data.file, readings), angles(data), lengths].into_iter().flatten().collect()
 }
 
 /// All lengths laid end to end, m: no point of the tool is farther from the base.
