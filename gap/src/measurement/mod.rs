@@ -218,10 +218,9 @@ pub struct ExtraColumn {
     pub name: String,
     /// The text in its header's brackets, whatever it says.
     pub unit: Option<String>,
-    /// One cell per row.
-    pub cells: Vec<String>,
-    /// The cells as numbers, as written and not converted, if every one is a finite number.
-    pub values: Option<Vec<f64>>,
+    /// The cells as numbers, one per row, as written and not converted; the line and the text of the first that is
+    /// no finite number. Texts are not held.
+    pub values: Result<Vec<f64>, (u64, String)>,
     /// A known name that it may have been meant to be; nothing is assumed.
     pub suggestion: Option<String>,
 }
@@ -347,7 +346,7 @@ fn read_into(
         match cells::row(record.line, &cells, &heads, layout, (planned, orientation)) {
             Ok(row) => {
                 rows.push(row);
-                extra.iter_mut().for_each(|extra| extra.take(&cells));
+                extra.iter_mut().for_each(|extra| extra.take(record.line, &cells));
             }
             Err(found) if found.iter().all(|m| m.fault.is_hole) => skipped.push(found),
             Err(found) => mistakes.extend(found),
@@ -376,7 +375,7 @@ fn read_into(
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
-        extra: extra.into_iter().map(ExtraColumn::with_values).collect(),
+        extra,
         skipped: skipped.into_iter().flatten().collect(),
         rows,
         kind,
@@ -442,22 +441,20 @@ fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
         column: head.column.clone(),
         name: head.name.clone(),
         unit: head.unit_text.clone(),
-        values: None,
-        cells: Vec::new(),
+        values: Ok(Vec::new()),
         suggestion: nearest_name(&head.name, layout),
     };
     unknown.map(column).collect()
 }
 
 impl ExtraColumn {
-    fn take(&mut self, cells: &[&str]) {
-        self.cells.push(cells[self.column.number - 1].to_owned());
-    }
-
-    fn with_values(self) -> ExtraColumn {
-        let values =
-            self.cells.iter().map(|c| cells::number(c, || "a number".to_owned()).ok()).collect();
-        ExtraColumn { values, ..self }
+    fn take(&mut self, line: u64, cells: &[&str]) {
+        let Ok(values) = &mut self.values else { return };
+        let cell = cells[self.column.number - 1];
+        match cells::number(cell, String::new) {
+            Ok(value) => values.push(value),
+            Err(_) => self.values = Err((line, cell.to_owned())),
+        }
     }
 }
 

@@ -77,10 +77,9 @@ fn every_column_of_the_format_is_read_in_si() {
     assert_eq!(data.kind, Kind::Pose { orientation: true });
     assert_eq!(data.components(), 6);
     assert_eq!(
-        (data.extra[0].name.as_str(), &data.extra[0].cells[..]),
-        ("note", &["hi".into()][..])
+        (data.extra[0].name.as_str(), &data.extra[0].values),
+        ("note", &Err((3, "hi".to_owned())))
     );
-    assert_eq!(data.extra[0].values, None);
 }
 
 /// By hand: the tool's z lies along x turned by θ1 + θ2 about z, whatever the base in the world.
@@ -179,7 +178,7 @@ fn a_unitless_number_is_si_and_never_guessed() {
 fn unknown_columns_are_kept_and_reported() {
     let data = good("q1,q2,q3,dz,ycd_dz[in],temprature[furlong],Q1\n0,0,0,1,-0.5,20,7\n");
     let [ycd, misspelt, upper] = &data.extra[..] else { panic!("{:?}", data.extra) };
-    assert_eq!((ycd.unit.as_deref(), &ycd.values), (Some("in"), &Some(vec![-0.5])));
+    assert_eq!((ycd.unit.as_deref(), &ycd.values), (Some("in"), &Ok(vec![-0.5])));
     assert_eq!((ycd.column.number, ycd.suggestion.as_deref()), (5, None));
     assert_eq!(misspelt.suggestion.as_deref(), Some("temperature"));
     assert_eq!(upper.suggestion.as_deref(), Some("q1"));
@@ -191,8 +190,9 @@ fn a_row_with_a_hole_is_left_out_and_told() {
     (0..20).for_each(|k| text.push_str(&format!("0,0,0,{k},{k}\n")));
     let holed = text.replace(",3,3\n", ",,3\n").replace(",5,5\n", ",nan,5\n");
     let data = good(&holed);
-    assert_eq!((data.rows.len(), data.rows[3].line, data.extra[0].cells.len()), (18, 6, 18));
-    assert_eq!(data.extra[0].cells[3], "4");
+    assert_eq!((data.rows.len(), data.rows[3].line), (18, 6));
+    let notes = data.extra[0].values.as_ref().unwrap();
+    assert_eq!((notes.len(), notes[3]), (18, 4.0));
     let told: Vec<_> =
         data.skipped.iter().map(|m| (m.line.unwrap(), m.fault.to_string())).collect();
     assert_eq!((told.len(), told[0].0, told[1].0), (2, 5, 7));
@@ -221,7 +221,7 @@ fn a_simulated_component_that_is_not_measured_is_reported() {
 fn bom_crlf_quotes_and_missing_last_line_end() {
     let data = good("\u{feff}q1,q2,q3,dz,\"a, b\"\r\n0,0,0,1,\"x, y\"\r\n#\r\n1,0,0, 2 ,z");
     assert_eq!((data.rows.len(), data.rows[1].line, data.rows[1].measured[2]), (2, 4, 2.0));
-    assert_eq!(data.extra[0].cells, ["x, y", "z"]);
+    assert_eq!(data.extra[0].values, Err((2, "x, y".to_owned())));
 }
 
 /// Each mistake of the format with the whole of its message.
