@@ -84,7 +84,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(robot) = &args.robot {
         let source = RobotArgs::named(robot).load(quiet)?;
         let written = PathBuf::from("what was made of it");
-        data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
+        let data = data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
+        data::doubted(&source.arm()?, &data, &[], quiet);
     }
     args.csv.write(&imported.csv)?;
     for said in &imported.said {

@@ -431,7 +431,7 @@ fn no_header(names: &[&str]) -> Option<Fault> {
     let [lone] = names else { return None };
     let (_, separator) = separators.into_iter().find(|(c, _)| lone.contains(*c))?;
     let found = format!("columns separated by {separator}");
-    Some(Fault::new(found, "commas", "export with commas"))
+    Some(Fault::new(found, "commas", "export with commas, or let `stiffarm measurements` read it"))
 }
 
 /// The columns without a meaning, still without cells.

@@ -238,7 +238,8 @@ const MISTAKES: &[(&str, &str)] = &[
     ),
     (
         "q1;q2;q3;dz\n0,1;0;0;1\n",
-        "line 1: found columns separated by semicolons, expected commas: export with commas",
+        "line 1: found columns separated by semicolons, expected commas: export with commas, or \
+         let `stiffarm measurements` read it",
     ),
     (
         "q1,q2,q3,dz,\n0,0,0,1,\n",
