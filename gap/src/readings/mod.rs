@@ -24,8 +24,6 @@ pub mod sheet;
 #[cfg(test)]
 mod tests;
 mod turn;
-#[cfg(all(test, feature = "xlsx"))]
-mod workbook;
 mod write;
 
 pub use join::By;
