@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
+use stiffarm_gap::doubts;
 use stiffarm_gap::io::ReadError;
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
 use stiffarm_gap::simulate::moments;
@@ -85,6 +86,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let arm = source.arm()?;
     let whole = Whole { arm: &arm, known: &source.known };
     let (targets, starts) = targets(&args.targets, &source)?;
+    doubts::units(&arm, &targets).iter().for_each(|doubt| note(doubt, quiet));
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
         let message = format!("--wrench: {} has loads of its own", args.targets.display());
         return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));

@@ -21,9 +21,9 @@ Any serial chain of joints that turn or slide: fixed joints are folded away, eac
 of the modified Denavit-Hartenberg convention, inertials become mass and com, limits are kept. The
 zero of every joint is the URDF's. A URDF knows no stiffness: add `stiffness = …` to the rows.
 
-The table's base frame is the URDF's base link wherever axis 1 allows it; otherwise it is turned
-about the base link's z and moved along it, and the file says by how much. Before the file is
-written, its forward kinematics is compared with the URDF's.";
+Where a row cannot place axis 1 in the URDF's base link, `[base]` does; axes that are parallel but for
+an error have `beta`, Hayati's parameter. Before the file is written, its forward kinematics is
+compared with the URDF's.";
 
 /// A robot file from a URDF: any serial chain, exactly
 #[derive(clap::Args)]
@@ -51,47 +51,48 @@ const POSTURES: usize = 100;
 /// More than this, m and rad, is no rounding.
 const AGREES: f64 = 1e-9;
 
-/// Feet of normals farther away than this, m, leave less than ten digits to the arm itself.
-const FAR: f64 = 1e6;
-
 /// Runs the command.
 ///
 /// # Errors
 /// [`Failure`]: what is no URDF, or no serial chain; an output that cannot be written.
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = text(&args.urdf)?;
     let file = args.urdf.display().to_string();
-    let shown = |refusal| failure(&refusal, &file, &source);
-    let urdf = urdf::read(&source, args.as_written).map_err(shown)?;
-    let chain = Chain::new(&urdf.robot, args.base.as_deref(), args.tip.as_deref());
-    let chain = chain.map_err(shown)?;
-    let table = Table::new(&chain);
-    let robot = robot_file(&chain, &table);
-    let remarks = remarks(&urdf, &chain, &table);
-    let head: String = head(&file, &chain).iter().chain(&remarks).map(|r| comment(r)).collect();
-    let written = format!("{head}\n{}", robot.to_toml());
-    let deviation = deviation(&chain, &table, &written)?;
-    let farthest = table.rows.iter().map(|row| row.d.abs()).fold(0.0, f64::max);
-    if deviation.is_nan() || deviation > AGREES || farthest > FAR {
-        return Err(Failure::with_help(
-            format!(
-                "{file}: two neighbouring axes are so nearly parallel that they meet \
-                 {farthest:.0e} m away: no table in double precision holds that"
-            ),
-            "write the angles of axes that are meant to be parallel with all their digits, or \
-             round numbers that `stiffarm import` reads as multiples of π",
-        ));
-    }
+    let source = text(&args.urdf)?;
+    let chosen = (args.base.as_deref(), args.tip.as_deref());
+    let (written, remarks) = imported(&file, &source, chosen, args.as_written)?;
     remarks.iter().for_each(|remark| note(remark, quiet));
-    note(
-        &format!(
-            "forward kinematics as in the URDF to {deviation:.0e} m and rad at {POSTURES} random \
-             postures"
-        ),
-        quiet,
-    );
     args.toml.write(&written)?;
     Ok(Verdict::Good)
+}
+
+/// The text of a robot file from that of a URDF, from its link `base` to its link `tip`, and what a user must
+/// know of it.
+///
+/// # Errors
+/// [`Failure`]: what is no URDF, or no serial chain.
+pub fn imported(
+    file: &str,
+    source: &str,
+    (base, tip): (Option<&str>, Option<&str>),
+    as_written: bool,
+) -> Result<(String, Vec<String>), Failure> {
+    let shown = |refusal| failure(&refusal, file, source);
+    let urdf = urdf::read(source, as_written).map_err(shown)?;
+    let chain = Chain::new(&urdf.robot, base, tip).map_err(shown)?;
+    let table = Table::new(&chain);
+    let robot = robot_file(&chain, &table);
+    let mut remarks = remarks(&urdf, &chain, &table);
+    let head: String = head(file, &chain).iter().chain(&remarks).map(|r| comment(r)).collect();
+    let written = format!("{head}\n{}", robot.to_toml());
+    let deviation = deviation(&chain, &written)?;
+    if deviation.is_nan() || deviation > AGREES {
+        let message = format!("{file}: no table in double precision holds this chain");
+        return Err(Failure::new(message));
+    }
+    remarks.push(format!(
+        "forward kinematics as in the URDF to {deviation:.0e} m and rad at {POSTURES} random postures"
+    ));
+    Ok((written, remarks))
 }
 
 fn failure(refusal: &Refusal, file: &str, source: &str) -> Failure {
@@ -108,11 +109,9 @@ fn head(file: &str, chain: &Chain) -> Vec<String> {
 /// What the file cannot say in its rows.
 fn remarks(urdf: &Urdf, chain: &Chain, table: &Table) -> Vec<String> {
     let mut remarks = Vec::new();
-    let [turn, height] = table.lead;
-    if turn.abs() > 1e-12 || height.abs() > 1e-12 {
+    if table.base != Frame::IDENTITY {
         remarks.push(format!(
-            "the base frame of this table is that of link `{}` turned by {turn:?} rad about its z \
-             and moved by {height:?} m along it: T_urdf = Rz({turn:?}) Tz({height:?}) T_table",
+            "`[base]` says where axis 1 stands in link `{}`: no row of a table could",
             chain.base
         ));
     }
@@ -154,13 +153,11 @@ fn comment(text: &str) -> String {
 }
 
 /// The largest difference of the tip's pose by the written file and by the URDF, m and rad.
-fn deviation(chain: &Chain, table: &Table, written: &str) -> Result<f64, Failure> {
+fn deviation(chain: &Chain, written: &str) -> Result<f64, Failure> {
     let unsound = |error: String| Failure::new(format!("the robot file is not sound: {error}"));
     let (robot, _) = Robot::from_toml(written, "the imported robot")
         .map_err(|error| unsound(error.to_string()))?;
     let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| unsound(error.to_string()))?;
-    let [turn, height] = table.lead;
-    let lead = Frame { origin: [0.0, 0.0, height], ..Frame::turned([0.0, 0.0, 1.0], turn) };
     let mut worst = 0.0_f64;
     for posture in 0..POSTURES {
         // Fractions of the golden ratio and its like: spread evenly, the same for every run.
@@ -177,7 +174,7 @@ fn deviation(chain: &Chain, table: &Table, written: &str) -> Result<f64, Failure
         let (ours, theirs) = (arm.pose(&q), chain.pose(&q));
         let axes = ours.rotation.to_rotation_matrix();
         let axes = core::array::from_fn(|c| axes.matrix().column(c).into_owned().into());
-        let ours = lead.then(&Frame { axes, origin: ours.translation.vector.into() });
+        let ours = Frame { axes, origin: ours.translation.vector.into() };
         let numbers = |frame: &Frame| frame.axes.concat().into_iter().chain(frame.origin);
         for (a, b) in numbers(&ours).zip(numbers(&theirs)) {
             let off = (a - b).abs();

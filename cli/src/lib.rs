@@ -35,7 +35,7 @@ use std::sync::Arc;
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use terminal::output;
+use terminal::{interrupt, output};
 
 pub use diagnose::{
     Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Together,
@@ -57,12 +57,12 @@ const ABOUT: &str = "From a robot arm's Denavit-Hartenberg table: closed-form el
                      why the real arm is not where the model says";
 
 const AFTER: &str = "\
-A ROBOT is a robot file (TOML), the id of a built-in robot (`stiffarm robots` lists them), or a
+A ROBOT is a robot file (TOML), a URDF of one serial chain, the id of a built-in robot (`stiffarm robots` lists them), or a
 diagnosis in JSON: the robot with what it found.
 Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
 
 Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was
-written.";
+written; 130 interrupted by Ctrl-C: what was found until then is told and written.";
 
 /// The whole command line.
 #[derive(Parser)]
@@ -113,6 +113,7 @@ pub fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
     let ended = apart(&given).and_then(|()| execute(command, quiet));
     match ended {
+        Ok(_) if interrupt::is_asked() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(Verdict::Good) => ExitCode::SUCCESS,
         Ok(Verdict::Failed) => ExitCode::from(1),
         Err(failure) => {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use stiffarm_gap::io::{Map, ReadError};
-use stiffarm_gap::readings::{Sheet, import};
+use stiffarm_gap::readings::{By, Sheet, import};
 
 use super::Verdict;
 use crate::input::data;
@@ -17,11 +17,14 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm measurements tracker.xlsx --csv run.csv
   stiffarm measurements export.txt --map map.toml --robot arm.toml --csv run.csv
+  stiffarm measurements tracker.csv --join controller.csv --by time --csv run.csv
 
 A map says what is not found by name:
 
   decimal = \",\"
-  orientation = \"abc\"        # abc, rpy, zyz, quaternion, rotation_vector
+  orientation = \"abc\"        # abc, rpy, quaternion, matrix, rotation_vector; xyz, zyz … about the
+                             # tool's axes as they turn; fixed_xyz, fixed_zyx … about the base's
+  ignore = [\"Operator\"]      # not kept
 
   [columns]                  # ours = theirs
   q1 = \"Axis 1\"
@@ -40,6 +43,13 @@ pub struct Args {
     /// What is to be known of its columns (TOML)
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
+    /// A second table whose columns stand beside: a controller's log of what a tracker saw
+    #[arg(long, value_name = "FILE")]
+    join: Option<PathBuf>,
+    /// Which of its rows belongs to which: `row` (one to one), `time` (interpolated), or the name of a
+    /// column that both have
+    #[arg(long, value_name = "row|time|COLUMN", default_value = "row", requires = "join")]
+    by: By,
     /// The sheet of a workbook [default: the first]
     #[arg(long, value_name = "NAME")]
     sheet: Option<String>,
@@ -67,11 +77,15 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     };
     map.sheet = args.sheet.clone().or(map.sheet);
     let sheet = Sheet::new(args.raw.display().to_string(), read(&args.raw)?);
-    let imported = import(&sheet, &map).map_err(plain)?;
+    let named = |path: &PathBuf| Ok(Sheet::new(path.display().to_string(), read(path)?));
+    let other = args.join.as_ref().map(named).transpose()?;
+    let other = other.as_ref().map(|other| (other, &args.by));
+    let imported = import(&sheet, other, &map).map_err(plain)?;
     if let Some(robot) = &args.robot {
         let source = RobotArgs::named(robot).load(quiet)?;
         let written = PathBuf::from("what was made of it");
-        data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
+        let data = data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
+        data::doubted(&source.arm()?, &data, &[], quiet);
     }
     args.csv.write(&imported.csv)?;
     for said in &imported.said {

@@ -136,7 +136,7 @@ impl MotionArgs {
 /// # Errors
 /// [`Failure`]: the robot, or effects of its file, which say how it yields at rest.
 pub fn arm(source: &Source, command: &str) -> Result<Arm, Failure> {
-    let Some(known) = source.known.first() else { return source.arm_at_its_base() };
+    let Some(known) = source.at_rest_alone().next() else { return source.arm_at_its_base() };
     Err(Failure::with_help(
         format!(
             "{command}: found the effect {} in {}, expected none: it says where an arm at rest stands, and \

@@ -4,6 +4,8 @@
 //! Each threshold is where no arm can be, so that a doubt is worth its sentence: it is told, and
 //! changes nothing.
 
+mod orientation;
+
 use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Isometry3, Point3, Vector3, Vector6};
@@ -43,20 +45,26 @@ const STIFFEST: f64 = 3e6;
 /// What is to be doubted of `data` as measured on `arm`, a sentence each; `along` are the frames that
 /// are fitted along.
 pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String> {
-    let reach = reach(arm);
-    let mut doubts = Vec::new();
-    let readings = |joint: usize| data.rows.iter().map(move |row| row.q[joint]);
-    doubts.extend(beyond(arm, &data.file, readings));
-    doubts.extend(angles(data));
+    let (reach, mut doubts) = (reach(arm), units(arm, data));
     if reach > 0.0 {
-        doubts.extend(lengths(data, reach));
         doubts.extend(loads(arm, data, reach));
+        if doubts.is_empty() {
+            doubts.extend(orientation::orientations(arm, data));
+        }
         // In other units no frame fits.
         if doubts.is_empty() {
             doubts.extend(frames(arm, data, along, reach));
         }
     }
     doubts
+}
+
+/// Whose units are to be doubted: of the readings, and of what is measured or aimed at.
+pub fn units(arm: &Arm, data: &Measurements) -> Vec<String> {
+    let readings = |joint: usize| data.rows.iter().map(move |row| row.q[joint]);
+    let reach = reach(arm);
+    let lengths = (reach > 0.0).then(|| lengths(data, reach)).flatten();
+    [beyond(arm, &data.file, readings), angles(data), lengths].into_iter().flatten().collect()
 }
 
 /// All lengths laid end to end, m: no point of the tool is farther from the base.
@@ -215,6 +223,18 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
     ))
 }
 
+/// Rows spread over the file, and what is simulated of them: by the user where all of so many components are.
+fn spread<'d>(arm: &Arm, data: &'d Measurements, components: usize) -> Vec<(Reading, &'d Row)> {
+    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
+    let given = data.sim_given[..components].iter().all(|given| *given);
+    let simulated = |row: &Row| match &row.sim {
+        Some(sim) if given => Some(Reading::from_vector(sim)),
+        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
+    };
+    let rows = data.rows.iter().step_by(every);
+    rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect()
+}
+
 /// A gap that is large beside the arm and a motion of its frames.
 fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
     // Where a marker is unknown its place is fitted along in any case.
@@ -222,14 +242,7 @@ fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Opt
     if !data.kind.is_pose() || data.poses < FEWEST_POSES || unknown {
         return None;
     }
-    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
-    let simulated = |row: &Row| match (&row.sim, data.sim_given[..3] == [true; 3]) {
-        (Some(sim), true) => Some(Reading::from_vector(sim)),
-        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
-    };
-    let rows = data.rows.iter().step_by(every);
-    let rows: Vec<(Reading, &Row)> =
-        rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect();
+    let rows = spread(arm, data, 3);
     let mut ends: Vec<usize> =
         rows.chunk_by(|a, b| a.1.session == b.1.session).map(<[_]>::len).collect();
     (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);

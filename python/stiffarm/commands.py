@@ -242,11 +242,18 @@ def import_urdf(urdf: Path, *, base: Optional[str] = None, tip: Optional[str] = 
 
 
 def measurements(
-    raw: Path, *, map: Optional[Path] = None, sheet: Optional[str] = None, arm: Optional[AnyArm] = None
+    raw: Path,
+    *,
+    map: Optional[Path] = None,
+    sheet: Optional[str] = None,
+    join: Optional[Path] = None,
+    by: Optional[str] = None,
+    arm: Optional[AnyArm] = None,
 ) -> Table:
     """A measurement file from a table as a tracker or a controller wrote it: any separator, decimal commas, xlsx, ods.
 
-    map: a file (TOML) that says what is not found by name; arm: read the result as this arm's, and refuse what could not be
+    map: a file (TOML) that says what is not found by name; join: a second table, a controller's, whose columns stand beside,
+    by ``"row"``, ``"time"`` or the name of a column that both have; arm: read the result as this arm's, and refuse what could not be
     diagnosed. What was done goes to the log.
     """
     files: dict[str, bytes] = {}
@@ -255,6 +262,8 @@ def measurements(
         os.fspath(raw),
         *option("map", map),
         *option("sheet", sheet),
+        *option("join", join),
+        *option("by", by),
         *option("robot", None if arm is None else robot(arm, files)),
     ]
     return tabled(words, files)

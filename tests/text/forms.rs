@@ -119,13 +119,15 @@ fn a_urdf_expands_to_its_table() {
     assert!(items(expansion(said)).ends_with(&tokens(&text)));
     let documentation = expansion(said).to_string();
     assert!(documentation.contains("From `ur5.urdf`: link `base_link_inertia` to link `tool0`."));
+    // Where its first axis leans, the base is moved.
+    let oblique = expansion("\"oblique.urdf\", base \"foot\", tip \"needle\"").to_string();
+    assert!(!oblique.contains("compile_error") && oblique.contains("pub fn pose"), "{oblique}");
     for (said, told) in [
         ("\"ur5.urdf\", tip \"tool1\"", "tool1"),
         ("\"ur5.urdf\", tipp \"tool0\"", "each once, behind the name of a URDF"),
         ("\"ur5.urdf\", tip \"tool0\", tip \"tool0\"", "each once, behind the name of a URDF"),
         ("\"ur5.toml\", tip \"tool0\"", "each once, behind the name of a URDF"),
         ("\"ur5.urfd\"", "did you mean `ur5.urdf`"),
-        ("\"oblique.urdf\", base \"foot\", tip \"needle\"", "poses would be told in another frame"),
     ] {
         let found = expansion(said).to_string();
         assert!(found.contains("compile_error") && found.contains(told), "{said}: {found}");

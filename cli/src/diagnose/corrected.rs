@@ -45,7 +45,7 @@ impl<'a> Corrections<'a> {
     fn found_and_lost(&self) -> &(Corrected, Option<String>) {
         self.found.get_or_init(|| {
             let mut found = corrected(&self.source.robot, self.diagnosed);
-            found.robot.effects.extend(self.source.motion.iter().cloned());
+            found.robot.effects.extend(self.source.in_motion_alone());
             let lost = without_own(&mut found.robot);
             (found, lost)
         })

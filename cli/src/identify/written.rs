@@ -101,7 +101,7 @@ fn on_its_foundation(robot: Robot, source: &Source, answer: &Answer) -> Result<R
     let mut file = RobotFile::new(&robot, &arm);
     file.put(&foundation, &mut known);
     let mut robot = file.finish(&known);
-    robot.effects.extend(source.motion.iter().cloned());
+    robot.effects.extend(source.in_motion_alone());
     Ok(robot)
 }
 

@@ -39,6 +39,20 @@ impl Source {
         Ok((arm, known))
     }
 
+    /// The effects of motion that do nothing at rest.
+    pub fn in_motion_alone(&self) -> impl Iterator<Item = Effect> {
+        self.motion.iter().filter(|effect| !self.file.effects.contains(effect)).cloned()
+    }
+
+    /// The effects at rest that do nothing in motion.
+    pub fn at_rest_alone(&self) -> impl Iterator<Item = &Known> {
+        let moves = |known: &&Known| {
+            let id = known.effect.identifier();
+            self.motion.iter().any(|e| e.id.value == id && self.file.effects.contains(e))
+        };
+        self.known.iter().filter(move |known| !moves(known))
+    }
+
     /// Refuses effects of motion for what is asked of rates and torques: no kernel has them.
     ///
     /// # Errors
@@ -107,12 +121,23 @@ impl Source {
 
     /// The same with its effects read: those that the table holds are in it then.
     pub(super) fn understood(mut self) -> Result<Source, Failure> {
-        // A name that arms at rest know too is told by its numbers.
+        // A name that arms at rest know too is told by its numbers. What is the same at rest and in motion (a
+        // counterbalance) is both.
         let at_rest = Catalogue::default();
-        let moves = |e: &mut Effect| {
+        let arm = self.arm().ok();
+        let rests = |e: &Effect| {
+            let (Some(arm), Some(effect)) = (&arm, at_rest.named(&e.id.value)) else {
+                return false;
+            };
+            let has = |key: &str| effect.facts().parameters.iter().any(|p| p.key == key);
+            e.numbers.iter().all(|number| has(&number.key))
+                && effect.places(arm).iter().any(|place| place.to_string() == e.place.value)
+        };
+        let moves = |e: &&Effect| {
             is_of_motion(e) && (!e.numbers.is_empty() || at_rest.named(&e.id.value).is_none())
         };
-        self.motion = self.robot.effects.extract_if(.., moves).collect();
+        self.motion = self.robot.effects.iter().filter(moves).cloned().collect();
+        self.robot.effects.retain(|e| rests(e) || !moves(&e));
         self.file.effects.clone_from(&self.robot.effects);
         if self.robot.effects.is_empty() {
             return Ok(self);

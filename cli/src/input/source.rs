@@ -12,14 +12,16 @@ use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::quantity;
+use crate::import::imported;
 use crate::inside::{bytes, owner};
 use crate::terminal::failure::{Failure, Remark};
+use crate::terminal::note::note;
 
 /// Which robot.
 #[derive(Clone, clap::Args)]
 pub struct RobotArgs {
-    /// A robot file (TOML), the id of a built-in robot, or a diagnosis (JSON): the robot with what it
-    /// found
+    /// A robot file (TOML), a URDF of one serial chain, the id of a built-in robot, or a diagnosis (JSON):
+    /// the robot with what it found
     robot: String,
     /// A number for a symbolic parameter, in SI or with a unit: L1=0.6, L1=24in
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -36,7 +38,7 @@ pub struct Source {
     pub robot: Robot,
     /// The effects that are left.
     pub known: Vec<Known>,
-    /// The effects that act in motion alone.
+    /// The effects that act in motion; some act at rest, too.
     pub motion: Vec<Effect>,
     /// The model without any effect taken into the table, or of motion.
     pub(super) file: Robot,
@@ -150,7 +152,7 @@ pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
 }
 
 fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
-    let ends = [".toml", ".json"].iter().any(|end| given.ends_with(end));
+    let ends = [".toml", ".json", ".urdf"].iter().any(|end| given.ends_with(end));
     let looks_like_a_path = given.contains(['/', '\\']) || ends;
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
@@ -164,6 +166,15 @@ fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
     let text = text(Path::new(given))?;
     if given.ends_with(".json") {
         return diagnosis(given, &text, quiet);
+    }
+    if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
+        let imported = imported(given, &text, (None, None), false).inspect_err(|_| {
+            let part = "imports a part of a URDF";
+            note(&format!("`stiffarm import {given} --tip LINK --toml arm.toml` {part}"), quiet);
+        });
+        let (toml, remarks) = imported?;
+        remarks.iter().for_each(|remark| note(remark, quiet));
+        return Ok(Source::new(given, parse(&toml, given, quiet)?, toml, false));
     }
     let robot = parse(&text, given, quiet)?;
     Ok(Source::new(given, robot, text, false))

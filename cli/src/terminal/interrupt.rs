@@ -1,11 +1,16 @@
 //! Ctrl-C ends a long search, and leaves what was found.
 
+use std::sync::OnceLock;
+
 use stiffarm_gap::diagnose::Stop;
 
 use crate::inside::host;
 
-/// What a shell makes of a program that an interrupt has ended.
-const INTERRUPTED: i32 = 130;
+/// The exit status of a program that an interrupt has ended, as a shell has it.
+pub const INTERRUPTED: u8 = 130;
+
+/// What the search of this program is told to stop by.
+static SEARCH: OnceLock<Stop> = OnceLock::new();
 
 /// What a search is told to stop by. The first Ctrl-C asks for its end, the second ends the program; inside
 /// another program, that program asks.
@@ -13,15 +18,21 @@ pub fn stop() -> Stop {
     if let Some(host) = host() {
         return host.stop();
     }
-    let search = Stop::default();
-    let stop = search.clone();
-    let handler = move || {
-        if search.is_asked() {
-            std::process::exit(INTERRUPTED);
-        }
-        search.ask();
+    let begin = || {
+        let handler = || {
+            if is_asked() {
+                std::process::exit(INTERRUPTED.into());
+            }
+            SEARCH.get().into_iter().for_each(Stop::ask);
+        };
+        // Where no handler can be set, the first Ctrl-C ends the program, as it always does.
+        ctrlc::set_handler(handler).unwrap_or_default();
+        Stop::default()
     };
-    // Where no handler can be set, the first Ctrl-C ends the program, as it always does.
-    ctrlc::set_handler(handler).unwrap_or_default();
-    stop
+    SEARCH.get_or_init(begin).clone()
+}
+
+/// Whether Ctrl-C has asked for the end.
+pub fn is_asked() -> bool {
+    SEARCH.get().is_some_and(Stop::is_asked)
 }

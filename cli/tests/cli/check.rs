@@ -132,9 +132,9 @@ fn what_is_not_stable_is_left_out_and_said() {
 #[test]
 fn what_is_too_large_for_a_double_is_said() {
     let folder = Folder::new();
-    let robot =
-        "name = \"far\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1e308\n";
-    let file = folder.file("far.toml", robot);
+    let robot = "name = \"heavy\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\n\
+                 alpha = \"pi/2\"\n[[joint]]\ntype = \"revolute\"\na = 1\nmass = 1e308\ncom = [1, 0, 0]\n";
+    let file = folder.file("heavy.toml", robot);
     let err = stiffarm(&["check", &file, "--count", "20", "--quiet"]).refused();
     assert!(err.contains("evaluations are too large for a double"), "{err}");
     assert!(err.contains("check the table's numbers") && !err.contains("inf"), "{err}");

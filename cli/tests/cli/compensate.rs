@@ -133,3 +133,13 @@ fn a_rigid_arm_is_remarked_on() {
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(run.err.contains("nothing in the robot file gives way"), "{}", run.err);
 }
+
+#[test]
+fn targets_in_millimetres_that_say_metres_are_doubted() {
+    let folder = Folder::new();
+    let file = folder.file("path.csv", targets("").replace("[mm]", ""));
+    let run =
+        stiffarm(&["compensate", "kuka_kr240", "--targets", &file, "--starts", "1", "--out", "-"]);
+    assert_eq!(run.status, 1);
+    assert!(run.err.contains("is it millimetres? write x[mm]"), "{}", run.err);
+}

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::motion::ELBOW;
 use crate::support::{Folder, read, stiffarm, text};
 
 const ARM: &str = "docs/workbench/arm.toml";
@@ -161,4 +162,35 @@ fn a_map_is_of_the_corrected_arm() {
     // The foundation rocks by 6e-8 rad/(N·m) under some 5000 N·m, three metres away.
     let apart = corrected.iter().zip(&bare).map(|(a, b)| a - b).fold(0.0, f64::max);
     assert!((0.1..2.0).contains(&apart), "{corrected:?} {bare:?}");
+}
+
+/// A counterbalance acts at rest as it does in motion: the arm whose file has one stands where the arm stands to which
+/// one is given, and is moved as such an arm.
+#[test]
+fn a_counterbalance_of_a_file_acts_at_rest_and_in_motion() {
+    let folder = Folder::new();
+    let table =
+        "\n[[effect]]\nid = \"counterbalance\"\nplace = \"joint 2\"\ncos = 3e3\nsin = 2000.0\n";
+    let plain = read("robots/arms/kuka_kr240.toml");
+    let has = folder.file("has.toml", plain + table);
+    let quiet =
+        ["--poses", "4", "--noise-position", "0m", "--noise-rotation", "0rad", "--csv", "-"];
+    let rows = |csv: String| -> Vec<String> {
+        csv.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    };
+    let simulated = |rest: &[&str]| rows(stiffarm(&[&["simulate"], rest, &quiet].concat()).good());
+    let given = ["kuka_kr240", "--effect", "counterbalance@joint 2:cos=3000 Nm,sin=2000 Nm"];
+    assert_eq!(simulated(&[&has]), simulated(&given));
+    assert_ne!(simulated(&[&has]), simulated(&["kuka_kr240"]));
+    let moved = |rest: &[&str]| {
+        let run = ["simulate", rest[0], "--log", "-", "--period", "2s", "--runs", "1"];
+        rows(stiffarm(&[&run, &rest[1..]].concat()).good())
+    };
+    let elbow = folder.file("elbow.toml", ELBOW);
+    let table = table.replace("3e3", "30.0").replace("2000.0", "20.0");
+    let has = folder.file("has.toml", format!("{ELBOW}{table}"));
+    let log = moved(&[&has]);
+    assert!(log.len() > 100);
+    assert_eq!(log, moved(&[&elbow, "--effect", "counterbalance@joint 2:cos=30,sin=20"]));
+    assert_ne!(log, moved(&[&elbow]));
 }

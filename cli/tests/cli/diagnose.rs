@@ -5,7 +5,7 @@ mod plant;
 
 use serde_json::Value;
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, command, read, stiffarm, text};
 
 const LIN: [&str; 3] =
     ["diagnose", "robots/arms/lin_planar.toml", "robots/data/lin1991_table3.csv"];
@@ -153,4 +153,35 @@ fn no_finding_is_said_too() {
         out.contains("There is no position error: the model predicts the measurements."),
         "{out}"
     );
+}
+
+/// Ctrl-C ends a long search: a shell sees the status of a program that was interrupted.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_has_its_own_exit_status() {
+    use std::os::unix::process::ExitStatusExt as _;
+    use std::process::{Command, Stdio};
+
+    let folder = Folder::new();
+    let data = text(&folder.path("run.csv"));
+    let effects = ["joint_compliance@joint 2=8e-7", "transmission_error@joint 3:cos 2=0.3 mrad"];
+    let effects = effects.iter().flat_map(|effect| ["--effect", effect]);
+    let run: Vec<&str> = ["simulate", "kuka_kr240", "--poses", "300", "--csv", &data]
+        .into_iter()
+        .chain(effects)
+        .collect();
+    stiffarm(&run).good();
+    let mut search = command(&["diagnose", "kuka_kr240", &data, "--nested", "--quiet"]);
+    let mut search = search.stdout(Stdio::null()).spawn().expect("the binary runs");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let id = search.id().to_string();
+    // The first asks for the end, the second does not wait for it.
+    for _ in 0..2 {
+        let sent = Command::new("kill").args(["-INT", &id]).status().expect("kill runs");
+        assert!(sent.success());
+        std::thread::sleep(std::time::Duration::from_millis(200));
+    }
+    let ended = search.wait().expect("it ends");
+    // Before there is a handler the signal itself ends it, which a shell tells as 130, too.
+    assert!(ended.code() == Some(130) || ended.signal() == Some(2), "{ended:?}");
 }

@@ -35,12 +35,13 @@ fn what_a_user_must_know_is_said_and_written() {
     let run = stiffarm(&arguments);
     assert_eq!(run.status, 0, "{}", run.err);
     for said in [
-        "the base frame of this table is that of link `floor` turned by 0.27061956778",
+        "`[base]` says where axis 1 stands in link `floor`",
         "left out: link `grip_left` and what hangs on it, 0.1 kg",
     ] {
         assert!(run.err.contains(said), "no `{said}` in\n{}", run.err);
         assert!(run.out.contains(said), "no `{said}` in\n{}", run.out);
     }
+    assert!(run.out.contains("\n[base]\n"), "{}", run.out);
     let quiet = stiffarm(&[&["--quiet"], &arguments[..]].concat()).good();
     assert_eq!(quiet, run.out);
 }
@@ -118,12 +119,32 @@ fn mistakes_are_shown_where_they_stand() {
     assert!(err.contains("cannot read no.urdf: no such file"), "{err}");
 }
 
-/// Axes that are parallel but for a billionth of a radian meet a million kilometres away.
+/// The common normal of axes that are parallel but for a billionth of a radian is a million kilometres away.
 #[test]
-fn what_double_precision_cannot_hold_is_refused() {
+fn axes_that_are_nearly_parallel_have_beta() {
     let folder = Folder::new();
     let nearly = ARM.replace("rpy=\"1.5708 0 0\"", "rpy=\"1e-9 3e-10 0\" ");
     let nearly = nearly.replace("xyz=\"0.5 0 0\"", "xyz=\"0.5 0.1 0\"");
-    let err = stiffarm(&["import", &folder.file("arm.urdf", nearly)]).refused();
-    assert!(err.contains("so nearly parallel that they meet 5e7 m away"), "{err}");
+    let toml = stiffarm(&["--quiet", "import", &folder.file("arm.urdf", nearly)]).good();
+    let mut d = toml.lines().filter_map(|line| line.strip_prefix("d = ")?.parse::<f64>().ok());
+    assert!(toml.contains("beta = ") && d.all(|d| d.abs() < 1e-9), "{toml}");
+}
+
+/// Wherever a robot file is expected, a URDF is read as `import` reads it.
+#[test]
+fn a_urdf_is_a_robot() {
+    let folder = Folder::new();
+    let file = folder.file("arm.urdf", ARM);
+    let toml = folder.file("arm.toml", stiffarm(&["--quiet", "import", &file]).good());
+    let eval = |robot: &str| stiffarm(&["eval", robot, "--q", "0.3,-0.2", "--json", "-"]);
+    let run = eval(&file);
+    assert_eq!(run.out, eval(&toml).out, "{}", run.err);
+    assert!(
+        run.err.contains("read as pi/2") && run.err.contains("as in the URDF to"),
+        "{}",
+        run.err
+    );
+    let two = "tests/data/urdf/oblique.urdf";
+    let err = stiffarm(&["eval", two, "--q", "0"]).refused();
+    assert!(err.contains("stiffarm import tests/data/urdf/oblique.urdf --tip"), "{err}");
 }

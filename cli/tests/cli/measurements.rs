@@ -30,3 +30,20 @@ fn what_could_not_be_diagnosed_is_refused_and_nothing_is_written() {
     assert!(err.contains("cannot read no.csv"), "{err}");
     assert_eq!(folder.names(), ["raw.txt"]);
 }
+
+#[test]
+fn a_second_table_stands_beside() {
+    let folder = Folder::new();
+    let tracker = folder.file("tracker.csv", "Time [s];X [mm];Y [mm]\n0,5;1;2\n1,5;3;4\n");
+    let log = folder.file("log.csv", "Time [ms],J1,J2\n0,0.1,0.2\n1000,0.3,0.4\n2000,0.3,0.6\n");
+    let run = stiffarm(&["measurements", &tracker, "--join", &log, "--by", "time"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert_eq!(
+        run.out,
+        "q1[rad],q2[rad],time[s],x[mm],y[mm]\n0.2,0.30000000000000004,0.5,1,2\n0.3,0.5,1.5,3,4\n"
+    );
+    let err = stiffarm(&["measurements", &tracker, "--join", &log]).refused();
+    assert!(err.contains("found 2 rows, expected 3"), "{err}");
+    let err = stiffarm(&["measurements", &tracker, "--by", "time"]).refused();
+    assert!(err.contains("--join"), "{err}");
+}

@@ -7,6 +7,9 @@ use crate::robot::problem::{Place, Problem, Report};
 use crate::robot::suggest::advice;
 use crate::robot::{Angle, Dimension, Motion, Value, angle, quantity};
 
+/// m. Products of six lengths, as a diagnosis makes them, are numbers still.
+const LONGEST: f64 = 1e50;
+
 /// The language of the input, which decides some words of its messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Language {
@@ -121,6 +124,13 @@ impl<'r, L: Place> Reader<'r, L> {
         let value = self.report.keep(quantity::read(words, expected.dimension, &node.at))?;
         match &value {
             Value::Symbol(name) => self.parameter(name, node, expected).then_some(value),
+            Value::Number(number)
+                if expected.dimension == Dimension::Length && number.to_f64().abs() > LONGEST =>
+            {
+                let message = format!("`{}` is longer than any arm", show(words));
+                self.refuse(&node.at, message, "mend the exponent");
+                None
+            }
             Value::Number(number) => {
                 let own = expected.dimension == Dimension::Length && expected.number.is_none();
                 if own && words.iter().all(|word| word.name().is_none()) {

@@ -162,3 +162,27 @@ fn numbers_are_short() {
     }
     assert_eq!(shown(1e9), "1.00e9");
 }
+
+/// Whatever frames base and tool stand in, angles of a controller are no rotation vector.
+#[test]
+fn turns_that_say_they_are_rotation_vectors_are_noticed() {
+    let arm = kuka();
+    let frames = ["base_frame:rz=300mrad,rx=200mrad,x=1mm", "tool_frame:rx=400mrad"];
+    let data = campaign(&arm, Shape::Payload, POSE, &frames);
+    assert_eq!(orientation::orientations(&arm, &data), None);
+    // By hand: Rz(c) Ry(b) Rx(a) has these angles.
+    let turned = |row: &mut Row| {
+        let vector = row.measured.fixed_rows::<3>(3).into_owned();
+        let m = nalgebra::Rotation3::new(vector);
+        let turns = [m[(2, 1)].atan2(m[(2, 2)]), (-m[(2, 0)]).asin(), m[(1, 0)].atan2(m[(0, 0)])];
+        row.measured.fixed_rows_mut::<3>(3).copy_from_slice(&turns);
+    };
+    let mut as_turns = data.clone();
+    as_turns.rows.iter_mut().for_each(turned);
+    let doubt = orientation::orientations(&arm, &as_turns).into_iter().collect::<Vec<_>>();
+    only(&doubt, &["read as Rz(rz) Ry(ry) Rx(rx) by", "write `# orientation = "]);
+    let mut other = data;
+    other.rows.iter_mut().enumerate().for_each(|(k, row)| row.measured[3] += k as f64);
+    let doubt = orientation::orientations(&arm, &other).into_iter().collect::<Vec<_>>();
+    only(&doubt, &["no order of three turns explains it"]);
+}

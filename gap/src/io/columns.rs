@@ -55,7 +55,16 @@ impl<'m> Header<'_, 'm> {
                 Err(fault) => mistakes.add(fault.within(self.line, None)),
             }
         }
-        for (index, slot) in assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none()) {
+        for name in &self.map.ignore {
+            let found = self.find(name, "one that is not kept").and_then(|index| {
+                let Some((ours, _)) = &assigned[index] else { return Ok(()) };
+                let found = format!("the column `{name}` to be ignored and as {ours}");
+                Err(Fault::new(format!("{found} in {}", self.map.file), "one of them", ""))
+            });
+            mistakes.extend(found.err().map(|fault| fault.within(self.line, None)));
+        }
+        let open = assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none());
+        for (index, slot) in open.filter(|(index, _)| !self.ignores(*index)) {
             let meant = meaning(index).filter(|ours| !given.contains(ours));
             *slot = meant.map(|ours| (ours, None));
         }
@@ -94,13 +103,7 @@ impl<'m> Header<'_, 'm> {
             let found = format!("`{ours}` among the columns of {map}");
             return Err(Fault::new(found, format!("a name of ours: {}", self.ours), ""));
         };
-        let whole = self.names.iter().position(|name| *name == theirs.column);
-        let bare = || self.names.iter().position(|name| (self.bare)(name) == theirs.column);
-        let Some(index) = whole.or_else(bare) else {
-            let near = nearest(&theirs.column, self.names.iter().map(String::as_str));
-            let found = format!("no column `{}`{}", theirs.column, did_you_mean(near));
-            return Err(Fault::new(found, format!("the one that is {ours} by {map}"), ""));
-        };
+        let index = self.find(&theirs.column, &format!("the one that is {ours}"))?;
         match &assigned[index] {
             Some((before, _)) => {
                 let found =
@@ -109,6 +112,23 @@ impl<'m> Header<'_, 'm> {
             }
             None => Ok((known, index)),
         }
+    }
+
+    /// The column that the map calls so, with or without its unit.
+    fn find(&self, theirs: &str, which: &str) -> Result<usize, Fault> {
+        let whole = self.names.iter().position(|name| name == theirs);
+        let bare = || self.names.iter().position(|name| (self.bare)(name) == theirs);
+        whole.or_else(bare).ok_or_else(|| {
+            let near = nearest(theirs, self.names.iter().map(String::as_str));
+            let found = format!("no column `{theirs}`{}", did_you_mean(near));
+            Fault::new(found, format!("{which} by {}", self.map.file), "")
+        })
+    }
+
+    /// Whether the map says that a column is not kept.
+    pub(crate) fn ignores(&self, index: usize) -> bool {
+        let name = &self.names[index];
+        self.map.ignore.iter().any(|ignored| ignored == name || ignored == (self.bare)(name))
     }
 }
 
@@ -150,6 +170,7 @@ mod tests {
         };
         let map = "[columns]\nq1 = \"A\"\n";
         assert_eq!(assigned(map, &["A[deg]", "q1", "q2", "n"]), Ok(some(&["q1", "", "q2", ""])));
+        assert_eq!(assigned("ignore = [\"q2\"]\n", &["q1", "q2[deg]"]), Ok(some(&["q1", ""])));
         for (map, names, told) in [
             (
                 "",
@@ -169,6 +190,16 @@ mod tests {
                 "found the column `A[mm]` as both q1 and x in m.toml, expected it to be one of them",
             ),
             ("[columns]\nspeed\n", &[], "m.toml: line 2: found no map: "),
+            (
+                "ignore = [\"Q2\"]\n",
+                &["q2"],
+                "found no column `Q2`; did you mean `q2`?, expected one",
+            ),
+            (
+                "ignore = [\"A\"]\n[columns]\nq1 = \"A\"\n",
+                &["A"],
+                "found the column `A` to be ignored and as q1 in m.toml, expected one of them",
+            ),
         ] {
             let error = assigned(map, names).unwrap_err();
             assert!(error.contains(told), "{error}");

@@ -5,7 +5,8 @@
 //! decimal = ","                # else found
 //! sheet = "Run 1"              # of a workbook; else the first
 //! header = 3                   # the line of the names; else found
-//! orientation = "abc"          # of three angles or four numbers; else by their names
+//! orientation = "zyx"          # of three angles; else by their names
+//! ignore = ["Operator"]        # columns that are not kept
 //! gravity = [0, 0, -9.80665]   # base axes, m/s²: which way a payload pulls
 //!
 //! [columns]                    # ours = theirs
@@ -19,6 +20,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::convention::Convention;
 use super::mistake::{Fault, ReadError};
 use super::table::Separator;
 
@@ -37,28 +39,14 @@ pub struct Map {
     pub sheet: Option<String>,
     /// The line of the names, from 1.
     pub header: Option<u64>,
-    /// How three angles or four numbers are an orientation.
+    /// How the numbers of an orientation are written.
     pub orientation: Option<Convention>,
+    /// Their names, with or without unit: they are not kept.
+    pub ignore: Vec<String>,
     /// Base axes, m/s²; −z where nothing is said.
     pub gravity: Option<[f64; 3]>,
     /// Ours, and what they call it.
     pub columns: BTreeMap<String, Theirs>,
-}
-
-/// How an orientation is written; angles are about the tool's axes as they turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Convention {
-    /// A rotation vector.
-    RotationVector,
-    /// `Rz(a) Ry(b) Rx(c)` (KUKA's A, B, C), in the order a, b, c.
-    Abc,
-    /// `Rz(yaw) Ry(pitch) Rx(roll)`, in the order roll, pitch, yaw (URDF; FANUC's W, P, R).
-    Rpy,
-    /// `Rz(a) Ry(b) Rz(c)`, in the order a, b, c.
-    Zyz,
-    /// `qw qx qy qz`, of any length but zero.
-    Quaternion,
 }
 
 /// A column of theirs: a name, or more.

@@ -4,9 +4,11 @@
 //! 2. `table`: text into records, each with its line; what separates their cells.
 //! 3. `columns`: which column is which, by the [map](Map) that a user gives and by its name; in which
 //!    [unit](Unit).
-//! 4. [`Mistake`]: what is wrong, where it stands, and how to mend it.
+//! 4. [`Convention`]: how an orientation is written.
+//! 5. [`Mistake`]: what is wrong, where it stands, and how to mend it.
 
 pub(crate) mod columns;
+mod convention;
 pub mod map;
 mod mistake;
 mod nearest;
@@ -14,6 +16,7 @@ mod source;
 pub(crate) mod table;
 mod unit;
 
+pub use convention::{Convention, Euler};
 pub use map::Map;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use nearest::{did_you_mean, nearest};

@@ -250,6 +250,20 @@ fn unreadable(error: &io::Error, line: u64) -> Mistake {
     Fault::new(format!("no more of the file ({error})"), "its text", "").at(line, None)
 }
 
+/// What comments say of something: `# torque_side = motor`; each with its line.
+pub(crate) fn commented<'c>(
+    comments: &'c [(u64, String)],
+    of: &'c str,
+) -> impl Iterator<Item = (u64, &'c str)> {
+    comments.iter().filter_map(move |(line, comment)| {
+        let (name, value) = comment.split_once('=')?;
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        let value = value.trim().trim_matches('"');
+        let end = value.find(|c| !word(c)).unwrap_or(value.len());
+        (name.trim() == of).then_some((*line, &value[..end]))
+    })
+}
+
 /// Runs of so many spaces or more, outside quotation marks, as tabs.
 fn spaces_to_tabs(line: &mut Vec<u8>, least: usize) {
     let (mut out, mut run, mut is_quoted) = (Vec::with_capacity(line.len()), 0, false);

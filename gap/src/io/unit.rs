@@ -56,7 +56,7 @@ const DEGREE: f64 = PI / 180.0;
 const INCH: f64 = 0.0254;
 
 /// Every unit; of each quantity the SI unit first.
-const UNITS: [Unit; 38] = [
+const UNITS: [Unit; 41] = [
     unit("m", Dimension::Length, 1.0),
     unit("mm", Dimension::Length, 1e-3),
     unit("um", Dimension::Length, 1e-6),
@@ -76,6 +76,9 @@ const UNITS: [Unit; 38] = [
     unit("ms", Dimension::Time, 1e-3),
     unit("us", Dimension::Time, 1e-6),
     unit("ns", Dimension::Time, 1e-9),
+    unit("min", Dimension::Time, 60.0),
+    unit("h", Dimension::Time, 3600.0),
+    unit("d", Dimension::Time, 86_400.0),
     unit("kg", Dimension::Mass, 1.0),
     unit("g", Dimension::Mass, 1e-3),
     unit("lb", Dimension::Mass, 0.453_592_37),
@@ -110,13 +113,16 @@ const SIGNS: [(&str, &str); 8] = [
 ];
 
 /// What other programs write out, in small letters.
-const WORDS: [(&str, &[&str]); 8] = [
+const WORDS: [(&str, &[&str]); 11] = [
     ("deg", &["degree", "degrees", "grad", "deg"]),
     ("rad", &["radian", "radians", "rad"]),
     ("m", &["meter", "metre", "meters", "metres"]),
     ("mm", &["mm"]),
     ("in", &["inch", "inches"]),
-    ("s", &["sec", "seconds"]),
+    ("s", &["sec", "second", "seconds", "sekunden"]),
+    ("min", &["minute", "minutes", "minuten"]),
+    ("h", &["hour", "hours", "stunden"]),
+    ("d", &["day", "days", "tage"]),
     ("degC", &["c", "celsius", "deg c"]),
     ("kg", &["kg"]),
 ];

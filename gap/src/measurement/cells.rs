@@ -4,7 +4,7 @@ use super::Row;
 use super::header::Head;
 use super::payload::Payloads;
 use super::role::{Family, Layout, Role};
-use crate::io::{Fault, Mistake, Unit, did_you_mean, nearest};
+use crate::io::{Convention, Fault, Mistake, Unit, did_you_mean, nearest};
 
 /// A number as the cell has it, before its unit; `expected` is what the message asks for.
 pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
@@ -55,7 +55,7 @@ pub(crate) fn row(
     cells: &[&str],
     heads: &[Head],
     layout: &Layout,
-    planned: bool,
+    (planned, orientation): (bool, Convention),
 ) -> Result<Row, Vec<Mistake>> {
     let whole = |fault: Fault| Err(vec![fault.at(line, None)]);
     if cells.len() != heads.len() {
@@ -76,6 +76,15 @@ pub(crate) fn row(
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
+    }
+    if orientation != Convention::RotationVector {
+        let simulated = row.sim.as_deref_mut();
+        for six in [&mut row.measured].into_iter().chain(simulated) {
+            let turns = orientation.ordered([six[3], six[4], six[5]]);
+            // Three turns are always a rotation.
+            let vector = orientation.rotation(&turns).unwrap_or_default();
+            six.fixed_rows_mut::<3>(3).copy_from(&vector);
+        }
     }
     // Where it hangs takes the readings, which may stand behind it.
     layout.payloads.iter().for_each(|payloads| payloads.hang(&mut row));

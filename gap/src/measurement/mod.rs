@@ -4,7 +4,8 @@
 //! `name[unit]`; the order is free. A file measures *either* poses (`x y z`, and all or none of `rx
 //! ry rz`) *or* some coordinates of positions (a touch probe's `x` alone) *or* displacements (any
 //! subset of `dx dy dz drx dry drz`) *or* distances from a fixed point (`distance`: a ball bar, a
-//! wire). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
+//! wire). `rx ry rz` are a rotation vector, or three turns if a comment above the header says so:
+//! `# orientation = zyx` ([`Convention`]). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
 //! kept as it is and reported.
 //!
 //! Rows of one `session` are one sitting of the instrument, and stand together: its frame is its own,
@@ -28,12 +29,12 @@ pub use role::{
     SIM_PREFIX, WRENCH_NAMES,
 };
 
-use crate::io::Mistakes;
-use crate::io::table::{Records, Separator};
+use crate::io::table::{Records, Separator, commented};
 #[doc(hidden)]
 pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
-}; // alias: old path
+};
+use crate::io::{Convention, Mistakes}; // alias: old path
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
@@ -217,10 +218,9 @@ pub struct ExtraColumn {
     pub name: String,
     /// The text in its header's brackets, whatever it says.
     pub unit: Option<String>,
-    /// One cell per row.
-    pub cells: Vec<String>,
-    /// The cells as numbers, as written and not converted, if every one is a finite number.
-    pub values: Option<Vec<f64>>,
+    /// The cells as numbers, one per row, as written and not converted; the line and the text of the first that is
+    /// no finite number. Texts are not held.
+    pub values: Result<Vec<f64>, (u64, String)>,
     /// A known name that it may have been meant to be; nothing is assumed.
     pub suggestion: Option<String>,
 }
@@ -331,6 +331,8 @@ fn read_into(
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let heads = header::read(line, &names, layout, mistakes);
     let kind = header::kind(&heads, line, layout, mistakes);
+    let has_turns = matches!(kind, Some((Kind::Pose { orientation: true }, _)));
+    let orientation = orientation(&records.above, has_turns)?;
     let mut extra = extra(&heads, layout);
     let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
     while let Some(record) = records.read()? {
@@ -341,10 +343,10 @@ fn read_into(
             return Err(fault.at(record.line, None));
         }
         let cells = record.texts()?;
-        match cells::row(record.line, &cells, &heads, layout, planned) {
+        match cells::row(record.line, &cells, &heads, layout, (planned, orientation)) {
             Ok(row) => {
                 rows.push(row);
-                extra.iter_mut().for_each(|extra| extra.take(&cells));
+                extra.iter_mut().for_each(|extra| extra.take(record.line, &cells));
             }
             Err(found) if found.iter().all(|m| m.fault.is_hole) => skipped.push(found),
             Err(found) => mistakes.extend(found),
@@ -373,13 +375,33 @@ fn read_into(
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
-        extra: extra.into_iter().map(ExtraColumn::with_values).collect(),
+        extra,
         skipped: skipped.into_iter().flatten().collect(),
         rows,
         kind,
         sim_given,
         poses,
     }))
+}
+
+/// How a comment above the header says that `rx ry rz` are written: `# orientation = zyx`.
+fn orientation(above: &[(u64, String)], has_turns: bool) -> Result<Convention, Mistake> {
+    let mut told = Convention::RotationVector;
+    for (line, name) in commented(above, "orientation") {
+        told = Convention::named(name).map_err(|fault| fault.at(line, None))?;
+        let found = format!("`orientation = {name}`");
+        let fault = match (has_turns, told.has_angles()) {
+            (true, true) => continue,
+            (true, false) => Fault::new(
+                found,
+                "an orientation of three angles",
+                "`stiffarm measurements` makes them of other numbers",
+            ),
+            (false, _) => Fault::new(found, "columns rx, ry, rz below it", "add them"),
+        };
+        return Err(fault.at(line, None));
+    }
+    Ok(told)
 }
 
 fn sessions_stand_together(mistakes: &mut Mistakes, rows: &[Row], heads: &[header::Head]) {
@@ -409,7 +431,7 @@ fn no_header(names: &[&str]) -> Option<Fault> {
     let [lone] = names else { return None };
     let (_, separator) = separators.into_iter().find(|(c, _)| lone.contains(*c))?;
     let found = format!("columns separated by {separator}");
-    Some(Fault::new(found, "commas", "export with commas"))
+    Some(Fault::new(found, "commas", "export with commas, or let `stiffarm measurements` read it"))
 }
 
 /// The columns without a meaning, still without cells.
@@ -419,22 +441,20 @@ fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
         column: head.column.clone(),
         name: head.name.clone(),
         unit: head.unit_text.clone(),
-        values: None,
-        cells: Vec::new(),
+        values: Ok(Vec::new()),
         suggestion: nearest_name(&head.name, layout),
     };
     unknown.map(column).collect()
 }
 
 impl ExtraColumn {
-    fn take(&mut self, cells: &[&str]) {
-        self.cells.push(cells[self.column.number - 1].to_owned());
-    }
-
-    fn with_values(self) -> ExtraColumn {
-        let values =
-            self.cells.iter().map(|c| cells::number(c, || "a number".to_owned()).ok()).collect();
-        ExtraColumn { values, ..self }
+    fn take(&mut self, line: u64, cells: &[&str]) {
+        let Ok(values) = &mut self.values else { return };
+        let cell = cells[self.column.number - 1];
+        match cells::number(cell, String::new) {
+            Ok(value) => values.push(value),
+            Err(_) => self.values = Err((line, cell.to_owned())),
+        }
     }
 }
 

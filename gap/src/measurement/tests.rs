@@ -77,10 +77,9 @@ fn every_column_of_the_format_is_read_in_si() {
     assert_eq!(data.kind, Kind::Pose { orientation: true });
     assert_eq!(data.components(), 6);
     assert_eq!(
-        (data.extra[0].name.as_str(), &data.extra[0].cells[..]),
-        ("note", &["hi".into()][..])
+        (data.extra[0].name.as_str(), &data.extra[0].values),
+        ("note", &Err((3, "hi".to_owned())))
     );
-    assert_eq!(data.extra[0].values, None);
 }
 
 /// By hand: the tool's z lies along x turned by θ1 + θ2 about z, whatever the base in the world.
@@ -106,6 +105,44 @@ fn a_payload_pulls_where_it_hangs() {
     let again = good(&file);
     for (row, was) in again.rows.iter().zip(&data.rows) {
         assert!((row.wrench - was.wrench).amax() < 1e-12, "{file}");
+    }
+}
+
+/// A turn of 90° about z, then one of 90° about the x that it has made: x → y, y → z, z → x.
+#[test]
+fn an_orientation_may_be_three_turns() {
+    let angle = 2.0 * core::f64::consts::FRAC_PI_3 / 3f64.sqrt();
+    let third = Vector6::new(1.0, 2.0, 3.0, angle, angle, angle);
+    for (name, turns) in [
+        ("zyx", "90,0,90"),
+        ("abc", "90,0,90"),
+        ("fixed_xyz", "90,0,90"),
+        ("zxy", "90,0,90"),
+        ("zxz", "90,90,0"),
+        ("fixed_zxz", "0,90,90"),
+    ] {
+        let data = good(&format!(
+            "# orientation = {name}\nq1,q2,q3,x,y,z,rx[deg],ry[deg],rz[deg]\n0,0,0,1,2,3,{turns}\n"
+        ));
+        let found = data.rows[0].measured;
+        assert!((found - third).amax() < 1e-14, "{name} {found}");
+    }
+    for (text, told) in [
+        (
+            "# orientation = zz\nq1,q2,q3,x,y,z,rx,ry,rz\n0,0,0,1,1,1,0,0,0\n",
+            "line 1: found `orientation = \"zz\"`, expected",
+        ),
+        (
+            "# orientation = matrix\nq1,q2,q3,x,y,z,rx,ry,rz\n0,0,0,1,1,1,0,0,0\n",
+            "expected an orientation of three angles",
+        ),
+        (
+            "# orientation = zyx\nq1,q2,q3,x,y,z\n0,0,0,1,1,1\n",
+            "expected columns rx, ry, rz below it",
+        ),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
     }
 }
 
@@ -141,7 +178,7 @@ fn a_unitless_number_is_si_and_never_guessed() {
 fn unknown_columns_are_kept_and_reported() {
     let data = good("q1,q2,q3,dz,ycd_dz[in],temprature[furlong],Q1\n0,0,0,1,-0.5,20,7\n");
     let [ycd, misspelt, upper] = &data.extra[..] else { panic!("{:?}", data.extra) };
-    assert_eq!((ycd.unit.as_deref(), &ycd.values), (Some("in"), &Some(vec![-0.5])));
+    assert_eq!((ycd.unit.as_deref(), &ycd.values), (Some("in"), &Ok(vec![-0.5])));
     assert_eq!((ycd.column.number, ycd.suggestion.as_deref()), (5, None));
     assert_eq!(misspelt.suggestion.as_deref(), Some("temperature"));
     assert_eq!(upper.suggestion.as_deref(), Some("q1"));
@@ -153,8 +190,9 @@ fn a_row_with_a_hole_is_left_out_and_told() {
     (0..20).for_each(|k| text.push_str(&format!("0,0,0,{k},{k}\n")));
     let holed = text.replace(",3,3\n", ",,3\n").replace(",5,5\n", ",nan,5\n");
     let data = good(&holed);
-    assert_eq!((data.rows.len(), data.rows[3].line, data.extra[0].cells.len()), (18, 6, 18));
-    assert_eq!(data.extra[0].cells[3], "4");
+    assert_eq!((data.rows.len(), data.rows[3].line), (18, 6));
+    let notes = data.extra[0].values.as_ref().unwrap();
+    assert_eq!((notes.len(), notes[3]), (18, 4.0));
     let told: Vec<_> =
         data.skipped.iter().map(|m| (m.line.unwrap(), m.fault.to_string())).collect();
     assert_eq!((told.len(), told[0].0, told[1].0), (2, 5, 7));
@@ -183,7 +221,7 @@ fn a_simulated_component_that_is_not_measured_is_reported() {
 fn bom_crlf_quotes_and_missing_last_line_end() {
     let data = good("\u{feff}q1,q2,q3,dz,\"a, b\"\r\n0,0,0,1,\"x, y\"\r\n#\r\n1,0,0, 2 ,z");
     assert_eq!((data.rows.len(), data.rows[1].line, data.rows[1].measured[2]), (2, 4, 2.0));
-    assert_eq!(data.extra[0].cells, ["x, y", "z"]);
+    assert_eq!(data.extra[0].values, Err((2, "x, y".to_owned())));
 }
 
 /// Each mistake of the format with the whole of its message.
@@ -200,7 +238,8 @@ const MISTAKES: &[(&str, &str)] = &[
     ),
     (
         "q1;q2;q3;dz\n0,1;0;0;1\n",
-        "line 1: found columns separated by semicolons, expected commas: export with commas",
+        "line 1: found columns separated by semicolons, expected commas: export with commas, or \
+         let `stiffarm measurements` read it",
     ),
     (
         "q1,q2,q3,dz,\n0,0,0,1,\n",

@@ -1,10 +1,10 @@
 //! Which column is what, in which unit.
 
-use super::map::{Convention, Map};
+use super::map::Map;
 use super::names::{self, Meaning};
 use super::sheet::{Table, is_none};
 use crate::io::columns::Header;
-use crate::io::{Dimension, Mistakes, ReadError, Unit};
+use crate::io::{Convention, Dimension, Mistakes, ReadError, Unit};
 use crate::measurement::{Role, SIM_PREFIX};
 
 /// One column, as it is to be read.
@@ -29,14 +29,17 @@ pub(super) struct Columns {
     /// The numbers of an orientation that is to be turned, and which of it each is.
     pub orientation: Vec<(Convention, usize, Column)>,
     pub load: Option<Column>,
+    pub date: Option<Column>,
+    /// Where a row has several points: their names, and the columns of their coordinates.
+    pub points: Vec<(String, [Column; 3])>,
     /// What is kept as it stands.
     pub kept: Vec<Column>,
 }
 
 /// The names of a measurement file and of orientations, for messages.
 const OURS: &str = "q1 …, s1 …, x y z, rx ry rz, dx … drz, distance, from, from_x …, sim_x …, sigma, \
-                    sigma_x …, fx … mz, temperature, time, pose, marker, session, payload, mass, or one \
-                    number of an orientation: a b c, roll pitch yaw, qw qx qy qz";
+                    sigma_x …, fx … mz, temperature, date, time, pose, marker, session, payload, mass, or one \
+                    number of an orientation: a b c, roll pitch yaw, qw qx qy qz, r11 … r33";
 
 impl Columns {
     /// # Errors
@@ -75,12 +78,50 @@ impl Columns {
             match meaning {
                 Some(Meaning::Orientation(of, k)) => columns.orientation.push((of, k, column)),
                 Some(Meaning::Load) => columns.load = Some(column),
+                Some(Meaning::Date) => columns.date = Some(column),
                 Some(ours) => columns.ours.push((ours.name(), column)),
-                None if column.header.is_empty() => {}
+                None if column.header.is_empty() || header.ignores(index) => {}
                 None => columns.kept.push(column),
             }
         }
+        columns.find_points();
+        // A day alone has its time with it.
+        if let Some(date) = columns.date.take_if(|_| !columns.ours.iter().any(|(n, _)| n == "time"))
+        {
+            columns.ours.push(("time".to_owned(), date));
+        }
         Ok(columns)
+    }
+
+    /// The points of a table that has more than one in a row, and no other position.
+    fn find_points(&mut self) {
+        let has = |name: &str| self.ours.iter().any(|(ours, _)| ours == name);
+        if ["x", "y", "z", "marker"].into_iter().any(has) {
+            return;
+        }
+        let mut found: Vec<(String, [Option<Column>; 3])> = Vec::new();
+        for column in &self.kept {
+            let Some((name, axis)) = names::of_point(names::split(&column.header).0) else {
+                continue;
+            };
+            let known = found.iter().position(|(known, _)| known == name);
+            let at = known.unwrap_or_else(|| {
+                found.push((name.to_owned(), [None, None, None]));
+                found.len() - 1
+            });
+            found[at].1[axis].get_or_insert_with(|| column.clone());
+        }
+        let whole = |(name, axes): (String, [Option<Column>; 3])| {
+            let [Some(x), Some(y), Some(z)] = axes else { return None };
+            Some((name, [x, y, z]))
+        };
+        let points: Vec<_> = found.into_iter().filter_map(whole).collect();
+        if points.len() > 1 {
+            let is_of_point =
+                |c: &Column| points.iter().flat_map(|(_, axes)| axes).any(|a| a.index == c.index);
+            self.kept.retain(|column| !is_of_point(column));
+            self.points = points;
+        }
     }
 }
 

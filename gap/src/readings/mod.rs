@@ -10,13 +10,15 @@
 //! 3. `names`: what a column is by its name where the map says nothing.
 //! 4. `columns`: which column is what, in which unit.
 //! 5. `turn`: orientations into rotation vectors.
-//! 6. `write`: the rows as our columns, times of day (`clock`) as seconds.
+//! 6. `join`: the columns of a second table beside those of the first.
+//! 7. `write`: the rows as our columns, times of day (`clock`) as seconds.
 //!
 //! Only units that no number of the column could have are doubted (a joint at 175 is in degrees, a
 //! tool at 1,200 in millimetres), and then it is said.
 
 mod clock;
 mod columns;
+mod join;
 mod names;
 pub mod sheet;
 #[cfg(test)]
@@ -24,6 +26,7 @@ mod tests;
 mod turn;
 mod write;
 
+pub use join::By;
 pub use sheet::Sheet;
 
 use crate::io::{Map, ReadError, map};
@@ -37,15 +40,32 @@ pub struct Imported {
     pub said: Vec<String>,
 }
 
-/// Makes a table into a measurement file.
+fn counted(rows: usize) -> String {
+    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
+}
+
+/// Makes a table into a measurement file, if need be with the columns of another one beside its own.
 ///
 /// # Errors
 /// [`ReadError`]: what stands in the way, and where.
-pub fn import(sheet: &Sheet, map: &Map) -> Result<Imported, ReadError> {
+pub fn import(
+    sheet: &Sheet,
+    other: Option<(&Sheet, &By)>,
+    map: &Map,
+) -> Result<Imported, ReadError> {
     let mut said = Vec::new();
-    let (text, separator) = sheet.text(map, &mut said)?;
-    let table = sheet::Table::of(sheet.file(), (&text, separator), map, said)?;
+    let text = sheet.text(map, &mut said)?;
+    let table = sheet::Table::of(sheet.file(), &text, map, said)?;
+    let (plain, mut beside) = (Map::default(), Vec::new());
+    let text = other.map(|(other, _)| other.text(&plain, &mut beside)).transpose()?;
+    let table = match other.zip(text.as_ref()) {
+        None => table,
+        Some(((other, by), text)) => {
+            let other = sheet::Table::of(other.file(), text, &plain, beside)?;
+            join::join(table, &other, by)?
+        }
+    };
     let columns = columns::Columns::of(&table, map)?;
-    let turn = turn::Turn::of(table.file, &columns, map)?;
+    let turn = turn::Turn::of(&table, &columns, map)?;
     write::write(&table, &columns, turn, map)
 }

@@ -1,7 +1,6 @@
 //! What a column is by its name, and the unit that stands in it.
 
-use super::map::Convention;
-use crate::io::Unit;
+use crate::io::{Convention, Unit};
 use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, WRENCH_NAMES};
 
 /// What a column is.
@@ -15,6 +14,8 @@ pub(super) enum Meaning {
     Orientation(Convention, usize),
     /// What hangs on the tool: its mass, or its name.
     Load,
+    /// The day of a time of day.
+    Date,
 }
 
 /// What others call a joint's reading, before its number.
@@ -25,7 +26,7 @@ const JOINTS: [&str; 10] =
 const JOINTS_FROM_ZERO: [&str; 2] = ["actualq", "actualqpos"];
 
 /// What others write around the letter of an axis: `PosX`, `X_tcp`.
-const AROUND: [(&str, &str); 9] = [
+const AROUND: [(&str, &str); 11] = [
     ("", ""),
     ("pos", ""),
     ("position", ""),
@@ -35,12 +36,14 @@ const AROUND: [(&str, &str); 9] = [
     ("", "tcp"),
     ("actual", ""),
     ("measured", ""),
+    ("tracker", ""),
+    ("ist", ""),
 ];
 
 /// What others call the columns that have no number.
 const WORDS: [(&str, &[&str]); 8] = [
     ("temperature", &["temp", "temperatur", "temperature", "tempc"]),
-    ("time", &["time", "timestamp", "zeit", "seconds"]),
+    ("time", &["time", "timestamp", "zeit", "uhrzeit", "seconds"]),
     ("pose", &["pose", "poseid", "posture", "config", "configuration", "konfiguration"]),
     ("marker", &["marker", "target", "reflector", "smr", "reflektor"]),
     ("session", &["session", "sessionid", "sitting", "setup", "station", "sitzung", "aufstellung"]),
@@ -56,20 +59,37 @@ const FIXED: [&str; 5] = ["from", "anchor", "socket", "fixedpoint", "festpunkt"]
 const SIGMAS: [&str; 4] = ["sigma", "std", "stdev", "stddev"];
 
 /// Names of what hangs on the tool.
-const LOADS: [&str; 7] = ["mass", "payload", "payloadmass", "masse", "last", "zuladung", "load"];
+const LOADS: [&str; 12] = [
+    "mass",
+    "payload",
+    "payloadmass",
+    "masse",
+    "last",
+    "zuladung",
+    "load",
+    "loadmass",
+    "nutzlast",
+    "traglast",
+    "weight",
+    "gewicht",
+];
+
+/// What others call the day.
+const DATES: [&str; 3] = ["date", "datum", "day"];
 
 /// Any arm: what is not a joint's is the same on all.
 pub(super) const ANY: Layout =
     Layout { motions: Vec::new(), markers: Vec::new(), readings: false, payloads: None };
 
-/// Three angles or four numbers, by their names.
-const ORIENTATIONS: [(Convention, &[&str]); 6] = [
-    (Convention::Abc, &["a", "b", "c"]),
-    (Convention::Rpy, &["roll", "pitch", "yaw"]),
-    (Convention::Rpy, &["w", "p", "r"]),
+/// The numbers of an orientation, by their names.
+const ORIENTATIONS: [(Convention, &[&str]); 7] = [
+    (Convention::ABC, &["a", "b", "c"]),
+    (Convention::RPY, &["roll", "pitch", "yaw"]),
+    (Convention::RPY, &["w", "p", "r"]),
     (Convention::Quaternion, &["qw", "qx", "qy", "qz"]),
     (Convention::Quaternion, &["quatw", "quatx", "quaty", "quatz"]),
     (Convention::Quaternion, &["ow", "ox", "oy", "oz"]),
+    (Convention::Matrix, &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"]),
 ];
 
 /// The name without its unit, and the unit as written: `X [mm]`, `X (mm)`, `X/mm`, `x_mm`.
@@ -82,7 +102,9 @@ pub(super) fn split(header: &str) -> (&str, Option<&str>) {
     }
     let tail = header
         .rsplit_once(['/', '_', ' '])
-        .filter(|(name, unit)| !name.trim().is_empty() && Unit::spelled(unit).is_some());
+        .filter(|(name, unit)| !name.trim().is_empty() && Unit::spelled(unit).is_some())
+        // Of a letter or a minimum nobody knows that it is a unit.
+        .filter(|(_, unit)| !["min", "h", "d"].contains(unit));
     match tail {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (header, None),
@@ -101,6 +123,7 @@ impl Meaning {
             Meaning::FromZero(index) => format!("q{}", index + 1),
             Meaning::Orientation(convention, k) => orientation(convention, k),
             Meaning::Load => LOADS[0].to_owned(),
+            Meaning::Date => DATES[0].to_owned(),
         }
     }
 
@@ -128,6 +151,9 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
     }
     if LOADS.contains(&folded.as_str()) {
         return Some(Meaning::Load);
+    }
+    if DATES.contains(&folded.as_str()) {
+        return Some(Meaning::Date);
     }
     if Role::of(name, &ANY).is_ok_and(|role| role != Role::Extra) {
         return ours(name);
@@ -184,4 +210,19 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
         }
     }
     None
+}
+
+/// The point and the axis of a coordinate in a row that has several points: `X1`, `SMR2_y`, `T3.Z`.
+pub(super) fn of_point(name: &str) -> Option<(&str, usize)> {
+    let axis = |c: char| ['x', 'y', 'z'].iter().position(|axis| *axis == c.to_ascii_lowercase());
+    let separators = [' ', '_', '.', '-'];
+    let (first, last) = (name.chars().next()?, name.chars().next_back()?);
+    let (point, axis) = match (axis(first), axis(last)) {
+        (Some(axis), _) => (&name[1..], axis),
+        (None, Some(axis)) => (&name[..name.len() - 1], axis),
+        (None, None) => return None,
+    };
+    let point = point.trim_matches(separators);
+    // Points are numbered; what has no number (`Gx`) may be anything.
+    point.contains(|c: char| c.is_ascii_digit()).then_some((point, axis))
 }

@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::Map;
-use crate::io::table::{Record, Records, Separator};
-use crate::io::{Column, Fault, Mistake, Mistakes, ReadError, Unit, decoded};
+use super::clock::Clock;
+use super::join::Join;
+use super::{Map, names};
+use crate::io::table::{Record, Records, Separator, commented};
+use crate::io::{Column, Convention, Fault, Mistake, Mistakes, ReadError, Unit, decoded};
 
 /// A file as it was read.
 #[derive(Clone, Debug)]
@@ -22,6 +24,12 @@ pub(super) struct Table<'t> {
     /// Whether a comma may begin decimals, and whether it does.
     may_comma: bool,
     comma: bool,
+    /// Whether the map says so.
+    is_told: bool,
+    /// How a comment says that orientations are written.
+    pub orientation: Option<Convention>,
+    /// Another table, whose columns stand behind these.
+    join: Option<Join<'t>>,
     /// The line of the names, and the last one that is no row: theirs or that of the units.
     pub line: u64,
     above: u64,
@@ -34,12 +42,20 @@ pub(super) struct Table<'t> {
 }
 
 /// What the cells of a column hold.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     /// The largest number.
     pub most: f64,
+    /// The smallest number; infinity without any.
+    pub least: f64,
     pub has_numbers: bool,
     pub has_words: bool,
+}
+
+impl Default for Seen {
+    fn default() -> Seen {
+        Seen { most: 0.0, least: f64::INFINITY, has_numbers: false, has_words: false }
+    }
 }
 
 /// Rows above which a header is looked for.
@@ -132,11 +148,11 @@ impl<'t> Table<'t> {
     /// [`ReadError`]: no header; rows that are not as long as it; a quotation mark that is not closed.
     pub(super) fn of(
         file: &'t str,
-        (text, separator): (&'t str, Option<Separator>),
+        text: &'t (Cow<'t, str>, Option<Separator>),
         map: &Map,
         mut said: Vec<String>,
     ) -> Result<Table<'t>, ReadError> {
-        let table = Table::headed(file, (text, separator), map);
+        let table = Table::headed(file, (&text.0, text.1), map);
         let mut table = table.map_err(|mistake| mistake.of(file))?;
         let (mut seen, mut mistakes) =
             (vec![Seen::default(); table.names.len()], Mistakes::default());
@@ -157,6 +173,7 @@ impl<'t> Table<'t> {
                 seen.has_numbers |= number.is_some();
                 seen.has_words |= number.is_none();
                 seen.most = seen.most.max(number.unwrap_or(0.0).abs());
+                seen.least = number.map_or(seen.least, |number| seen.least.min(number));
             }
         });
         mistakes.extend(looked.err());
@@ -212,24 +229,52 @@ impl<'t> Table<'t> {
                 Mistake::from(Fault::new("no header", "a row of names above rows of numbers", help))
             }),
         }?;
-        let title = rows[..at].iter().find(|row| !row.is_blank()).map(|title| {
+        let names = match at.checked_sub(1) {
+            Some(above) => grouped(&rows[at].cells, &rows[above]),
+            None => rows[at].cells.clone(),
+        };
+        let above = rows[..at].iter().filter(|row| !row.is_blank());
+        // A row of groups that some names need is no title.
+        let is_title = |row: &&Owned| names == rows[at].cells || row.line != rows[at - 1].line;
+        let title = above.into_iter().find(is_title).map(|title| {
             let (line, title) = (rows[at].line, title.cells.join(" "));
             format!("what stands above line {line} is left out: `{}` …", title.trim())
         });
         let units = rows.get(at + 1).filter(|row| row.are_units());
+        let mut orientation = None;
+        for (line, name) in commented(&records.above, "orientation") {
+            orientation = Some(Convention::named(name).map_err(|fault| fault.at(line, None))?);
+        }
         Ok(Table {
             file,
             text,
             separator,
             may_comma,
             comma: false,
+            is_told: map.decimal == Some(','),
+            orientation,
+            join: None,
             line: rows[at].line,
             above: units.unwrap_or(&rows[at]).line,
             units: units.map_or_else(Vec::new, |row| row.cells.clone()),
-            names: rows.swap_remove(at).cells,
+            names,
             seen: Vec::new(),
             said: title.into_iter().collect(),
         })
+    }
+
+    /// With the columns of another table behind its own, and what was done in sentences.
+    pub(super) fn joined(self, join: Join<'t>, said: Vec<String>) -> Table<'t> {
+        let (mut names, mut seen, mut units) = (self.names, self.seen, self.units);
+        units.resize(names.len(), String::new());
+        let Join { columns, .. } = &join;
+        for column in columns {
+            names.push(column.name.clone());
+            units.push(column.unit.clone());
+            seen.push(column.seen);
+        }
+        let said = [self.said, said].concat();
+        Table { names, seen, units, said, join: Some(join), ..self }
     }
 
     /// Goes through the rows below the header.
@@ -238,10 +283,25 @@ impl<'t> Table<'t> {
     /// What nothing can be read after.
     pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<(), Mistake> {
         let mut records = Records::new(self.text.as_bytes(), Some(self.separator))?;
+        let mut rows = 0;
         while let Some(record) = records.read()? {
-            if record.line > self.above {
-                take(&Row { line: record.line, cells: &record.texts()? });
+            if record.line <= self.above {
+                continue;
             }
+            let (line, mut cells) = (record.line, record.texts()?);
+            let Some(join) = &self.join else {
+                take(&Row { line, cells: &cells });
+                continue;
+            };
+            if cells.iter().all(|cell| cell.is_empty()) {
+                continue;
+            }
+            let beside = join.beside(self, rows, &Row { line, cells: &cells })?;
+            rows += 1;
+            let Some(beside) = beside else { continue };
+            cells.resize(self.names.len() - beside.len(), "");
+            cells.extend(beside.iter().map(AsRef::<str>::as_ref));
+            take(&Row { line, cells: &cells });
         }
         Ok(())
     }
@@ -249,8 +309,21 @@ impl<'t> Table<'t> {
     /// A cell as it stands, its decimals behind a point if it is a number.
     pub(super) fn text<'c>(&self, row: &Row<'c>, column: usize) -> Cow<'c, str> {
         let text = row.cells.get(column).copied().unwrap_or_default();
-        let is_number = || text.contains(',') && number(text, self.may_comma).is_some();
-        if self.comma && is_number() { Cow::Owned(text.replace(',', ".")) } else { text.into() }
+        if !self.has_comma(column) {
+            return text.into();
+        }
+        let is_number = number(text, self.may_comma).is_some();
+        let is_grouped = text.contains('.') && is_grouped(text);
+        match (text.contains(','), is_grouped && (self.is_told || text.contains(','))) {
+            (_, true) => Cow::Owned(text.replace('.', "").replace(',', ".")),
+            (true, false) if is_number => Cow::Owned(text.replace(',', ".")),
+            _ => text.into(),
+        }
+    }
+
+    /// Whether a comma begins the decimals of a column. A table that was joined has points.
+    fn has_comma(&self, column: usize) -> bool {
+        self.comma && column < self.names.len() - self.join.as_ref().map_or(0, |j| j.columns.len())
     }
 
     /// The number of a cell; `None` of one that says that it holds none.
@@ -267,8 +340,11 @@ impl<'t> Table<'t> {
             let found = format!("`{}`{found}", row.cells[column]);
             Fault::new(found, "a number", help).at(row.line, Some(here))
         };
-        if self.comma && row.cells[column].contains('.') {
-            let help = "write 1100 or 1,1, or say `decimal` in a map";
+        if self.has_comma(column) && matches!(&text, Cow::Borrowed(text) if text.contains('.')) {
+            let help = match is_grouped(&text) {
+                true => "write 1100 or 1,1; if it is a thousand, say `decimal = \",\"` in a map",
+                false => "write 1,1",
+            };
             return Err(wrong(" where a comma begins the decimals", help));
         }
         let number = text.parse().ok().filter(|x: &f64| x.is_finite());
@@ -304,7 +380,8 @@ impl Owned {
     }
 
     fn is_of_numbers(&self, may_comma: bool) -> bool {
-        let numbers = self.cells.iter().filter(|c| number(c, may_comma).is_some()).count();
+        let is = |cell: &&String| number(cell, may_comma).is_some() || Clock::of(cell).is_some();
+        let numbers = self.cells.iter().filter(is).count();
         numbers >= 2 && 2 * numbers >= self.words()
     }
 
@@ -316,11 +393,42 @@ impl Owned {
     }
 }
 
+/// The names of columns below a row of groups: with their group's where they stand more than once, or mean
+/// nothing without it.
+fn grouped(cells: &[String], above: &Owned) -> Vec<String> {
+    if above.words() < 2 {
+        return cells.to_vec();
+    }
+    let means = |name: &str| names::meaning(names::split(name).0).is_some();
+    let mut group = "";
+    let each = cells.iter().enumerate().map(|(k, name)| {
+        group = above.cells.get(k).map(String::as_str).filter(|g| !g.is_empty()).unwrap_or(group);
+        let joined = format!("{group} {name}").trim().to_owned();
+        let is_twice = || cells.iter().filter(|other| *other == name).count() > 1;
+        let needs = name.is_empty() || is_twice() || !means(name) && means(&joined);
+        if needs && !group.is_empty() { joined } else { name.clone() }
+    });
+    each.collect()
+}
+
+/// Whether points stand before each three digits of a number: `1.200`, `-1.200.300,5`.
+fn is_grouped(text: &str) -> bool {
+    let text = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let (whole, decimals) = text.split_once(',').unwrap_or((text, "0"));
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let mut groups = whole.split('.');
+    let first = groups.next().is_some_and(|group| are_digits(group) && group.len() <= 3);
+    first && are_digits(decimals) && groups.all(|group| are_digits(group) && group.len() == 3)
+}
+
 /// A finite number, with a point before its decimals, or a comma where that may be.
 fn number(cell: &str, may_comma: bool) -> Option<f64> {
     let number = match cell.contains(',') {
         false => cell.parse().ok(),
-        true if !may_comma || cell.contains('.') => None,
+        true if !may_comma => None,
+        true if cell.contains('.') => {
+            is_grouped(cell).then(|| cell.replace('.', "").replace(',', ".").parse().ok()).flatten()
+        }
         true => cell.replacen(',', ".", 1).parse().ok(),
     };
     number.filter(|x: &f64| x.is_finite())

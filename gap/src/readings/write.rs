@@ -1,16 +1,20 @@
 //! The rows of a table as those of a measurement file.
 
+use core::cell::Cell as Held;
 use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
+use super::clock::{Clock, DAY, days};
 use super::columns::{Column, Columns, dimension};
-use super::map::{Convention, Map};
-use super::sheet::{Row, Table};
+use super::map::Map;
+use super::sheet::{Row, Table, is_none};
 use super::turn::Turn;
-use super::{Imported, clock, names};
-use crate::io::{self, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
-use crate::measurement::{MOST_RADIANS, WRENCH_NAMES, nearest_name};
+use super::{Imported, counted, names};
+use crate::io::{
+    self, Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean,
+};
+use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
@@ -18,8 +22,23 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
 /// A tool that is farther away than any arm reaches is in millimetres.
 const MOST_METRES: f64 = 20.0;
 
-/// What is written of a row in one column.
-type Cell<'a> = Box<dyn Fn(&Row<'_>) -> Result<String, Mistake> + 'a>;
+/// Days since 1900 of this century, as spreadsheets count them.
+const CENTURY: [f64; 2] = [36_526.0, 73_050.0];
+
+/// Nobody measures more often at rest, s.
+const FASTEST: f64 = 0.1;
+
+/// Quantities that may act on an arm.
+const ACTS: [Dimension; 5] = [
+    Dimension::Mass,
+    Dimension::Force,
+    Dimension::Moment,
+    Dimension::Temperature,
+    Dimension::Length,
+];
+
+/// What is written of a row in one column; of a row of several points, of the point with this number.
+type Cell<'a> = Box<dyn Fn(&Row<'_>, usize) -> Result<String, Mistake> + 'a>;
 
 /// One column of what is written.
 struct Output<'a> {
@@ -46,7 +65,11 @@ pub(super) fn write(
         return Err(fault.at(table.line, None).of(table.file));
     }
     let in_degrees = looks_like(table, &ours, Dimension::Angle, MOST_RADIANS);
-    let in_millimetres = looks_like(table, &ours, Dimension::Length, MOST_METRES);
+    let points: Vec<Column> = columns.points.iter().flat_map(|(_, axes)| axes).cloned().collect();
+    let bare: Vec<Column> = points.iter().filter(|c| c.unit.is_none()).cloned().collect();
+    let in_millimetres = looks_like(table, &ours, Dimension::Length, MOST_METRES)
+        || beyond(table, &bare, MOST_METRES);
+    let date = columns.date.as_ref();
     // How well lengths are known is told in their unit, if there is one.
     let length = |(name, column): &&&(String, Column)| {
         !name.starts_with('q')
@@ -61,18 +84,21 @@ pub(super) fn write(
             (None, _) => None,
             (Some(kind), Some(found)) => Some(known(table, column, found, kind)?.name),
             (Some(Dimension::Angle), None) if in_degrees => Some("deg"),
+            (Some(Dimension::Time), None) if in_days(table, column)? => {
+                let so =
+                    "are taken for a spreadsheet's days: as seconds rows would follow too fast";
+                said.push(format!("the numbers of `{}` {so}", column.header));
+                Some("d")
+            }
             (Some(Dimension::Length), None) if in_millimetres => Some("mm"),
             (Some(kind), None) => Some(kind.si().name),
         };
         let header = unit.map_or(name.clone(), |unit| format!("{name}[{unit}]"));
         said.push(format!("`{}` is {header}{}", column.header, column.law()));
         let cell: Cell<'_> = match kind {
-            None => Box::new(|row| Ok(table.text(row, column.index).into_owned())),
-            Some(Dimension::Time) => Box::new(|row| {
-                let clock = clock::seconds(&table.text(row, column.index));
-                Ok(written(clock.map_or_else(|| column.number(table, row), |s| Ok(Some(s)))?))
-            }),
-            Some(_) => Box::new(|row| Ok(written(column.number(table, row)?))),
+            None => Box::new(|row, _| Ok(table.text(row, column.index).into_owned())),
+            Some(Dimension::Time) => time(table, column, date),
+            Some(_) => Box::new(|row, _| Ok(written(column.number(table, row)?))),
         };
         outputs.push(Output { header, cell });
     }
@@ -87,8 +113,43 @@ pub(super) fn write(
             "lengths without a unit are taken for millimetres: one is more than 20 m".to_owned(),
         );
     }
+    if let Some(date) = date {
+        said.push(format!("`{}` is the day of the time", date.header));
+    }
+    if let Some((_, axes)) = columns.points.first() {
+        for axis in 0..3 {
+            let unit = match &axes[axis].unit {
+                Some(found) => known(table, &axes[axis], found, Dimension::Length)?.name,
+                None if in_millimetres => "mm",
+                None => "m",
+            };
+            let factor = Unit::named(unit).map_or(1.0, |unit| unit.factor);
+            let mut factors = Vec::new();
+            for (_, axes) in &columns.points {
+                let found = axes[axis].unit.as_deref().unwrap_or(unit);
+                let own = known(table, &axes[axis], found, Dimension::Length)?;
+                factors.push(if own.name == unit { 1.0 } else { own.factor / factor });
+            }
+            let cell = move |row: &Row<'_>, point: usize| {
+                let number = columns.points[point].1[axis].number(table, row)?;
+                Ok(written(number.map(|number| factors[point] * number)))
+            };
+            let header = format!("{}[{unit}]", POSE_NAMES[axis]);
+            outputs.push(Output { header, cell: Box::new(cell) });
+        }
+        let marker = |_: &Row<'_>, point: usize| Ok(columns.points[point].0.clone());
+        outputs.push(Output { header: "marker".to_owned(), cell: Box::new(marker) });
+        let named: Vec<&str> = columns.points.iter().map(|(name, _)| name.as_str()).collect();
+        said.push(format!(
+            "each row has {} points, which are rows of their own with the markers {}",
+            named.len(),
+            named.join(", ")
+        ));
+    }
     if let Some(turn) = &turn {
         said.push(orientation(table, turn, &mut outputs)?);
+    } else {
+        said.extend(in_degrees_about(columns));
     }
     if let Some(load) = &columns.load {
         said.push(match names_loads(table, load) {
@@ -104,13 +165,19 @@ pub(super) fn write(
         let header = unit.map_or(name.clone(), |unit| format!("{name}[{}]", unit.name));
         let near = nearest_name(&bare, &names::ANY).filter(|_| !clash);
         let meant = did_you_mean(near.as_deref());
-        said.push(format!(
-            "`{}` is kept as `{header}`: nothing is known of it{meant}",
-            column.header
-        ));
-        let cell: Cell<'_> = Box::new(|row| Ok(table.text(row, column.index).into_owned()));
+        let kept = format!("`{}` is kept as `{header}`: nothing", column.header);
+        said.push(match unit.filter(|unit| ACTS.contains(&unit.dimension)) {
+            None => format!("{kept} is known of it{meant}"),
+            Some(unit) => format!(
+                "{kept} uses it, and it is {}: if it acts on the arm, name it in a map, else `ignore` \
+                 it{meant}",
+                unit.dimension
+            ),
+        });
+        let cell: Cell<'_> = Box::new(|row, _| Ok(table.text(row, column.index).into_owned()));
         outputs.push(Output { header, cell });
     }
+    said.extend((!map.ignore.is_empty()).then(|| format!("{} not kept", map.ignore.join(", "))));
     let mut writer = csv::Writer::from_writer(Vec::new());
     let (mut mistakes, mut rows) = (Mistakes::default(), 0);
     // Into memory nothing fails.
@@ -119,22 +186,85 @@ pub(super) fn write(
         if row.cells.iter().all(|cell| cell.is_empty()) {
             return;
         }
-        rows += 1;
-        for output in &outputs {
-            match (output.cell)(row) {
-                Ok(cell) => {
-                    let _ = writer.write_field(cell);
-                }
-                Err(mistake) => mistakes.add(mistake),
+        for point in 0..columns.points.len().max(1) {
+            // A beam that was cut leaves the cells of its point empty.
+            let axes = columns.points.get(point).map(|(_, axes)| axes);
+            if axes.is_some_and(|axes| axes.iter().all(|c| is_none(&table.text(row, c.index)))) {
+                continue;
             }
+            rows += 1;
+            for output in &outputs {
+                match (output.cell)(row, point) {
+                    Ok(cell) => {
+                        let _ = writer.write_field(cell);
+                    }
+                    Err(mistake) => mistakes.add(mistake),
+                }
+            }
+            let _ = writer.write_record(None::<&[u8]>);
         }
-        let _ = writer.write_record(None::<&[u8]>);
     });
     mistakes.extend(read.err());
     mistakes.check(table.file)?;
-    said.push(format!("{rows} row{}", if rows == 1 { "" } else { "s" }));
+    said.push(counted(rows));
     let csv = String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default();
     Ok(Imported { csv, said })
+}
+
+/// The cell of a time: of a number as it stands, of a time of day in seconds, with its `date` if that stands
+/// by itself; at midnight the next day begins.
+fn time<'a>(table: &'a Table<'_>, column: &'a Column, date: Option<&'a Column>) -> Cell<'a> {
+    let (last, begun) = (Held::new(f64::NEG_INFINITY), Held::new(0.0));
+    Box::new(move |row, _| {
+        let clock = Clock::of(&table.text(row, column.index));
+        let Some(date) = date else {
+            let Some(Clock { seconds, dated }) = clock else {
+                return Ok(written(column.number(table, row)?));
+            };
+            let seconds = column.factor * seconds + column.offset;
+            if !dated && seconds < last.get() - DAY / 2.0 {
+                begun.set(begun.get() + DAY);
+            }
+            last.set(seconds);
+            return Ok(written(Some(seconds + begun.get())));
+        };
+        let day = match days(&table.text(row, date.index)) {
+            Some(days) => Some(DAY * days),
+            // A workbook's are seconds already, a spreadsheet's text has days.
+            None => date.number(table, row)?.map(|n| if n <= CENTURY[1] { DAY * n } else { n }),
+        };
+        let of_day = match clock {
+            Some(clock) => Some(column.factor * clock.seconds + column.offset),
+            None => column.number(table, row)?,
+        };
+        Ok(written(day.zip(of_day).map(|(day, of_day)| day + of_day)))
+    })
+}
+
+/// Whether numbers without a unit that count days of this century would follow each other too fast as
+/// seconds.
+fn in_days(table: &Table<'_>, column: &Column) -> Result<bool, ReadError> {
+    let seen = table.seen[column.index];
+    if seen.least < CENTURY[0] || seen.most > CENTURY[1] || seen.has_words {
+        return Ok(false);
+    }
+    let mut rows = 0.0;
+    table.each(|_| rows += 1.0).map_err(|mistake| mistake.of(table.file))?;
+    Ok(seen.most > seen.least && seen.most - seen.least < FASTEST * rows)
+}
+
+/// A doubt where three angles in degrees are taken for a rotation vector, which programs write in radians.
+fn in_degrees_about(columns: &Columns) -> Option<String> {
+    let angle = |name: &str| columns.ours.iter().find(|(ours, _)| ours == name).map(|(_, c)| c);
+    let axes = [angle("rx")?, angle("ry")?, angle("rz")?];
+    if axes.iter().all(|column| column.unit.as_deref() != Some("deg")) {
+        return None;
+    }
+    let headers = axes.map(|column| format!("`{}`", column.header)).join(", ");
+    Some(format!(
+        "{headers} are taken for a rotation vector (axis times angle), which is seldom in degrees: if they \
+         are turns about axes, say `orientation = \"zyx\"` or the like in a map"
+    ))
 }
 
 /// Rotation vectors in the place of the convention's numbers.
@@ -146,36 +276,46 @@ fn orientation<'a>(
     let Turn { convention, columns } = turn;
     let mut factors = Vec::new();
     for column in columns {
-        factors.push(match (&column.unit, convention) {
-            (Some(found), of) if *of != Convention::Quaternion => {
-                known(table, column, found, Dimension::Angle)?
-            }
+        factors.push(match (&column.unit, convention.has_angles()) {
+            (Some(found), true) => known(table, column, found, Dimension::Angle)?,
             // Who writes three angles writes degrees, unless all of them could be radians.
-            (None, of) if *of != Convention::Quaternion && beyond(table, columns, TAU) => {
+            (None, true) if beyond(table, columns, TAU) => {
                 Unit { factor: 1_f64.to_radians(), name: "deg", ..Dimension::Angle.si() }
             }
             _ => Dimension::Angle.si(),
         });
     }
     let headers: Vec<String> = columns.iter().map(|c| format!("`{}`", c.header)).collect();
-    let unit = match convention {
-        Convention::Quaternion => String::new(),
-        _ => format!(", in {}", factors[0].name),
+    let unit = match convention.has_angles() {
+        false => String::new(),
+        true => format!(", in {}", factors[0].name),
     };
     for axis in 0..3 {
         let factors = factors.clone();
-        let cell = move |row: &Row<'_>| {
+        let cell = move |row: &Row<'_>, _: usize| {
             let each = columns.iter().zip(&factors).map(|(column, unit)| {
                 Ok::<_, Mistake>(column.number(table, row)?.map(|number| unit.factor * number))
             });
             let numbers: Option<Vec<f64>> = each.collect::<Result<_, _>>()?;
-            Ok(written(numbers.and_then(|of| Some(convention.rotation(&of)?[axis]))))
+            // A program that has lost its target writes zeros.
+            let Some(numbers) = numbers
+                .filter(|n| *convention != Convention::Quaternion || n.iter().any(|x| *x != 0.0))
+            else {
+                return Ok(String::new());
+            };
+            let rotation = convention.rotation(&numbers).ok_or_else(|| {
+                let here =
+                    io::Column { number: columns[0].index + 1, header: columns[0].header.clone() };
+                let fault = Fault::new("numbers of no rotation", convention.formula(&[]), "");
+                fault.at(row.line, Some(here))
+            })?;
+            Ok(written(Some(rotation[axis])))
         };
         let header = ["rx[rad]", "ry[rad]", "rz[rad]"][axis].to_owned();
         outputs.push(Output { header, cell: Box::new(cell) });
     }
-    let order = convention.words();
-    Ok(format!("{} are rx, ry, rz: {order}{unit}", headers.join(", ")))
+    let names: Vec<&str> = columns.iter().map(|c| names::split(&c.header).0).collect();
+    Ok(format!("{} are rx, ry, rz: {}{unit}", headers.join(", "), convention.formula(&names)))
 }
 
 /// Whether a column has names of loads and no number.
@@ -186,7 +326,7 @@ fn names_loads(table: &Table<'_>, load: &Column) -> bool {
 
 /// What hangs on the tool, by the robot file's names.
 fn payload<'a>(table: &'a Table<'_>, load: &'a Column, outputs: &mut Vec<Output<'a>>) -> String {
-    let cell = |row: &Row<'_>| Ok(table.text(row, load.index).into_owned());
+    let cell = |row: &Row<'_>, _: usize| Ok(table.text(row, load.index).into_owned());
     outputs.push(Output { header: "payload".to_owned(), cell: Box::new(cell) });
     format!("`{}` is payload: the names of [[payload]] in the robot file", load.header)
 }
@@ -210,7 +350,7 @@ fn weight<'a>(
     let kilograms = unit.transpose()?.map_or(1.0, |unit| unit.factor);
     let gravity = Vector3::from(map.gravity.unwrap_or(GRAVITY)) * kilograms;
     for axis in 0..3 {
-        let cell = move |row: &Row<'_>| {
+        let cell = move |row: &Row<'_>, _: usize| {
             Ok(written(mass.number(table, row)?.map(|m| m * gravity[axis] + 0.0)))
         };
         let header = format!("{}[N]", WRENCH_NAMES[axis]);

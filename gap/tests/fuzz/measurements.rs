@@ -7,7 +7,7 @@ use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::io::{MOST_MISTAKES, Map, Mistake, ReadError};
 use stiffarm_gap::measurement::{Layout, Marker};
-use stiffarm_gap::readings::{Sheet, import};
+use stiffarm_gap::readings::{By, Sheet, import};
 
 /// Every kind of column, comment, line end and quotes.
 const VALID: &str = "# a file\r\n\
@@ -31,12 +31,13 @@ const CORPUS: [&str; 9] = [
     "\u{feff}A1;X;Y;Z;W;P;R\n1,5;2;3;4;5;6;7\n",
 ];
 
-const MAPS: [&str; 5] = [
+const MAPS: [&str; 6] = [
     "",
     include_str!("../../../docs/workbench/map.toml"),
     "decimal = \",\"\nseparator = \";\"\norientation = \"zyz\"\n",
     "header = 3\n[columns]\nq1 = { column = \"A1\", unit = \"deg\", factor = -1, offset = 90 }\n",
     "orientation = \"quaternion\"\ngravity = [0, 0, 1e300]\n",
+    "orientation = \"fixed_zxz\"\ndecimal = \",\"\nignore = [\"A1\"]\n",
 ];
 
 /// Lines of a file: a few are as good as many.
@@ -72,7 +73,8 @@ fn reads(bytes: &[u8]) -> Result<(), TestCaseError> {
                         prop_assert!(row.group < data.poses);
                     }
                     for column in &data.extra {
-                        prop_assert_eq!(column.cells.len(), data.rows.len());
+                        let values = column.values.as_ref();
+                        prop_assert!(values.map_or(true, |v| v.len() == data.rows.len()));
                     }
                 }
                 Err(ReadError { mistakes, more, .. }) => {
@@ -93,16 +95,20 @@ fn reads(bytes: &[u8]) -> Result<(), TestCaseError> {
 /// What is imported is a table that the reader answers, in it no number that is not finite.
 fn imports(text: &str, map: &str) -> Result<(), TestCaseError> {
     let Ok(map) = Map::read("map.toml", map) else { return Ok(()) };
-    match import(&Sheet::new("raw.txt", text.as_bytes().to_vec()), &map) {
-        Ok(imported) => {
-            prop_assert!(!imported.said.is_empty());
-            reads(imported.csv.as_bytes())
-        }
-        Err(error) => {
-            prop_assert!(!error.to_string().is_empty());
-            Ok(())
+    let sheet = Sheet::new("raw.txt", text.as_bytes().to_vec());
+    let log = Sheet::new("log.csv", b"Zeit;J1;X\n0,5;0,1;7\n2;0,3;8\n".to_vec());
+    let by = ["row", "time", "Zeit"].map(|by| By::from(by.to_owned()));
+    let others = [None].into_iter().chain(by.iter().map(|by| Some((&log, by))));
+    for other in others {
+        match import(&sheet, other, &map) {
+            Ok(imported) => {
+                prop_assert!(!imported.said.is_empty());
+                reads(imported.csv.as_bytes())?;
+            }
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
         }
     }
+    Ok(())
 }
 
 fn fuzz(cases: u32) {

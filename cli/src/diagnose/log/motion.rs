@@ -208,7 +208,7 @@ impl Motion {
 
     fn written(&self) -> Result<Written, Failure> {
         let mut robot = self.source.robot.clone();
-        robot.effects.extend(self.source.motion.iter().cloned());
+        robot.effects.extend(self.source.in_motion_alone());
         self.put_into(&robot, &self.model)
     }
 

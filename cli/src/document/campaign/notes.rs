@@ -1,6 +1,8 @@
 //! Where the error lies, what was co-estimated, what remains, what these data cannot show, what was not read.
 
 use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
+use stiffarm_gap::io::{Dimension, Unit};
+use stiffarm_gap::measurement::ExtraColumn;
 
 use super::Campaign;
 use crate::document::Block;
@@ -168,9 +170,19 @@ impl Campaign<'_> {
             rivals.any(|r| name.strip_prefix(r.as_str()).is_some_and(|n| n.starts_with('_')))
         };
         let unknown = self.data.extra.iter().filter(|column| !rival(&column.name));
-        let unknown = unknown.map(|column| match &column.suggestion {
-            Some(meant) => format!("{} (did you mean {meant}?)", column.column.header),
-            None => column.column.header.clone(),
+        // What has the unit of a load or a temperature may act on the arm.
+        let acts = |column: &ExtraColumn| {
+            let unit = column.unit.as_deref().and_then(Unit::named)?;
+            let acts =
+                [Dimension::Mass, Dimension::Force, Dimension::Moment, Dimension::Temperature];
+            acts.contains(&unit.dimension).then(|| format!("{}, which may act", unit.dimension))
+        };
+        let unknown = unknown.map(|column| {
+            let meant = column.suggestion.as_ref().map(|meant| format!("did you mean {meant}?"));
+            match meant.or_else(|| acts(column)) {
+                Some(remark) => format!("{} ({remark})", column.column.header),
+                None => column.column.header.clone(),
+            }
         });
         let unused = self.data.unused.iter().map(|c| format!("{} (not measured)", c.header));
         let all: Vec<String> = unknown.chain(unused).collect();

@@ -33,24 +33,10 @@ pub fn invoked(
     let urdf = read(text, false).map_err(refused)?;
     let chain = Chain::new(&urdf.robot, base, tip).map_err(refused)?;
     let table = Table::new(&chain);
-    let nowhere = |message, help: &str| told(None, message, Some(help.to_owned()));
-    let [turn, height] = table.lead;
-    if turn.abs() > 1e-12 || height.abs() > 1e-12 {
-        return Err(nowhere(
-            format!(
-                "the first axis lies so that the table's base is link `{}` turned by {turn:?} rad about its z and \
-                 moved by {height:?} m along it: poses would be told in another frame than the URDF's",
-                chain.base
-            ),
-            "write a robot file with `stiffarm import`, which says so, and name that",
-        ));
-    }
     let robot = robot_file(&chain, &table);
     if !deviation(&chain, &robot).is_some_and(|deviation| deviation <= AGREES) {
-        return Err(nowhere(
-            "two neighbouring axes are so nearly parallel that no table in double precision holds them".to_owned(),
-            "write the angles of axes that are meant to be parallel with all their digits",
-        ));
+        let message = "no table in double precision holds this chain".to_owned();
+        return Err(told(None, message, None));
     }
     let (robot, _) = Robot::from_toml(&robot.to_toml(), path).map_err(|error| error.errors)?;
     let mut remarks =

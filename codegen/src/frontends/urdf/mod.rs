@@ -7,9 +7,8 @@
 //! # What a table cannot hold
 //! A row of the modified convention places its axis by two numbers (a and alpha), a line in space
 //! has four. From the second joint on theta and d of the row before are the other two. Before the
-//! first row nothing is, so that the table's base frame is the URDF's, turned about its z axis and
-//! moved along it: [`Table::lead`]. Where axis 1 meets the URDF's x axis at a right angle (axis 1
-//! along z through the origin, say) the two are the same.
+//! first row nothing is: where axis 1 does not meet the URDF's x axis at a right angle (as it does along z
+//! through the origin) [`Table::base`], the file's `[base]`, places it.
 
 mod angle;
 mod chain;

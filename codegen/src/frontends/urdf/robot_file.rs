@@ -5,14 +5,11 @@ use super::chain::{Chain, Step};
 use super::table::Table;
 use crate::robot::beyond::Beyond;
 use crate::robot::space::Frame;
-use crate::robot::{Angle, Convention, Drive, Frame as Fixed, Joint, Robot, Value};
+use crate::robot::{Convention, Drive, Frame as Fixed, Joint, Robot, Value};
 
 /// The robot of a chain and its table, without stiffnesses, which a URDF does not have.
 pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
-    let [theta, _] = table.lead;
-    let turn = Frame::turned([0.0, 0.0, 1.0], -theta);
-    let gravity = turn.direction(chain.gravity);
-    let rotation = table.tool.rotation_vector();
+    let gravity = table.base.inverse().direction(chain.gravity);
     let joints = (0..chain.steps.len()).map(|k| joint(chain, table, k)).collect();
     Robot {
         name: chain.name.clone(),
@@ -20,8 +17,8 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         gravity: gravity.map(value),
         torque_side: None,
         joints,
-        base: Fixed::default(),
-        tool: Fixed { translation: table.tool.origin.map(length), rotation: rotation.map(angle) },
+        base: fixed(&table.base),
+        tool: fixed(&table.tool),
         frames: Vec::new(),
         markers: Vec::new(),
         effects: Vec::new(),
@@ -30,6 +27,10 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         outputs: Vec::new(),
         at: Vec::new(),
     }
+}
+
+fn fixed(frame: &Frame) -> Fixed {
+    Fixed { translation: frame.origin.map(length), rotation: frame.rotation_vector().map(angle) }
 }
 
 fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
@@ -50,7 +51,7 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         d: length(row.d),
         a: length(row.a),
         alpha: angle(row.alpha),
-        beta: Angle::ZERO,
+        beta: angle(row.beta),
         stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
         com: com.map(length),

@@ -5,6 +5,10 @@
 //! direction on one line are the origin and the x axis of that line's frame. Where lines are
 //! parallel there are many normals, and where they coincide there is none: then the frame before is
 //! kept as it is. Of the two directions of a normal the one that turns theta less is taken.
+//!
+//! Where lines are parallel but for an error of assembly their one normal is anywhere, and metres away. There the
+//! row has Hayati's parameter beta, `Rx(alpha) Ry(beta) Tx(a)`: it leads from the frame before to the point of
+//! the next line that is nearest to it.
 
 use core::f64::consts::PI;
 
@@ -17,6 +21,13 @@ const PARALLEL: f64 = 1e-12;
 /// Below this, m (relative to the arm's size where that is larger), two lines meet.
 const MEET: f64 = 1e-13;
 
+/// Below this sine axes are meant to be parallel, as a diagnosis has it, which offers beta there.
+const NEARLY: f64 = 0.01;
+
+/// Below this sine, of 30°, axes may meet farther away than twice the length of the arm when stretched, which no
+/// table of a designed arm has.
+const ACUTE: f64 = 0.5;
+
 /// Numbers of one row, rad and m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Row {
@@ -28,6 +39,8 @@ pub struct Row {
     pub a: f64,
     /// About x.
     pub alpha: f64,
+    /// About y, behind alpha.
+    pub beta: f64,
 }
 
 /// The chain as a table.
@@ -35,9 +48,8 @@ pub struct Row {
 pub struct Table {
     /// One per joint.
     pub rows: Vec<Row>,
-    /// What stands before the first row: the table's base frame is the URDF's, turned by this angle
-    /// about z, rad, and moved along z, m.
-    pub lead: [f64; 2],
+    /// The table's base frame in the URDF's: the same where the first row can place axis 1 in it, else on axis 1.
+    pub base: Frame,
     /// The frames of the rows in the posture q = 0, in the URDF's base frame.
     pub frames: Vec<Frame>,
     /// The tip in the last row's frame.
@@ -60,43 +72,64 @@ struct Foot {
 
 /// The way from one line to the next.
 struct Normal {
+    /// On the one, turned and moved by the theta and d of its row.
     foot: Foot,
+    /// On the next.
+    next: Foot,
     a: f64,
     alpha: f64,
+    beta: f64,
 }
 
 impl Table {
     /// Of a chain.
     pub fn new(chain: &Chain) -> Table {
-        let (lines, tip) = lines(chain);
+        let (mut lines, tip) = lines(chain);
         let size = lines.iter().map(|line| norm(line.point)).fold(1.0, f64::max);
+        let steps = chain.steps.iter().map(|step| norm(step.before.origin)).sum::<f64>();
+        let far = (steps + norm(chain.end.origin)) / ACUTE;
+        let way = |at: &Foot, here: &Line, next: &Line| normal(at, here, next, (MEET * size, far));
         let mut at = Foot { origin: [0.0; 3], x: [1.0, 0.0, 0.0] };
+        let first = way(&at, &lines[0], &lines[1]);
+        let lead = screw(&at, &first.foot, &lines[0]);
+        let mut base = Frame::IDENTITY;
+        if first.beta != 0.0 || lead.iter().any(|x| x.abs() > PARALLEL) {
+            let along = lines[1].along;
+            let across = |v: Vector| plus(v, -dot(along, v), along);
+            let x = across(at.x);
+            // Where axis 1 lies along x, z is across it.
+            let x = if norm(x) > NEARLY { x } else { across(lines[0].along) };
+            let foot = beside(at.origin, &lines[1]);
+            at = Foot { origin: foot, x: times(x, 1.0 / norm(x)) };
+            lines[0] = Line { point: foot, ..lines[1] };
+            base = at.frame(&lines[0]);
+        }
         let mut rows: Vec<Row> = Vec::new();
-        let mut lead = [0.0; 2];
         let mut frames = Vec::new();
         for k in 0..lines.len() {
             let here = lines[k];
             let normal = match lines.get(k + 1) {
-                Some(next) => normal(&at, &here, next, MEET * size),
-                None => Normal { foot: last(&at, &here, &tip), a: 0.0, alpha: 0.0 },
+                Some(next) => way(&at, &here, next),
+                None => last(&at, &here, &tip),
             };
-            let [theta, d] = screw(&at, &normal.foot, &here);
-            match rows.last_mut() {
-                None => lead = [theta, d],
-                Some(row) => (row.theta, row.d) = (theta, d),
-            }
-            if k > 0 {
+            if let Some(row) = rows.last_mut() {
+                [row.theta, row.d] = screw(&at, &normal.foot, &here);
                 frames.push(normal.foot.frame(&here));
             }
             if k + 1 < lines.len() {
-                rows.push(Row { a: normal.a, alpha: normal.alpha, ..Row::default() });
+                let Normal { a, alpha, beta, .. } = normal;
+                rows.push(Row { a, alpha, beta, ..Row::default() });
             }
-            let Foot { origin, x } = normal.foot;
-            at = Foot { origin: plus(origin, normal.a, x), x };
+            at = normal.next;
         }
         let tool = frames.last().map_or(tip, |last| last.inverse().then(&tip));
-        Table { rows, lead, frames, tool }
+        Table { rows, base, frames, tool }
     }
+}
+
+/// The point of a line that is nearest to one.
+fn beside(point: Vector, line: &Line) -> Vector {
+    plus(line.point, dot(line.along, plus(point, -1.0, line.point)), line.along)
 }
 
 /// The base's z axis and the joints' axes at q = 0, and the tip.
@@ -110,8 +143,8 @@ fn lines(chain: &Chain) -> (Vec<Line>, Frame) {
     (lines, frame.then(&chain.end))
 }
 
-/// The common normal of two lines; `at` is the frame that came to the first.
-fn normal(at: &Foot, here: &Line, next: &Line, meet: f64) -> Normal {
+/// The way between two lines; `at` is the frame that came to the first.
+fn normal(at: &Foot, here: &Line, next: &Line, (meet, far): (f64, f64)) -> Normal {
     let (z, next_z) = (here.along, next.along);
     let cross_z = cross(z, next_z);
     let sine = norm(cross_z);
@@ -121,18 +154,59 @@ fn normal(at: &Foot, here: &Line, next: &Line, meet: f64) -> Normal {
         let across = plus(between, -dot(z, between), z);
         let distance = norm(across);
         if distance <= meet {
-            return Normal { foot: *at, a: 0.0, alpha };
+            return Normal { foot: *at, next: *at, a: 0.0, alpha, beta: 0.0 };
         }
         let x = facing(times(across, 1.0 / distance), at.x);
-        return Normal { foot: Foot { origin: at.origin, x }, a: dot(across, x), alpha };
+        return Normal::along(Foot { origin: at.origin, x }, dot(across, x), alpha);
     }
-    let x = facing(times(cross_z, 1.0 / sine), at.x);
     let between = plus(next.point, -1.0, here.point);
     let along = dot(cross(between, next_z), cross_z) / (sine * sine);
+    let origin = plus(here.point, along, z);
+    let is_far = sine < ACUTE && norm(plus(origin, -1.0, at.origin)) > far;
+    if sine < NEARLY || is_far {
+        return tilted(at, here, next, meet);
+    }
+    let x = facing(times(cross_z, 1.0 / sine), at.x);
     let a = dot(between, x);
     let a = if a.abs() <= meet { 0.0 } else { a };
     let alpha = dot(x, cross_z).atan2(dot(z, next_z));
-    Normal { foot: Foot { origin: plus(here.point, along, z), x }, a, alpha }
+    Normal::along(Foot { origin, x }, a, alpha)
+}
+
+/// The way to the point of the next line that is nearest to the frame's origin: where it lies, and how the line
+/// leans, are theta, alpha, beta and a.
+fn tilted(at: &Foot, here: &Line, next: &Line, meet: f64) -> Normal {
+    let (z, next_z) = (here.along, next.along);
+    let origin = beside(at.origin, next);
+    let across = plus(origin, -1.0, at.origin);
+    let distance = norm(across);
+    let level = |v: Vector| {
+        let v = plus(v, -dot(next_z, v), next_z);
+        times(v, 1.0 / norm(v))
+    };
+    let next_x = match distance <= meet {
+        true => level(at.x),
+        false => level(facing(times(across, 1.0 / distance), at.x)),
+    };
+    // Turned about this, y behind alpha, the x of the row before becomes the next one.
+    let y = cross(next_z, next_x);
+    let x = cross(y, z);
+    let x = facing(times(x, 1.0 / norm(x)), next_x);
+    Normal {
+        foot: Foot { origin: at.origin, x },
+        next: Foot { origin, x: next_x },
+        a: if distance <= meet { 0.0 } else { dot(across, next_x) },
+        alpha: dot(y, z).atan2(dot(y, cross(z, x))),
+        beta: dot(next_z, x).atan2(dot(next_x, x)),
+    }
+}
+
+impl Normal {
+    /// Along x.
+    fn along(foot: Foot, a: f64, alpha: f64) -> Normal {
+        let next = Foot { origin: plus(foot.origin, a, foot.x), ..foot };
+        Normal { foot, next, a, alpha, beta: 0.0 }
+    }
 }
 
 /// The direction or its opposite, whichever is nearer to `x`.
@@ -141,12 +215,12 @@ fn facing(direction: Vector, x: Vector) -> Vector {
 }
 
 /// On the last line: beside the tip, and where the tip's z is the line's, with its x.
-fn last(at: &Foot, here: &Line, tip: &Frame) -> Foot {
+fn last(at: &Foot, here: &Line, tip: &Frame) -> Normal {
     let z = here.along;
     let origin = plus(at.origin, dot(z, plus(tip.origin, -1.0, at.origin)), z);
     let [tip_x, _, tip_z] = tip.axes;
     let same = norm(cross(z, tip_z)) <= PARALLEL && dot(z, tip_z) > 0.0;
-    Foot { origin, x: if same { tip_x } else { at.x } }
+    Normal::along(Foot { origin, x: if same { tip_x } else { at.x } }, 0.0, 0.0)
 }
 
 /// Angle about the line and distance along it from one of its frames to another.

@@ -105,19 +105,19 @@ fn column_si(
             }
         },
     };
-    let cells = column.cells.iter().zip(&data.rows);
-    cells
-        .map(|(cell, row)| {
-            let value = cell.parse().ok().map(|v: f64| unit.to_si(v));
-            value.filter(|v| v.abs() < 1e100).ok_or_else(|| DiagnoseError::RivalCell {
-                file: data.file.clone(),
-                line: row.line,
-                number,
-                header: header.clone(),
-                found: cell.clone(),
-            })
-        })
-        .collect()
+    let wrong = |line: u64, found: String| DiagnoseError::RivalCell {
+        file: data.file.clone(),
+        line,
+        number,
+        header: header.clone(),
+        found,
+    };
+    let values = column.values.as_ref().map_err(|(line, found)| wrong(*line, found.clone()))?;
+    let each = values.iter().zip(&data.rows).map(|(value, row)| {
+        let si = Some(unit.to_si(*value)).filter(|si| si.abs() < 1e100);
+        si.ok_or_else(|| wrong(row.line, format!("{value:e}")))
+    });
+    each.collect()
 }
 
 fn missing(data: &Measurements, rival: &str) -> DiagnoseError {

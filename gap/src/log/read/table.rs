@@ -214,8 +214,8 @@ impl Columns {
                 })
             }));
         }
-        let nothing = heads.iter().zip(&header.names).filter(|(head, _)| head.is_none());
-        let unknown = nothing.map(|(_, name)| name.clone()).collect();
+        let nothing = (0..heads.len()).filter(|k| heads[*k].is_none() && !said.ignores(*k));
+        let unknown = nothing.map(|k| header.names[k].clone()).collect();
         let (signals, joints) = (Vec::new(), motions.len());
         let mut columns = Columns { heads, unknown, signals, joints };
         if mistakes.is_empty() {

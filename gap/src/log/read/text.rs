@@ -6,7 +6,7 @@ use stiffarm_kernels::Motion;
 
 use super::table::{Cell, Header, Table};
 use super::{Log, Names, TorqueSide};
-use crate::io::table::{Record, Records};
+use crate::io::table::{Record, Records, commented};
 use crate::io::{Fault, Mistake, ReadError};
 
 pub(super) fn read(
@@ -70,11 +70,8 @@ fn list(cell: &[u8]) -> Option<impl Iterator<Item = &[u8]>> {
 /// What the comments above the header say of the torque side: `torque_side = motor`.
 fn side(comments: &[(u64, String)]) -> Result<Option<TorqueSide>, Mistake> {
     let mut side = None;
-    for (line, comment) in comments {
-        let said = comment.split_once('=').filter(|(name, _)| name.trim() == "torque_side");
-        let Some((_, value)) = said else { continue };
-        let word: String = value.trim().chars().take_while(|c| c.is_alphanumeric()).collect();
-        side = Some(TorqueSide::said(&word).map_err(|fault| fault.at(*line, None))?);
+    for (line, word) in commented(comments, "torque_side") {
+        side = Some(TorqueSide::said(word).map_err(|fault| fault.at(line, None))?);
     }
     Ok(side)
 }

@@ -222,6 +222,13 @@ fn a_habit_is_told_once() {
         errors(&format!("{HEAD}{}", format!("{JOINT}alhpa = 0\n").repeat(2))),
         ["5:1 unknown key `alhpa` in [[joint]] | did you mean `alpha`?; the same stands in line 8"]
     );
+    assert_eq!(
+        errors(&format!("{HEAD}{JOINT}d = -1e308\na = \"1e60 mm\"\n")),
+        [
+            "5:5 `-1e308` is longer than any arm | mend the exponent",
+            "6:5 `1e60 mm` is longer than any arm | mend the exponent"
+        ]
+    );
 }
 
 #[test]

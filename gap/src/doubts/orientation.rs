@@ -1,0 +1,69 @@
+//! Orientations that are no rotation vectors but three turns.
+
+use nalgebra::UnitQuaternion;
+use stiffarm_kernels::generic::Arm;
+
+use super::{FEWEST_POSES, NEARLY_ALL, shown, spread};
+use crate::gap::rms;
+use crate::io::Convention;
+use crate::measurement::{Kind, Measurements, Row};
+use crate::simulate::Reading;
+
+/// rad. The tool's turn from one pose to the next does not depend on where base and tool stand; zeros that
+/// are off by some mrad and springs change it by as much, and what is read in a wrong convention by a radian.
+const LARGE_TURN: f64 = 0.1;
+
+/// Of sums of angles, rad.
+const ROUNDING: f64 = 1e-9;
+
+/// A doubt where the tool turns otherwise from pose to pose than the arm does, and whether it does not if
+/// the numbers are three turns.
+pub(super) fn orientations(arm: &Arm, data: &Measurements) -> Option<String> {
+    if data.kind != (Kind::Pose { orientation: true }) || data.poses < FEWEST_POSES {
+        return None;
+    }
+    // Of a plan nothing is measured.
+    if data.rows.iter().all(|row| row.measured.fixed_rows::<3>(3).amax() == 0.0) {
+        return None;
+    }
+    let rows = spread(arm, data, 6);
+    let pairs = || rows.windows(2).filter(|pair| pair[0].1.session == pair[1].1.session);
+    let off = |convention: Convention| {
+        let turned = |row: &Row| {
+            let [x, y, z] = [3, 4, 5].map(|k| row.measured[k]);
+            let vector = convention.rotation(&convention.ordered([x, y, z]));
+            vector.map(UnitQuaternion::from_scaled_axis)
+        };
+        let of_pair = |pair: &[(Reading, &Row)]| {
+            let measured = turned(pair[0].1)?.angle_to(&turned(pair[1].1)?);
+            Some(measured - pair[0].0.rotation.angle_to(&pair[1].0.rotation))
+        };
+        let all: Vec<f64> = pairs().filter_map(of_pair).collect();
+        rms(&all)
+    };
+    let as_it_is = off(Convention::RotationVector);
+    if as_it_is <= LARGE_TURN {
+        return None;
+    }
+    let tried: Vec<(f64, Convention)> = Convention::turns().map(|c| (off(c), c)).collect();
+    let least = tried.iter().map(|(off, _)| *off).fold(f64::INFINITY, f64::min);
+    // Turns about the tool's axes are those about the base's in the other order, up to rounding.
+    let (_, best) = tried.into_iter().find(|(off, _)| *off <= least + ROUNDING)?;
+    let says = if 1.0 - (least / as_it_is).powi(2) > NEARLY_ALL {
+        let formula = best.formula(&best.ordered(["rx", "ry", "rz"]));
+        format!(
+            "read as {formula} by {} rad: are rx, ry, rz three turns? write `# orientation = {best}` \
+             above the header",
+            shown(least)
+        )
+    } else {
+        "and no order of three turns explains it: do rx, ry, rz, or the readings, mean what the file \
+         says?"
+            .to_owned()
+    };
+    Some(format!(
+        "{}: from pose to pose the tool turns otherwise than the arm by {} rad; {says}",
+        data.file,
+        shown(as_it_is)
+    ))
+}
