@@ -8,7 +8,7 @@ use stiffarm_codegen::emit::{
     CFiles, COptions, CudaOptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c,
     c_name, cuda, dot, flexible_latex, flexible_rust, latex, mjcf, python, rust, urdf,
 };
-use stiffarm_codegen::robot::{Asked, Refused, Robot};
+use stiffarm_codegen::robot::{Refused, Robot, Wanted};
 use stiffarm_kernels::generic::BaseParameter;
 
 use super::Verdict;
@@ -51,8 +51,8 @@ pub struct Args {
     /// What to write: outputs, separated by commas, of a named frame or a marker as in `pose at elbow` [default:
     /// what the robot file says, else all of the tool; of dot the Jacobian]
     #[arg(long, alias = "output", value_name = "LIST", value_delimiter = ',')]
-    #[arg(value_parser = |text: &str| Asked::read(text).map_err(told))]
-    outputs: Vec<Asked>,
+    #[arg(value_parser = |text: &str| Wanted::read(text).map_err(told))]
+    outputs: Vec<Wanted>,
     /// The pose with displacements in the chain instead, exact and in both approximations: a list
     /// of dx, dy, dz (m), dpsi, dbeta, dphi (rad, about x, y, z), of every link, or of one place
     /// like dphi1, 0 is the base [all of them everywhere if there is no LIST]
@@ -155,11 +155,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     args.fits(&source.robot)?;
     if !args.outputs.is_empty() {
         let robot = &mut source.robot;
-        (robot.outputs, robot.at) = (Vec::new(), Vec::new());
-        for asked in &args.outputs {
+        robot.want_nothing();
+        for wanted in &args.outputs {
             let refused =
                 |no: Refused| Failure::with_help(format!("--outputs: {}", no.message), no.help);
-            robot.ask(asked).map_err(refused)?;
+            robot.want(wanted).map_err(refused)?;
         }
     }
     let all = &source.robot.outputs;
@@ -221,6 +221,13 @@ impl Args {
 
     /// What shows the joints as they are, and not their readings, is not made of an arm of which these differ.
     fn fits(&self, robot: &Robot) -> Result<(), Failure> {
+        let inverse = self.outputs.contains(&Wanted::InverseKinematics);
+        if inverse && !matches!(self.emit, Emit::Rust | Emit::C | Emit::Cuda | Emit::Python) {
+            return Err(Failure::with_help(
+                "--outputs: `inverse_kinematics` is not for latex and dot",
+                "it is written as rust, c, cuda or python",
+            ));
+        }
         let what = match (self.emit, &self.flexible, self.sines) {
             (Emit::Urdf, ..) => "--emit urdf",
             (Emit::Mjcf, ..) => "--emit mjcf",

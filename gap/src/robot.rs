@@ -281,6 +281,7 @@ mod tests {
             }],
             outputs: Vec::new(),
             at: Vec::new(),
+            inverse_kinematics: None,
         }
     }
 

@@ -9,12 +9,14 @@ extern crate alloc;
 #[cfg_attr(feature = "parity", macro_use)]
 extern crate std;
 
+mod arctan;
 mod arm;
 #[cfg(feature = "batch")]
 pub mod batch;
 #[cfg(feature = "generic")]
 pub mod generic;
 mod interop;
+mod inverse;
 mod kernel;
 #[cfg(feature = "lanes")]
 pub mod lanes;
@@ -29,6 +31,7 @@ mod solve;
 pub use arm::{Arm, Numeric, Row};
 #[cfg(feature = "simba")]
 pub use interop::simba;
+pub use inverse::{Inverse, Solution, Solutions};
 #[doc(hidden)]
 pub use kernel::fill;
 pub use kernel::{Convention, DhRow, Error, Kernels, Motion, Ops, Pose};

@@ -2,6 +2,8 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::arctan::{self, atan2};
+
 /// What generated code asks of its numbers: f32 and f64 here, lanes of them with the feature `lanes`;
 /// dual numbers by implementing this trait.
 pub trait Scalar:
@@ -18,6 +20,12 @@ pub trait Scalar:
 
     /// 1 above zero, −1 below it, 0 at zero.
     fn sign(self) -> Self;
+
+    /// `positive` above zero, else `otherwise`: lane by lane, without a branch.
+    fn select(self, positive: Self, otherwise: Self) -> Self;
+
+    /// The angle of the direction (x, self), −π to π; 0 where both are zero.
+    fn atan2(self, x: Self) -> Self;
 
     /// Sines and cosines of all angles of one pose at once, so that an implementation may compute
     /// them in lanes.
@@ -54,6 +62,14 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sign(self) -> Self {
         f64::from(self > 0.0) - f64::from(self < 0.0)
+    }
+    #[inline(always)]
+    fn select(self, positive: Self, otherwise: Self) -> Self {
+        if self > 0.0 { positive } else { otherwise }
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        atan2(self, x, arctan::DOUBLE)
     }
     #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
     #[inline(always)]
@@ -100,6 +116,14 @@ impl Scalar for f32 {
     #[inline(always)]
     fn sign(self) -> Self {
         f32::from(self > 0.0) - f32::from(self < 0.0)
+    }
+    #[inline(always)]
+    fn select(self, positive: Self, otherwise: Self) -> Self {
+        if self > 0.0 { positive } else { otherwise }
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        atan2(self, x, arctan::SINGLE)
     }
     #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
     #[inline(always)]

@@ -7,6 +7,7 @@
 mod chain;
 mod displacements;
 mod flexible;
+mod inverse;
 mod outputs;
 mod own;
 mod passes;
@@ -18,6 +19,8 @@ mod ways;
 pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
+pub(crate) use inverse::BRANCHES;
+pub use inverse::inverse;
 pub(crate) use outputs::derived;
 pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;

@@ -11,6 +11,8 @@ pub struct Own {
     pub sentence: String,
     /// Its inputs beside the joint values, in the order of arguments.
     pub inputs: Vec<OwnInput>,
+    /// Whether it is finite whatever it is given: no divisor and nothing under a root vanishes.
+    pub finite: bool,
 }
 
 /// An input beside the joint values.

@@ -77,5 +77,7 @@ fn label(g: &Graph, node: usize) -> (String, &'static str) {
         Node::Sqrt(_) => ("√".to_string(), "circle"),
         Node::Sin(_) => ("sin".to_string(), "ellipse"),
         Node::Cos(_) => ("cos".to_string(), "ellipse"),
+        Node::Atan2(..) => ("atan2".to_string(), "ellipse"),
+        Node::Select(..) => ("> 0 ?".to_string(), "diamond"),
     }
 }

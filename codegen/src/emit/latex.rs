@@ -221,13 +221,19 @@ impl Style for Latex {
         }
     }
 
-    fn of(&self, operation: Operation, a: &str) -> String {
+    fn of(&self, operation: Operation, numbers: &[String]) -> String {
+        let a = &numbers[0];
         match operation {
             Operation::Reciprocal => format!("\\frac{{1}}{{{a}}}"),
             Operation::Root => format!("\\sqrt{{{a}}}"),
             Operation::Sign => format!("\\operatorname{{sign}}({a})"),
             Operation::Sine => format!("\\sin({a})"),
             Operation::Cosine => format!("\\cos({a})"),
+            Operation::Atan2 => format!("\\operatorname{{atan2}}({a}, {})", numbers[1]),
+            Operation::Select => {
+                let [b, c] = [&numbers[1], &numbers[2]];
+                format!("\\begin{{cases}}{b}&{a}>0\\\\{c}\\end{{cases}}")
+            }
         }
     }
 }

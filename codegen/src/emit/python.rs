@@ -70,13 +70,16 @@ impl Style for Python {
         let at: Vec<String> = at.iter().map(usize::to_string).collect();
         format!("{array}[..., {}]", at.join(", "))
     }
-    fn of(&self, operation: Operation, a: &str) -> String {
+    fn of(&self, operation: Operation, numbers: &[String]) -> String {
+        let a = &numbers[0];
         match operation {
             Operation::Reciprocal => format!("(1.0 / ({a}))"),
             Operation::Root => format!("np.sqrt({a})"),
             Operation::Sign => format!("np.sign({a})"),
             Operation::Sine => format!("np.sin({a})"),
             Operation::Cosine => format!("np.cos({a})"),
+            Operation::Atan2 => format!("np.arctan2(({a}) + 0.0, {})", numbers[1]),
+            Operation::Select => format!("np.where(({a}) > 0.0, {}, {})", numbers[1], numbers[2]),
         }
     }
 }

@@ -15,6 +15,8 @@ pub struct OpCount {
     pub div: u32,
     /// Sine-cosine pairs: a sine and a cosine of one angle are one.
     pub sin_cos: u32,
+    /// Angles of directions.
+    pub atan2: u32,
 }
 
 impl OpCount {
@@ -24,9 +26,9 @@ impl OpCount {
     }
 
     /// One number to compare ways of computing the same thing: a sine-cosine pair weighs as much as
-    /// the polynomial it takes, a division as much as its latency.
+    /// the polynomial it takes, the angle of a direction as much as its own, a division as much as its latency.
     pub fn cost(self) -> u32 {
-        self.flops() + 12 * self.sin_cos + 6 * self.div
+        self.flops() + 12 * (self.sin_cos + self.atan2) + 6 * self.div
     }
 }
 
@@ -90,8 +92,9 @@ impl Graph {
                 Node::Add(..) => count.add += 1,
                 Node::Mul(..) => count.mul += 1,
                 Node::Recip(_) | Node::Sqrt(_) => count.div += 1,
+                Node::Atan2(..) => count.atan2 += 1,
                 // A comparison: neither a sum nor a product.
-                Node::Sign(_) | Node::Number(_) | Node::Symbol(_) => {}
+                Node::Sign(_) | Node::Select(..) | Node::Number(_) | Node::Symbol(_) => {}
             }
             for operand in self.nodes()[at].operands() {
                 used[operand.node()] = true;
@@ -115,7 +118,7 @@ mod tests {
         let product = g.mul(s, c);
         let square = g.mul(product, product);
         let total = g.add(square, product);
-        let expected = OpCount { add: 1, mul: 2, div: 0, sin_cos: 1 };
+        let expected = OpCount { add: 1, mul: 2, sin_cos: 1, ..OpCount::default() };
         assert_eq!(g.count(&[total, -product]), expected);
         assert_eq!(g.count(&[s]).flops(), 0);
         assert!(g.reachable(&[s])[x.node()]);

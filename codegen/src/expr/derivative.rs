@@ -51,6 +51,16 @@ impl Graph {
                     let sine = self.sin(a);
                     -self.mul(da, sine)
                 }
+                Node::Atan2(y, x) => {
+                    let (dy, dx) = (slope(y), slope(x));
+                    let [by_y, by_x] = self.atan2_slopes(y, x);
+                    let (up, along) = (self.mul(dy, by_y), self.mul(dx, by_x));
+                    self.add(up, along)
+                }
+                Node::Select(on, a, b) => {
+                    let (da, db) = (slope(a), slope(b));
+                    self.select(on, da, db)
+                }
             };
             slopes.push(d);
         }
@@ -76,6 +86,14 @@ impl Graph {
                 Node::Mul(a, b) => {
                     [Some((a, self.mul(adjoint, b))), Some((b, self.mul(adjoint, a)))]
                 }
+                Node::Atan2(y, x) => {
+                    let [by_y, by_x] = self.atan2_slopes(y, x);
+                    [Some((y, self.mul(adjoint, by_y))), Some((x, self.mul(adjoint, by_x)))]
+                }
+                Node::Select(on, a, b) => [
+                    Some((a, self.select(on, adjoint, Expr::ZERO))),
+                    Some((b, self.select(on, Expr::ZERO, adjoint))),
+                ],
                 Node::Recip(a) => {
                     let square = self.mul(here, here);
                     [Some((a, -self.mul(adjoint, square))), None]
@@ -121,6 +139,14 @@ impl Graph {
         if cost(&backwards) < cost(&forwards) { backwards } else { forwards }
     }
 
+    /// The derivatives of `atan2(y, x)` by y and by x.
+    fn atan2_slopes(&mut self, y: Expr, x: Expr) -> [Expr; 2] {
+        let (up, along) = (self.mul(y, y), self.mul(x, x));
+        let square = self.add(up, along);
+        let inverse = self.recip(square);
+        [self.mul(x, inverse), -self.mul(y, inverse)]
+    }
+
     /// The expressions with some symbols at zero; `None` where one of them has no value there.
     pub fn at_zero(
         &mut self,
@@ -145,6 +171,8 @@ impl Graph {
                 Node::Sign(a) => self.sign(of(a)),
                 Node::Sin(a) => self.sin(of(a)),
                 Node::Cos(a) => self.cos(of(a)),
+                Node::Atan2(y, x) => self.atan2(of(y), of(x)),
+                Node::Select(on, a, b) => self.select(of(on), of(a), of(b)),
             });
         }
         Some(outputs.iter().map(|e| values[e.node()].signed(e.is_negative())).collect())
@@ -163,7 +191,9 @@ mod tests {
         let (s, c, r, root) = (g.sin(sum), g.cos(x), g.recip(y), g.sqrt(sum));
         let product = g.mul(s, c);
         let quotient = g.mul(root, r);
-        let f = g.sub(product, quotient);
+        let rest = g.sub(product, quotient);
+        let angle = g.atan2(rest, -s);
+        let f = g.select(s, angle, rest);
         let d = g.derivative(&[f, -f], &Symbol::Joint(0));
         assert_eq!(d[0], -d[1]);
         let at = |g: &Graph, e, x: f64| {
@@ -188,7 +218,9 @@ mod tests {
         let inside = g.add(square, y);
         let root = g.sqrt(inside);
         let inverse = g.recip(root);
-        let low = g.mul(c, inverse);
+        let angle = g.atan2(root, -product);
+        let chosen = g.select(c, angle, inverse);
+        let low = g.mul(c, chosen);
         let f = g.sub(low, product);
         let value = |s: &Symbol| symbols.iter().position(|t| t == s).unwrap() as f64 + 0.3;
         for output in [f, -f, x, Expr::ONE] {

@@ -27,6 +27,10 @@ impl Graph {
                 Node::Sign(a) => of(a).signum(),
                 Node::Sin(a) => of(a).sin(),
                 Node::Cos(a) => of(a).cos(),
+                // The sum has no negative zero, whose angle would be −π.
+                Node::Atan2(y, x) => (of(y) + T::zero()).atan2(of(x)),
+                Node::Select(on, a, _) if of(on) > T::zero() => of(a),
+                Node::Select(_, _, b) => of(b),
             };
             values.push(x);
         }
@@ -51,9 +55,11 @@ mod tests {
         let half = g.number(Number::ratio(1, 2));
         let sum = g.sub(half, x);
         let (s, c) = (g.sin(x), g.cos(x));
-        let outputs = [sum, g.mul(-s, c), g.recip(x), g.sqrt(x)];
+        let (angle, larger) = (g.atan2(-half, -x), g.select(sum, sum, -x));
+        let outputs = [sum, g.mul(-s, c), g.recip(x), g.sqrt(x), angle, larger];
         let values = g.evaluate(&outputs, |_| 2.0);
-        let expected = [-1.5, -(2f64.sin() * 2f64.cos()), 0.5, 2f64.sqrt()];
+        let angle = 0.25f64.atan() - core::f64::consts::PI;
+        let expected = [-1.5, -(2f64.sin() * 2f64.cos()), 0.5, 2f64.sqrt(), angle, -2.0];
         assert_eq!(values, expected);
     }
 }

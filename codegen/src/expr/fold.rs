@@ -102,6 +102,40 @@ impl Graph {
         }
     }
 
+    /// The angle of the direction (x, y). A direction and its opposite are one node and half a turn.
+    pub fn atan2(&mut self, y: Expr, x: Expr) -> Expr {
+        if let (Some(up), Some(along)) = (self.number_of(y), self.number_of(x)) {
+            let angle = libm::atan2(up.to_f64(), along.to_f64());
+            return self.number(Number::rounded(angle));
+        }
+        let angle = self.intern(Node::Atan2(y.abs(), x.abs()));
+        let folded = match x.is_negative() {
+            false => angle,
+            true => {
+                let half = self.number(Number::rounded(core::f64::consts::PI));
+                // At y = 0 the angle of the opposite direction is π or 0, never −π.
+                let half = self.select(-y.abs(), -half, half);
+                self.sub(half, angle)
+            }
+        };
+        folded.signed(y.is_negative())
+    }
+
+    /// `a` where `on` is above zero, else `b`.
+    pub fn select(&mut self, on: Expr, a: Expr, b: Expr) -> Expr {
+        match self.number_of(on) {
+            _ if a == b => a,
+            Some(n) if n.is_zero() || n.is_negative() => b,
+            Some(_) => a,
+            None => self.intern(Node::Select(on, a, b)),
+        }
+    }
+
+    /// The larger of zero and `a`.
+    pub fn positive_part(&mut self, a: Expr) -> Expr {
+        self.select(a, a, Expr::ZERO)
+    }
+
     /// The canonical order of two operands: constants first, then the older node.
     fn ordered(&self, a: Expr, b: Expr) -> (Expr, Expr) {
         let key = |e: Expr| (!matches!(self.node(e), Node::Number(_)), e.node());
@@ -213,6 +247,29 @@ mod tests {
         assert_eq!(g.recip(-a), -inverse);
         let root = g.sqrt(a);
         assert_eq!(g.mul(root, root), a);
+    }
+
+    #[test]
+    fn opposite_directions_share_an_angle() {
+        let (mut g, a, b) = two();
+        let angle = g.atan2(a, b);
+        assert_eq!(g.atan2(-a, b), -angle);
+        let opposite = g.atan2(-a, -b);
+        let angles = g.nodes().iter().filter(|node| matches!(node, Node::Atan2(..))).count();
+        assert_eq!(angles, 1);
+        for (y, x) in [(0.3, 0.4), (-0.3, 0.4), (0.3, -0.4), (-0.3, -0.4)] {
+            let value = |s: &Symbol| if *s == Symbol::Joint(0) { y } else { x };
+            let difference: f64 = g.evaluate(&[opposite], value)[0] - f64::atan2(-y, -x);
+            assert!(difference.abs() < 1e-15, "{difference}");
+        }
+    }
+
+    #[test]
+    fn what_is_known_is_not_chosen() {
+        let (mut g, a, b) = two();
+        let half = g.number(Number::ratio(1, 2));
+        assert_eq!((g.select(half, a, b), g.select(-half, a, b)), (a, b));
+        assert_eq!((g.select(Expr::ZERO, a, b), g.select(a, b, b)), (b, b));
     }
 
     #[test]

@@ -146,19 +146,24 @@ pub enum Node {
     Sin(Expr),
     /// `cos a`, `a` unsigned.
     Cos(Expr),
+    /// The angle of the direction (x, y), −π to π, 0 where both are zero; y first, both unsigned.
+    Atan2(Expr, Expr),
+    /// The second where the first is above zero, else the third.
+    Select(Expr, Expr, Expr),
 }
 
 impl Node {
     /// The operands, if any.
     pub fn operands(self) -> impl DoubleEndedIterator<Item = Expr> {
-        let (a, b) = match self {
-            Node::Number(_) | Node::Symbol(_) => (None, None),
+        let all = match self {
+            Node::Number(_) | Node::Symbol(_) => [None; 3],
             Node::Recip(a) | Node::Sqrt(a) | Node::Sign(a) | Node::Sin(a) | Node::Cos(a) => {
-                (Some(a), None)
+                [Some(a), None, None]
             }
-            Node::Add(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
+            Node::Add(a, b) | Node::Mul(a, b) | Node::Atan2(a, b) => [Some(a), Some(b), None],
+            Node::Select(a, b, c) => [a, b, c].map(Some),
         };
-        a.into_iter().chain(b)
+        all.into_iter().flatten()
     }
 }
 

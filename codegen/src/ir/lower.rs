@@ -50,19 +50,21 @@ impl Lowering<'_> {
     }
 
     fn written_out(&self, node: usize, minus: bool) -> Term {
-        let of = |operation, a| {
-            let term = Term::Of(operation, Box::new(self.term(a)));
+        let of = |operation, numbers: &[Expr]| {
+            let term = Term::Of(operation, numbers.iter().map(|e| self.term(*e)).collect());
             if minus { negative(term) } else { term }
         };
         match self.graph.nodes()[node] {
             Node::Number(n) => Term::Number(if minus { -n } else { n }),
             Node::Add(a, b) => self.sum(a, b, minus),
             Node::Mul(a, b) => self.product(a, b, minus),
-            Node::Recip(a) => of(Operation::Reciprocal, a),
-            Node::Sqrt(a) => of(Operation::Root, a),
-            Node::Sign(a) => of(Operation::Sign, a),
-            Node::Sin(a) => of(Operation::Sine, a),
-            Node::Cos(a) => of(Operation::Cosine, a),
+            Node::Recip(a) => of(Operation::Reciprocal, &[a]),
+            Node::Sqrt(a) => of(Operation::Root, &[a]),
+            Node::Sign(a) => of(Operation::Sign, &[a]),
+            Node::Sin(a) => of(Operation::Sine, &[a]),
+            Node::Cos(a) => of(Operation::Cosine, &[a]),
+            Node::Atan2(y, x) => of(Operation::Atan2, &[y, x]),
+            Node::Select(on, a, b) => of(Operation::Select, &[on, a, b]),
             // Symbols always have names.
             Node::Symbol(_) => Term::local(format!("node{node}")),
         }

@@ -6,7 +6,7 @@ use super::constants::Constants;
 use super::function::Function;
 use super::posture::{Plain, Posture};
 use super::readings::Readings;
-use crate::derive::{Program, derive_at, derive_each};
+use crate::derive::{Program, derive_at, derive_each, inverse};
 use crate::robot::Robot;
 
 /// The functions of a robot and what they share.
@@ -35,7 +35,9 @@ impl<'r> Module<'r> {
     pub fn new(robot: &'r Robot, own: &[&Program], fused: bool) -> Self {
         let outputs = robot.generated();
         let programs = derive_each(robot, &sets(&outputs)).into_iter();
-        let programs = programs.chain(own.iter().map(|program| (*program).clone())).collect();
+        let inverse = robot.inverse_kinematics.map(|form| inverse(robot, form));
+        let own = own.iter().map(|program| (*program).clone());
+        let programs = programs.chain(inverse).chain(own).collect();
         let tool: (_, _, Vec<Program>) = (None, outputs, programs);
         let places = robot.places().into_iter().map(|(place, outputs)| {
             let at = |output: &Output| derive_at(robot, place, *output);

@@ -23,10 +23,10 @@ pub(crate) enum Term {
     Product(Box<[Term; 2]>),
     /// `a·b + c`, rounded once.
     Fused(Box<[Term; 3]>),
-    Of(Operation, Box<Term>),
+    Of(Operation, Box<[Term]>),
 }
 
-/// What is done to one number.
+/// What is done to one number, or to as many as it says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operation {
     Reciprocal,
@@ -34,14 +34,18 @@ pub(crate) enum Operation {
     Sign,
     Sine,
     Cosine,
+    /// The angle of the direction (x, y) of y and x.
+    Atan2,
+    /// The second of three where the first is above zero, else the third.
+    Select,
 }
 
 /// How a language spells the pieces of an expression.
 pub(crate) trait Style {
     /// A constant.
     fn number(&self, n: Number) -> String;
-    /// An operation on `a`, which is bare.
-    fn of(&self, operation: Operation, a: &str) -> String;
+    /// An operation on numbers, which are bare.
+    fn of(&self, operation: Operation, numbers: &[String]) -> String;
     /// A local.
     fn local(&self, name: &str) -> String {
         name.to_string()
@@ -96,7 +100,8 @@ impl Term {
     /// The expressions that it is made of.
     pub fn operands(&self) -> &[Term] {
         match self {
-            Term::Negative(a) | Term::Of(_, a) => core::slice::from_ref(a),
+            Term::Negative(a) => core::slice::from_ref(a),
+            Term::Of(_, all) => all,
             Term::Sum(both) | Term::Difference(both) | Term::Product(both) => &both[..],
             Term::Fused(all) => &all[..],
             _ => &[],
@@ -143,7 +148,10 @@ impl Term {
                 let [a, b, c] = all.each_ref().map(|term| term.print(style));
                 style.fused(&a, &b, &c)
             }
-            Term::Of(operation, a) => style.of(*operation, &a.print(style)),
+            Term::Of(operation, all) => {
+                let numbers: Vec<String> = all.iter().map(|term| term.print(style)).collect();
+                style.of(*operation, &numbers)
+            }
         }
     }
 

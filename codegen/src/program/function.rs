@@ -52,7 +52,8 @@ impl Function {
         let (inputs, results) = (written.inputs.into_inner(), written.results.into_inner());
         let graph = written.sheet.graph.into_inner();
         let mut mistakes = written.sheet.mistakes.into_inner();
-        let own = Own { name: name.to_owned(), sentence: sentence.to_owned(), inputs };
+        let own =
+            Own { name: name.to_owned(), sentence: sentence.to_owned(), inputs, finite: false };
         names(&own, results.iter().map(|(quantity, _)| quantity), &mut mistakes);
         let blocks = results.into_iter();
         let blocks = blocks.map(|(quantity, entries)| Block { held: Held::Own(quantity), entries });

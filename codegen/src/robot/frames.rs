@@ -7,6 +7,9 @@ use super::names::no_module;
 use super::problem::{Place, Problem, Report};
 use super::suggest::advice;
 
+/// The name of the closed form's function, in generated code and among outputs.
+pub(crate) const INVERSE_KINEMATICS: &str = "inverse_kinematics";
+
 /// An output that is asked for: `jacobian`, or `jacobian at elbow`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asked {
@@ -14,6 +17,28 @@ pub struct Asked {
     pub output: Output,
     /// The frame or marker at which it is asked for; `None` is the tool.
     pub at: Option<String>,
+}
+
+/// Something that is generated of an arm where it is asked for by its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// An output.
+    Output(Asked),
+    /// The closed form of the inverse kinematics.
+    InverseKinematics,
+}
+
+impl Wanted {
+    /// Reads `inverse_kinematics`, or what [`Asked::read`] does.
+    ///
+    /// # Errors
+    /// As from [`Asked::read`].
+    pub fn read(text: &str) -> Result<Wanted, Refused> {
+        match text.trim() {
+            INVERSE_KINEMATICS => Ok(Wanted::InverseKinematics),
+            output => Asked::read(output).map(Wanted::Output),
+        }
+    }
 }
 
 /// Why something that is asked for cannot be had.
@@ -35,7 +60,8 @@ impl Asked {
     /// # Errors
     /// [`Refused`]: another word than an output's name, `at`, or one name behind it.
     pub fn read(text: &str) -> Result<Asked, Refused> {
-        let names = Output::EACH.map(Output::name);
+        let names: Vec<&str> =
+            Output::EACH.iter().map(|output| output.name()).chain([INVERSE_KINEMATICS]).collect();
         let (word, at) = match text.split_whitespace().collect::<Vec<_>>()[..] {
             [word] => (word, None),
             [word, "at", place] => (word, Some(place.to_owned())),
@@ -49,6 +75,25 @@ impl Asked {
 }
 
 impl Robot {
+    /// Has generated what is wanted.
+    ///
+    /// # Errors
+    /// [`Refused`] as from [`Robot::ask`] and [`Robot::closed_form`].
+    pub fn want(&mut self, wanted: &Wanted) -> Result<(), Refused> {
+        match wanted {
+            Wanted::Output(asked) => self.ask(asked),
+            Wanted::InverseKinematics => {
+                self.inverse_kinematics = Some(self.closed_form()?);
+                Ok(())
+            }
+        }
+    }
+
+    /// Has nothing generated but what is asked for from now on.
+    pub fn want_nothing(&mut self) {
+        (self.outputs, self.at, self.inverse_kinematics) = (Vec::new(), Vec::new(), None);
+    }
+
     /// Adds an output to those that are generated. Where none is asked for at the tool, the tool has every one.
     ///
     /// # Errors
@@ -115,7 +160,8 @@ impl Robot {
         let at = places.flat_map(|(place, outputs)| {
             outputs.into_iter().map(move |output| format!("{} at {place}", output.name()))
         });
-        tool.chain(at).collect()
+        let inverse = self.inverse_kinematics.map(|_| INVERSE_KINEMATICS.to_owned());
+        tool.chain(inverse).chain(at).collect()
     }
 
     /// The places at which outputs are generated, each with its outputs, in the order of frames and markers.
@@ -132,9 +178,9 @@ impl Robot {
 }
 
 /// Has generated of a robot what is asked for.
-pub(crate) fn ask<L: Place>(robot: &mut Robot, asked: &[(Asked, L)], report: &mut Report<L>) {
-    for (asked, at) in asked {
-        if let Err(no) = robot.ask(asked) {
+pub(crate) fn ask<L: Place>(robot: &mut Robot, wanted: &[(Wanted, L)], report: &mut Report<L>) {
+    for (wanted, at) in wanted {
+        if let Err(no) = robot.want(wanted) {
             report.error(Problem::new(at.clone(), no.message).help(no.help));
         }
     }

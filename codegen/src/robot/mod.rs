@@ -5,6 +5,7 @@
 
 pub(crate) mod angle;
 pub mod beyond;
+mod closed_form;
 pub(crate) mod decimal;
 mod diagnostic;
 mod dimension;
@@ -29,9 +30,11 @@ pub use crate::frontends::tokens::{
 #[cfg(feature = "urdf")]
 pub use crate::frontends::urdf;
 pub use crate::schema::Symbol;
+pub use closed_form::{ClosedForm, Family, Position};
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub use frames::{Asked, Refused};
+pub(crate) use frames::INVERSE_KINEMATICS;
+pub use frames::{Asked, Refused, Wanted};
 pub use model::{
     Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
     Output, Payload, Quantity, Robot, Section, Spot, Value,

@@ -6,6 +6,7 @@ use num_rational::Ratio;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use super::beyond::Beyond;
+use super::closed_form::ClosedForm;
 use crate::number::Number;
 
 /// A serial arm as its Denavit-Hartenberg table describes it.
@@ -41,6 +42,8 @@ pub struct Robot {
     pub outputs: Vec<Output>,
     /// The outputs that are generated of named frames and markers.
     pub at: Vec<At>,
+    /// The closed form of its inverse kinematics, where that is generated.
+    pub inverse_kinematics: Option<ClosedForm>,
 }
 
 /// One row of the table, with what hangs on it.
@@ -302,6 +305,7 @@ impl Default for Robot {
             payloads: Vec::new(),
             outputs: Vec::new(),
             at: Vec::new(),
+            inverse_kinematics: None,
         }
     }
 }

@@ -9,7 +9,7 @@ use super::fields::{BEAM, FRAME, JOINT, MARKER, PAYLOAD, ROBOT, ROWS};
 use super::node::{Node, Table};
 use super::section;
 use crate::number::Number;
-use crate::robot::frames::{Asked, ask};
+use crate::robot::frames::{Wanted, ask};
 use crate::robot::lexeme::{Kind, show};
 use crate::robot::problem::{Place, Problem, Report};
 use crate::robot::suggest::{advice, closest};
@@ -82,7 +82,7 @@ pub(crate) fn carry<L: Place>(
 }
 
 /// Names of outputs, one or more, each with the frame at which it is asked for.
-pub(crate) fn outputs<L: Place>(node: &Node<L>, reader: &mut Reader<'_, L>) -> Vec<(Asked, L)> {
+pub(crate) fn outputs<L: Place>(node: &Node<L>, reader: &mut Reader<'_, L>) -> Vec<(Wanted, L)> {
     let Some(names) = node.list() else {
         reader.expected(node, "an array of outputs");
         return Vec::new();
@@ -91,7 +91,7 @@ pub(crate) fn outputs<L: Place>(node: &Node<L>, reader: &mut Reader<'_, L>) -> V
         let help = "leave `outputs` out for all of them";
         reader.refuse(&node.at, "an array of no outputs", help);
     }
-    let mut asked = |name: &Node<L>| match Asked::read(&reader.word(name)?) {
+    let mut asked = |name: &Node<L>| match Wanted::read(&reader.word(name)?) {
         Ok(asked) => Some((asked, name.at.clone())),
         Err(no) => {
             reader.refuse(&name.at, no.message, no.help);

@@ -42,6 +42,7 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
         payloads: Vec::new(),
         outputs: Vec::new(),
         at: Vec::new(),
+        inverse_kinematics: None,
     }
 }
 

@@ -22,6 +22,12 @@ macro_rules! scalar {
             fn sign(self) -> Self {
                 Scalar::sign(self.re()).into()
             }
+            fn select(self, positive: Self, otherwise: Self) -> Self {
+                if self.re() > 0.0 { positive } else { otherwise }
+            }
+            fn atan2(self, x: Self) -> Self {
+                DualNum::atan2(&self, x)
+            }
             fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
                 crate::scalar::each(angles, |angle| angle.sin_cos())
             }

@@ -61,6 +61,12 @@ impl<T: SimdRealField + Copy> Scalar for Field<T> {
         let below = one.select(self.0.simd_lt(zero), zero);
         Field(above - below)
     }
+    fn select(self, positive: Self, otherwise: Self) -> Self {
+        Field(positive.0.select(self.0.simd_gt(T::zero()), otherwise.0))
+    }
+    fn atan2(self, x: Self) -> Self {
+        Field(self.0.simd_atan2(x.0))
+    }
     fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
         crate::scalar::each(angles, |Field(angle)| {
             let (sine, cosine) = angle.simd_sin_cos();

@@ -7,6 +7,7 @@ use wide::{f32x4, f64x2, u32x4, u32x8, u64x2, u64x4, u64x8};
 pub use wide::{f32x8, f64x4, f64x8};
 
 use crate::Scalar;
+use crate::arctan::{DOUBLE, SINGLE, atan2};
 use crate::sin_cos::Masked;
 
 #[cfg(not(feature = "libm"))]
@@ -66,7 +67,7 @@ masked_lanes!(f32x4, f32, u32x4, u32);
 masked_lanes!(f32x8, f32, u32x8, u32);
 
 macro_rules! scalar_lanes {
-    ($lanes:ty, $float:ty, $all:path) => {
+    ($lanes:ty, $float:ty, $all:path, $arctan:path) => {
         /// Each lane is a number of its own; sines and cosines are those of the scalar, lane by lane
         /// (always the crate's own polynomial, with the feature `libm` too).
         impl Scalar for $lanes {
@@ -87,6 +88,14 @@ macro_rules! scalar_lanes {
                 let one = |mask: Self| mask & <$lanes>::ONE;
                 one(self.simd_gt(<$lanes>::ZERO)) - one(self.simd_lt(<$lanes>::ZERO))
             }
+            #[inline(always)]
+            fn select(self, positive: Self, otherwise: Self) -> Self {
+                self.simd_gt(<$lanes>::ZERO).select(positive, otherwise)
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                atan2(self, x, $arctan)
+            }
             #[cfg(feature = "fma")]
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
@@ -104,9 +113,9 @@ macro_rules! scalar_lanes {
     };
 }
 
-scalar_lanes!(f64x4, f64, poses::f64x4);
-scalar_lanes!(f64x8, f64, poses::f64x8);
-scalar_lanes!(f32x8, f32, poses::f32x8);
+scalar_lanes!(f64x4, f64, poses::f64x4, DOUBLE);
+scalar_lanes!(f64x8, f64, poses::f64x8, DOUBLE);
+scalar_lanes!(f32x8, f32, poses::f32x8, SINGLE);
 
 #[cfg(test)]
 mod tests {

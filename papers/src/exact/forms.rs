@@ -65,7 +65,10 @@ impl<V: Clone> Reading<V> {
             Node::Mul(a, b) => to.mul(of(a)?, of(b)?),
             Node::Recip(a) => to.div(to.number(Ratio::from(1))?, of(a)?),
             Node::Sqrt(a) => to.sqrt(of(a)?),
-            Node::Sign(_) => Err("the sign of a quantity has no exact form".into()),
+            Node::Sign(_) | Node::Select(..) => {
+                Err("a choice by the sign of a quantity has no exact form".into())
+            }
+            Node::Atan2(..) => Err("the angle of a direction has no exact form".into()),
             Node::Sin(a) => trig(Function::Sin, a),
             Node::Cos(a) => trig(Function::Cos, a),
         }

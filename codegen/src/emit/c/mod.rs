@@ -4,6 +4,7 @@
 //! polynomial for sines and cosines. Compiled without fused products and without fast-math it gives the
 //! same bits.
 
+mod arctangent;
 pub(super) mod comment;
 mod function;
 pub(super) mod header;
@@ -126,7 +127,8 @@ impl<'a> Module<'a> {
                 parameters: symbols.into_iter().map(|s| s.name).collect(),
             });
         }
-        let language = C { precision: options.precision, device };
+        let math = device || options.sines == Sines::Math;
+        let language = C { precision: options.precision, device, math };
         Ok(Module { ir: ir::Module::new(robot, own, false), options, language })
     }
 

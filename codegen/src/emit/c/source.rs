@@ -2,6 +2,7 @@
 
 use super::super::hash::Table;
 use super::super::legend::legend;
+use super::arctangent::direction;
 use super::comment::plain;
 use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
@@ -41,6 +42,9 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     sparsity(module, &mut out);
     if body.contains("sin_cos(") {
         out.verbatim(&sin_cos(module.options.sines, module.options.precision));
+    }
+    if body.contains("direction(") {
+        out.verbatim(&direction(module.options.precision));
     }
     systems(module, &body, &mut out);
     out.verbatim(&body);

@@ -10,6 +10,8 @@ pub(in crate::emit) struct C {
     pub precision: Precision,
     /// Whether functions are a GPU's, which takes sines and cosines itself.
     pub device: bool,
+    /// Whether angles of directions are `math.h`'s.
+    pub math: bool,
 }
 
 impl C {
@@ -60,7 +62,8 @@ impl Style for C {
             (Precision::F64, _) => text,
         }
     }
-    fn of(&self, operation: Operation, a: &str) -> String {
+    fn of(&self, operation: Operation, numbers: &[String]) -> String {
+        let a = &numbers[0];
         let (suffix, zero) = (self.suffix(), self.zero());
         match operation {
             Operation::Reciprocal => format!("(1.0{suffix} / ({a}))"),
@@ -71,6 +74,13 @@ impl Style for C {
             }
             Operation::Sine => format!("sin{suffix}({a})"),
             Operation::Cosine => format!("cos{suffix}({a})"),
+            Operation::Atan2 if self.math => {
+                format!("atan2{suffix}(({a}) + {zero}, {})", numbers[1])
+            }
+            Operation::Atan2 => format!("direction({a}, {})", numbers[1]),
+            Operation::Select => {
+                format!("((({a}) > {zero}) ? ({}) : ({}))", numbers[1], numbers[2])
+            }
         }
     }
 }
@@ -81,8 +91,11 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_value() {
-        let [double, single] =
-            [Precision::F64, Precision::F32].map(|precision| C { precision, device: false });
+        let [double, single] = [Precision::F64, Precision::F32].map(|precision| C {
+            precision,
+            device: false,
+            math: false,
+        });
         let third = Number::ratio(1, 3);
         assert_eq!(double.number(third), "(1.0 / 3.0)");
         assert_eq!(single.number(third), "((float)(1.0 / 3.0))");

@@ -14,7 +14,7 @@ use crate::ir::Angle;
 pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     match (sines, precision) {
         (Sines::Math, precision) => {
-            let language = C { precision, device: false };
+            let language = C { precision, device: false, math: true };
             MATH.replace("REAL", language.real()).replace("OF", language.suffix())
         }
         // Where the caller gives the posture, functions of one's own still take sines of their inputs.

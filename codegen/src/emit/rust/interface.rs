@@ -6,9 +6,10 @@ use super::function::parameter;
 use super::posture::INLINE;
 use super::shapes::{flat, ty};
 use super::table::numeric;
-use crate::derive::Held;
+use crate::derive::{BRANCHES, Held};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
+use crate::robot::INVERSE_KINEMATICS;
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -27,6 +28,9 @@ pub(super) fn interface(
         numeric(&mut out, robot, (generic, target));
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
+    if place.is_none() && robot.inverse_kinematics.is_some() {
+        inverse(&mut out, target, module);
+    }
     out.finish()
 }
 
@@ -194,6 +198,31 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     method(out, &head, &format!("{name}::given({constants}posture{arguments})"));
     out.dedent();
     out.code("}");
+}
+
+/// The inverse kinematics by the trait's name; an arm that has one has neither sides nor warming.
+fn inverse(out: &mut Lines, target: &str, module: &Module) {
+    let symbolic = module.is_symbolic();
+    out.blank();
+    out.code(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"));
+    out.indent();
+    out.code(&format!(
+        "fn {INVERSE_KINEMATICS}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
+    ));
+    out.indent();
+    let constants = if symbolic { "&self.constants, " } else { "" };
+    out.code("let columns = pose.columns();");
+    out.code(
+        "let [target] = columns.as_flattened().as_chunks().0 else { ::core::unreachable!() };",
+    );
+    out.code(&format!(
+        "let {INVERSE_KINEMATICS}::InverseKinematics {{ q, distance, tilt }} = {INVERSE_KINEMATICS}({constants}near, target);"
+    ));
+    out.code("Solutions { q, distance, tilt }");
+    for _ in 0..2 {
+        out.dedent();
+        out.code("}");
+    }
 }
 
 fn method(out: &mut Lines, signature: &str, body: &str) {

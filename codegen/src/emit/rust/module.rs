@@ -121,7 +121,11 @@ impl Function<'_> {
         out.doc(&given.replacen(&joints, &readings(&self.module.readings), 1));
         out.doc("");
         let angles: Vec<String> = self.of.angles.iter().map(|a| format!("θ{}", a.suffix)).collect();
-        let division = if ops.div > 0 { format!(", {} divisions", ops.div) } else { String::new() };
+        let counted = |count: u32, what: &str| match count {
+            0 => String::new(),
+            count => format!(", {count} {what}"),
+        };
+        let division = counted(ops.div, "divisions") + &counted(ops.atan2, "arctangents");
         let mut trigonometry = match angles.is_empty() {
             true => "no sines or cosines".to_string(),
             false => format!("sines and cosines of {}", angles.join(", ")),
@@ -149,7 +153,7 @@ impl Function<'_> {
             out.doc("");
             out.doc(ALL_ZERO);
         }
-        if self.of.own().is_some() && ops.div > 0 {
+        if self.of.own().is_some_and(|own| !own.finite) && ops.div > 0 {
             out.doc("");
             out.doc("Where a divisor, or what a root is taken of, is zero, what depends on it is not finite.");
         }

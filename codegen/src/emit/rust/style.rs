@@ -26,13 +26,16 @@ impl Style for Rust {
     fn constant(&self, name: &str) -> String {
         format!("{}.{name}", self.constants)
     }
-    fn of(&self, operation: Operation, a: &str) -> String {
+    fn of(&self, operation: Operation, numbers: &[String]) -> String {
+        let a = &numbers[0];
         match operation {
             Operation::Reciprocal => format!("({a}).recip()"),
             Operation::Root => format!("({a}).sqrt()"),
             Operation::Sign => format!("({a}).sign()"),
             Operation::Sine => format!("S::sin_cos_all([{a}]).0[0]"),
             Operation::Cosine => format!("S::sin_cos_all([{a}]).1[0]"),
+            Operation::Atan2 => format!("({a}).atan2({})", numbers[1]),
+            Operation::Select => format!("({a}).select({}, {})", numbers[1], numbers[2]),
         }
     }
     fn fused(&self, a: &str, b: &str, c: &str) -> String {

@@ -32,18 +32,21 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
     let used = |name: &'static str, used: bool| used.then_some(name);
     let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
     let numeric = robot.symbols().is_empty();
+    let inverse = robot.inverse_kinematics.is_some();
     let imports = [
         Some("Arm"),
         used("Convention", numeric),
         Some("DhRow"),
         Some("Error"),
+        used("Inverse", inverse),
         Some("Kernels"),
         Some("Motion"),
         used("Numeric", numeric),
         Some("Output"),
-        used("Pose", poses),
+        used("Pose", poses || inverse),
         used("Row", numeric),
         Some("Scalar"),
+        used("Solutions", inverse),
         used("Unstable", outputs.iter().any(|o| o.is_fallible())),
         Some("fill"),
         Some("has"),

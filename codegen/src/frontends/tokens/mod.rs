@@ -48,7 +48,7 @@ use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Ident, LitStr, Path, Token, Visibility};
 
 use crate::robot::Robot;
-use crate::robot::frames::{Asked, ask};
+use crate::robot::frames::{Wanted, ask};
 use crate::robot::problem::{Problem, Report};
 use crate::schema::{self, Language, Reader, carry};
 pub use outline::Outline;
@@ -88,7 +88,7 @@ pub struct File {
     /// The link of a URDF at which it ends.
     pub tip: Option<LitStr>,
     /// What is to be generated, instead of what the file says itself; that if there are none.
-    outputs: Vec<(Asked, Spot)>,
+    outputs: Vec<(Wanted, Spot)>,
     /// The payload that hangs on the tool, beside what the file says itself.
     carries: Option<(String, Spot)>,
 }
@@ -106,7 +106,7 @@ impl File {
     pub fn ask(&self, robot: &mut Robot) -> Result<(), Vec<SpannedError>> {
         let mut report = Report::new();
         if !self.outputs.is_empty() {
-            (robot.outputs, robot.at) = (Vec::new(), Vec::new());
+            robot.want_nothing();
             ask(robot, &self.outputs, &mut report);
         }
         carry(robot, self.carries.as_ref(), &mut report);

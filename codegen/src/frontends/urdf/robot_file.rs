@@ -26,6 +26,7 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         payloads: Vec::new(),
         outputs: Vec::new(),
         at: Vec::new(),
+        inverse_kinematics: None,
     }
 }
 

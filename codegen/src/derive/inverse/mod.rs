@@ -1,0 +1,121 @@
+//! The inverse kinematics in closed form: every branch, by subproblems of one angle each (Paden and Kahan; Elias and
+//! Wen), folded with the table's exact zeros.
+//!
+//! The arm is `T = Z_1 L_1 Z_2 … L_5 Z_6` between the base and the last axis: `Z_i` turns by θ_i about z and moves by d_i
+//! along it, `L_i` moves by a_i along x and turns by α_i about it, in both conventions. Each angle is a unit vector
+//! (cos θ, sin θ) until it is returned, so that nothing but the returned angles needs an arctangent.
+//!
+//! Each later angle is worked out from the values that the earlier ones have, roundings and all: an angle that the pose
+//! barely determines is wrong alone, and the pose that the angles give is not.
+
+mod layout;
+mod parallel;
+mod position;
+mod subproblem;
+mod wrist;
+
+use layout::Layout;
+use subproblem::Pair;
+
+use super::own::{Held, Own, OwnInput, Quantity, Size};
+use super::program::{Block, Program};
+use super::readings::Readings;
+use crate::expr::Expr;
+use crate::robot::{ClosedForm, Family, INVERSE_KINEMATICS, Robot};
+
+/// Solutions of six revolute joints: of shoulder, elbow and wrist two each.
+pub(crate) const BRANCHES: usize = 8;
+
+/// The angles of one branch, and how far its pose is from what was asked: m, and the sine of an angle.
+#[derive(Clone, Copy)]
+struct Branch {
+    angles: [Pair; 6],
+    distance: Expr,
+    tilt: Expr,
+}
+
+/// The branches of the inverse kinematics, in an order that is stable along a path: shoulder, elbow, wrist as the bits of
+/// their number, from the highest. `form` is the arm's [closed form](Robot::closed_form).
+pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
+    let mut arm = Layout::new(robot, form.reversed);
+    let branches = match form.family {
+        Family::SphericalWrist(position) => {
+            let positions = position::positions(&mut arm, position);
+            positions.into_iter().flat_map(|at| wrist::wrists(&mut arm, at)).collect()
+        }
+        Family::ThreeParallel => parallel::branches(&mut arm),
+    };
+    let mut q = Vec::with_capacity(6 * BRANCHES);
+    for branch in &branches {
+        q.extend(arm.joint_values(branch.angles));
+    }
+    let quantity = |name: &str, unit: &str, sentence: String, size| Quantity {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        sentence,
+        size,
+    };
+    let each = Size::Vector(BRANCHES);
+    let distances = branches.iter().map(|branch| branch.distance).collect();
+    let tilts = branches.iter().map(|branch| branch.tilt).collect();
+    let results = [
+        (
+            quantity(
+                "q",
+                "rad",
+                "Joint values, a column for each branch: shoulder, elbow and wrist are the bits of its number, from the \
+                 highest"
+                    .to_owned(),
+                Size::Matrix { rows: 6, columns: BRANCHES },
+            ),
+            q,
+        ),
+        (
+            quantity(
+                "distance",
+                "m",
+                "How far the tool's origin is from the target's: zero but for rounding where the branch reaches it"
+                    .to_owned(),
+                each,
+            ),
+            distances,
+        ),
+        (
+            quantity(
+                "tilt",
+                "1",
+                "How far the last axis is from the target's, as the length between unit vectors: zero but for rounding \
+                 where the branch reaches it"
+                    .to_owned(),
+                each,
+            ),
+            tilts,
+        ),
+    ];
+    let blocks = results
+        .into_iter()
+        .map(|(quantity, entries): (_, Vec<Expr>)| Block { held: Held::Own(quantity), entries });
+    Program {
+        graph: arm.g,
+        blocks: blocks.collect(),
+        solves: Vec::new(),
+        cut: 0,
+        dof: robot.dof(),
+        readings: Readings::of(robot),
+        own: Some(Own {
+            name: INVERSE_KINEMATICS.to_owned(),
+            sentence: format!(
+                "Every branch of the inverse kinematics: {}. Where the target leaves a joint free, it stays at `q`; where \
+                 a branch does not reach the target, it is stretched or folded towards it",
+                form.sentence()
+            ),
+            inputs: vec![OwnInput {
+                name: "target".to_owned(),
+                unit: "m (axes: 1)".to_owned(),
+                sentence: "pose of the tool, base axes: its axes x, y, z, its origin".to_owned(),
+                size: Some(12),
+            }],
+            finite: true,
+        }),
+    }
+}

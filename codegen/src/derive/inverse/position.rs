@@ -1,0 +1,230 @@
+//! The first three angles of an arm with a spherical wrist: those that bring the wrist's point where it is to be.
+//!
+//! With `c` the point behind axis 3 and `r` the point from frame 0 moved by d_1,
+//! `r = Rz(θ_1) (a_1 x + Rx(α_1) g)`, `g = Rz(θ_2) f + d_2 z`, `f = a_2 x + Rx(α_2) (Rz(θ_3) c + d_3 z)`.
+//! Which equation has one unknown angle is for the special pair of axes to say (Pieper 1968).
+
+use super::layout::{Layout, about_x, about_x_back, about_z_back};
+use super::subproblem::{Free, Pair, angle_between, square, turned, two_angles};
+use crate::expr::{Expr, Graph, Vec3};
+use crate::number::Number;
+use crate::robot::Position;
+
+/// Three angles, and how far the wrist's point is from where it is to be, m.
+#[derive(Clone, Copy)]
+pub(super) struct At {
+    pub angles: [Pair; 3],
+    pub distance: Expr,
+}
+
+/// What does not depend on the angles.
+struct Point {
+    /// Where the wrist's point is to be.
+    r: Vec3,
+    /// The point in the frame that joint 3 turns; its third component less what d_3 moves.
+    c: Pair,
+    /// Component of the point along axis 3, d_3 included.
+    uz: Expr,
+}
+
+/// Shoulder and elbow as the bits of the number, from the higher.
+pub(super) fn positions(arm: &mut Layout, position: Position) -> [At; 4] {
+    let wrist = arm.before_last();
+    let g = &mut arm.g;
+    let r = [wrist[0], wrist[1], g.sub(wrist[2], arm.d[0])];
+    let [cosine, sine] = arm.alpha[2];
+    let (y, z) = (g.mul(-sine, arm.d[3]), g.mul(cosine, arm.d[3]));
+    let point = Point { r, c: [arm.a[2], y], uz: g.add(z, arm.d[2]) };
+    let triples = match position {
+        Position::SecondParallelThird => second_parallel_third(arm, &point),
+        Position::FirstParallelSecond => first_parallel_second(arm, &point),
+        Position::FirstMeetsSecond => first_meets_second(arm, &point),
+        Position::SecondMeetsThird => second_meets_third(arm, &point),
+    };
+    triples.map(|angles| At { angles, distance: distance(arm, &point, angles) })
+}
+
+/// `a cos θ_3 + b sin θ_3 + constant`.
+struct Linear {
+    by: Pair,
+    constant: Expr,
+}
+
+impl Point {
+    /// `f` at an angle of joint 3.
+    fn f(&self, arm: &mut Layout, third: Pair) -> Vec3 {
+        let g = &mut arm.g;
+        let [x, y] = turned(g, third, self.c);
+        let [x, y, z] = about_x(g, arm.alpha[1], [x, y, self.uz]);
+        [g.add(arm.a[1], x), y, z]
+    }
+
+    /// Its third component, which no other angle changes.
+    fn fz(&self, arm: &mut Layout) -> Linear {
+        let (g, [cosine, sine], [x, y]) = (&mut arm.g, arm.alpha[1], self.c);
+        Linear { by: [g.mul(sine, y), g.mul(sine, x)], constant: g.mul(cosine, self.uz) }
+    }
+
+    /// Its square.
+    fn square(&self, arm: &mut Layout) -> Linear {
+        let g = &mut arm.g;
+        let twice = g.add(arm.a[1], arm.a[1]);
+        let by = [g.mul(twice, self.c[0]), -g.mul(twice, self.c[1])];
+        let (in_plane, own) = (square(g, self.c), square(g, [self.uz, arm.a[1]]));
+        Linear { by, constant: g.add(in_plane, own) }
+    }
+}
+
+fn solved(g: &mut Graph, linear: &Linear, value: Expr) -> [Pair; 2] {
+    let right = g.sub(value, linear.constant);
+    two_angles(g, linear.by, right, None)
+}
+
+fn free(arm: &Layout, joint: usize) -> Option<Free> {
+    Some(Free { near: arm.near[joint], tiny: arm.tiny })
+}
+
+/// `g` is known across axis 2 from `r` along axis 1, and with it θ_1; then the plane's two links.
+fn second_parallel_third(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
+    let [rx, ry, rz] = point.r;
+    let along = point.fz(arm).constant;
+    let [cosine, sine] = arm.alpha[0];
+    let gz = arm.g.add(along, arm.d[1]);
+    let part = arm.g.mul(cosine, gz);
+    let rest = arm.g.sub(rz, part);
+    let inverse = arm.g.recip(sine);
+    let gy = arm.g.mul(rest, inverse);
+    let [across, _] = turned(&mut arm.g, arm.alpha[0], [gy, gz]);
+    let free_first = free(arm, 0);
+    let firsts = two_angles(&mut arm.g, [ry, -rx], across, free_first);
+    let mut out = [[[Expr::ZERO; 2]; 3]; 4];
+    for (shoulder, first) in firsts.into_iter().enumerate() {
+        let [x, _, _] = about_z_back(&mut arm.g, first, point.r);
+        let gx = arm.g.sub(x, arm.a[0]);
+        let reach = square(&mut arm.g, [gx, gy]);
+        let mut linear = point.square(arm);
+        let axial = arm.g.mul(point.uz, point.uz);
+        linear.constant = arm.g.sub(linear.constant, axial);
+        for (elbow, third) in solved(&mut arm.g, &linear, reach).into_iter().enumerate() {
+            let [fx, fy, _] = point.f(arm, third);
+            let free_second = free(arm, 1);
+            let second = angle_between(&mut arm.g, [fx, fy], [gx, gy], free_second);
+            out[2 * shoulder + elbow] = [first, second, third];
+        }
+    }
+    out
+}
+
+/// `|r|²` depends on θ_3 alone, then `r` along axis 1 on θ_2.
+fn first_meets_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
+    let [rx, ry, rz] = point.r;
+    let (squares, along) = (point.square(arm), point.fz(arm));
+    let g = &mut arm.g;
+    let twice = g.add(arm.d[1], arm.d[1]);
+    let mut both = |a: Expr, b: Expr| {
+        let part = g.mul(twice, b);
+        g.add(a, part)
+    };
+    let by = [both(squares.by[0], along.by[0]), both(squares.by[1], along.by[1])];
+    let constant = both(squares.constant, along.constant);
+    let own = g.mul(arm.d[1], arm.d[1]);
+    let linear = Linear { by, constant: g.add(constant, own) };
+    let (across, axial) = (square(g, [rx, ry]), g.mul(rz, rz));
+    let reach = g.add(across, axial);
+    let mut out = [[[Expr::ZERO; 2]; 3]; 4];
+    for (elbow, third) in solved(&mut arm.g, &linear, reach).into_iter().enumerate() {
+        let [fx, fy, fz] = point.f(arm, third);
+        let (free_first, free_second) = (free(arm, 0), free(arm, 1));
+        let (g, [cosine, sine]) = (&mut arm.g, arm.alpha[0]);
+        let gz = g.add(fz, arm.d[1]);
+        let part = g.mul(cosine, gz);
+        let rest = g.sub(rz, part);
+        let inverse = g.recip(sine);
+        let gy = g.mul(rest, inverse);
+        for (shoulder, second) in two_angles(g, [fy, fx], gy, free_second).into_iter().enumerate() {
+            let [gx, gy] = turned(g, second, [fx, fy]);
+            let [_, y, _] = about_x(g, arm.alpha[0], [gx, gy, gz]);
+            let first = angle_between(g, [gx, y], [rx, ry], free_first);
+            out[2 * shoulder + elbow] = [first, second, third];
+        }
+    }
+    out
+}
+
+/// `r` along axis 1 depends on θ_3 alone, then its distance from the axis on θ_2.
+fn first_parallel_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
+    let [rx, ry, rz] = point.r;
+    let along = point.fz(arm);
+    let side = arm.alpha[0][0];
+    let height = arm.g.mul(side, rz);
+    let height = arm.g.sub(height, arm.d[1]);
+    let mut out = [[[Expr::ZERO; 2]; 3]; 4];
+    for (elbow, third) in solved(&mut arm.g, &along, height).into_iter().enumerate() {
+        let [fx, fy, _] = point.f(arm, third);
+        let (free_first, free_second) = (free(arm, 0), free(arm, 1));
+        let (g, a) = (&mut arm.g, arm.a[0]);
+        let (across, own, inner) = (square(g, [rx, ry]), g.mul(a, a), square(g, [fx, fy]));
+        let rest = g.sub(across, own);
+        let rest = g.sub(rest, inner);
+        let twice = g.add(a, a);
+        let inverse = g.recip(twice);
+        let gx = g.mul(rest, inverse);
+        for (shoulder, second) in two_angles(g, [fx, -fy], gx, free_second).into_iter().enumerate()
+        {
+            let [gx, gy] = turned(g, second, [fx, fy]);
+            let (x, y) = (g.add(a, gx), g.mul(side, gy));
+            let first = angle_between(g, [x, y], [rx, ry], free_first);
+            out[2 * shoulder + elbow] = [first, second, third];
+        }
+    }
+    out
+}
+
+/// The distance from where 2 and 3 meet depends on θ_1 alone, then `g` along axis 2 on θ_3.
+fn second_meets_third(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
+    let [rx, ry, rz] = point.r;
+    let (inner, along) = (point.square(arm).constant, point.fz(arm));
+    let free_first = Free { near: arm.near[0], tiny: arm.g.mul(arm.tiny, arm.size) };
+    let (g, a, d, [cosine, sine]) = (&mut arm.g, arm.a[0], arm.d[1], arm.alpha[0]);
+    // |r|² + a_1² + d_2² − 2 a_1 m_x − 2 d_2 g_z = |f|², where m = Rz(−θ_1) r and g_z = cos α_1 r_z − sin α_1 m_y: half of
+    // what is left is −a_1 m_x + d_2 sin α_1 m_y.
+    let side = g.mul(d, sine);
+    let by = turned(g, [-a, -side], [rx, ry]);
+    let (across, axial, own) = (square(g, [rx, ry]), g.mul(rz, rz), square(g, [a, d]));
+    let around = g.add(across, axial);
+    let all = g.add(around, own);
+    let rest = g.sub(inner, all);
+    let half = g.number(Number::ratio(1, 2));
+    let rest = g.mul(half, rest);
+    let lift = g.mul(d, cosine);
+    let lift = g.mul(lift, rz);
+    let right = g.add(rest, lift);
+    let mut out = [[[Expr::ZERO; 2]; 3]; 4];
+    for (shoulder, first) in two_angles(g, by, right, Some(free_first)).into_iter().enumerate() {
+        let free_second = free(arm, 1);
+        let [x, y, z] = about_z_back(&mut arm.g, first, point.r);
+        let x = arm.g.sub(x, arm.a[0]);
+        let [gx, gy, gz] = about_x_back(&mut arm.g, arm.alpha[0], [x, y, z]);
+        let height = arm.g.sub(gz, arm.d[1]);
+        for (elbow, third) in solved(&mut arm.g, &along, height).into_iter().enumerate() {
+            let [fx, fy, _] = point.f(arm, third);
+            let second = angle_between(&mut arm.g, [fx, fy], [gx, gy], free_second);
+            out[2 * shoulder + elbow] = [first, second, third];
+        }
+    }
+    out
+}
+
+/// How far the wrist's point is from where it is to be.
+fn distance(arm: &mut Layout, point: &Point, [first, second, third]: [Pair; 3]) -> Expr {
+    let [fx, fy, fz] = point.f(arm, third);
+    let g = &mut arm.g;
+    let [gx, gy] = turned(g, second, [fx, fy]);
+    let gz = g.add(fz, arm.d[1]);
+    let [x, y, z] = about_x(g, arm.alpha[0], [gx, gy, gz]);
+    let reached = [g.add(arm.a[0], x), y, z];
+    let asked = about_z_back(g, first, point.r);
+    let off: Vec3 = core::array::from_fn(|k| g.sub(asked[k], reached[k]));
+    let square = g.dot3(off, off);
+    g.sqrt(square)
+}

@@ -1,0 +1,131 @@
+//! What the closed form of an inverse kinematics returns, and which of its branches a controller takes.
+
+use core::f64::consts::TAU;
+
+use crate::{Arm, Pose, Scalar};
+
+/// An arm of N joints whose inverse kinematics has been generated, in K branches.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has not been generated with its inverse kinematics, or not for these joints and branches",
+    note = "ask for it by its name, among the `outputs` of its table, its robot file or on the command line"
+)]
+pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: Arm<N, S> {
+    /// Every branch at a pose of the tool, base axes. A joint that the pose leaves free stays where `near` has it.
+    fn inverse_kinematics(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
+}
+
+/// Every branch of an inverse kinematics, whether it reaches the pose or not, in an order that is stable along a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solutions<S, const N: usize, const K: usize> {
+    /// Joint values of each branch, rad, from −π to π. Of eight branches shoulder, elbow and wrist are the bits of the
+    /// number, from the highest.
+    pub q: [[S; N]; K],
+    /// How far the tool's origin is from the pose's, m: rounding where the branch reaches it.
+    pub distance: [S; K],
+    /// How far the last axis is from the pose's, as the length between unit vectors: rounding where the branch reaches it.
+    pub tilt: [S; K],
+}
+
+/// One branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<S, const N: usize> {
+    /// Its number.
+    pub branch: usize,
+    /// Its joint values, rad.
+    pub q: [S; N],
+    /// How far the tool's origin is from the pose's, m.
+    pub distance: S,
+    /// How far the last axis is from the pose's, as the length between unit vectors.
+    pub tilt: S,
+}
+
+impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutions<S, N, K> {
+    /// Every branch.
+    pub fn iter(&self) -> impl Iterator<Item = Solution<S, N>> + '_ {
+        (0..K).map(|branch| Solution {
+            branch,
+            q: self.q[branch],
+            distance: self.distance[branch],
+            tilt: self.tilt[branch],
+        })
+    }
+
+    /// The branches that miss the pose by no more than this: m, and rad.
+    pub fn reached(&self, distance: f64, tilt: f64) -> impl Iterator<Item = Solution<S, N>> + '_ {
+        self.iter().filter(move |s| s.distance.into() <= distance && s.tilt.into() <= tilt)
+    }
+
+    /// Of the branches that miss the pose by no more than this (m, rad) that with the least change of the joints from
+    /// `near`, by the sum of squares; each joint by whole turns as near as its limits allow. `None` where no branch is within
+    /// the limits.
+    pub fn nearest(
+        &self,
+        near: &[S; N],
+        limits: &[Option<[f64; 2]>; N],
+        (distance, tilt): (f64, f64),
+    ) -> Option<Solution<S, N>> {
+        let mut best: Option<(f64, Solution<S, N>)> = None;
+        for mut solution in self.reached(distance, tilt) {
+            let mut change = 0.0;
+            let mut within = true;
+            for ((q, near), limits) in solution.q.iter_mut().zip(near).zip(limits) {
+                let (at, near): (f64, f64) = ((*q).into(), (*near).into());
+                match unwound(at, near, *limits) {
+                    Some(turned) => {
+                        *q = S::lit(turned);
+                        change += (turned - near) * (turned - near);
+                    }
+                    None => within = false,
+                }
+            }
+            if within && best.is_none_or(|(least, _)| change < least) {
+                best = Some((change, solution));
+            }
+        }
+        best.map(|(_, solution)| solution)
+    }
+}
+
+/// The angle that is so by whole turns, within the limits, nearest to another.
+fn unwound(q: f64, near: f64, limits: Option<[f64; 2]>) -> Option<f64> {
+    let turns = libm::rint((near - q) / TAU);
+    let Some([low, high]) = limits else { return Some(q + turns * TAU) };
+    let (least, most) = (libm::ceil((low - q) / TAU), libm::floor((high - q) / TAU));
+    (least <= most).then(|| q + turns.max(least).min(most) * TAU)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOLUTIONS: Solutions<f64, 2, 3> = Solutions {
+        q: [[0.1, 3.0], [-3.1, 0.2], [0.0, 0.0]],
+        distance: [0.0, 1e-12, 0.3],
+        tilt: [0.0, 0.0, 0.0],
+    };
+
+    #[test]
+    fn the_nearest_is_within_the_limits_by_whole_turns() {
+        let nearest = |near, limits| SOLUTIONS.nearest(&near, &limits, (1e-9, 1e-9));
+        let branch = |near| nearest(near, [None; 2]).map(|s| (s.branch, s.q));
+        assert_eq!(branch([0.0, 2.9]), Some((0, [0.1, 3.0])));
+        // Across the half turn.
+        assert_eq!(branch([3.1, 0.2]), Some((1, [-3.1 + TAU, 0.2])));
+        assert_eq!(branch([0.1, 3.0 - 4.0 * TAU]), Some((0, [0.1, 3.0 - 4.0 * TAU])));
+        let limits = [Some([-4.0, 3.0]), Some([-1.0, 1.0])];
+        assert_eq!(nearest([3.1, 0.2], limits).map(|s| s.q), Some([-3.1, 0.2]));
+        assert_eq!(nearest([0.0; 2], [Some([1.0, 2.0]), None]), None);
+    }
+
+    #[test]
+    fn what_is_not_reached_is_left_out() {
+        let branches = |distance| SOLUTIONS.reached(distance, 0.0).map(|s| s.branch);
+        assert!(branches(1e-9).eq([0, 1]) && branches(0.0).eq([0]) && branches(1.0).eq([0, 1, 2]));
+    }
+
+    #[test]
+    fn no_number_is_no_solution() {
+        let unreal = Solutions { distance: [f64::NAN; 3], ..SOLUTIONS };
+        assert_eq!(unreal.nearest(&[0.0; 2], &[None; 2], (1.0, 1.0)), None);
+    }
+}

@@ -1,0 +1,111 @@
+//! The inverse kinematics through the macro: its branches against the arm's own forward kinematics, in both precisions and
+//! in lanes, and what a controller takes of them.
+
+use stiffarm::kernels::{Arm, Inverse, Pose, Scalar, Solutions, has};
+use stiffarm::robot;
+use stiffarm_draws::Draws;
+
+robot! { mod kr240 from "robots/arms/kuka_kr240.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod irb120 from "robots/arms/irb120.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod puma560 from "robots/arms/puma560.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod ur10 from "robots/arms/ur10.toml"; outputs: pose, inverse_kinematics; }
+
+robot! {
+    /// Link lengths that are known when the program runs.
+    mod symbolic;
+    convention: standard_dh;
+    outputs: pose, inverse_kinematics;
+    joint | theta | d  | a  | alpha
+    a1    | q     | d1 | a1 | pi/2
+    a2    | q     | 0  | a2 | 0
+    a3    | q     | 0  | a3 | pi/2
+    a4    | q     | d4 | 0  | -pi/2
+    a5    | q     | 0  | 0  | pi/2
+    a6    | q     | d6 | 0  | 0
+}
+
+/// An arm with its forward and its inverse kinematics.
+trait Both<S: Scalar>: Inverse<6, 8, S> + has::Pose<6, S> {}
+impl<S: Scalar, A: Inverse<6, 8, S> + has::Pose<6, S>> Both<S> for A {}
+
+fn at<S: Scalar>(arm: &impl Both<S>, q: &[S; 6]) -> Pose<S> {
+    arm.pose(&arm.posture(q))
+}
+
+/// The largest difference of two poses.
+fn apart<S: Scalar + Into<f64>>(a: Pose<S>, b: Pose<S>) -> f64 {
+    let (a, b) = (a.columns(), b.columns());
+    let each = a.as_flattened().iter().zip(b.as_flattened());
+    each.map(|(a, b)| ((*a - *b).into()).abs()).fold(0.0, f64::max)
+}
+
+/// Every branch that is reached gives the pose, one of them is the posture that made it, and the nearest is that.
+fn check<S: Scalar + PartialOrd + Into<f64>>(arm: &impl Both<S>, draws: &mut Draws, within: f64) {
+    for _ in 0..2000 {
+        let q = draws.array::<6>(-3.1, 3.1).map(S::lit);
+        let pose = at(arm, &q);
+        let solutions = arm.inverse_kinematics(&pose, &q);
+        assert!(solutions.q.as_flattened().iter().all(|q| (*q).into().is_finite()));
+        for solution in solutions.reached(within, within) {
+            let off = apart(at(arm, &solution.q), pose);
+            assert!(off < 10.0 * within, "{off:e}");
+        }
+        let nearest = solutions.nearest(&q, &[None; 6], (within, within)).expect("the posture");
+        let change = nearest.q.iter().zip(&q).map(|(a, b)| ((*a - *b).into()).abs());
+        // Near a double root a posture is known to the square root of the pose's rounding.
+        let change = change.fold(0.0, f64::max);
+        assert!(change < 3.0 * within.sqrt(), "{change:e}");
+    }
+}
+
+#[test]
+fn branches_of_doubles_give_the_pose() {
+    let mut draws = Draws::new(1);
+    check::<f64>(&kr240::Robot, &mut draws, 1e-11);
+    check::<f64>(&irb120::Robot, &mut draws, 1e-11);
+    check::<f64>(&puma560::Robot, &mut draws, 1e-11);
+    check::<f64>(&ur10::Robot, &mut draws, 1e-11);
+    let parameters =
+        symbolic::Parameters { d1: 0.4, a1: 0.1, a2: 0.5, a3: -0.05, d4: 0.45, d6: 0.1 };
+    check::<f64>(&symbolic::Robot::new(&parameters), &mut draws, 1e-11);
+}
+
+#[test]
+fn branches_of_singles_give_the_pose() {
+    let mut draws = Draws::new(2);
+    check::<f32>(&kr240::Robot, &mut draws, 2e-4);
+    check::<f32>(&irb120::Robot, &mut draws, 2e-4);
+    check::<f32>(&puma560::Robot, &mut draws, 2e-4);
+    check::<f32>(&ur10::Robot, &mut draws, 2e-4);
+}
+
+/// A path on which the wrist passes its singularity: the branch stays, and no joint jumps.
+#[test]
+fn a_path_through_a_singularity_is_continuous() {
+    let limits = <kr240::Robot as Arm<6>>::LIMITS;
+    let mut near = [0.3, 1.0, -0.4, 0.2, 0.6, -0.5];
+    for k in 0..=1200 {
+        let wrist = 0.6 - 0.001 * f64::from(k);
+        let pose = at(&kr240::Robot, &[0.3, 1.0, -0.4, 0.2, wrist, -0.5]);
+        let solutions: Solutions<f64, 6, 8> = kr240::Robot.inverse_kinematics(&pose, &near);
+        let next = solutions.nearest(&near, &limits, (1e-9, 1e-9)).expect("a branch").q;
+        let step = next.iter().zip(&near).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(step < 0.002, "{k}: {step}");
+        near = next;
+    }
+}
+
+/// What is out of reach is told, and the branch is stretched towards it.
+#[test]
+fn out_of_reach_is_told() {
+    let q = [0.3, 1.0, -0.4, 0.2, 0.6, -0.5];
+    let mut pose: Pose<f64> = at(&kr240::Robot, &q);
+    pose.position = pose.position.map(|x| 5.0 * x);
+    let solutions = kr240::Robot.inverse_kinematics(&pose, &q);
+    assert_eq!(solutions.nearest(&q, &[None; 6], (1e-9, 1e-9)), None);
+    for solution in solutions.iter() {
+        let reached = at(&kr240::Robot, &solution.q);
+        let off = pose.position.iter().zip(&reached.position).map(|(a, b)| (a - b) * (a - b));
+        assert!((off.sum::<f64>().sqrt() - solution.distance).abs() < 1e-12);
+    }
+}
