@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Optional
 from xml.sax.saxutils import quoteattr
@@ -10,6 +11,9 @@ import numpy
 
 from ..arm import Arm
 from ..commands import import_urdf
+
+#: Gravity of a URDF, m/s².
+_STANDARD = 9.80665
 
 #: Anything beyond is no limit.
 _UNLIMITED = 1e10
@@ -47,11 +51,28 @@ def _rpy(rotation: Any) -> tuple[float, float, float]:
     return float(numpy.arctan2(rotation[2, 1], rotation[2, 2])), float(pitch), float(numpy.arctan2(rotation[1, 0], rotation[0, 0]))
 
 
-def _urdf(name: str, steps: list[Step]) -> str:
+def _levelled(down: Any) -> Any:
+    """The shortest turn that lets `down`, a unit vector, point along -z."""
+    x, y, z = down
+    if z > 0.0:
+        # Upside down first: the shortest turn from +z to -z is none.
+        return _levelled((x, -y, -z)) @ numpy.diag([1.0, -1.0, -1.0])
+    cross = numpy.array([[0.0, 0.0, x], [0.0, 0.0, y], [-x, -y, 0.0]])
+    return numpy.eye(3) + cross + cross @ cross / (1.0 - z)
+
+
+def _urdf(name: str, steps: list[Step], down: Any) -> str:
+    """Below a root in which gravity points along -z, as in every URDF."""
+
     def words(values: Any) -> str:
         return '"' + " ".join(repr(float(value)) for value in values) + '"'
 
-    lines = [f"<robot name={quoteattr(name)}>", '  <link name="base"/>']
+    lines = [
+        f"<robot name={quoteattr(name)}>",
+        '  <link name="world"/><link name="base"/>',
+        f'  <joint name="world to base" type="fixed"><origin rpy={words(_rpy(_levelled(down)))}/>'
+        '<parent link="world"/><child link="base"/></joint>',
+    ]
     parent = "base"
     for k, step in enumerate(steps):
         child = f"link_{k + 1}"
@@ -83,28 +104,18 @@ def limited(low: float, high: float) -> Optional[tuple[float, float]]:
 
 def arm_of(name: str, steps: list[Step], gravity: Any, beside: Sequence[dict[str, float]] = ()) -> Arm:
     """The arm of a chain, where the model has it, under its gravity (world axes, m/s²), with what stands `beside` its joints."""
-    arm = import_urdf(_urdf(name, steps))
-    # A table may have its base turned about the first link's z, and moved along it.
-    at_zero = numpy.eye(4)
-    for step in steps:
-        at_zero = at_zero @ step.placed
-    base = at_zero @ numpy.linalg.inv(arm.pose(numpy.zeros(arm.dof)))
-    down = base[:3, :3].T @ numpy.asarray(gravity, float)
+    size = float(numpy.linalg.norm(gravity))
+    down = numpy.asarray(gravity, float) / size if size > 0.0 else numpy.array([0.0, 0.0, -1.0])
+    arm = import_urdf(_urdf(name, steps, down), base="base")
     lines, row = [], -1
     for line in arm.toml.splitlines():
         if line.startswith("gravity ="):
-            continue
+            line = f"gravity = {[size / _STANDARD * x for x in json.loads(line.split('=', 1)[1])]}"
         lines.append(line)
-        if line.startswith("convention ="):
-            lines.append(f"gravity = {down.tolist()}")
         if line.strip() == "[[joint]]":
             row += 1
             lines += [f"{key} = {value!r}" for key, value in (beside[row] if row < len(beside) else {}).items() if value]
-    # What a dozen products of matrices round is no place.
-    if numpy.abs(base - numpy.eye(4)).max() > 1e-13:
-        at, turned = base[:3, 3].tolist(), rotation_vector(base[:3, :3])
-        lines += ["", "[base]", f"translation = {at}", f"rotation = {turned}"]
-    return Arm.from_toml("\n".join(line for line in lines if not line.startswith("# the base frame")) + "\n", f"<{name}>")
+    return Arm.from_toml("\n".join(lines) + "\n", f"<{name}>")
 
 
 def rotation_vector(rotation: Any) -> list[float]:
