@@ -1,5 +1,5 @@
-//! The inverse kinematics through the macro: its branches against the arm's own forward kinematics, in both precisions and
-//! in lanes, and what a controller takes of them.
+//! The inverse kinematics through the macro: its branches against the arm's own forward kinematics, in both precisions,
+//! and what a controller takes of them.
 
 use stiffarm::kernels::{Arm, Inverse, Pose, Scalar, Solutions, has};
 use stiffarm::robot;
@@ -58,13 +58,18 @@ fn check<S: Scalar + PartialOrd + Into<f64>>(arm: &impl Both<S>, draws: &mut Dra
     }
 }
 
+/// The arms of the collection.
+fn check_all<S: Scalar + PartialOrd + Into<f64>>(draws: &mut Draws, within: f64) {
+    check::<S>(&kr240::Robot, draws, within);
+    check::<S>(&irb120::Robot, draws, within);
+    check::<S>(&puma560::Robot, draws, within);
+    check::<S>(&ur10::Robot, draws, within);
+}
+
 #[test]
 fn branches_of_doubles_give_the_pose() {
     let mut draws = Draws::new(1);
-    check::<f64>(&kr240::Robot, &mut draws, 1e-11);
-    check::<f64>(&irb120::Robot, &mut draws, 1e-11);
-    check::<f64>(&puma560::Robot, &mut draws, 1e-11);
-    check::<f64>(&ur10::Robot, &mut draws, 1e-11);
+    check_all::<f64>(&mut draws, 1e-11);
     let parameters =
         symbolic::Parameters { d1: 0.4, a1: 0.1, a2: 0.5, a3: -0.05, d4: 0.45, d6: 0.1 };
     check::<f64>(&symbolic::Robot::new(&parameters), &mut draws, 1e-11);
@@ -72,11 +77,7 @@ fn branches_of_doubles_give_the_pose() {
 
 #[test]
 fn branches_of_singles_give_the_pose() {
-    let mut draws = Draws::new(2);
-    check::<f32>(&kr240::Robot, &mut draws, 2e-4);
-    check::<f32>(&irb120::Robot, &mut draws, 2e-4);
-    check::<f32>(&puma560::Robot, &mut draws, 2e-4);
-    check::<f32>(&ur10::Robot, &mut draws, 2e-4);
+    check_all::<f32>(&mut Draws::new(2), 2e-4);
 }
 
 /// A path on which the wrist passes its singularity: the branch stays, and no joint jumps.

@@ -42,6 +42,13 @@ impl Graph {
         })
     }
 
+    /// `R(θ) v` in the plane of the turn, of the sine and the cosine of θ.
+    pub fn turn2(&mut self, (sine, cosine): (Expr, Expr), [x, y]: [Expr; 2]) -> [Expr; 2] {
+        let products = [(cosine, x), (sine, y), (sine, x), (cosine, y)];
+        let [cx, sy, sx, cy] = products.map(|(a, b)| self.mul(a, b));
+        [self.sub(cx, sy), self.add(sx, cy)]
+    }
+
     /// Names the three components of a vector `prefix` + x, y, z.
     pub fn name3(&mut self, v: Vec3, prefix: &str) {
         for (component, axis) in v.into_iter().zip(["x", "y", "z"]) {

@@ -134,18 +134,15 @@ pub fn random((name, rows): (&str, [&str; 6]), draws: &mut Draws) -> Arm {
     let modified = draws.chance(0.5);
     let mut texts: Vec<[String; 4]> = Vec::new();
     for row in rows {
+        let signed = |draws: &mut Draws, low, high| {
+            format!("{:.4}", draws.between(low, high) * if draws.chance(0.5) { 1.0 } else { -1.0 })
+        };
         let mut cell = |kind: char| match kind {
             '0' => "0".to_owned(),
-            'a' => format!(
-                "{:.4}",
-                draws.between(0.1, 0.9) * if draws.chance(0.5) { 1.0 } else { -1.0 }
-            ),
+            'a' => signed(draws, 0.1, 0.9),
             'r' => (if draws.chance(0.5) { "\"pi/2\"" } else { "\"-pi/2\"" }).to_owned(),
             'p' => (if draws.chance(0.5) { "\"pi\"" } else { "0" }).to_owned(),
-            _ => format!(
-                "{:.4}",
-                draws.between(0.5, 2.6) * if draws.chance(0.5) { 1.0 } else { -1.0 }
-            ),
+            _ => signed(draws, 0.5, 2.6),
         };
         let cells: Vec<String> = row.chars().map(&mut cell).collect();
         let [a, alpha, d] = cells.try_into().expect("three cells");

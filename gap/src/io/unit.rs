@@ -156,6 +156,14 @@ impl Unit {
 }
 
 impl Dimension {
+    /// Whether a quantity of this kind loads an arm or warms it.
+    pub fn acts(self) -> bool {
+        matches!(
+            self,
+            Dimension::Mass | Dimension::Force | Dimension::Moment | Dimension::Temperature
+        )
+    }
+
     fn all(self) -> impl Iterator<Item = Unit> {
         UNITS.into_iter().filter(move |unit| unit.dimension == self)
     }

@@ -126,7 +126,7 @@ impl Columns {
 }
 
 impl Column {
-    fn new(table: &Table<'_>, index: usize) -> Column {
+    pub(super) fn new(table: &Table<'_>, index: usize) -> Column {
         let header = table.names[index].clone();
         let plain = |text: &str| Unit::spelled(text).map_or(text, |unit| unit.name).to_owned();
         let within = names::split(&header).1.map(plain);

@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::clock::Clock;
-use super::columns::dimension;
+use super::columns::{Column, dimension};
 use super::counted;
 use super::names::{self, Meaning};
 use super::sheet::{Row, Seen, Table, is_none};
-use crate::io::{Column, Fault, Mistake, Mistakes, ReadError, Unit};
+use crate::io::{Fault, Mistake, Mistakes, ReadError, Unit};
 
 /// Which rows belong together.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,10 +56,17 @@ pub(super) struct Beside {
 #[derive(Clone, Debug)]
 enum Key {
     Row,
-    /// The column of ours, and the times of the other's rows, s, increasing.
-    Time(usize, Vec<f64>),
+    /// The column of ours, as seconds, and the times of the other's rows, s, increasing.
+    Time(Column, Vec<f64>),
     /// The column of ours, and which row of the other's has which cell.
     Column(usize, HashMap<String, usize>),
+}
+
+/// What belongs to a row of ours.
+pub(super) enum Met {
+    Row(usize),
+    /// A part of the way from this row to the next.
+    Behind(usize, f64),
 }
 
 /// `ours` with the columns of `other` that it has not itself.
@@ -102,29 +109,31 @@ pub(super) fn join<'t>(
             taken.push(k);
         }
     }
+    let timed = keys.filter(|_| *by == By::Time);
+    let timed = timed.map(|(mine, theirs)| (timing(&ours, mine), timing(other, theirs)));
     let (mut rows, mut times, mut cells) = (Vec::new(), Vec::new(), HashMap::new());
     let read = other.each(|row| {
         if row.cells.iter().all(|cell| cell.is_empty()) {
             return;
         }
-        match (by, keys) {
-            (By::Time, Some((_, theirs))) => match seconds(other, row, theirs) {
+        match (keys, &timed) {
+            (Some((_, theirs)), Some((_, time))) => match seconds(other, row, time) {
                 Ok(time) if times.last().is_none_or(|last| *last <= time) => times.push(time),
                 Ok(_) => {
                     let fault =
                         Fault::new("a time before that of the row above", "a later one", "");
-                    mistakes.add(fault.at(row.line, Some(column(other, theirs))));
+                    mistakes.add(fault.at(row.line, Some(other.column(theirs))));
                 }
                 Err(mistake) => mistakes.add(mistake),
             },
-            (By::Column(_), Some((_, theirs))) => {
+            (Some((_, theirs)), None) => {
                 let key = other.text(row, theirs).into_owned();
                 if cells.insert(key.clone(), rows.len()).is_some() {
                     let fault = Fault::new(format!("`{key}` again"), "it in one row", "");
-                    mistakes.add(fault.at(row.line, Some(column(other, theirs))));
+                    mistakes.add(fault.at(row.line, Some(other.column(theirs))));
                 }
             }
-            _ => {}
+            (None, _) => {}
         }
         rows.push(taken.iter().map(|k| other.text(row, *k).into_owned()).collect());
     });
@@ -140,10 +149,10 @@ pub(super) fn join<'t>(
             name,
         }
     };
-    let key = match (by, keys) {
-        (By::Time, Some((mine, _))) => Key::Time(mine, times),
-        (By::Column(_), Some((mine, _))) => Key::Column(mine, cells),
-        _ => Key::Row,
+    let key = match (keys, timed) {
+        (_, Some((mine, _))) => Key::Time(mine, times),
+        (Some((mine, _)), None) => Key::Column(mine, cells),
+        (None, None) => Key::Row,
     };
     let join = Join { file: other.file, columns: taken.iter().map(beside).collect(), rows, key };
     said.extend(join.met(&ours)?);
@@ -158,19 +167,21 @@ fn at(table: &Table<'_>, name: &str, is: impl Fn(&String) -> bool) -> Result<usi
     })
 }
 
-fn column(table: &Table<'_>, index: usize) -> Column {
-    Column { number: index + 1, header: table.names[index].clone() }
+/// A column of times as seconds.
+fn timing(table: &Table<'_>, index: usize) -> Column {
+    let column = Column::new(table, index);
+    let unit = column.unit.as_deref().and_then(Unit::named);
+    Column { factor: unit.map_or(1.0, |unit| unit.factor), ..column }
 }
 
-/// The time of a row, s, by the unit of its column.
-fn seconds(table: &Table<'_>, row: &Row<'_>, index: usize) -> Result<f64, Mistake> {
-    if let Some(clock) = Clock::of(&table.text(row, index)) {
+/// The time of a row, s.
+fn seconds(table: &Table<'_>, row: &Row<'_>, time: &Column) -> Result<f64, Mistake> {
+    if let Some(clock) = Clock::of(&table.text(row, time.index)) {
         return Ok(clock.seconds);
     }
-    let unit = names::split(&table.names[index]).1.or(table.units.get(index).map(String::as_str));
-    let factor = unit.and_then(Unit::spelled).map_or(1.0, |unit| unit.factor);
-    let number = table.number(row, index)?.map(|number| factor * number);
-    number.ok_or_else(|| Fault::new("no time", "one", "").at(row.line, Some(column(table, index))))
+    let here = || table.column(time.index);
+    let none = || Fault::new("no time", "one", "").at(row.line, Some(here()));
+    time.number(table, row)?.ok_or_else(none)
 }
 
 impl Join<'_> {
@@ -181,7 +192,7 @@ impl Join<'_> {
             if row.cells.iter().all(|cell| cell.is_empty()) {
                 return;
             }
-            match self.beside(ours, rows, row) {
+            match self.meets(ours, rows, row) {
                 Ok(found) => met += usize::from(found.is_some()),
                 Err(mistake) => mistakes.add(mistake),
             }
@@ -209,42 +220,48 @@ impl Join<'_> {
         Ok(said)
     }
 
-    /// The cells that belong to a row of ours, the one so many from the first.
-    pub(super) fn beside(
+    /// What belongs to a row of ours, the one so many from the first.
+    pub(super) fn meets(
         &self,
         ours: &Table<'_>,
         number: usize,
         row: &Row<'_>,
-    ) -> Result<Option<Vec<Cow<'_, str>>>, Mistake> {
-        let whole = |k: usize| self.rows.get(k).map(|row| row.iter().map(Cow::from).collect());
-        match &self.key {
-            Key::Row => Ok(whole(number)),
-            Key::Column(mine, cells) => {
-                Ok(cells.get(&*ours.text(row, *mine)).and_then(|k| whole(*k)))
-            }
+    ) -> Result<Option<Met>, Mistake> {
+        Ok(match &self.key {
+            Key::Row => (number < self.rows.len()).then_some(Met::Row(number)),
+            Key::Column(mine, cells) => cells.get(&*ours.text(row, *mine)).map(|k| Met::Row(*k)),
             Key::Time(mine, times) => {
-                let time = seconds(ours, row, *mine)?;
+                let time = seconds(ours, row, mine)?;
                 let next = times.partition_point(|other| *other < time);
-                if times.get(next) == Some(&time) {
-                    return Ok(whole(next));
+                match (next.checked_sub(1), times.get(next)) {
+                    (_, Some(exact)) if *exact == time => Some(Met::Row(next)),
+                    (Some(before), Some(behind)) => {
+                        let part = (time - times[before]) / (behind - times[before]);
+                        Some(Met::Behind(before, part))
+                    }
+                    // What lies before the first or behind the last row is in none.
+                    _ => None,
                 }
-                // What lies before the first or behind the last row is in none.
-                let (Some(before), Some(behind)) = (next.checked_sub(1), times.get(next)) else {
-                    return Ok(None);
-                };
-                let part = (time - times[before]) / (behind - times[before]);
-                let near = &self.rows[if part < 0.5 { before } else { next }];
-                let each = self.columns.iter().zip(near).enumerate().map(|(k, (column, near))| {
-                    let value = |row: usize| {
-                        let cell = &self.rows[row][k];
-                        cell.parse::<f64>().ok().filter(|_| !is_none(cell))
-                    };
-                    let both = value(before).zip(value(next)).filter(|_| column.between);
-                    let between = both.map(|(a, b)| a + part * (b - a));
-                    between.map_or(Cow::Borrowed(&**near), |value| Cow::Owned(value.to_string()))
-                });
-                Ok(Some(each.collect()))
             }
-        }
+        })
+    }
+
+    /// The cells of it.
+    pub(super) fn cells(&self, met: &Met) -> Vec<Cow<'_, str>> {
+        let (before, part) = match met {
+            Met::Row(row) => return self.rows[*row].iter().map(Cow::from).collect(),
+            Met::Behind(before, part) => (*before, *part),
+        };
+        let near = &self.rows[if part < 0.5 { before } else { before + 1 }];
+        let each = self.columns.iter().zip(near).enumerate().map(|(k, (column, near))| {
+            let value = |row: usize| {
+                let cell = &self.rows[row][k];
+                cell.parse::<f64>().ok().filter(|_| !is_none(cell))
+            };
+            let both = value(before).zip(value(before + 1)).filter(|_| column.between);
+            let between = both.map(|(a, b)| a + part * (b - a));
+            between.map_or(Cow::Borrowed(&**near), |value| Cow::Owned(value.to_string()))
+        });
+        each.collect()
     }
 }

@@ -296,9 +296,9 @@ impl<'t> Table<'t> {
             if cells.iter().all(|cell| cell.is_empty()) {
                 continue;
             }
-            let beside = join.beside(self, rows, &Row { line, cells: &cells })?;
+            let met = join.meets(self, rows, &Row { line, cells: &cells })?;
             rows += 1;
-            let Some(beside) = beside else { continue };
+            let Some(beside) = met.map(|met| join.cells(&met)) else { continue };
             cells.resize(self.names.len() - beside.len(), "");
             cells.extend(beside.iter().map(AsRef::<str>::as_ref));
             take(&Row { line, cells: &cells });
@@ -326,6 +326,11 @@ impl<'t> Table<'t> {
         self.comma && column < self.names.len() - self.join.as_ref().map_or(0, |j| j.columns.len())
     }
 
+    /// A column as messages name it.
+    pub(super) fn column(&self, index: usize) -> Column {
+        Column { number: index + 1, header: self.names[index].clone() }
+    }
+
     /// The number of a cell; `None` of one that says that it holds none.
     ///
     /// # Errors
@@ -336,9 +341,8 @@ impl<'t> Table<'t> {
             return Ok(None);
         }
         let wrong = |found: &str, help: &str| {
-            let here = Column { number: column + 1, header: self.names[column].clone() };
             let found = format!("`{}`{found}", row.cells[column]);
-            Fault::new(found, "a number", help).at(row.line, Some(here))
+            Fault::new(found, "a number", help).at(row.line, Some(self.column(column)))
         };
         if self.has_comma(column) && matches!(&text, Cow::Borrowed(text) if text.contains('.')) {
             let help = match is_grouped(&text) {

@@ -11,9 +11,7 @@ use super::map::Map;
 use super::sheet::{Row, Table, is_none};
 use super::turn::Turn;
 use super::{Imported, counted, names};
-use crate::io::{
-    self, Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean,
-};
+use crate::io::{Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
 use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
@@ -27,15 +25,6 @@ const CENTURY: [f64; 2] = [36_526.0, 73_050.0];
 
 /// Nobody measures more often at rest, s.
 const FASTEST: f64 = 0.1;
-
-/// Quantities that may act on an arm.
-const ACTS: [Dimension; 5] = [
-    Dimension::Mass,
-    Dimension::Force,
-    Dimension::Moment,
-    Dimension::Temperature,
-    Dimension::Length,
-];
 
 /// What is written of a row in one column; of a row of several points, of the point with this number.
 type Cell<'a> = Box<dyn Fn(&Row<'_>, usize) -> Result<String, Mistake> + 'a>;
@@ -166,7 +155,8 @@ pub(super) fn write(
         let near = nearest_name(&bare, &names::ANY).filter(|_| !clash);
         let meant = did_you_mean(near.as_deref());
         let kept = format!("`{}` is kept as `{header}`: nothing", column.header);
-        said.push(match unit.filter(|unit| ACTS.contains(&unit.dimension)) {
+        let acts = |unit: &Unit| unit.dimension.acts() || unit.dimension == Dimension::Length;
+        said.push(match unit.filter(acts) {
             None => format!("{kept} is known of it{meant}"),
             Some(unit) => format!(
                 "{kept} uses it, and it is {}: if it acts on the arm, name it in a map, else `ignore` \
@@ -304,10 +294,8 @@ fn orientation<'a>(
                 return Ok(String::new());
             };
             let rotation = convention.rotation(&numbers).ok_or_else(|| {
-                let here =
-                    io::Column { number: columns[0].index + 1, header: columns[0].header.clone() };
                 let fault = Fault::new("numbers of no rotation", convention.formula(&[]), "");
-                fault.at(row.line, Some(here))
+                fault.at(row.line, Some(table.column(columns[0].index)))
             })?;
             Ok(written(Some(rotation[axis])))
         };
@@ -378,7 +366,7 @@ fn known(
     found: &str,
     kind: Dimension,
 ) -> Result<Unit, ReadError> {
-    let here = io::Column { number: column.index + 1, header: column.header.clone() };
+    let here = table.column(column.index);
     let unit = kind.unit(found, Unit::spelled);
     unit.map_err(|fault| fault.at(table.line, Some(here)).of(table.file))
 }
@@ -390,7 +378,7 @@ fn written(number: Option<f64>) -> String {
 
 impl Column {
     /// The number of a row in the column's unit; `None` of a cell that holds none.
-    fn number(&self, table: &Table<'_>, row: &Row<'_>) -> Result<Option<f64>, Mistake> {
+    pub(super) fn number(&self, table: &Table<'_>, row: &Row<'_>) -> Result<Option<f64>, Mistake> {
         let found = table.number(row, self.index)?;
         Ok(found.map(|number| self.factor * number + self.offset))
     }

@@ -1,7 +1,7 @@
 //! Where the error lies, what was co-estimated, what remains, what these data cannot show, what was not read.
 
 use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
-use stiffarm_gap::io::{Dimension, Unit};
+use stiffarm_gap::io::Unit;
 use stiffarm_gap::measurement::ExtraColumn;
 
 use super::Campaign;
@@ -173,9 +173,7 @@ impl Campaign<'_> {
         // What has the unit of a load or a temperature may act on the arm.
         let acts = |column: &ExtraColumn| {
             let unit = column.unit.as_deref().and_then(Unit::named)?;
-            let acts =
-                [Dimension::Mass, Dimension::Force, Dimension::Moment, Dimension::Temperature];
-            acts.contains(&unit.dimension).then(|| format!("{}, which may act", unit.dimension))
+            unit.dimension.acts().then(|| format!("{}, which may act", unit.dimension))
         };
         let unknown = unknown.map(|column| {
             let meant = column.suggestion.as_ref().map(|meant| format!("did you mean {meant}?"));

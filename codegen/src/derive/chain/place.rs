@@ -81,10 +81,9 @@ impl Place {
 
     /// A vector in the axes of this place, in the working frame.
     pub fn turned(&self, g: &mut Graph, v: Vec3) -> Vec3 {
-        let (s, c) = self.turn.sin_cos(g);
         let [x, y, z] = v;
-        let products = [(c, x), (s, y), (s, x), (c, y)].map(|(a, b)| g.mul(a, b));
-        let (x, y) = (g.sub(products[0], products[1]), g.add(products[2], products[3]));
+        let turn = self.turn.sin_cos(g);
+        let [x, y] = g.turn2(turn, [x, y]);
         let parts = [(x, 0), (y, 1), (z, 2)].map(|(part, k)| g.scale3(part, self.axes[k]));
         let sum = g.add3(parts[0], parts[1]);
         g.add3(sum, parts[2])

@@ -119,9 +119,9 @@ fn levers(chain: &mut Chain, run: &Run, tip: Vec3, twists: &mut [Option<Twist>])
 
 /// A vector in the axes behind a turn about x, in those before it.
 fn turned_x(g: &mut Graph, turn: &Turn, [x, y, z]: Vec3) -> Vec3 {
-    let (s, c) = turn.sin_cos(g);
-    let products = [(c, y), (s, z), (s, y), (c, z)].map(|(a, b)| g.mul(a, b));
-    [x, g.sub(products[0], products[1]), g.add(products[2], products[3])]
+    let turn = turn.sin_cos(g);
+    let [y, z] = g.turn2(turn, [y, z]);
+    [x, y, z]
 }
 
 /// A vector in the axes in which the run after `run` begins, in those in which `run` begins.

@@ -1,10 +1,10 @@
 //! The table as axes and what stands between them, from base to tip or from tip to base, and the target between the same.
 
 use super::subproblem::{Pair, turned, turned_back};
-use crate::derive::chain::frame_rotation;
+use crate::derive::chain::{expression, frame_rotation};
 use crate::expr::{Expr, Graph, Symbol, Turn, Vec3, negate3};
 use crate::number::Number;
-use crate::robot::{Angle, Convention, Frame, Robot, Value};
+use crate::robot::{Angle, Convention, Frame, Robot};
 
 /// The part of a unit vector, or of the arm's size, that counts as none: an angle that only so much determines stays where
 /// it was, and the pose is missed by at most twice that. It is 4096 units of rounding of a double, since the angles before
@@ -46,8 +46,11 @@ impl Layout {
         for symbol in robot.symbols() {
             g.symbol(Symbol::Parameter(symbol.name));
         }
-        let rows: Vec<[Expr; 2]> =
-            robot.joints.iter().map(|row| [&row.a, &row.d].map(|v| value(&mut g, v))).collect();
+        let rows: Vec<[Expr; 2]> = robot
+            .joints
+            .iter()
+            .map(|row| [&row.a, &row.d].map(|v| expression(&mut g, v)))
+            .collect();
         let twists: Vec<Pair> = robot.joints.iter().map(|row| pair(&mut g, &row.alpha)).collect();
         let first = usize::from(robot.convention == Convention::Modified);
         let mut a: [Expr; 5] = core::array::from_fn(|k| rows[first + k][0]);
@@ -114,13 +117,6 @@ impl Layout {
             values.reverse();
         }
         values
-    }
-}
-
-fn value(g: &mut Graph, value: &Value) -> Expr {
-    match value {
-        Value::Number(n) => g.number(*n),
-        Value::Symbol(name) => g.symbol(Symbol::Parameter(name.clone())),
     }
 }
 
@@ -196,5 +192,5 @@ impl Displacement {
 
 fn constant(g: &mut Graph, frame: &Frame) -> ([Vec3; 3], Vec3) {
     let axes = frame_rotation(frame).map(|column| column.map(|n| g.number(n)));
-    (axes, frame.translation.each_ref().map(|length| value(g, length)))
+    (axes, frame.translation.each_ref().map(|length| expression(g, length)))
 }

@@ -84,16 +84,21 @@ fn free(arm: &Layout, joint: usize) -> Option<Free> {
     Some(Free { near: arm.near[joint], tiny: arm.tiny })
 }
 
+/// `g_y` of `r_z = sin α_1 g_y + cos α_1 g_z`.
+fn across_second(arm: &mut Layout, rz: Expr, gz: Expr) -> Expr {
+    let (g, [cosine, sine]) = (&mut arm.g, arm.alpha[0]);
+    let part = g.mul(cosine, gz);
+    let rest = g.sub(rz, part);
+    let inverse = g.recip(sine);
+    g.mul(rest, inverse)
+}
+
 /// `g` is known across axis 2 from `r` along axis 1, and with it θ_1; then the plane's two links.
 fn second_parallel_third(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
     let [rx, ry, rz] = point.r;
     let along = point.fz(arm).constant;
-    let [cosine, sine] = arm.alpha[0];
     let gz = arm.g.add(along, arm.d[1]);
-    let part = arm.g.mul(cosine, gz);
-    let rest = arm.g.sub(rz, part);
-    let inverse = arm.g.recip(sine);
-    let gy = arm.g.mul(rest, inverse);
+    let gy = across_second(arm, rz, gz);
     let [across, _] = turned(&mut arm.g, arm.alpha[0], [gy, gz]);
     let free_first = free(arm, 0);
     let firsts = two_angles(&mut arm.g, [ry, -rx], across, free_first);
@@ -135,12 +140,9 @@ fn first_meets_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
     for (elbow, third) in solved(&mut arm.g, &linear, reach).into_iter().enumerate() {
         let [fx, fy, fz] = point.f(arm, third);
         let (free_first, free_second) = (free(arm, 0), free(arm, 1));
-        let (g, [cosine, sine]) = (&mut arm.g, arm.alpha[0]);
-        let gz = g.add(fz, arm.d[1]);
-        let part = g.mul(cosine, gz);
-        let rest = g.sub(rz, part);
-        let inverse = g.recip(sine);
-        let gy = g.mul(rest, inverse);
+        let gz = arm.g.add(fz, arm.d[1]);
+        let gy = across_second(arm, rz, gz);
+        let g = &mut arm.g;
         for (shoulder, second) in two_angles(g, [fy, fx], gy, free_second).into_iter().enumerate() {
             let [gx, gy] = turned(g, second, [fx, fy]);
             let [_, y, _] = about_x(g, arm.alpha[0], [gx, gy, gz]);

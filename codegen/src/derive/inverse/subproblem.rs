@@ -6,9 +6,8 @@ use crate::expr::{Expr, Graph};
 pub(super) type Pair = [Expr; 2];
 
 /// `R(θ) v` in the plane.
-pub(super) fn turned(g: &mut Graph, [c, s]: Pair, [x, y]: Pair) -> Pair {
-    let [cx, sy, sx, cy] = [(c, x), (s, y), (s, x), (c, y)].map(|(a, b)| g.mul(a, b));
-    [g.sub(cx, sy), g.add(sx, cy)]
+pub(super) fn turned(g: &mut Graph, [c, s]: Pair, v: Pair) -> Pair {
+    g.turn2((s, c), v)
 }
 
 /// `R(−θ) v` in the plane.
@@ -36,6 +35,14 @@ impl Free {
     }
 }
 
+/// A direction as a unit vector, and how long it was.
+pub(super) fn unit(g: &mut Graph, direction: Pair) -> (Pair, Expr) {
+    let square = square(g, direction);
+    let length = g.sqrt(square);
+    let inverse = g.recip(length);
+    (direction.map(|component| g.mul(inverse, component)), length)
+}
+
 /// The two angles with `a cos θ + b sin θ = c`; where there is none, twice that which comes closest. `free` is for an
 /// equation whose coefficients can vanish.
 pub(super) fn two_angles(g: &mut Graph, [a, b]: Pair, c: Expr, free: Option<Free>) -> [Pair; 2] {
@@ -60,9 +67,6 @@ pub(super) fn two_angles(g: &mut Graph, [a, b]: Pair, c: Expr, free: Option<Free
 pub(super) fn angle_between(g: &mut Graph, from: Pair, to: Pair, free: Option<Free>) -> Pair {
     // (u + i v)⁻¹ (x + i y) ∥ (u − i v)(x + i y).
     let direction = turned_back(g, from, to);
-    let square = square(g, direction);
-    let length = g.sqrt(square);
-    let inverse = g.recip(length);
-    let unit = direction.map(|component| g.mul(inverse, component));
+    let (unit, length) = unit(g, direction);
     free.map_or(unit, |free| free.or(g, length, unit))
 }

@@ -6,7 +6,7 @@
 use super::Branch;
 use super::layout::{Layout, NOTHING, about_x_back, about_z_back};
 use super::position::At;
-use super::subproblem::{Free, Pair, angle_between, square, turned, turned_back};
+use super::subproblem::{Free, Pair, angle_between, square, turned, turned_back, unit};
 use crate::expr::{Expr, Vec3};
 use crate::number::Number;
 
@@ -42,10 +42,7 @@ pub(super) fn two_turns(
     let left = g.positive_part(left);
     let (root, inverse) = (g.sqrt(left), g.recip(far[1]));
     let s = g.mul(root, inverse);
-    let norm = square(g, [c, s]);
-    let norm = g.sqrt(norm);
-    let inverse = g.recip(norm);
-    let [c, s] = [c, s].map(|component| g.mul(component, inverse));
+    let ([c, s], _) = unit(g, [c, s]);
     let (up, down) = (g.mul(lift, c), g.mul(sines, c));
     let (part, along) = (-g.add(up, level), g.sub(cosines, down));
     // Of a wrist of right angles the part across has one side or the other, however short it is.

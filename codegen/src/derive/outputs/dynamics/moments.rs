@@ -94,11 +94,9 @@ fn symmetric(mut entry: impl FnMut(usize, usize) -> Expr) -> [Vec3; 3] {
 /// A vector of axes that are turned about axis `k`, in the axes before.
 pub(super) fn turned(g: &mut Graph, turn: &Turn, k: usize, v: Vec3) -> Vec3 {
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let (s, c) = turn.sin_cos(g);
+    let turn = turn.sin_cos(g);
     let mut out = v;
-    let products = [(c, v[i]), (s, v[j]), (s, v[i]), (c, v[j])].map(|(a, b)| g.mul(a, b));
-    out[i] = g.sub(products[0], products[1]);
-    out[j] = g.add(products[2], products[3]);
+    [out[i], out[j]] = g.turn2(turn, [v[i], v[j]]);
     out
 }
 
