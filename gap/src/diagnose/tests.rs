@@ -260,7 +260,9 @@ fn indistinct_joints_are_inseparable_and_a_measurement_is_proposed() {
             row
         })
         .collect();
-    let d = diagnose(&springy(), &table(rows, kind), &Options::default()).unwrap();
+    let effects = Some(vec!["joint_compliance".to_owned()]);
+    let options = Options { effects, ..Options::default() };
+    let d = diagnose(&springy(), &table(rows, kind), &options).unwrap();
     let finding = &d.findings[0];
     assert!(finding.alternatives.iter().any(|a| !a.separable()), "{finding:?}");
     let text = finding.advice().unwrap();

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::basis::Basis;
+use super::basis::{Basis, principal};
 use super::bounded::Squares;
 use super::constants::RIDGE;
 use super::products::Products;
@@ -54,6 +54,35 @@ impl Own {
         let drop = 2.0 * values.dot(&u) - values.dot(&(&v * &values));
         Score { drop, values, rank, own }
     }
+
+    /// [`narrowed`] of the candidate beside the model.
+    pub(crate) fn narrowed(&self, held: &[f64], numbers: usize, variance: f64) -> f64 {
+        narrowed(&self.xx - self.zx.tr_mul(&self.zx), held, numbers, variance)
+    }
+}
+
+/// `ln |1 + S Vᵀ R⁻¹ V S|`: by how much the data narrow numbers with normal priors, twice what the evidence of a
+/// linear model loses to them (MacKay 1992, "Bayesian interpolation").
+///
+/// `products` are those of the numbers beside the model with the priors added, `VᵀV + S⁻²`; `held` are the inverse
+/// standard deviations `S⁻¹`, `variance` is R. A number that is held to nothing has a prior worth one of the
+/// measured `numbers` (unit information, Kass and Wasserman 1995: Schwarz' criterion).
+pub(crate) fn narrowed(
+    mut products: DMatrix<f64>,
+    held: &[f64],
+    numbers: usize,
+    variance: f64,
+) -> f64 {
+    let mut scale = DVector::zeros(held.len());
+    for (k, held) in held.iter().enumerate() {
+        let data = (products[(k, k)] - held * held).max(0.0) / variance;
+        let prior = if *held > 0.0 { held * held } else { data / numbers.max(1) as f64 };
+        products[(k, k)] = variance * (data + prior);
+        scale[k] = if prior > 0.0 { (prior * variance).sqrt().recip() } else { 0.0 };
+    }
+    let scaled = products.map_with_location(|r, c, x| x * scale[r] * scale[c]);
+    // No direction is wider than its prior.
+    principal(scaled).0.map(|wide| wide.max(1.0).ln()).sum()
 }
 
 /// Minimum of `xᵀ v x − 2 uᵀ x` over the values that are physical; the directions that are `own`.
@@ -216,5 +245,31 @@ impl With {
                 + 2.0 * z.dot(&(zx * values))
         });
         p.rr + model + own
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix2, Matrix4, Matrix4x2};
+
+    use super::*;
+
+    /// Against the determinant of the covariance of the data, `|R + V S² Vᵀ| / |R|`, which is that of the numbers by
+    /// Sylvester's identity.
+    #[test]
+    fn numbers_are_narrowed_by_as_much_as_the_data_are_widened_by_their_prior() {
+        let columns = Matrix4x2::new(1.0, 0.5, -0.3, 2.0, 0.7, 0.1, 0.2, -1.1);
+        let (held, variance) = ([2.0, 0.4], 0.09);
+        let scaled = columns * Matrix2::new(1.0 / held[0], 0.0, 0.0, 1.0 / held[1]);
+        let widened = (Matrix4::identity() * variance + scaled * scaled.transpose()) / variance;
+        let mut products = columns.tr_mul(&columns);
+        (0..2).for_each(|k| products[(k, k)] += held[k] * held[k]);
+        let of = |products, held: &[f64]| narrowed(products, held, 99, variance);
+        let products = DMatrix::from_column_slice(2, 2, products.as_slice());
+        assert!((of(products, &held) - widened.determinant().ln()).abs() < 1e-12);
+        // Held to nothing: one of the numbers that were measured.
+        let alone = DMatrix::from_element(1, 1, 7.0);
+        assert!((of(alone, &[0.0]) - 100_f64.ln()).abs() < 1e-12);
+        assert_eq!(of(DMatrix::zeros(2, 2), &[0.0; 2]), 0.0);
     }
 }

@@ -24,8 +24,6 @@ pub(crate) struct Fitted {
     /// Least physical values.
     pub(crate) least: Vec<f64>,
     pub(crate) values: Vec<f64>,
-    /// What is usual of them.
-    pub(crate) usual: Vec<f64>,
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
     /// Forms and places that the effect has.

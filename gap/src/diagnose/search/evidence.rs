@@ -29,21 +29,14 @@ impl Scale {
         (if self.known { own.max(1.0) } else { own }).max(f64::MIN_POSITIVE)
     }
 
-    pub(crate) fn freedom(&self, parameters: usize) -> f64 {
-        self.numbers.saturating_sub(parameters).max(1) as f64
+    /// What an effect costs whose numbers the data narrow by so much ([`crate::infer::narrowed`]) and which had so
+    /// many chances: its places and forms, each as likely as the others beforehand.
+    pub(crate) fn cost(narrowed: f64, chances: usize) -> f64 {
+        narrowed + 2.0 * (chances.max(1) as f64).ln()
     }
 
-    /// Cost of parameters: the logarithm of the numbers for each (Schwarz), the chances that other
-    /// forms and places of the effect had (each as likely as the others beforehand), and how far the values are beyond what is usual (a Cauchy prior).
-    pub(crate) fn cost<'v>(
-        &self,
-        rank: usize,
-        chances: usize,
-        values: impl IntoIterator<Item = (&'v f64, &'v f64)>,
-    ) -> f64 {
-        let each = (self.numbers.max(2) as f64).ln();
-        let unusual = values.into_iter().map(|(value, usual)| (value / usual).powi(2).ln_1p());
-        rank as f64 * each + 2.0 * (chances.max(1) as f64).ln() + 2.0 * unusual.sum::<f64>()
+    pub(crate) fn freedom(&self, parameters: usize) -> f64 {
+        self.numbers.saturating_sub(parameters).max(1) as f64
     }
 
     /// The chance that noise makes a fall as large with so many parameters, `tried` candidates

@@ -13,7 +13,7 @@ use crate::infer::Basis;
 const MOST_ROUNDS: usize = 12;
 
 /// One effect is exchanged for another only for this much more evidence: a factor of about five.
-const EXCHANGE: f64 = 3.0;
+pub(super) const EXCHANGE: f64 = 3.0;
 
 /// An effect that leads all others by this much evidence is not compared with them again.
 const SURE: f64 = 60.0;
@@ -23,7 +23,7 @@ impl Search<'_, '_> {
     /// for one.
     pub(super) fn pruned(&self, mut now: Explained, end: bool) -> Result<Explained, DiagnoseError> {
         for _ in 0..MOST_ROUNDS {
-            if now.fit.model.found.len() < 2 || self.stopped() {
+            if now.fit.model.found.is_empty() || self.stopped() {
                 break;
             }
             let Some(next) = self.changed(&mut now, end)? else { break };
@@ -35,7 +35,9 @@ impl Search<'_, '_> {
     fn changed(&self, now: &mut Explained, end: bool) -> Result<Option<Fit>, DiagnoseError> {
         let fitted = now.fit.model.parameters(self.problem);
         let variance = self.scale(now).variance(self.left(now), fitted);
-        if let Some(index) = self.superfluous(now, variance)
+        // One alone was just added.
+        if now.fit.model.found.len() > 1
+            && let Some(index) = self.superfluous(now, variance)
             && let Some(fit) = self.with(now, &[index], Vec::new(), f64::INFINITY)?
         {
             return Ok(Some(fit));
@@ -77,11 +79,11 @@ impl Search<'_, '_> {
         if self.stopped() {
             return Ok((None, None));
         }
-        let (scale, found) = (self.scale(now), &now.fit.model.found);
+        let found = &now.fit.model.found;
         let kept = Kept { without, whole: true, ..Kept::default() };
         let screen = self.screen(now, kept);
-        let costs = without.iter().map(|index| self.cost_of(now, &scale, *index));
-        let own = self.left(now) / variance + costs.sum::<f64>();
+        let costs = self.costs_of(now, variance);
+        let own = self.left(now) / variance + without.iter().map(|k| costs[*k]).sum::<f64>();
         // One effect is no other than itself, but one order of a periodic error is not another; of two
         // that one might do for, it may be one of them.
         let is_it = |candidate: &Candidate| {
@@ -118,7 +120,7 @@ impl Search<'_, '_> {
     /// The effect that costs most beyond what it explains beside all the others, if one does.
     fn superfluous(&self, now: &Explained, variance: f64) -> Option<usize> {
         let basis = Basis::new(&self.normal(now));
-        let scale = self.scale(now);
+        let costs = self.costs_of(now, variance);
         let mut at = Model::nuisances(self.problem);
         let mut worst: Option<(f64, usize)> = None;
         for (index, found) in now.fit.model.found.iter().enumerate() {
@@ -131,7 +133,7 @@ impl Search<'_, '_> {
             // Without it the squares rise by its values in the metric of their covariance.
             let values = DVector::from_column_slice(&found.values);
             let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
-            let excess = self.cost_of(now, &scale, index) - rise / variance;
+            let excess = costs[index] - rise / variance;
             if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
                 worst = Some((excess, index));
             }
@@ -147,7 +149,7 @@ mod tests {
     use super::*;
     use crate::diagnose::Options;
     use crate::diagnose::data::{Folds, Problem};
-    use crate::diagnose::sums::Candidate;
+    use crate::diagnose::sums::{Candidate, scale_elastic};
     use crate::diagnose::tests::normal;
     use crate::effects::{CATALOGUE, Place, Spot};
     use crate::fixture::{rigid, row, table};
@@ -177,7 +179,8 @@ mod tests {
         let options = Options::default();
         let problem = Problem::new(&arm, &data, &options).unwrap();
         let folds = Folds::deal(&data, &options).unwrap();
-        let candidates = Candidate::all(&problem, &CATALOGUE);
+        let mut candidates = Candidate::all(&problem, &CATALOGUE);
+        scale_elastic(&mut candidates, &problem, &Model::nominal(&problem)).unwrap();
         let search = Search {
             problem: &problem,
             folds: &folds,

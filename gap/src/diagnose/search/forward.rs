@@ -9,8 +9,8 @@ use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen};
 use crate::effects::{Effect, Forms, Spot};
 use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
-use crate::infer::{Basis, Flips, Score, principal};
-use nalgebra::{DMatrix, DVector, Vector6};
+use crate::infer::{Basis, Flips, Score, narrowed};
+use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
 
 /// Most effects that are added.
@@ -31,9 +31,6 @@ const MOST_TRIED: usize = 3;
 
 /// A candidate of which less is left beside the model cannot be seen.
 pub(crate) const OWN: f64 = 0.01;
-
-/// A value beyond what is usual by more than this is none that an arm has.
-const IMPOSSIBLE: f64 = 100.0;
 
 /// Rounds in which weights and fit settle.
 const MOST_WEIGHED: usize = 6;
@@ -130,7 +127,8 @@ impl Search<'_, '_> {
 
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
     /// seen, and nobody asks for an end.
-    pub(crate) fn explain(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
+    pub(crate) fn explain(&self, begun: Explained) -> Result<Explained, DiagnoseError> {
+        let (mut now, mut paired) = (begun.clone(), false);
         for _ in 0..MOST_FOUND {
             if self.stopped() {
                 return Ok(now);
@@ -140,6 +138,10 @@ impl Search<'_, '_> {
             now = self.settled(next, now.weights)?;
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
+            if !paired && count >= begun.fit.model.found.len() + 2 {
+                now = self.or_paired(&begun, now)?;
+                paired = true;
+            }
             if count <= SMALL || count.is_multiple_of(SMALL) {
                 now = self.pruned(now, false)?;
             }
@@ -156,22 +158,20 @@ impl Search<'_, '_> {
         Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
     }
 
-    /// Cost of the parameters of an effect that was found; of many that are held to tolerances, by
-    /// how much the data narrow them.
-    pub(crate) fn cost_of(&self, now: &Explained, scale: &Scale, index: usize) -> f64 {
-        let found = &now.fit.model.found[index];
-        if !found.effect.is_tolerated() {
-            return scale.cost(
-                found.values.len(),
-                found.chances,
-                found.values.iter().zip(&found.usual),
-            );
-        }
-        let before = now.fit.model.found[..index].iter().map(|f| f.values.len()).sum::<usize>();
+    /// Cost of the effects that were found, of some in the place of others by the `variance` that is left.
+    pub(crate) fn costs_of(&self, now: &Explained, variance: f64) -> Vec<f64> {
         let basis = Basis::new(&self.normal(now));
-        let own = basis.t.rows(Model::nuisances(self.problem) + before, found.values.len());
-        let held = DMatrix::from_diagonal(&DVector::from_column_slice(&found.held)) * own;
-        -principal(&held * held.transpose()).0.map(f64::ln).sum()
+        let numbers = self.problem.numbers();
+        let mut at = Model::nuisances(self.problem);
+        let cost = |found: &Fitted| {
+            let own = basis.t.rows(at, found.values.len());
+            at += found.values.len();
+            // What is left of its products beside all others is the inverse of its covariance.
+            let beside = Basis::new(&(own * own.transpose())).t;
+            let products = &beside * beside.transpose();
+            Scale::cost(narrowed(products, &found.held, numbers, variance), found.chances)
+        };
+        now.fit.model.found.iter().map(cost).collect()
     }
 
     /// The candidates beside the model, best first.
@@ -185,27 +185,20 @@ impl Search<'_, '_> {
             (0..screen.candidates.len()).map(|c| match screen.candidates[c].is_tolerated() {
                 true => {
                     let (score, cost) = tolerated(c);
-                    (c, score, cost)
+                    (c, score, Some(cost))
                 }
-                false => {
-                    let (score, it) = (screen.score(c), &screen.candidates[c]);
-                    let cost =
-                        scale.cost(score.rank, it.chances, score.values.iter().zip(&it.usual));
-                    (c, score, cost)
-                }
+                false => (c, screen.score(c), None),
             });
-        let can = |candidate: usize, score: &Score| {
-            let usual = &screen.candidates[candidate].usual;
-            let mut values = score.values.iter().zip(usual);
-            let possible = values.all(|(value, usual)| value.abs() <= IMPOSSIBLE * usual);
-            score.rank > 0 && score.own > OWN && score.rank <= room && possible
-        };
-        let kept: Vec<_> = scored.filter(|(c, s, _)| can(*c, s) && s.drop > 0.0).collect();
+        let can = |score: &Score| score.rank > 0 && score.own > OWN && score.rank <= room;
+        let kept: Vec<_> = scored.filter(|(_, s, _)| can(s) && s.drop > 0.0).collect();
         let best = kept.iter().map(|(_, s, _)| s.drop).fold(0.0, f64::max);
         let variance = scale.variance((left - best).max(0.0), fitted);
         let mut ranked: Vec<Ranked> = kept
             .into_iter()
             .map(|(candidate, score, cost)| {
+                let it = &screen.candidates[candidate];
+                let own = || screen.own(candidate).narrowed(&it.held, scale.numbers, variance);
+                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.chances));
                 let gain = score.drop / variance - cost;
                 Ranked { candidate, score, cost, gain }
             })

@@ -27,7 +27,7 @@ impl Search<'_, '_> {
         let (left, scale) = (self.left(now), self.scale(now));
         let variance = scale.variance(left, model.parameters(problem));
         let tilt = model.found.iter().position(|found| found.effect.tilts_gravity());
-        let cost = tilt.map_or(0.0, |k| self.cost_of(now, &scale, k));
+        let cost = tilt.map_or(0.0, |k| self.costs_of(now, variance)[k]);
         let mut other = model.clone();
         other.axes = Axes::Measuring;
         other.found.retain(|found| !found.effect.tilts_gravity());

@@ -17,7 +17,9 @@ mod exchange;
 mod first;
 mod forward;
 mod hung;
+mod pairs;
 mod refined;
 
+pub(crate) use evidence::Scale;
 pub(crate) use first::First;
 pub(crate) use forward::{Explained, OWN, Ranked, Search};

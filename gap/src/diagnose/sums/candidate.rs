@@ -8,9 +8,8 @@ use crate::diagnose::fit::Fitted;
 use crate::diagnose::prior::Prior;
 use crate::effects::{Carrier, Effect, Forms, Parameter, Place, Quantity, Scene, Spot};
 
-/// How loosely a value is held to what is usual: as by a measurement of so many times that size, so
-/// that what the data hardly decide stays small.
-const LOOSE: f64 = 3.0;
+/// Standard deviation of a number's prior over its usual size: wide, since usual sizes are known to a factor of about three.
+pub(super) const LOOSE: f64 = 3.0;
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]
@@ -20,8 +19,6 @@ pub(crate) struct Candidate {
     pub(crate) size: usize,
     /// Least physical values of what is added.
     pub(crate) least: Vec<f64>,
-    /// What is usual of them.
-    pub(crate) usual: Vec<f64>,
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
     /// Forms and places that the effect has: each more is one more chance to fit noise.
@@ -43,7 +40,7 @@ fn loosely(usual: f64) -> f64 {
 impl Candidate {
     /// What is usual of one of its numbers.
     pub(super) fn set_usual(&mut self, number: usize, usual: f64) {
-        (self.usual[number], self.held[number]) = (usual, loosely(usual));
+        self.held[number] = loosely(usual);
     }
 
     /// Every form of the effects at every place.
@@ -116,7 +113,6 @@ impl Candidate {
             held: parameters.iter().map(held).collect(),
             size: parameters.len(),
             least: parameters.iter().map(|p| p.least).collect(),
-            usual: parameters.iter().map(|p| p.usual).collect(),
             source: Source::Effect { effect, spot },
             chances: forms * effect.places(problem.arm).len() * effect.odds(),
         }
@@ -125,15 +121,14 @@ impl Candidate {
     /// As a part of a model, with such values; `None` of a probe.
     pub(crate) fn fitted(&self, spot: Spot, values: Vec<f64>) -> Option<Fitted> {
         let (effect, _) = self.effect()?;
-        let (least, usual, held) = (self.least.clone(), self.usual.clone(), self.held.clone());
-        Some(Fitted { effect, spot, least, values, usual, held, lead: 0.0, chances: self.chances })
+        let (least, held) = (self.least.clone(), self.held.clone());
+        Some(Fitted { effect, spot, least, values, held, lead: 0.0, chances: self.chances })
     }
 
     pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
         let least = vec![f64::NEG_INFINITY; size];
-        let usual = vec![f64::INFINITY; size];
         let held = vec![0.0; size];
-        Candidate { source: Source::Probe(probe), size, least, usual, held, chances: 1 }
+        Candidate { source: Source::Probe(probe), size, least, held, chances: 1 }
     }
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {

@@ -28,8 +28,7 @@ pub(crate) fn scale_elastic(
 ) -> Result<(), DiagnoseError> {
     let is_open = |candidate: &Candidate| {
         let group = candidate.effect().and_then(|(effect, _)| effect.group());
-        matches!(group, Some(Group::Elastic | Group::Nonlinear))
-            && candidate.usual.iter().any(|usual| usual.is_infinite())
+        matches!(group, Some(Group::Elastic | Group::Nonlinear)) && candidate.held.contains(&0.0)
     };
     let predicted = model.predict(problem, None)?;
     // A load that is mistyped says nothing of how far arms give.
@@ -53,7 +52,7 @@ pub(crate) fn scale_elastic(
         }
         for (k, squares) in squares.into_iter().enumerate() {
             let moved = (squares / rows.len() as f64).sqrt();
-            if candidate.usual[k].is_infinite() && moved > 0.0 {
+            if candidate.held[k] == 0.0 && moved > 0.0 {
                 candidate.set_usual(k, most / moved);
             }
         }
@@ -63,6 +62,7 @@ pub(crate) fn scale_elastic(
 
 #[cfg(test)]
 mod tests {
+    use super::super::candidate::LOOSE;
     use super::*;
     use crate::diagnose::Options;
     use crate::diagnose::tests::data;
@@ -83,7 +83,7 @@ mod tests {
             let effect = c.effect().map(|(effect, spot)| (effect.identifier(), spot.place));
             effect == Some(("joint_compliance", Place::Joint(2)))
         });
-        let usual = own.unwrap().usual[0];
+        let usual = 1.0 / (LOOSE * own.unwrap().held[0]);
         let mut softer = arm.clone();
         // A hundredth of it, where the arm gives in proportion.
         softer.joints[1].compliance += usual / 100.0;

@@ -38,8 +38,8 @@ impl Search<'_, '_> {
         let left = self.left(now);
         let variance = scale.variance(left, now.fit.model.parameters(self.problem));
         let found: Vec<_> = group.iter().map(|index| &now.fit.model.found[*index]).collect();
-        let cost = group.iter().map(|index| self.cost_of(now, &scale, *index));
-        let own = left / variance + cost.sum::<f64>();
+        let costs = self.costs_of(now, variance);
+        let own = left / variance + group.iter().map(|k| costs[*k]).sum::<f64>();
         let own_blocks = self.per_block(now);
         let ranked = self.ranked(&screen, now);
         let trained = screen.trained();

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::diagnose::search::{Explained, OWN, Search};
+use crate::diagnose::search::{Explained, OWN, Scale, Search};
 use crate::diagnose::sums::Screen;
 use crate::infer::{Basis, Own, Products};
 use crate::rng::{Rng, Stream};
@@ -45,7 +45,7 @@ impl Search<'_, '_> {
         halves.par_iter().filter(found_again).count() as f64 / HALVES as f64
     }
 
-    /// Cost of each contender on some of the blocks.
+    /// Cost of each contender on some of the blocks, at the noise of all.
     fn costs(
         &self,
         screen: &Screen<'_>,
@@ -61,7 +61,9 @@ impl Search<'_, '_> {
         }
         let basis = Basis::new(&zz);
         let zr = basis.t.tr_mul(&zr);
-        let scale = self.scale(now);
+        let fitted = now.fit.model.parameters(self.problem);
+        let variance = self.scale(now).variance(self.left(now), fitted);
+        let numbers = self.problem.numbers() * half.len() / screen.blocks.len();
         let cost = |&candidate: &usize| {
             let range = screen.range(candidate);
             let p = range.len();
@@ -73,16 +75,13 @@ impl Search<'_, '_> {
                 own.xx += &block.xx[candidate];
             }
             own.zx = basis.t.tr_mul(&own.zx);
-            let score = own.score(&zr, &screen.candidates[candidate]);
             let it = &screen.candidates[candidate];
-            let values = score.values.iter().zip(&it.usual);
-            let seen = score.own > OWN;
-            let cost = if seen {
-                scale.cost(score.rank, it.chances, values) - score.drop
-            } else {
-                f64::MAX
-            };
-            (candidate, cost)
+            let score = own.score(&zr, it);
+            if score.own <= OWN {
+                return (candidate, f64::MAX);
+            }
+            let narrowed = own.narrowed(&it.held, numbers, variance);
+            (candidate, Scale::cost(narrowed, it.chances) - score.drop / variance)
         };
         contenders.iter().map(cost).collect()
     }

@@ -55,12 +55,9 @@ impl Unknown {
             Unknown::Link(row) => (&LinkFlexibility, Spot::at(Place::Link(row))),
             Unknown::Base(form) => (&Foundation, Spot { place: Place::Base, form }),
         };
-        let of = |number: fn(&Parameter) -> f64| {
-            effect.parameters(arm, spot).iter().map(number).collect()
-        };
-        let (least, usual) = (of(|p| p.least), of(|p| p.usual));
+        let least = effect.parameters(arm, spot).iter().map(|p| p.least).collect();
         let (values, held) = (vec![value], vec![0.0]);
-        Fitted { effect, spot, least, values, usual, held, chances: 1, lead: 0.0 }
+        Fitted { effect, spot, least, values, held, chances: 1, lead: 0.0 }
     }
 }
 
