@@ -25,6 +25,6 @@ pub(crate) use bounded::Squares;
 pub(crate) use dependent::Dependent;
 pub(crate) use products::{Choice, Products, starts};
 pub(crate) use resample::{drawn, interval, students_t};
-pub(crate) use score::{Own, Score, narrowed};
+pub(crate) use score::{Own, Score, price};
 pub(crate) use screen::{Columns, Screen};
 pub(crate) use signs::{Flips, Signs, deviate, unit};

@@ -6,7 +6,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::basis::{Basis, principal};
 use super::bounded::Squares;
-use super::constants::RIDGE;
+use super::constants::{LOOSE, RIDGE};
 use super::products::Products;
 use super::screen::{Columns, Screen};
 
@@ -55,34 +55,62 @@ impl Own {
         Score { drop, values, rank, own }
     }
 
-    /// [`narrowed`] of the candidate beside the model.
-    pub(crate) fn narrowed(&self, held: &[f64], numbers: usize, variance: f64) -> f64 {
-        narrowed(&self.xx - self.zx.tr_mul(&self.zx), held, numbers, variance)
+    /// [`price`] of the candidate's `values` beside the model.
+    pub(crate) fn price(
+        &self,
+        held: &[f64],
+        values: &DVector<f64>,
+        numbers: usize,
+        variance: f64,
+    ) -> f64 {
+        let products = &self.xx - self.zx.tr_mul(&self.zx);
+        price(products, held, Some(values.as_slice()), numbers, variance)
     }
 }
 
-/// `ln |1 + S Vᵀ R⁻¹ V S|`: by how much the data narrow numbers with normal priors, twice what the evidence of a
-/// linear model loses to them (MacKay 1992, "Bayesian interpolation").
+/// What the evidence of a linear model loses to the priors of some numbers, twice its logarithm:
+/// `ln |1 + S Vᵀ R⁻¹ V S|` (MacKay 1992, "Bayesian interpolation"), and what the scale of S costs.
 ///
-/// `products` are those of the numbers beside the model with the priors added, `VᵀV + S⁻²`; `held` are the inverse
-/// standard deviations `S⁻¹`, `variance` is R. A number that is held to nothing has a prior worth one of the
-/// measured `numbers` (unit information, Kass and Wasserman 1995: Schwarz' criterion).
-pub(crate) fn narrowed(
+/// Nobody knows before there are data how large an effect is, only what is usual. So the standard deviations have a
+/// common factor, S = s · [`LOOSE`] · usual with s ≤ 1, which is the size of the `values` themselves: the most likely
+/// one (Tipping 2001, "Sparse Bayesian learning"). There values of which the data decide γ cost γ (1 − s²) beyond
+/// their strain at s = 1. The factor has a half-Cauchy prior about the usual (Gelman 2006): `2 ln (1 + (s · LOOSE)²)`.
+/// Two effects that explain the same by as many usual numbers cost the same then, whatever their units. Without
+/// `values` the standard deviations are known, as makers' tolerances are.
+///
+/// `products` are those of the numbers beside the model with the priors of s = 1 added, `VᵀV + held²`; `variance` is
+/// R. A number that is held to nothing has a prior worth one of the measured `numbers` (unit information, Kass and
+/// Wasserman 1995: Schwarz' criterion).
+pub(crate) fn price(
     mut products: DMatrix<f64>,
     held: &[f64],
+    values: Option<&[f64]>,
     numbers: usize,
     variance: f64,
 ) -> f64 {
+    let data: Vec<f64> = (0..held.len())
+        .map(|k| (products[(k, k)] - held[k] * held[k]).max(0.0) / variance)
+        .collect();
+    let strains: Vec<f64> = values.map_or_else(Vec::new, |values| {
+        let decided = (0..held.len()).filter(|k| held[*k] > 0.0 && data[*k] > held[*k] * held[*k]);
+        decided.map(|k| (values[k] * held[k]).powi(2)).collect()
+    });
+    let (mut size, mut unusual) = (1.0, 0.0);
+    if !strains.is_empty() {
+        let own = strains.iter().sum::<f64>() / strains.len() as f64;
+        (size, unusual) = (own.clamp(f64::EPSILON, 1.0), 2.0 * (own * LOOSE * LOOSE).ln_1p());
+    }
     let mut scale = DVector::zeros(held.len());
     for (k, held) in held.iter().enumerate() {
-        let data = (products[(k, k)] - held * held).max(0.0) / variance;
-        let prior = if *held > 0.0 { held * held } else { data / numbers.max(1) as f64 };
-        products[(k, k)] = variance * (data + prior);
+        let prior = if *held > 0.0 { held * held / size } else { data[k] / numbers.max(1) as f64 };
+        products[(k, k)] = variance * (data[k] + prior);
         scale[k] = if prior > 0.0 { (prior * variance).sqrt().recip() } else { 0.0 };
     }
     let scaled = products.map_with_location(|r, c, x| x * scale[r] * scale[c]);
     // No direction is wider than its prior.
-    principal(scaled).0.map(|wide| wide.max(1.0).ln()).sum()
+    let wide = principal(scaled).0.map(|wide| wide.max(1.0));
+    let narrowed = wide.iter().map(|wide| wide.ln() + (1.0 - size) * (1.0 - 1.0 / wide));
+    narrowed.sum::<f64>() + unusual
 }
 
 /// Minimum of `xᵀ v x − 2 uᵀ x` over the values that are physical; the directions that are `own`.
@@ -261,15 +289,25 @@ mod tests {
         let columns = Matrix4x2::new(1.0, 0.5, -0.3, 2.0, 0.7, 0.1, 0.2, -1.1);
         let (held, variance) = ([2.0, 0.4], 0.09);
         let scaled = columns * Matrix2::new(1.0 / held[0], 0.0, 0.0, 1.0 / held[1]);
-        let widened = (Matrix4::identity() * variance + scaled * scaled.transpose()) / variance;
+        let widened = |size: f64| {
+            let covariance = scaled * size * scaled.transpose();
+            ((Matrix4::identity() * variance + covariance) / variance).determinant().ln()
+        };
         let mut products = columns.tr_mul(&columns);
         (0..2).for_each(|k| products[(k, k)] += held[k] * held[k]);
-        let of = |products, held: &[f64]| narrowed(products, held, 99, variance);
+        let of = |products, held: &[f64], values| price(products, held, values, 99, variance);
         let products = DMatrix::from_column_slice(2, 2, products.as_slice());
-        assert!((of(products, &held) - widened.determinant().ln()).abs() < 1e-12);
+        assert!((of(products.clone(), &held, None) - widened(1.0)).abs() < 1e-12);
+        // A tenth as large: and as many units as are decided, Sylvester's trace.
+        let size = 0.01;
+        let covariance = scaled * size * scaled.transpose();
+        let whole = Matrix4::identity() * variance + covariance;
+        let decided = (whole.try_inverse().unwrap() * covariance).trace();
+        let price = of(products, &held, Some(&[0.05, 0.25])) - 2.0 * 1.09_f64.ln();
+        assert!((price - widened(size) - (1.0 - size) * decided).abs() < 1e-12);
         // Held to nothing: one of the numbers that were measured.
         let alone = DMatrix::from_element(1, 1, 7.0);
-        assert!((of(alone, &[0.0]) - 100_f64.ln()).abs() < 1e-12);
-        assert_eq!(of(DMatrix::zeros(2, 2), &[0.0; 2]), 0.0);
+        assert!((of(alone, &[0.0], Some(&[1.0])) - 100_f64.ln()).abs() < 1e-12);
+        assert_eq!(of(DMatrix::zeros(2, 2), &[0.0; 2], None), 0.0);
     }
 }

@@ -29,10 +29,10 @@ impl Scale {
         (if self.known { own.max(1.0) } else { own }).max(f64::MIN_POSITIVE)
     }
 
-    /// What an effect costs whose numbers the data narrow by so much ([`crate::infer::narrowed`]) and which had so
-    /// many chances: its places and forms, each as likely as the others beforehand.
-    pub(crate) fn cost(narrowed: f64, chances: usize) -> f64 {
-        narrowed + 2.0 * (chances.max(1) as f64).ln()
+    /// What an effect costs whose numbers have a [price](crate::infer::price) and which had so many
+    /// chances: its places and forms, each as likely as the others beforehand.
+    pub(crate) fn cost(price: f64, chances: usize) -> f64 {
+        price + 2.0 * (chances.max(1) as f64).ln()
     }
 
     pub(crate) fn freedom(&self, parameters: usize) -> f64 {

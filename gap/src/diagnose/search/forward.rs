@@ -9,7 +9,7 @@ use crate::diagnose::progress::Stage;
 use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen};
 use crate::effects::{Effect, Forms, Spot};
 use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
-use crate::infer::{Basis, Flips, Score, narrowed};
+use crate::infer::{Basis, Flips, Score, price};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
 
@@ -169,7 +169,9 @@ impl Search<'_, '_> {
             // What is left of its products beside all others is the inverse of its covariance.
             let beside = Basis::new(&(own * own.transpose())).t;
             let products = &beside * beside.transpose();
-            Scale::cost(narrowed(products, &found.held, numbers, variance), found.chances)
+            let values = (!found.effect.is_tolerated()).then_some(found.values.as_slice());
+            let price = price(products, &found.held, values, numbers, variance);
+            Scale::cost(price, found.chances)
         };
         now.fit.model.found.iter().map(cost).collect()
     }
@@ -197,7 +199,10 @@ impl Search<'_, '_> {
             .into_iter()
             .map(|(candidate, score, cost)| {
                 let it = &screen.candidates[candidate];
-                let own = || screen.own(candidate).narrowed(&it.held, scale.numbers, variance);
+                let own = || {
+                    let own = screen.own(candidate);
+                    own.price(&it.held, &score.values, scale.numbers, variance)
+                };
                 let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.chances));
                 let gain = score.drop / variance - cost;
                 Ranked { candidate, score, cost, gain }

@@ -10,7 +10,7 @@ use crate::diagnose::fit::{Fitted, squares, strain};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::Candidate;
 use crate::effects::{Forms, Group};
-use crate::infer::{Basis, Squares, narrowed};
+use crate::infer::{Basis, Squares, price};
 
 /// Two causes, and the evidence of both beside the frames.
 struct Pair {
@@ -119,9 +119,9 @@ impl Search<'_, '_> {
         let most = falls.iter().map(|(_, (fall, ..))| *fall).fold(0.0, f64::max);
         let variance = scale.variance((left - most).max(0.0), fitted);
         let weighed = falls.into_iter().map(|(causes, (fall, values, matrix, held))| {
-            let narrowed = narrowed(matrix, &held, scale.numbers, variance);
+            let price = price(matrix, &held, Some(values.as_slice()), scale.numbers, variance);
             let chances = causes.into_iter().map(|c| ordinary[c].chances).product();
-            let gain = fall / variance - Scale::cost(narrowed, chances);
+            let gain = fall / variance - Scale::cost(price, chances);
             Pair { causes, values: values.iter().copied().collect(), gain }
         });
         weighed.max_by(|a, b| a.gain.total_cmp(&b.gain))

@@ -7,9 +7,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Fitted;
 use crate::diagnose::prior::Prior;
 use crate::effects::{Carrier, Effect, Forms, Parameter, Place, Quantity, Scene, Spot};
-
-/// Standard deviation of a number's prior over its usual size: wide, since usual sizes are known to a factor of about three.
-pub(super) const LOOSE: f64 = 3.0;
+use crate::infer::constants::LOOSE;
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]

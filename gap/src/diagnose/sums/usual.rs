@@ -9,7 +9,6 @@ use super::candidate::Candidate;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
-use crate::effects::Group;
 use crate::simulate::Sim;
 
 /// An arm's tool hardly moves by more than this part of its reach because something gives (by so many
@@ -19,17 +18,15 @@ const PART: f64 = 5e-3;
 /// Rows by which it is told.
 const MOST_ROWS: usize = 200;
 
-/// Takes as usual of every elastic number that has no size of its own what moves the reading so far,
+/// Takes as usual of every number that has no size of its own what moves the reading so far,
 /// root mean square over the rows.
 pub(crate) fn scale_elastic(
     candidates: &mut [Candidate],
     problem: &Problem<'_>,
     model: &Model,
 ) -> Result<(), DiagnoseError> {
-    let is_open = |candidate: &Candidate| {
-        let group = candidate.effect().and_then(|(effect, _)| effect.group());
-        matches!(group, Some(Group::Elastic | Group::Nonlinear)) && candidate.held.contains(&0.0)
-    };
+    let is_open =
+        |candidate: &Candidate| candidate.effect().is_some() && candidate.held.contains(&0.0);
     let predicted = model.predict(problem, None)?;
     // A load that is mistyped says nothing of how far arms give.
     let kept: Vec<usize> = (0..problem.data.rows.len()).filter(|row| problem.fits[*row]).collect();
@@ -62,12 +59,12 @@ pub(crate) fn scale_elastic(
 
 #[cfg(test)]
 mod tests {
-    use super::super::candidate::LOOSE;
     use super::*;
     use crate::diagnose::Options;
     use crate::diagnose::tests::data;
     use crate::effects::{CATALOGUE, Place};
     use crate::fixture::springy;
+    use crate::infer::constants::LOOSE;
     use crate::measurement::Measurements;
     use stiffarm_kernels::generic::Arm;
 

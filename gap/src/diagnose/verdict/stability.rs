@@ -80,8 +80,8 @@ impl Search<'_, '_> {
             if score.own <= OWN {
                 return (candidate, f64::MAX);
             }
-            let narrowed = own.narrowed(&it.held, numbers, variance);
-            (candidate, Scale::cost(narrowed, it.chances) - score.drop / variance)
+            let price = own.price(&it.held, &score.values, numbers, variance);
+            (candidate, Scale::cost(price, it.chances) - score.drop / variance)
         };
         contenders.iter().map(cost).collect()
     }
