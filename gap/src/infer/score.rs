@@ -74,9 +74,10 @@ impl Own {
 /// Nobody knows before there are data how large an effect is, only what is usual. So the standard deviations have a
 /// common factor, S = s · [`LOOSE`] · usual with s ≤ 1, which is the size of the `values` themselves: the most likely
 /// one (Tipping 2001, "Sparse Bayesian learning"). There values of which the data decide γ cost γ (1 − s²) beyond
-/// their strain at s = 1. The factor has a half-Cauchy prior about the usual (Gelman 2006): `2 ln (1 + (s · LOOSE)²)`.
-/// Two effects that explain the same by as many usual numbers cost the same then, whatever their units. Without
-/// `values` the standard deviations are known, as makers' tolerances are.
+/// their strain at s = 1. Any power of e of the scale is as likely as another from the least that the data show up
+/// to the usual: it costs their number; beyond the usual the scale's density falls as Cauchy's. Two effects that
+/// explain the same by as many usual numbers cost nearly the same then, whatever their units. Without `values` the
+/// standard deviations are known, as makers' tolerances are.
 ///
 /// `products` are those of the numbers beside the model with the priors of s = 1 added, `VᵀV + held²`; `variance` is
 /// R. A number that is held to nothing has a prior worth one of the measured `numbers` (unit information, Kass and
@@ -91,14 +92,15 @@ pub(crate) fn price(
     let data: Vec<f64> = (0..held.len())
         .map(|k| (products[(k, k)] - held[k] * held[k]).max(0.0) / variance)
         .collect();
-    let strains: Vec<f64> = values.map_or_else(Vec::new, |values| {
-        let decided = (0..held.len()).filter(|k| held[*k] > 0.0 && data[*k] > held[*k] * held[*k]);
-        decided.map(|k| (values[k] * held[k]).powi(2)).collect()
-    });
-    let (mut size, mut unusual) = (1.0, 0.0);
-    if !strains.is_empty() {
-        let own = strains.iter().sum::<f64>() / strains.len() as f64;
-        (size, unusual) = (own.clamp(f64::EPSILON, 1.0), 2.0 * (own * LOOSE * LOOSE).ln_1p());
+    let is_decided = |k: &usize| held[*k] > 0.0 && data[*k] > held[*k] * held[*k];
+    let decided: Vec<usize> = (0..held.len()).filter(is_decided).collect();
+    let (mut size, mut scale_cost) = (1.0, 0.0);
+    if let Some(values) = values.filter(|_| !decided.is_empty()) {
+        let strain: f64 = decided.iter().map(|k| (values[*k] * held[*k]).powi(2)).sum();
+        let shown = decided.iter().map(|k| data[*k] / (held[*k] * held[*k])).fold(1.0, f64::max);
+        let own = strain / decided.len() as f64;
+        size = own.clamp(f64::EPSILON, 1.0);
+        scale_cost = 2.0 * ((0.5 * shown.ln()).ln_1p() + (own * LOOSE * LOOSE).ln_1p());
     }
     let mut scale = DVector::zeros(held.len());
     for (k, held) in held.iter().enumerate() {
@@ -110,7 +112,7 @@ pub(crate) fn price(
     // No direction is wider than its prior.
     let wide = principal(scaled).0.map(|wide| wide.max(1.0));
     let narrowed = wide.iter().map(|wide| wide.ln() + (1.0 - size) * (1.0 - 1.0 / wide));
-    narrowed.sum::<f64>() + unusual
+    narrowed.sum::<f64>() + scale_cost
 }
 
 /// Minimum of `xᵀ v x − 2 uᵀ x` over the values that are physical; the directions that are `own`.
@@ -303,7 +305,11 @@ mod tests {
         let covariance = scaled * size * scaled.transpose();
         let whole = Matrix4::identity() * variance + covariance;
         let decided = (whole.try_inverse().unwrap() * covariance).trace();
-        let price = of(products, &held, Some(&[0.05, 0.25])) - 2.0 * 1.09_f64.ln();
+        // One of the e-folds of scales that the data show, and hardly unusual.
+        let shown = (0..2).map(|k| columns.column(k).norm() / held[k] / variance.sqrt());
+        let folds = shown.fold(1.0, f64::max).ln();
+        let price = of(products, &held, Some(&[0.05, 0.25]));
+        let price = price - 2.0 * ((1.0 + folds).ln() + 1.09_f64.ln());
         assert!((price - widened(size) - (1.0 - size) * decided).abs() < 1e-12);
         // Held to nothing: one of the numbers that were measured.
         let alone = DMatrix::from_element(1, 1, 7.0);
