@@ -39,7 +39,8 @@ fn nothing_cascades() {
     let paths = wrong.flatten().map(|file| file.path());
     let outputs: Vec<_> =
         paths.filter(|path| path.extension() == Some("stderr".as_ref())).collect();
-    assert!(outputs.len() >= 20, "{} wrong tables", outputs.len());
+    // Each is a compilation: what differs in its words alone is a case of the golden table.
+    assert!((20..=24).contains(&outputs.len()), "{} wrong tables", outputs.len());
     for path in outputs {
         let text = fs::read_to_string(&path).expect("a text");
         let sound = |line: &str| !line.starts_with("error[") && !line.starts_with("warning");
