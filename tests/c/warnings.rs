@@ -13,19 +13,43 @@ with_each_compiler! {
     the_library_s_sines_give_the_same_pose
 }
 
+const PRECISIONS: [Precision; 2] = [Precision::F64, Precision::F32];
+const SINES: [Sines; 3] = [Sines::Polynomial, Sines::Math, Sines::Given];
+
+/// Each arm in one form; every form of some arms.
 fn every_arm_compiles_without_a_warning(compiler: &str) {
     let folder = Folder::new(&format!("warnings-{compiler}"));
     for (k, arm) in ARMS.iter().enumerate() {
-        for precision in [Precision::F64, Precision::F32] {
-            let sines = [Sines::Polynomial, Sines::Math, Sines::Given][k % 3];
-            let options = COptions { name: arm.id.to_owned(), precision, sines };
-            let files = c(&robot(arm.id), &options).expect("numbers only");
-            folder.write(&format!("{}.h", arm.id), &files.header);
-            folder.write(&format!("{}.c", arm.id), &files.source);
-            let source = format!("{}.c", arm.id);
-            compile(compiler, &folder, &["-O1", "-Wmissing-prototypes", "-c", &source]);
+        compiles_without_a_warning(compiler, &folder, arm.id, (PRECISIONS[k % 2], SINES[k % 3]));
+    }
+}
+
+#[test]
+#[ignore = "six forms of every arm by cc and by clang take minutes"]
+fn every_form_of_every_arm_compiles_without_a_warning() {
+    let folder = Folder::new("forms");
+    let forms = PRECISIONS.map(|precision| SINES.map(|sines| (precision, sines)));
+    for compiler in ["cc", "clang"] {
+        for arm in ARMS {
+            for form in forms.as_flattened() {
+                compiles_without_a_warning(compiler, &folder, arm.id, *form);
+            }
         }
     }
+}
+
+fn compiles_without_a_warning(
+    compiler: &str,
+    folder: &Folder,
+    id: &str,
+    (precision, sines): (Precision, Sines),
+) {
+    let options = COptions { name: id.to_owned(), precision, sines };
+    let files = c(&robot(id), &options).expect("numbers only");
+    folder.write(&format!("{id}.h"), &files.header);
+    let source = format!("{id}.c");
+    folder.write(&source, &files.source);
+    compile(compiler, folder, &["-O1", "-Wmissing-prototypes", "-c", &source]);
 }
 
 /// A warning is an error: the same call refuses a text that has one.

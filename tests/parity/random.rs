@@ -37,24 +37,47 @@ fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, ..ProptestConfig::default() }
 }
 
+/// Every output of a table by its graph and by the textbook.
+fn agree(table: &Table, seed: u64) -> Result<(), TestCaseError> {
+    let (arm, q, wrench) = drawn(table, seed);
+    let robot = table.robot();
+    for output in Output::EACH {
+        let expected = arm.evaluate(output, &q[..output.state(arm.dof())], &wrench).ok();
+        let got = table.by(&derive(&robot, &[output]), &q, &wrench);
+        // A mass matrix that is singular but for rounding may be told either way.
+        let told = !output.takes(Input::Torques) || expected.is_some();
+        prop_assert!(!told || expected.is_some() == got.is_some());
+        let (Some(expected), Some(got)) = (expected, got) else { continue };
+        let worst = relative(&got, &expected, floor(&arm, output, &q, &wrench));
+        prop_assert!(worst <= 1e-11, "{} {worst:e}\n{}", output.name(), table.text);
+    }
+    Ok(())
+}
+
 proptest! {
-    #![proptest_config(cases(200))]
+    // Each case derives every output, half a second without optimisation.
+    #![proptest_config(cases(40))]
 
     #[test]
     fn the_graph_agrees_with_the_textbook(table in table(1..=9), seed in any::<u64>()) {
-        let (arm, q, wrench) = drawn(&table, seed);
-        let robot = table.robot();
-        for output in Output::EACH {
-            let expected = arm.evaluate(output, &q[..output.state(arm.dof())], &wrench).ok();
-            let got = table.by(&derive(&robot, &[output]), &q, &wrench);
-            // A mass matrix that is singular but for rounding may be told either way.
-            let told = !output.takes(Input::Torques) || expected.is_some();
-            prop_assert!(!told || expected.is_some() == got.is_some());
-            let (Some(expected), Some(got)) = (expected, got) else { continue };
-            let worst = relative(&got, &expected, floor(&arm, output, &q, &wrench));
-            prop_assert!(worst <= 1e-11, "{} {worst:e}\n{}", output.name(), table.text);
-        }
+        agree(&table, seed)?;
     }
+}
+
+proptest! {
+    #![proptest_config(cases(10_000))]
+
+    #[test]
+    #[ignore = "ten thousand tables take minutes"]
+    fn the_graph_agrees_with_the_textbook_on_ten_thousand_tables(
+        table in table(1..=9), seed in any::<u64>()
+    ) {
+        agree(&table, seed)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
 
     /// In one function, where what they have in common decides how they are derived.
     #[test]

@@ -4,6 +4,7 @@
 mod forms;
 mod golden;
 mod literals;
+mod mistakes;
 mod readme;
 mod scopes;
 mod tables;

@@ -1,5 +1,0 @@
-//! Nothing at all.
-
-stiffarm::robot! {}
-
-fn main() {}
