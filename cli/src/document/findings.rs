@@ -2,6 +2,7 @@
 
 use stiffarm_gap::report::{Alternative, Finding as Found, MATTERS};
 
+use super::figure::Step;
 use super::words::{joined, named, p_value};
 use super::{Block, Finding};
 use crate::input::quantity::counted;
@@ -24,6 +25,31 @@ pub fn summary(small: &Numbered<'_>, size: impl Fn(f64) -> String) -> String {
         1 => format!("1 small effect, {}", size(removed(&small[0]))),
         n => format!("{n} small effects, {} together", size(small.iter().map(removed).sum())),
     }
+}
+
+/// What the findings remove, a step each as `one` draws it; small ones that follow one another are one step, which
+/// leaves what `size` writes.
+pub fn steps(
+    findings: &[Found],
+    one: impl Fn(&Found) -> Step,
+    size: impl Fn(f64) -> String,
+) -> Vec<Step> {
+    let [_, small] = weighed(findings);
+    let is_small = |f: &Found| small.iter().any(|(_, other)| std::ptr::eq(*other, f));
+    let step = |run: &[Found]| match run {
+        [first, .., last] => {
+            let (before, after) = (first.held_out.before(), last.held_out.after());
+            Step {
+                label: counted(run.len(), "small effect"),
+                from: after.min(before),
+                to: after.max(before),
+                text: format!("→ {}", size(after)),
+                ..one(last)
+            }
+        }
+        _ => one(&run[0]),
+    };
+    findings.chunk_by(|a, b| is_small(a) && is_small(b)).map(step).collect()
 }
 
 /// The findings as `one` reports each.

@@ -7,6 +7,7 @@ use stiffarm_gap::shrink::Shrink;
 
 use super::Campaign;
 use crate::document::figure::{Step, waterfall};
+use crate::document::findings;
 use crate::document::words::{capital, less, named, noise_from, percent};
 use crate::document::{Block, Cell, Row, Table, Unit};
 use crate::input::quantity::counted;
@@ -104,7 +105,7 @@ impl Campaign<'_> {
         Table { heads, rows, caption: String::new() }
     }
 
-    /// From the whole error, finding by finding, to the noise; small findings are one step.
+    /// From the whole error, finding by finding, to the noise; small ones are one step.
     fn steps(&self) -> Vec<Step> {
         let (gap, unit, [before, after]) = (&self.found.gap, self.main(), self.rms());
         let plain = |label: &str, class, size: f64| Step {
@@ -128,7 +129,7 @@ impl Campaign<'_> {
             }
         };
         let mut steps = vec![plain(self.found.before_is(), "whole", before)];
-        steps.extend(self.found.findings.iter().map(taken));
+        steps.extend(findings::steps(&self.found.findings, taken, |left| unit.with_unit(left)));
         if !self.found.findings.is_empty() {
             steps.push(plain("remains, held out", "left", after));
         }

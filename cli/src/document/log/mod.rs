@@ -11,7 +11,7 @@ use stiffarm_gap::report::{Alternative, Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::figure::{self, LOG, Step, waterfall};
-use super::findings::{block, told};
+use super::findings::{block, steps, told};
 use super::words::{less, named, percent};
 use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
 use crate::diagnose::LogCheck;
@@ -207,19 +207,20 @@ impl Log<'_> {
             text,
         };
         let first = if self.is_torque() { "rigid links alone" } else { "as logged" };
-        let mut steps = vec![step(first.to_owned(), "whole", 0.0, before, part(before))];
-        steps.extend(found.findings.iter().map(|f| {
+        let mut all = vec![step(first.to_owned(), "whole", 0.0, before, part(before))];
+        let one = |f: &Finding| {
             let (from, to) = (f.held_out.after().min(f.held_out.before()), f.held_out.before());
             let text = format!("→ {}", part(f.held_out.after()));
             step(named(&f.effect, &f.place), "removed", from, to, text)
-        }));
+        };
+        all.extend(steps(&found.findings, one, part));
         let mut last = step("remains, held out".to_owned(), "left", 0.0, after, part(after));
         if !found.findings.is_empty() {
             last.interval = Some(found.shrink.after_ci95());
             last.text = format!("{}, {}", last.text, less(&found.shrink));
         }
-        steps.push(last);
-        steps
+        all.push(last);
+        all
     }
 
     fn findings(&self) -> Option<Block> {
