@@ -160,8 +160,8 @@ fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
     doubles.retain(|arm| is_one(arm.id));
     singles.retain(|arm| is_one(arm.id));
     for width in widths {
-        check(compiler, &doubles, &["-O1", width]);
-        check(compiler, &singles, &["-O1", width]);
+        check(compiler, &doubles, &["-O2", width]);
+        check(compiler, &singles, &["-O2", width]);
     }
 }
 

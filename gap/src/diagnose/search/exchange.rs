@@ -35,9 +35,10 @@ impl Search<'_, '_> {
     fn changed(&self, now: &mut Explained, end: bool) -> Result<Option<Fit>, DiagnoseError> {
         let fitted = now.fit.model.parameters(self.problem);
         let variance = self.scale(now).variance(self.left(now), fitted);
+        let costs = self.costs_of(now, variance);
         // One alone was just added.
         if now.fit.model.found.len() > 1
-            && let Some(index) = self.superfluous(now, variance)
+            && let Some(index) = self.superfluous(now, &costs, variance)
             && let Some(fit) = self.with(now, &[index], Vec::new(), f64::INFINITY)?
         {
             return Ok(Some(fit));
@@ -48,7 +49,7 @@ impl Search<'_, '_> {
             if now.fit.model.found[index].lead > SURE {
                 continue;
             }
-            let (lead, fit) = self.exchanged(now, &[index], variance)?;
+            let (lead, fit) = self.exchanged(now, &[index], &costs, variance)?;
             if fit.is_some() {
                 return Ok(fit);
             }
@@ -59,7 +60,7 @@ impl Search<'_, '_> {
         let open: Vec<usize> = all.filter(|k| !is_fine(&now.fit.model.found[*k])).collect();
         for (number, first) in open.iter().enumerate().filter(|_| end) {
             for second in &open[number + 1..] {
-                let (_, fit) = self.exchanged(now, &[*first, *second], variance)?;
+                let (_, fit) = self.exchanged(now, &[*first, *second], &costs, variance)?;
                 if fit.is_some() {
                     return Ok(fit);
                 }
@@ -69,11 +70,12 @@ impl Search<'_, '_> {
     }
 
     /// The model with the best of all others in the place of some effects (ascending), if it has more
-    /// evidence than they; if not, by how much less it has, if there is one.
+    /// evidence than they at these `costs` of all effects; if not, by how much less it has, if there is one.
     fn exchanged(
         &self,
         now: &Explained,
         without: &[usize],
+        costs: &[f64],
         variance: f64,
     ) -> Result<(Option<f64>, Option<Fit>), DiagnoseError> {
         if self.stopped() {
@@ -82,7 +84,6 @@ impl Search<'_, '_> {
         let found = &now.fit.model.found;
         let kept = Kept { without, whole: true, ..Kept::default() };
         let screen = self.screen(now, kept);
-        let costs = self.costs_of(now, variance);
         let own = self.left(now) / variance + without.iter().map(|k| costs[*k]).sum::<f64>();
         // One effect is no other than itself, but one order of a periodic error is not another; of two
         // that one might do for, it may be one of them.
@@ -118,9 +119,8 @@ impl Search<'_, '_> {
     }
 
     /// The effect that costs most beyond what it explains beside all the others, if one does.
-    fn superfluous(&self, now: &Explained, variance: f64) -> Option<usize> {
+    fn superfluous(&self, now: &Explained, costs: &[f64], variance: f64) -> Option<usize> {
         let basis = Basis::new(&self.normal(now));
-        let costs = self.costs_of(now, variance);
         let mut at = Model::nuisances(self.problem);
         let mut worst: Option<(f64, usize)> = None;
         for (index, found) in now.fit.model.found.iter().enumerate() {

@@ -128,7 +128,8 @@ impl Search<'_, '_> {
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
     /// seen, and nobody asks for an end.
     pub(crate) fn explain(&self, begun: Explained) -> Result<Explained, DiagnoseError> {
-        let (mut now, mut paired) = (begun.clone(), false);
+        let at_first = begun.fit.model.found.len();
+        let (mut now, mut begun) = (begun.clone(), Some(begun));
         for _ in 0..MOST_FOUND {
             if self.stopped() {
                 return Ok(now);
@@ -138,9 +139,10 @@ impl Search<'_, '_> {
             now = self.settled(next, now.weights)?;
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
-            if !paired && count >= begun.fit.model.found.len() + 2 {
+            if count >= at_first + 2
+                && let Some(begun) = begun.take()
+            {
                 now = self.or_paired(&begun, now)?;
-                paired = true;
             }
             if count <= SMALL || count.is_multiple_of(SMALL) {
                 now = self.pruned(now, false)?;

@@ -10,7 +10,7 @@ use crate::diagnose::fit::{Fitted, squares, strain};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::sums::Candidate;
 use crate::effects::{Forms, Group};
-use crate::infer::{Basis, Squares, price};
+use crate::infer::{Basis, Squares, price, starts};
 
 /// Two causes, and the evidence of both beside the frames.
 struct Pair {
@@ -90,12 +90,10 @@ impl Search<'_, '_> {
         let right = right.rows(fitted, all) - across.tr_mul(&mine);
         let held: Vec<f64> = ordinary.iter().flat_map(|c| c.held.clone()).collect();
         held.iter().enumerate().for_each(|(k, held)| own[(k, k)] += held * held);
-        let mut ranges = Vec::with_capacity(ordinary.len());
-        let mut at = 0;
-        for candidate in ordinary {
-            ranges.push(at..at + candidate.size);
-            at += candidate.size;
-        }
+        let own_sizes: Vec<usize> = ordinary.iter().map(|c| c.size).collect();
+        let begins = starts(&own_sizes);
+        let ranges: Vec<_> =
+            begins.iter().zip(own_sizes).map(|(at, size)| *at..at + size).collect();
         let seen = |cause: &usize| ranges[*cause].clone().any(|k| shown[k]);
         let causes: Vec<usize> = (0..ordinary.len()).filter(seen).collect();
         let scale = self.scale(begun);
