@@ -31,6 +31,7 @@ pub use provenance::{Hashes, Provenance};
 pub use together::{Said, Together};
 
 use super::Verdict;
+use crate::input::data::BenchArgs;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
@@ -69,6 +70,8 @@ pub struct Args {
     /// The measurement file (CSV), or a joint log of one or several files, or both
     #[arg(required = true)]
     data: Vec<PathBuf>,
+    #[command(flatten)]
+    bench: BenchArgs,
     /// Nuisance parameters, co-estimated and never a finding: base_frame, tool_frame, geometry (zeros,
     /// lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]

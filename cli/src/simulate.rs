@@ -83,6 +83,8 @@ pub struct Args {
 /// What is measured, and how well.
 #[derive(clap::Args)]
 pub struct ExperimentArgs {
+    #[command(flatten)]
+    pub bench: data::BenchArgs,
     /// Which poses and loads are drawn
     #[arg(long, value_enum, conflicts_with = "data", default_value_t = DesignArg::Payload)]
     design: DesignArg,
@@ -232,7 +234,7 @@ impl ExperimentArgs {
         arm: &Arm,
         quiet: bool,
     ) -> Result<Measurements, Failure> {
-        let layout = data::layout(source)?;
+        let layout = self.bench.layout(source)?;
         match file {
             Some(path) => {
                 let design = data::read_plan(path, &layout, quiet)?;

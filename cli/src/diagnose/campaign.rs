@@ -76,7 +76,7 @@ impl Campaign {
         let tolerance = args.accept.as_ref().map(length).transpose()?;
         let arm = source.arm()?;
         let options = args.options(&source, &arm, springs, catalogue)?;
-        let layout = data::layout(&source)?;
+        let layout = args.bench.layout(&source)?;
         let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
         let hash = Sha256::new_with_prefix(&bytes);
         drop(bytes);

@@ -1,7 +1,9 @@
 //! The header row: what each column is, and whether the columns together make a measurement.
 
 use super::Kind;
-use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, SIGMA_PREFIX, nearest_name};
+use super::role::{
+    FROM_NAMES, Family, Layout, NORMAL_NAMES, POSE_NAMES, Role, SIGMA_PREFIX, nearest_name,
+};
 use crate::io::columns::{Header, split};
 use crate::io::{Column, Fault, Map, Mistakes, Unit};
 
@@ -100,7 +102,7 @@ pub(crate) fn family(kind: Kind) -> Family {
     match kind {
         Kind::Pose { .. } | Kind::Coordinates { .. } => Family::Pose,
         Kind::Displacement { .. } => Family::Displacement,
-        Kind::Distance => Family::Distance,
+        Kind::Distance | Kind::Bench { .. } => Family::Distance,
     }
 }
 
@@ -119,9 +121,12 @@ pub(crate) fn kind(
     let mut wrong =
         |head: &Head, fault: Fault| mistakes.add(fault.at(line, Some(head.column.clone())));
     let mut of_each = Family::ALL.into_iter().filter_map(|f| first(f).map(|head| (f, head)));
+    if let Some(column) = heads.iter().find(|h| h.role.is_some_and(Role::is_of_bench)) {
+        return bench(heads, column, &mut wrong);
+    }
     let Some((family, of_it)) = of_each.next() else {
-        let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement) or \
-                        `distance`";
+        let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement), \
+                        `distance`, `point`, `plane` or `along`";
         mistakes.add(
             Fault::new("no measured column", expected, "add what was measured").at(line, None),
         );
@@ -199,6 +204,43 @@ pub(crate) fn kind(
         wrong(head, without(head, &missing, expected, &help));
     }
     Some((kind, given))
+}
+
+/// A file of what instruments read that are no trackers; `column` is one of theirs.
+fn bench(
+    heads: &[Head],
+    column: &Head,
+    wrong: &mut dyn FnMut(&Head, Fault),
+) -> Option<(Kind, [bool; 6])> {
+    let find = |role| heads.iter().find(|h| h.role == Some(role));
+    for head in heads {
+        let of_tracker = match head.role {
+            Some(Role::Measured(family, _)) => family != Family::Distance,
+            Some(Role::Sim(..) | Role::Sigma(Some(_))) => true,
+            _ => false,
+        };
+        if of_tracker {
+            let found = format!("`{}` beside `{}`", head.name, column.name);
+            let help = "put what a tracker measured into a file of its own; `sigma` is the standard deviation \
+                        of each row's reading";
+            wrong(head, Fault::new(found, "`distance`, `point`, `plane` or `along`", help));
+        }
+    }
+    let normal: Vec<_> = (0..3).map(|k| find(Role::Normal(k))).collect();
+    let help = "the direction of a component has three numbers";
+    match (find(Role::Along), partial(&normal, &NORMAL_NAMES)) {
+        (Some(along), None) if normal[0].is_none() => {
+            wrong(along, without(along, "nx, ny, nz", "its direction", help));
+        }
+        (_, Some((head, missing))) => wrong(head, without(head, &missing, "all of nx, ny, nz", help)),
+        _ => {}
+    }
+    let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
+    if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
+        let help = "the point from which a distance is measured has three coordinates";
+        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
+    }
+    Some((Kind::Bench { points: find(Role::Point).is_some() }, [false; 6]))
 }
 
 /// A column of a standard deviation, and those that are missing beside it.

@@ -37,9 +37,11 @@ impl Precision {
         let kinds = [0..3, 3..6].map(|range| {
             let numbers: Vec<[f64; 2]> = (data.rows.iter().zip(gaps).zip(fits))
                 .filter(|(_, fits)| **fits)
-                .filter_map(|((row, gap), _)| Some((row.sigma.as_deref()?, gap)))
-                .flat_map(|(sigma, gap)| {
-                    range.clone().map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
+                .filter_map(|((row, gap), _)| Some((row, row.sigma.as_deref()?, gap)))
+                .flat_map(|(row, sigma, gap)| {
+                    let is = row.components(data.kind);
+                    let own = range.clone().filter(move |k| is[*k]);
+                    own.map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
                 })
                 .filter(|[variance, _]| *variance > 0.0)
                 .collect();

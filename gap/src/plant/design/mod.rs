@@ -13,6 +13,7 @@ mod poses;
 use stiffarm_kernels::generic::Arm;
 
 use crate::measurement::{Kind, Measurements, Row};
+use crate::observe::{Aim, Seen, View};
 
 /// What the experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +80,9 @@ impl Design {
         climate::fill(self.seed, &mut rows);
         if self.kind == Kind::Distance {
             let middle = poses::middle(arm, &poses);
-            rows.iter_mut().for_each(|row| row.from = Some(middle));
+            let view = View::Distance { from: middle.into(), offset: 0.0 };
+            let aim = Aim::known(Seen::Distance, "", view);
+            rows.iter_mut().for_each(|row| row.aim = Some(Box::new(aim.clone())));
         }
         Measurements::new(&format!("the {} design", self.shape.name()), self.kind, rows)
     }
