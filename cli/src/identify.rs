@@ -16,9 +16,9 @@ use stiffarm_gap::identify::measured::{
 use stiffarm_gap::measurement::Dimension;
 
 use super::Verdict;
-use crate::input::source::{RobotArgs, Source};
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
+use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;

@@ -66,13 +66,14 @@ fn reading(
         actual
     })?;
     let mask = Vector6::from_iterator(kind.components().map(f64::from));
-    Ok(sim.seen_by(row.aim.as_deref().map(|aim| aim.view)).reading().vector().component_mul(&mask))
+    Ok(sim.seen_by(row.view(kind)).reading().vector().component_mul(&mask))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixture::{known, springy};
+    use crate::observe::{Aim, Seen};
     use crate::plant::Plant;
     use crate::plant::design::{Design, Shape};
 

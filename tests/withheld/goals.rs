@@ -29,6 +29,9 @@ pub struct Wanted {
 /// Of campaigns.
 pub const CAMPAIGNS: Wanted = Wanted { rates: OF_CAMPAIGNS, largest_set: 2.0 };
 
+/// Of sockets and plates, whose effects are those that they see.
+pub const BENCH: Wanted = Wanted { rates: OF_CAMPAIGNS, largest_set: 2.0 };
+
 /// Of joint logs.
 pub const LOGS: Wanted = Wanted { rates: OF_LOGS, largest_set: f64::INFINITY };
 

@@ -21,6 +21,9 @@ pub struct Check {
     pub before: Option<Statistics>,
     /// The same with the findings.
     pub after: Option<Statistics>,
+    /// Both on all rows, those outside too; `None` where none is outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<[Statistics; 2]>,
 }
 
 impl Check {
@@ -46,6 +49,8 @@ impl Check {
             let judged: Vec<_> = judged.map(|(gap, _)| *gap).collect();
             (inside > 0).then(|| Statistics::of(&judged))
         };
+        let is_extrapolated = !fitted && inside < other.rows.len();
+        let all = [&predicted.before, &predicted.after].map(|gaps| Statistics::of(gaps));
         Ok(Check {
             file: other.file.clone(),
             rows: other.rows.len(),
@@ -53,6 +58,7 @@ impl Check {
             fitted,
             before: size(&predicted.before),
             after: size(&predicted.after),
+            all: is_extrapolated.then_some(all),
         })
     }
 }

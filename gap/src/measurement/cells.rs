@@ -1,11 +1,14 @@
 //! The rows below the header: cells into numbers in SI.
 
-use super::told::Told;
-use super::{Kind, Row};
 use super::header::Head;
 use super::payload::Payloads;
 use super::role::{Family, Layout, Role};
+use super::told::Told;
+use super::{Kind, Row};
 use crate::io::{Convention, Fault, Mistake, Unit, did_you_mean, nearest};
+
+/// A distance that is read.
+const READ: Role = Role::Measured(Family::Distance, 0);
 
 /// A number as the cell has it, before its unit; `expected` is what the message asks for.
 pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
@@ -79,7 +82,11 @@ pub(crate) fn row(
             mistakes.push(fault.at(line, Some(head.column.clone())));
         }
     }
-    if let Err(fault) = told.into_row(kind, planned, &mut row) {
+    let distance = heads.iter().zip(cells).find(|(head, _)| head.role == Some(READ));
+    if let (Some(_), Some((head, cell))) = (told.negative(), distance) {
+        let fault = Fault::new(*cell, "a distance", "it is not below zero");
+        mistakes.push(fault.at(line, Some(head.column.clone())));
+    } else if let Err(fault) = told.into_row(kind, planned, &mut row) {
         mistakes.push(fault.at(line, None));
     }
     if !mistakes.is_empty() {

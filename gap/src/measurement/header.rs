@@ -232,7 +232,9 @@ fn bench(
         (Some(along), None) if normal[0].is_none() => {
             wrong(along, without(along, "nx, ny, nz", "its direction", help));
         }
-        (_, Some((head, missing))) => wrong(head, without(head, &missing, "all of nx, ny, nz", help)),
+        (_, Some((head, missing))) => {
+            wrong(head, without(head, &missing, "all of nx, ny, nz", help))
+        }
         _ => {}
     }
     let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();

@@ -37,7 +37,7 @@ pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
 };
 use crate::io::{Convention, Mistakes}; // alias: old path
-use crate::observe::{Aim, Pair};
+use crate::observe::{Aim, Pair, View};
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
@@ -217,6 +217,12 @@ impl Row {
         }
     }
 
+    /// What reads it in a file of that kind, if it is no tracker.
+    pub fn view(&self, kind: Kind) -> Option<View> {
+        let is_bench = matches!(kind, Kind::Distance | Kind::Bench { .. });
+        self.aim.as_deref().filter(|_| is_bench).map(|aim| aim.view)
+    }
+
     /// Which of the six components are measured in this row of a file of that kind.
     pub fn components(&self, kind: Kind) -> [bool; 6] {
         match (kind, &self.aim) {
@@ -361,7 +367,13 @@ fn read_into(
             return Err(fault.at(record.line, None));
         }
         let cells = record.texts()?;
-        match cells::row(record.line, &cells, &heads, layout, (planned, orientation, kind.map(|k| k.0))) {
+        match cells::row(
+            record.line,
+            &cells,
+            &heads,
+            layout,
+            (planned, orientation, kind.map(|k| k.0)),
+        ) {
             Ok(row) => {
                 rows.push(row);
                 extra.iter_mut().for_each(|extra| extra.take(record.line, &cells));

@@ -29,11 +29,23 @@ impl Told {
     /// Whether cells of such a column go here.
     pub(crate) fn takes(role: Role) -> bool {
         let reading = Role::Measured(Family::Distance, 0);
-        role.is_of_bench() || role == reading || matches!(role, Role::From | Role::FromAt(_) | Role::Normal(_))
+        role.is_of_bench()
+            || role == reading
+            || matches!(role, Role::From | Role::FromAt(_) | Role::Normal(_))
+    }
+
+    /// A distance that is below 0 and not that from a plane.
+    pub(crate) fn negative(&self) -> Option<f64> {
+        self.distance.filter(|distance| *distance < 0.0 && self.plane.is_none())
     }
 
     /// Puts what is read into the row. Of a file that is planned it may be missing.
-    pub(crate) fn into_row(self, kind: Option<Kind>, planned: bool, row: &mut Row) -> Result<(), Fault> {
+    pub(crate) fn into_row(
+        self,
+        kind: Option<Kind>,
+        planned: bool,
+        row: &mut Row,
+    ) -> Result<(), Fault> {
         if !matches!(kind, Some(Kind::Distance | Kind::Bench { .. })) {
             return Ok(());
         }
@@ -50,10 +62,6 @@ impl Told {
                 (Aim::at(Seen::Plane, plane), Some(self.distance.unwrap_or(0.0)))
             }
             (None, None, None) if self.distance.is_some() || planned => {
-                if self.distance.is_some_and(|distance| distance < 0.0) {
-                    let found = "a distance below 0";
-                    return Err(Fault::new(found, "a distance", "that from a plane has a `plane`"));
-                }
                 let name = self.from.unwrap_or_default();
                 let known = |from| View::Distance { from, offset: 0.0 };
                 let aim = match place {

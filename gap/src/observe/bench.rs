@@ -101,7 +101,7 @@ impl TryFrom<Written> for Length {
         };
         length.filter(|x| x.is_finite()).map(Length).ok_or_else(|| {
             let units = Dimension::Length.units();
-            format!("found {found}, expected a length: metres, or a text with one of {units}")
+            format!("{found} is no length: write metres, or a text with one of {units}")
         })
     }
 }
@@ -127,8 +127,7 @@ impl Bench {
         let bench: Bench = toml::from_str(text).map_err(|error| {
             let before = error.span().and_then(|span| text.get(..span.start));
             let line = before.map(|before| 1 + before.matches('\n').count() as u64);
-            let help = "tables are [[point]], [[pair]], [[plane]] and [[centre]]";
-            Fault::new(error.message().to_owned(), "a bench", help).within(line, None).of(file)
+            Fault::new("no bench", "", error.message()).within(line, None).of(file)
         })?;
         let wrong = |found: String, expected: &str, help: &str| {
             Err(Fault::new(found, expected, help).of(file))
@@ -140,7 +139,9 @@ impl Bench {
                 return wrong(found, "two points", "name the other");
             }
             if pair.distance.0 <= 0.0 || pair.sigma.is_some_and(|sigma| sigma.0 <= 0.0) {
-                let found = format!("a [[pair]] of `{one}` and `{other}` with a length that is not above 0");
+                let found = format!(
+                    "a [[pair]] of `{one}` and `{other}` with a length that is not above 0"
+                );
                 return wrong(found, "a distance and a standard deviation above 0", "");
             }
         }
@@ -187,7 +188,10 @@ impl Bench {
                     let [one, other] = points;
                     let (is, not) = if is_first { (one, other) } else { (other, one) };
                     return Err(Fault::new(
-                        format!("a [[pair]] of `{is}` and `{not}` in {}, and no row with point `{not}`", self.file),
+                        format!(
+                            "a [[pair]] of `{is}` and `{not}` in {}, and no row with point `{not}`",
+                            self.file
+                        ),
                         "rows of both points or of none",
                         "mend the name, or remove the pair",
                     ));

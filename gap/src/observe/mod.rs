@@ -98,11 +98,12 @@ impl View {
         let place = |at: &Vector3<f64>| (back * Point3::from(*at)).coords;
         Some(match self {
             View::Point(at) => View::Point(place(at)),
-            View::Distance { from, offset } => View::Distance { from: place(from), offset: *offset },
-            View::Plane(plane) => View::Plane(Plane {
-                normal: back.rotation * plane.normal,
-                at: place(&plane.at),
-            }),
+            View::Distance { from, offset } => {
+                View::Distance { from: place(from), offset: *offset }
+            }
+            View::Plane(plane) => {
+                View::Plane(Plane { normal: back.rotation * plane.normal, at: place(&plane.at) })
+            }
             View::Direction(_) if base.translation.vector != Vector3::zeros() => return None,
             View::Direction(along) => View::Direction(back.rotation * along),
         })

@@ -22,8 +22,10 @@ fn derivatives_are_those_of_what_is_read() {
             assert!((moved - by_point.column(k)).norm() < 1e-9, "{view:?} {k}");
         }
         for k in 0..shifts.ncols() {
-            let one = |by: f64| (0..shifts.ncols()).map(|c| if c == k { by } else { 0.0 });
-            let read = |by| view.moved(&one(by).collect::<Vec<_>>()).read(&point);
+            let one = |by: f64| -> Vec<f64> {
+                (0..shifts.ncols()).map(|c| if c == k { by } else { 0.0 }).collect()
+            };
+            let read = |by| view.moved(&one(by)).read(&point);
             let constants = (read(step) - read(-step)) / (2.0 * step);
             let shifted = by_point * shifts.column(k);
             assert!((constants - shifted).norm() < 1e-9, "{view:?} {k}: {constants}");

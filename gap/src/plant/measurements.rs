@@ -4,10 +4,10 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::text::{Columns, number, quoted};
-use crate::observe::{Aim, Seen, View};
 use crate::measurement::{
-    FROM_NAMES, NORMAL_NAMES, Kind, Measurements, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
 };
+use crate::observe::{Aim, Seen, View};
 
 /// The measurement file of some measurements: comment lines, a header with SI units, and one line
 /// per row. Numbers have as many digits as it takes to read the same numbers back.
@@ -88,7 +88,9 @@ fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
     fn of<'r>(row: &'r Row, seen: Seen) -> Option<&'r Aim> {
         row.aim.as_deref().filter(|aim| aim.seen == seen)
     }
-    let name = move |row: &&Row, seen: Seen| of(row, seen).map_or_else(String::new, |aim| quoted(Some(&aim.name)));
+    let name = move |row: &&Row, seen: Seen| {
+        of(row, seen).map_or_else(String::new, |aim| quoted(Some(&aim.name)))
+    };
     for seen in [Seen::Point, Seen::Plane] {
         if any(&|aim| aim.seen == seen) {
             columns.add(seen.thing(), move |r| name(r, seen));

@@ -226,7 +226,8 @@ impl Reality {
         let loaded: Shown = under(&at.row.wrench)?;
         match kind {
             Kind::Displacement { .. } => Ok(loaded.less(&under(&Vector6::zeros())?)),
-            _ => Ok(loaded.by(at.row)),
+            Kind::Distance | Kind::Bench { .. } => Ok(loaded.by(at.row)),
+            Kind::Pose { .. } | Kind::Coordinates { .. } => Ok(loaded),
         }
     }
 
@@ -251,7 +252,8 @@ impl Reality {
         let loaded = under(&at.row.wrench);
         match kind {
             Kind::Displacement { .. } => loaded.less(&under(&Vector6::zeros())),
-            _ => loaded.by(at.row),
+            Kind::Distance | Kind::Bench { .. } => loaded.by(at.row),
+            Kind::Pose { .. } | Kind::Coordinates { .. } => loaded,
         }
     }
 }

@@ -79,8 +79,7 @@ const LOADS: [&str; 12] = [
 const DATES: [&str; 3] = ["date", "datum", "day"];
 
 /// Any arm: what is not a joint's is the same on all.
-pub(super) const ANY: Layout =
-    Layout {
+pub(super) const ANY: Layout = Layout {
     motions: Vec::new(),
     markers: Vec::new(),
     readings: false,

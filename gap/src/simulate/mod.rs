@@ -56,7 +56,7 @@ pub fn simulate(arm: &Arm, row: &Row, kind: Kind) -> Result<Sim, Unstable> {
     let sim = Sim::of(kind, Isometry3::translation(x, y, z), None, |loaded| {
         Actual::new(arm, &row.q, &if loaded { row.wrench } else { Vector6::zeros() })
     });
-    Ok(sim?.seen_by(row.aim.as_deref().map(|aim| aim.view)))
+    Ok(sim?.seen_by(row.view(kind)))
 }
 
 /// Translation of a twist.

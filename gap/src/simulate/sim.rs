@@ -116,10 +116,9 @@ impl Sim {
         let loaded = self.point(&self.loaded);
         let rotation = self.loaded.tool.rotation * self.measured.rotation;
         match &self.unloaded {
-            None => Reading {
-                position: self.seen_point(),
-                rotation: self.base.rotation * rotation,
-            },
+            None => {
+                Reading { position: self.seen_point(), rotation: self.base.rotation * rotation }
+            }
             Some(unloaded) => {
                 let turned = self.loaded.tool.rotation * unloaded.tool.rotation.inverse();
                 Reading {

@@ -7,12 +7,12 @@ use stiffarm_kernels::generic::Arm;
 use super::misfits::ordinary;
 use super::precision::Precision;
 use super::visits::Visits;
+use crate::diagnose::fit::Place;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::measurement::{Kind, Measurements, Row};
-use crate::diagnose::fit::Place;
 use crate::observe::{Aim, Pair, Seen};
 use crate::simulate::{Actual, Moments, Reading, Sim};
 
@@ -143,7 +143,7 @@ impl<'a> Problem<'a> {
             let unloaded = |wrong| if fits[number] { Err(wrong) } else { sim(Vector6::zeros()) };
             let sim = sim(row.wrench).or_else(unloaded);
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
-            let sim = sim.seen_by(row.aim.as_deref().map(|aim| aim.view));
+            let sim = sim.seen_by(row.view(data.kind));
             let tool = sim.loaded.tool.translation.vector;
             if !sim.loaded.torque.iter().chain(tool.iter()).all(is_small) {
                 return Err(too_large());

@@ -17,7 +17,8 @@ pub(crate) struct Bond {
 impl Bond {
     /// All of a model.
     pub(super) fn all(problem: &Problem<'_>, model: &Model) -> Vec<Bond> {
-        let first = Model::nuisances(problem) - problem.bench.iter().map(|t| t.aim.free.len()).sum::<usize>();
+        let first = Model::nuisances(problem)
+            - problem.bench.iter().map(|t| t.aim.free.len()).sum::<usize>();
         let begin = |thing: usize| {
             first + problem.bench[..thing].iter().map(|t| t.aim.free.len()).sum::<usize>()
         };

@@ -133,7 +133,7 @@ impl Model {
         let at_rest = Sim::of(problem.data.kind, measured, near, |loaded| {
             self.actual(problem, row, loaded && load)
         });
-        let known = || problem.data.rows[row].aim.as_deref().map(|aim| aim.view);
+        let known = || problem.data.rows[row].view(problem.data.kind);
         let view = problem.bench_of[row].map(|thing| self.bench[thing]).or_else(known);
         Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_by(view))
     }

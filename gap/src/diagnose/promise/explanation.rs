@@ -153,7 +153,8 @@ impl Explanation {
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
             model.bases = sessions.iter().map(|k| model.bases[k.unwrap_or(0)]).collect();
             let things = bench.iter().zip(&problem.bench);
-            let known = |(k, new): (&Option<usize>, &Thing)| k.map_or(new.aim.view, |k| model.bench[k]);
+            let known =
+                |(k, new): (&Option<usize>, &Thing)| k.map_or(new.aim.view, |k| model.bench[k]);
             model.bench = things.map(known).collect();
             model.found.retain(lasts);
             model
@@ -187,11 +188,7 @@ impl Explanation {
 
     /// Which of the diagnosed sessions a session of other data is measured in; `None` is another one, where
     /// the base is known.
-    fn session(
-        &self,
-        other: &Problem<'_>,
-        name: &str,
-    ) -> Result<Option<usize>, DiagnoseError> {
+    fn session(&self, other: &Problem<'_>, name: &str) -> Result<Option<usize>, DiagnoseError> {
         let known = self.sessions.iter().position(|known| known == name);
         let is_one = |names: &[String]| matches!(names, [one] if one.is_empty());
         // A file without the column is of the one session that there is.

@@ -6,11 +6,14 @@
 //! warms up.
 
 mod approach;
+mod bench;
 mod climate;
 mod loads;
 mod poses;
 
 use stiffarm_kernels::generic::Arm;
+
+pub use bench::placed;
 
 use crate::measurement::{Kind, Measurements, Row};
 use crate::observe::{Aim, Seen, View};
@@ -66,7 +69,9 @@ impl Design {
     /// Readings are whole microradians (micrometres), loads whole thousandths of SI.
     pub fn rows(&self, arm: &Arm) -> Measurements {
         let mut rows = Vec::new();
-        let poses = poses::draw(arm, self);
+        let mut poses = poses::draw(arm, self);
+        let is_bench = matches!(self.kind, Kind::Bench { .. });
+        let aims = if is_bench { bench::reach(arm, self, &mut poses) } else { Vec::new() };
         let loads = loads::draw(arm, self, &poses);
         for _ in 0..self.repeats {
             for (group, (q, loads)) in poses.iter().zip(&loads).enumerate() {
@@ -75,6 +80,10 @@ impl Design {
                     rows.push(Row { wrench: *wrench, group, ..Row::new(line, q.clone()) });
                 }
             }
+        }
+        if is_bench {
+            rows.iter_mut()
+                .for_each(|row: &mut Row| row.aim = Some(Box::new(aims[row.group].clone())));
         }
         approach::fill(self, &mut rows);
         climate::fill(self.seed, &mut rows);

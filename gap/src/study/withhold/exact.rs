@@ -56,7 +56,7 @@ pub fn exact<'a>(
                 truths.iter().for_each(|truth| put(truth, &mut actual, row, &when, sign));
                 actual
             })?;
-            let sim = sim.seen_by(row.aim.as_deref().map(|aim| aim.view));
+            let sim = sim.seen_by(row.view(design.kind));
             let mask = Vector6::from_iterator(design.kind.components().map(f64::from));
             Ok(sim.reading().vector().component_mul(&mask))
         };
