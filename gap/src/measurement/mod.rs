@@ -55,6 +55,9 @@ pub struct Measurements {
     pub sim_given: [bool; 6],
     /// Number of distinct poses: each row's [`Row::group`] is below it.
     pub poses: usize,
+    /// Whether a camera tells of a board: where either is on the arm, or beside it, nobody knows, and both frames
+    /// are fitted along.
+    pub by_camera: bool,
     /// Points whose distance is known.
     pub pairs: Vec<Pair>,
     /// The columns that have no meaning here, as they stand.
@@ -182,6 +185,8 @@ pub struct Row {
     pub session: Option<String>,
     /// What the `payload` column hangs on the tool; its weight is part of the wrench.
     pub payload: Option<Box<Hung>>,
+    /// The names of the camera and the board of whose pose is told, in the camera's axes; may be empty.
+    pub camera: Option<Box<[String; 2]>>,
     /// What is read of the measured point by an instrument that is no tracker.
     pub aim: Option<Box<Aim>>,
     /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. One number
@@ -210,6 +215,7 @@ impl Row {
             offset: Some([0.0; 3]),
             session: None,
             payload: None,
+            camera: None,
             aim: None,
             measured: Vector6::zeros(),
             sigma: None,
@@ -257,6 +263,7 @@ impl Measurements {
             rows,
             kind,
             sim_given: [false; 6],
+            by_camera: false,
             pairs: Vec::new(),
             extra: Vec::new(),
             unused: Vec::new(),
@@ -410,6 +417,7 @@ fn read_into(
         rows,
         kind,
         sim_given,
+        by_camera: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
         pairs: Vec::new(),
         poses,
     };

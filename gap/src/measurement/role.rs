@@ -21,6 +21,12 @@ pub const READING_NAMES: [&str; 6] = ["reading", "", "", "", "", ""];
 /// The direction along which a component is read.
 pub const NORMAL_NAMES: [&str; 3] = ["nx", "ny", "nz"];
 
+/// The pose of a board in a camera's axes: its place, and its rotation vector.
+pub const BOARD_NAMES: [&str; 6] = ["cx", "cy", "cz", "crx", "cry", "crz"];
+
+/// Its orientation as a quaternion.
+pub const BOARD_QUATERNION: [&str; 4] = ["cqw", "cqx", "cqy", "cqz"];
+
 /// The point from which a distance is measured.
 pub const FROM_NAMES: [&str; 3] = ["from_x", "from_y", "from_z"];
 
@@ -92,6 +98,14 @@ pub(crate) enum Role {
     Along,
     /// A component of the direction.
     Normal(usize),
+    /// The name of a camera.
+    Camera,
+    /// The name of a board.
+    Board,
+    /// A component of a board's pose.
+    BoardPose(usize),
+    /// A component of its quaternion.
+    BoardTurn(usize),
     Measured(Family, usize),
     Sim(Family, usize),
     /// The instrument's standard deviation of one component; of all positions.
@@ -160,6 +174,12 @@ impl Role {
         if let Some(k) = FROM_NAMES.iter().position(|n| *n == name) {
             return Ok(Role::FromAt(k));
         }
+        if let Some(k) = BOARD_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::BoardPose(k));
+        }
+        if let Some(k) = BOARD_QUATERNION.iter().position(|n| *n == name) {
+            return Ok(Role::BoardTurn(k));
+        }
         if let Some(k) = NORMAL_NAMES.iter().position(|n| *n == name) {
             return Ok(Role::Normal(k));
         }
@@ -170,6 +190,8 @@ impl Role {
             "point" => Role::Point,
             "plane" => Role::Plane,
             "along" => Role::Along,
+            "camera" => Role::Camera,
+            "board" => Role::Board,
             "temperature" => Role::Temperature,
             "time" => Role::Time,
             "pose" => Role::Pose,
@@ -189,14 +211,15 @@ impl Role {
             Role::Wrench(k) => Some(if k < 3 { Dimension::Force } else { Dimension::Moment }),
             Role::Temperature => Some(Dimension::Temperature),
             Role::Time => Some(Dimension::Time),
-            Role::Measured(_, k) | Role::Sim(_, k) | Role::Sigma(Some((_, k))) => {
-                Some(component_dimension(k))
-            }
+            Role::Measured(_, k)
+            | Role::BoardPose(k)
+            | Role::Sim(_, k)
+            | Role::Sigma(Some((_, k))) => Some(component_dimension(k)),
             Role::Sigma(None) => Some(Dimension::Length),
             Role::FromAt(_) | Role::Along => Some(Dimension::Length),
             Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
             Role::Session | Role::Payload | Role::From | Role::Point | Role::Plane => None,
-            Role::Normal(_) => None,
+            Role::Normal(_) | Role::BoardTurn(_) | Role::Camera | Role::Board => None,
         }
     }
 }
@@ -223,7 +246,7 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
     let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
-    let bench = ["point", "plane", "along", SIGMA];
+    let bench = ["point", "plane", "along", "camera", "board", SIGMA];
     let fixed = fixed.into_iter().chain(FROM_NAMES).chain(bench).map(str::to_owned);
     let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));

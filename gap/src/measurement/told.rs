@@ -1,6 +1,6 @@
 //! What a row says that an instrument reads which is no tracker, cell by cell.
 
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::role::{Family, Role};
 use super::{Kind, Row};
@@ -23,6 +23,10 @@ pub(crate) struct Told {
     /// m.
     pub(crate) along: Option<f64>,
     pub(crate) normal: [Option<f64>; 3],
+    pub(crate) camera: Option<String>,
+    pub(crate) board: Option<String>,
+    /// A quaternion, w first.
+    pub(crate) turn: [Option<f64>; 4],
 }
 
 impl Told {
@@ -46,6 +50,19 @@ impl Told {
         planned: bool,
         row: &mut Row,
     ) -> Result<(), Fault> {
+        if let [Some(w), Some(x), Some(y), Some(z)] = self.turn {
+            let turn = Quaternion::new(w, x, y, z);
+            if (turn.norm() - 1.0).abs() > UNIT {
+                let found = format!("a quaternion of length {}", turn.norm());
+                return Err(Fault::new(found, "a unit quaternion", "mend cqw, cqx, cqy and cqz"));
+            }
+            let vector = UnitQuaternion::from_quaternion(turn).scaled_axis();
+            row.measured.fixed_rows_mut::<3>(3).copy_from(&vector);
+        }
+        if self.camera.is_some() || self.board.is_some() {
+            let name = |name: Option<String>| name.unwrap_or_default();
+            row.camera = Some(Box::new([name(self.camera), name(self.board)]));
+        }
         if !matches!(kind, Some(Kind::Distance | Kind::Bench { .. })) {
             return Ok(());
         }

@@ -20,11 +20,15 @@
 //! name = "wire"
 //! at = [1.0, 0.0, 0.5]          # if it is known
 //! length_offset = "0 mm"        # what it reads at no distance, if that is known
+//!
+//! [[camera]]                    # that tells where a board is
+//! name = "left"
+//! on = "tool"                   # else "base", beside the arm, and the board is on the tool
 //! ```
 //!
 //! A number is in metres; a text has its unit. What is not said is unknown, and fitted along.
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Isometry3, Unit, Vector3};
 use serde::Deserialize;
 
 use super::{Aim, Pair, Plane, Seen, View};
@@ -42,6 +46,7 @@ pub struct Bench {
     pair: Vec<Known>,
     plane: Vec<Flat>,
     centre: Vec<Centre>,
+    camera: Vec<Camera>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -74,6 +79,20 @@ struct Centre {
     name: String,
     at: Option<[Length; 3]>,
     length_offset: Option<Length>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Camera {
+    name: String,
+    on: Mount,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Mount {
+    Base,
+    Tool,
 }
 
 /// m.
@@ -117,6 +136,7 @@ impl Bench {
         pair: Vec::new(),
         plane: Vec::new(),
         centre: Vec::new(),
+        camera: Vec::new(),
     };
 
     /// Reads what is known; `file` is what messages call it.
@@ -175,6 +195,8 @@ impl Bench {
     /// [`Fault`]: a pair of which the file has one point alone.
     pub(crate) fn set_up(&self, data: &mut Measurements) -> Result<(), Fault> {
         data.rows.iter_mut().for_each(|row| self.known(row));
+        self.one_camera(data)?;
+        data.rows.iter_mut().for_each(|row| self.carried(row));
         let has = |name: &String| {
             let of = |aim: &Aim| aim.seen == Seen::Point && aim.name == *name;
             data.rows.iter().any(|row| row.aim.as_deref().is_some_and(of))
@@ -199,6 +221,32 @@ impl Bench {
             }
         }
         Ok(())
+    }
+
+    /// Of each camera and board the frames are others, and a file has one of either.
+    fn one_camera(&self, data: &Measurements) -> Result<(), Fault> {
+        let mut named = data.rows.iter().map(|row| row.camera.as_deref());
+        let first = named.next().flatten();
+        let Some(other) = named.find(|other| *other != first) else { return Ok(()) };
+        let told = |names: Option<&[String; 2]>| match names {
+            Some([camera, board]) => format!("camera `{camera}` with board `{board}`"),
+            None => "neither camera nor board".to_owned(),
+        };
+        let found = format!("{} and {}", told(first), told(other));
+        Err(Fault::new(found, "one camera and one board", "put each into a file of its own"))
+    }
+
+    /// The pose of a camera on the tool in the board's axes, in place of the board's in the camera's.
+    fn carried(&self, row: &mut Row) {
+        let name = row.camera.as_ref().map_or("", |names| &names[0]);
+        let on = self.camera.iter().find(|camera| camera.name == name).map(|camera| camera.on);
+        if on == Some(Mount::Tool) {
+            let [x, y, z, u, v, w] = row.measured.into();
+            let board = Isometry3::new(Vector3::new(x, y, z), Vector3::new(u, v, w));
+            let camera = board.inverse();
+            row.measured.fixed_rows_mut::<3>(0).copy_from(&camera.translation.vector);
+            row.measured.fixed_rows_mut::<3>(3).copy_from(&camera.rotation.scaled_axis());
+        }
     }
 
     fn known(&self, row: &mut Row) {

@@ -170,7 +170,10 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             known,
-            nuisances: options.nuisances.clone(),
+            nuisances: match data.by_camera {
+                true => Nuisance::ALL.to_vec(),
+                false => options.nuisances.clone(),
+            },
             along: options.along().filter(|e| e.excluded(data).is_none()),
             priors: options.priors.clone(),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
