@@ -244,6 +244,42 @@ fn a_bench_file_says_what_is_known() {
     }
 }
 
+/// A board's pose by a quaternion is the one by its vector; of a camera on the tool it is the camera's in the
+/// board's axes.
+#[test]
+fn a_camera_tells_where_a_board_is() {
+    let by_vector =
+        good("camera,board,q1,q2,q3,cx[mm],cy,cz,crx[deg],cry,crz\nl,b,0,0,0,100,0.2,0.3,90,0,0\n");
+    let half = 0.5_f64.sqrt();
+    let text = format!(
+        "camera,board,q1,q2,q3,cx,cy,cz,cqw,cqx,cqy,cqz\nl,b,0,0,0,0.1,0.2,0.3,{half},{half},0,0\n"
+    );
+    let by_quaternion = good(&text);
+    assert_eq!(by_vector.kind, Kind::Pose { orientation: true });
+    assert!(by_vector.by_camera && by_quaternion.by_camera);
+    assert!((by_vector.rows[0].measured - by_quaternion.rows[0].measured).amax() < 1e-15);
+    let bench = "[[camera]]\nname = \"l\"\non = \"tool\"\n";
+    let layout = Layout { bench: Bench::read("b.toml", bench).expect("a bench"), ..layout() };
+    let carried = Measurements::from_bytes("b.csv", text.as_bytes(), &layout).expect("a file");
+    // Back by a quarter about x: (x, y, z) is seen at (−x, −z, y).
+    let seen = Vector6::new(-0.1, -0.3, 0.2, -core::f64::consts::FRAC_PI_2, 0.0, 0.0);
+    assert!((carried.rows[0].measured - seen).amax() < 1e-15, "{}", carried.rows[0].measured);
+    for (text, told) in [
+        ("q1,q2,q3,cx,cy,crx,cry,crz\n0,0,0,1,1,0,0,0\n", "`cx` without cz"),
+        ("q1,q2,q3,cx,cy,cz\n0,0,0,1,1,0\n", "`cx` without crx, cry, crz"),
+        ("q1,q2,q3,cx,cy,cz,cqw,cqx\n0,0,0,1,1,0,1,0\n", "`cx` without cqy, cqz"),
+        ("q1,q2,q3,cx,cy,cz,cqw,cqx,cqy,cqz\n0,0,0,1,1,0,1,1,0,0\n", "a quaternion of length 1.4"),
+        ("q1,q2,q3,cx,cy,cz,crx,cry,crz,x\n0,0,0,1,1,0,0,0,0,1\n", "`x` beside `cx`"),
+        (
+            "camera,q1,q2,q3,cx,cy,cz,crx,cry,crz\nl,0,0,0,1,1,0,0,0,0\nr,0,0,0,1,1,0,0,0,0\n",
+            "expected one camera and one board",
+        ),
+    ] {
+        let error = read_error(text);
+        assert!(error.contains(told), "{error}");
+    }
+}
+
 fn read_error(text: &str) -> String {
     read(text).expect_err("a mistake").to_string()
 }

@@ -1,10 +1,10 @@
 //! Instruments that are no trackers: sockets and plates, alone and together, against the plant's own formulas.
 
-use nalgebra::{Unit, Vector3, Vector6};
+use nalgebra::{Isometry3, Unit, Vector3, Vector6};
 use stiffarm_gap::measurement::{Kind, Layout, Row};
 use stiffarm_gap::observe::{Aim, Bench, Pair, Plane, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, csv};
+use stiffarm_gap::plant::{Frames, Noise, csv};
 use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose, diagnose_with};
 use stiffarm_kernels::generic::{Arm, Convention};
@@ -120,6 +120,27 @@ fn planes(data: &Measurements) -> String {
         }
     }
     text
+}
+
+/// Hand-eye: with nothing else unknown, both frames to rounding.
+#[test]
+fn a_board_seen_by_a_camera_gives_both_frames() {
+    let arm = loaded(Convention::Standard);
+    let frames = Frames::unknown(3);
+    let kind = Kind::Pose { orientation: true };
+    let design =
+        Design { shape: Shape::Payload, poses: 20, repeats: 1, payload: 0.0, kind, seed: 3 };
+    let plant = plant(&arm, &[]).with_frames(frames.clone());
+    let mut data = plant.measure(&design.rows(&arm), EXACT, 0).expect("rows");
+    data.by_camera = true;
+    let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
+    let [base, tool] = &found.nuisances[..] else { panic!("{:?}", found.nuisances) };
+    let was = [frames.base * arm.base, arm.tool * frames.tool];
+    for (is, was) in [base, tool].into_iter().zip(was) {
+        let is = Isometry3::new(is.translation.into(), is.rotation.into());
+        let off = (is.inverse() * was).to_homogeneous() - nalgebra::Matrix4::identity();
+        assert!(off.amax() < 1e-9, "{off}");
+    }
 }
 
 /// Rows of both kinds are one campaign, and each row has as many numbers as it reads.
