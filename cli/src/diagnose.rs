@@ -67,7 +67,7 @@ the joints' compliances are estimated from both.";
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The measurement file (CSV), or a joint log of one or several files, or both
+    /// Measurement files (CSV) of one arm, or a joint log of one or several files, or both
     #[arg(required = true)]
     data: Vec<PathBuf>,
     #[command(flatten)]
@@ -193,15 +193,15 @@ pub fn find(args: &Args, catalogues: Catalogues, quiet: bool) -> Result<Found, F
             Motion::new(args, source, parts, in_motion, quiet)
                 .map(|found| Found::Motion(Box::new(found)))
         }
-        log::Files::Measurements(bytes) => {
+        log::Files::Measurements(files) => {
             unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
-            Campaign::new(args, source, bytes, &[], at_rest, quiet)
+            Campaign::new(args, source, files, &[], at_rest, quiet)
                 .map(|found| Found::Campaign(Box::new(found)))
         }
-        log::Files::Both(path, bytes, parts) => {
+        log::Files::Both(files, parts) => {
             let catalogues = Catalogues { at_rest, in_motion };
-            let both = args.both(path, &catalogues)?;
-            Together::new(&both, source, bytes, parts, catalogues, quiet)
+            let both = args.both(&files, &catalogues)?;
+            Together::new(&both, source, files, parts, catalogues, quiet)
                 .map(|found| Found::Together(Box::new(found)))
         }
     }

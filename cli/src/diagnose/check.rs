@@ -39,9 +39,10 @@ impl Check {
         let mut predicted = diagnosed.explanation.predict(other)?;
         let fitted = other.rows == data.rows;
         if fitted {
-            let out: Vec<u64> = diagnosed.diagnosis.left_out.iter().map(|row| row.line).collect();
             let rows = predicted.inside.iter_mut().zip(&other.rows);
-            rows.for_each(|(inside, row)| *inside = !out.contains(&row.line));
+            rows.for_each(|(inside, row)| {
+                *inside = !diagnosed.diagnosis.left_out.iter().any(|out| out.is(row))
+            });
         }
         let inside = predicted.inside.iter().filter(|inside| **inside).count();
         let size = |gaps: &[nalgebra::Vector6<f64>]| {

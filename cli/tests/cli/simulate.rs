@@ -174,3 +174,19 @@ fn sockets_are_simulated_and_diagnosed() {
     let again = stiffarm(&["simulate", "ur5", &file, "--csv", "-", "--effect", SPRING]).good();
     assert_eq!(header(&again), header(&csv));
 }
+
+/// A tracker's file and a file of sockets are one campaign; a spring is told by both.
+#[test]
+fn files_of_several_instruments_are_one_campaign() {
+    let folder = Folder::new();
+    let tracker = simulated(&["--measure", "position", "--poses", "12", "--effect", SPRING]);
+    let sockets =
+        simulated(&["--measure", "point", "--poses", "36", "--seed", "4", "--effect", SPRING]);
+    let [a, b] =
+        [("a.csv", &tracker), ("b.csv", &sockets)].map(|(name, text)| folder.file(name, text));
+    let found = stiffarm(&["diagnose", "ur5", &a, &b, "--json", "-", "--quiet"]).good();
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!(found["measurements"], 3 * (12 + 36));
+    assert_eq!(found["findings"][0]["effect"], "joint_compliance");
+    assert_eq!(found["bench"].as_array().map(Vec::len), Some(6));
+}

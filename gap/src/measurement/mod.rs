@@ -18,6 +18,7 @@ mod header;
 mod payload;
 mod role;
 mod seen;
+mod stack;
 mod told;
 
 use std::collections::HashMap;

@@ -103,6 +103,9 @@ pub struct Gauge {
 pub struct LeftOut {
     /// Its line in the file.
     pub line: u64,
+    /// Its session, where there are several: of several files its file, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
     /// How far it is from what the model with the findings predicts, m; `None` where that model comes to
     /// no rest under its load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -110,6 +113,13 @@ pub struct LeftOut {
     /// The same of its rotation, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<f64>,
+}
+
+impl LeftOut {
+    /// Whether it is this row.
+    pub fn is(&self, row: &Row) -> bool {
+        self.line == row.line && (self.session.is_none() || self.session == row.session)
+    }
 }
 
 /// A part of the gap.

@@ -97,7 +97,9 @@ impl Campaign<'_> {
             let text = size(row).map_or("no equilibrium under its load".to_owned(), |size| {
                 units.main([size, size]).with_unit(size)
             });
-            format!("line {} ({text})", row.line)
+            let of = row.session.as_deref().map(|session| session.trim_end_matches(':'));
+            let of = of.map_or_else(String::new, |session| format!(" of {session}"));
+            format!("line {}{of} ({text})", row.line)
         };
         let each: Vec<String> = rows.iter().map(far).collect();
         let (out, all) = (each.len(), self.found.measurements);
