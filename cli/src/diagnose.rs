@@ -31,6 +31,7 @@ pub use provenance::{Hashes, Provenance};
 pub use together::{Said, Together};
 
 use super::Verdict;
+use crate::input::data::BenchArgs;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
@@ -66,9 +67,11 @@ the joints' compliances are estimated from both.";
 pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The measurement file (CSV), or a joint log of one or several files, or both
+    /// Measurement files (CSV) of one arm, or a joint log of one or several files, or both
     #[arg(required = true)]
     data: Vec<PathBuf>,
+    #[command(flatten)]
+    bench: BenchArgs,
     /// Nuisance parameters, co-estimated and never a finding: base_frame, tool_frame, geometry (zeros,
     /// lengths and twists, within --tolerance)
     #[arg(long, value_name = "a,b", value_delimiter = ',')]
@@ -190,15 +193,15 @@ pub fn find(args: &Args, catalogues: Catalogues, quiet: bool) -> Result<Found, F
             Motion::new(args, source, parts, in_motion, quiet)
                 .map(|found| Found::Motion(Box::new(found)))
         }
-        log::Files::Measurements(bytes) => {
+        log::Files::Measurements(files) => {
             unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
-            Campaign::new(args, source, bytes, &[], at_rest, quiet)
+            Campaign::new(args, source, files, &[], at_rest, quiet)
                 .map(|found| Found::Campaign(Box::new(found)))
         }
-        log::Files::Both(path, bytes, parts) => {
+        log::Files::Both(files, parts) => {
             let catalogues = Catalogues { at_rest, in_motion };
-            let both = args.both(path, &catalogues)?;
-            Together::new(&both, source, bytes, parts, catalogues, quiet)
+            let both = args.both(&files, &catalogues)?;
+            Together::new(&both, source, files, parts, catalogues, quiet)
                 .map(|found| Found::Together(Box::new(found)))
         }
     }

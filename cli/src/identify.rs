@@ -16,8 +16,9 @@ use stiffarm_gap::identify::measured::{
 use stiffarm_gap::measurement::Dimension;
 
 use super::Verdict;
+use crate::input::data::{self, BenchArgs};
+use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
-use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::note::note;
@@ -60,6 +61,8 @@ pub struct Args {
     /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from the residuals]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     noise_rotation: Option<String>,
+    #[command(flatten)]
+    bench: BenchArgs,
     /// Number of folds [default: one per pose up to 10]
     #[arg(long, value_name = "K")]
     folds: Option<usize>,
@@ -86,7 +89,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let question = Question { known: source.known.clone(), ..question };
     let arm = source.arm_at_its_base()?;
-    let data = data::read(&args.data, &data::layout(&source)?, quiet)?;
+    let data = data::read(&args.data, &args.bench.layout(&source)?, quiet)?;
     // Loads are told in the base's axes, and so are springs.
     let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {
         let message = format!("{}: found some components alone", args.data.display());

@@ -14,7 +14,7 @@ use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
 use crate::document::Unit;
-use crate::input::data;
+use crate::input::data::{self, BenchArgs};
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
@@ -40,6 +40,8 @@ pub struct Args {
     robot: RobotArgs,
     /// The measurement file, or a plan (CSV)
     data: PathBuf,
+    #[command(flatten)]
+    bench: BenchArgs,
     /// Write the file with what is predicted in the place of what is measured (`-`: to standard output)
     #[arg(long, value_name = "OUT")]
     csv: Option<Target>,
@@ -69,7 +71,7 @@ struct Written<'a> {
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
-    let layout = data::layout(&source)?;
+    let layout = args.bench.layout(&source)?;
     let plan = data::read_plan(&args.data, &layout, quiet)?;
     let is_measured = plan.rows.iter().any(|row| row.measured != Vector6::zeros());
     // A row with a hole is no measurement, and is left out and said.

@@ -9,7 +9,7 @@ use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::{Dimension, Kind};
-use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_gap::plant::design::{Design, Shape, placed};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
@@ -83,6 +83,8 @@ pub struct Args {
 /// What is measured, and how well.
 #[derive(clap::Args)]
 pub struct ExperimentArgs {
+    #[command(flatten)]
+    pub bench: data::BenchArgs,
     /// Which poses and loads are drawn
     #[arg(long, value_enum, conflicts_with = "data", default_value_t = DesignArg::Payload)]
     design: DesignArg,
@@ -136,6 +138,10 @@ enum MeasureArg {
     Displacement,
     /// Distance from a fixed point that is within the arm's reach, in from_x, from_y, from_z
     Distance,
+    /// Nothing but the joints: the tool's point is in one of six sockets, in unknown places
+    Point,
+    /// Height above one of six plates, in unknown places
+    Plane,
 }
 
 /// Most rows that are drawn.
@@ -167,7 +173,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if args.first_order_sim {
         plant = plant.with_first_order_sim();
     }
-    let measured = plant.measure(&design, noise, seed).map_err(plain)?;
+    let measured = plant.measure(&design, noise, seed).and_then(|read| plant.seated(&read));
+    let measured = measured.map_err(plain)?;
     if let Some(target) = &args.csv {
         target.write(&csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
     }
@@ -232,13 +239,13 @@ impl ExperimentArgs {
         arm: &Arm,
         quiet: bool,
     ) -> Result<Measurements, Failure> {
-        let layout = data::layout(source)?;
+        let layout = self.bench.layout(source)?;
         match file {
             Some(path) => {
                 let design = data::read_plan(path, &layout, quiet)?;
                 // What the file measures is replaced, its frames with it.
                 data::doubted(arm, &design, &Nuisance::ALL, quiet);
-                Ok(design)
+                Ok(placed(arm, &design))
             }
             None => Ok(self.design()?.rows(arm)),
         }
@@ -289,6 +296,8 @@ impl ExperimentArgs {
                 MeasureArg::Position => Kind::Pose { orientation: false },
                 MeasureArg::Displacement => Kind::Displacement { components: [true; 6] },
                 MeasureArg::Distance => Kind::Distance,
+                MeasureArg::Point => Kind::Bench { points: true },
+                MeasureArg::Plane => Kind::Bench { points: false },
             },
             seed: self.seed,
         })

@@ -135,10 +135,8 @@ pub(crate) fn beyond<I: Iterator<Item = f64>>(
 /// Positions and displacements that are too large for metres.
 fn lengths(data: &Measurements, reach: f64) -> Option<String> {
     let (most_metres, what) = match data.kind {
-        Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => {
-            (MOST_REACHES * reach, "away")
-        }
         Kind::Displacement { .. } => (MOST_GIVEN * reach, "displaced"),
+        _ => (MOST_REACHES * reach, "away"),
     };
     let size = |row: &Row| length(&row.measured, 0);
     let mut sizes: Vec<f64> = data.rows.iter().map(size).collect();

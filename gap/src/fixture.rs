@@ -7,6 +7,7 @@ use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::effects::{Catalogue, Known, Spot};
 use crate::measurement::{Kind, Layout, Measurements, Row};
+use crate::observe::Bench;
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
     Joint {
@@ -95,6 +96,7 @@ pub(crate) fn layout(joints: usize) -> Layout {
         readings: true,
         markers: Vec::new(),
         payloads: None,
+        bench: Bench::NONE,
     }
 }
 

@@ -28,6 +28,7 @@ pub mod io;
 pub mod log;
 pub mod measurement;
 pub mod motion;
+pub mod observe;
 pub mod performance;
 pub mod plant;
 pub mod pool;

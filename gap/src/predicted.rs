@@ -7,7 +7,7 @@ use stiffarm_kernels::Unstable;
 use crate::diagnose::DiagnoseError;
 use crate::effects::Known;
 use crate::measurement::{Kind, Measurements, Row};
-use crate::simulate::{Actual, Moment, Sim, moments, origin};
+use crate::simulate::{Actual, Moment, Sim, moments};
 use crate::whole::Whole;
 
 /// The rows with what the arm is to read in the place of what was measured, at static equilibrium under
@@ -45,8 +45,8 @@ fn are_known(whole: Whole<'_>, data: &Measurements, row: &Row) -> Result<(), Dia
     if let (Some(marker), None) = (&row.marker, row.offset) {
         return Err(DiagnoseError::NewMarker { file: file(), marker: marker.clone() });
     }
-    if data.kind == Kind::Distance && row.from.is_none() {
-        let point = row.from_point.clone().unwrap_or_default();
+    if let Some(aim) = row.aim.as_deref().filter(|aim| !aim.free.is_empty()) {
+        let point = aim.full_name();
         return Err(DiagnoseError::NewPoint { file: file(), point });
     }
     Ok(())
@@ -66,13 +66,14 @@ fn reading(
         actual
     })?;
     let mask = Vector6::from_iterator(kind.components().map(f64::from));
-    Ok(sim.seen_from(origin(kind, row)).reading().vector().component_mul(&mask))
+    Ok(sim.seen_by(row.view(kind)).reading().vector().component_mul(&mask))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixture::{known, springy};
+    use crate::observe::{Aim, Seen};
     use crate::plant::Plant;
     use crate::plant::design::{Design, Shape};
 
@@ -113,7 +114,7 @@ mod tests {
         let design =
             Design { shape: Shape::Force, poses: 2, repeats: 1, payload: 10.0, kind, seed: 2 };
         let mut rows = design.rows(&arm);
-        rows.rows[3].from = None;
+        rows.rows[3].aim = Some(Box::new(Aim::at(Seen::Distance, "")));
         let error = predicted(&arm, &rows).unwrap_err();
         assert!(matches!(error, DiagnoseError::NewPoint { .. }), "{error}");
         rows.rows[1].marker = Some("smr".to_owned());

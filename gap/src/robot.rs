@@ -8,6 +8,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
 use crate::measurement::{Body, Layout, Marker, Payloads};
+use crate::observe::Bench;
 
 /// A robot whose parameters are not all known cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -151,6 +152,7 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
         readings: true,
         markers,
         payloads: carried.transpose()?,
+        bench: Bench::NONE,
     })
 }
 

@@ -103,6 +103,7 @@ fn data() -> Measurements {
         readings: true,
         markers: Vec::new(),
         payloads: None,
+        bench: stiffarm_gap::observe::Bench::NONE,
     };
     Measurements::from_bytes("lin1991_table3.csv", text.as_bytes(), &layout).unwrap()
 }

@@ -154,6 +154,7 @@ def diagnose(
     arm: AnyArm,
     data: Union[Frame, Sequence[Frame]],
     *,
+    bench: Optional[str] = None,
     nuisance: Sequence[str] = (),
     tolerance: Union[None, str, tuple[Quantity, Quantity]] = None,
     usual: Sequence[str] = (),
@@ -184,6 +185,7 @@ def diagnose(
     data: measurements or a joint log: a path, a dictionary of arrays, or a table of pandas, polars or pyarrow; or a
         list of these, the runs of one log, with measurements of the same arm among them or not. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
         (or ``wrench``, (m, 6)), and what was measured, ``x y z rx ry rz`` or ``dx …``; units in brackets, ``x[mm]``.
+    bench: a file of what is known of sockets, planes and wires (docs/instruments.md).
     nuisance: what is known to be unknown, fitted along and never a finding: ``base_frame``, ``tool_frame``, ``geometry``.
     tolerance: how well the maker holds lengths and angles, standard deviations, m and rad [default: 0.3 mm, 0.5 mrad].
     noise_position, noise_rotation: standard deviations of a coordinate, m, and of a rotation, rad; or ``"30um"``.
@@ -202,6 +204,7 @@ def diagnose(
         "diagnose",
         robot(arm, files),
         *_named(data, files),
+        *option("bench", bench),
         *option("nuisance", list(nuisance)),
         *option("tolerance", tolerance),
         *each("usual", usual),

@@ -6,6 +6,7 @@
 //! `logs` have commands of their own.
 
 mod arms;
+mod bench;
 mod campaigns;
 mod goals;
 mod logs;

@@ -1,6 +1,6 @@
 //! A campaign that was diagnosed, and everything that is made of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -59,7 +59,7 @@ pub(super) struct Told<'a> {
 }
 
 impl Campaign {
-    /// Reads and diagnoses the measurements in `bytes`, with the effects of `catalogue` and the springs
+    /// Reads and diagnoses the measurements in `files` as one campaign, with the effects of `catalogue` and the springs
     /// that a log tells.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl Campaign {
     pub(super) fn new(
         args: &Args,
         source: Source,
-        bytes: Vec<u8>,
+        files: Vec<(PathBuf, Vec<u8>)>,
         springs: &[Spring],
         catalogue: Catalogue,
         quiet: bool,
@@ -76,10 +76,17 @@ impl Campaign {
         let tolerance = args.accept.as_ref().map(length).transpose()?;
         let arm = source.arm()?;
         let options = args.options(&source, &arm, springs, catalogue)?;
-        let layout = data::layout(&source)?;
-        let data = data::read_bytes(&args.data[0], &bytes, &layout, quiet)?;
-        let hash = Sha256::new_with_prefix(&bytes);
-        drop(bytes);
+        let layout = args.bench.layout(&source)?;
+        let (mut data, mut hash) = (None::<Measurements>, Sha256::new());
+        for (path, bytes) in files {
+            let next = data::read_bytes(&path, &bytes, &layout, quiet)?;
+            hash.update(&bytes);
+            data = Some(match data {
+                Some(data) => data.and(next).map_err(|error| data::refusal(&[], &error))?,
+                None => next,
+            });
+        }
+        let data = data.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
         let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
         let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
         if let Some(other) = &other {

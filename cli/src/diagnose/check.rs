@@ -21,6 +21,9 @@ pub struct Check {
     pub before: Option<Statistics>,
     /// The same with the findings.
     pub after: Option<Statistics>,
+    /// Both on all rows, those outside too; `None` where none is outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all: Option<[Statistics; 2]>,
 }
 
 impl Check {
@@ -36,9 +39,10 @@ impl Check {
         let mut predicted = diagnosed.explanation.predict(other)?;
         let fitted = other.rows == data.rows;
         if fitted {
-            let out: Vec<u64> = diagnosed.diagnosis.left_out.iter().map(|row| row.line).collect();
             let rows = predicted.inside.iter_mut().zip(&other.rows);
-            rows.for_each(|(inside, row)| *inside = !out.contains(&row.line));
+            rows.for_each(|(inside, row)| {
+                *inside = !diagnosed.diagnosis.left_out.iter().any(|out| out.is(row))
+            });
         }
         let inside = predicted.inside.iter().filter(|inside| **inside).count();
         let size = |gaps: &[nalgebra::Vector6<f64>]| {
@@ -46,6 +50,8 @@ impl Check {
             let judged: Vec<_> = judged.map(|(gap, _)| *gap).collect();
             (inside > 0).then(|| Statistics::of(&judged))
         };
+        let is_extrapolated = !fitted && inside < other.rows.len();
+        let all = [&predicted.before, &predicted.after].map(|gaps| Statistics::of(gaps));
         Ok(Check {
             file: other.file.clone(),
             rows: other.rows.len(),
@@ -53,6 +59,7 @@ impl Check {
             fitted,
             before: size(&predicted.before),
             after: size(&predicted.after),
+            all: is_extrapolated.then_some(all),
         })
     }
 }

@@ -57,13 +57,13 @@ struct Written<'a> {
 }
 
 impl Args {
-    /// What is said of the campaign at `path`, and of the log.
+    /// What is said of the campaign in these files, and of the log.
     ///
     /// # Errors
     /// [`Failure`]: --check with a file that cannot be read.
     pub(super) fn both(
         &self,
-        path: PathBuf,
+        files: &[(PathBuf, Vec<u8>)],
         catalogues: &Catalogues,
     ) -> Result<[Args; 2], Failure> {
         let of_log = self.check.as_deref().map_or(Ok(false), is_log)?;
@@ -74,9 +74,10 @@ impl Args {
             let names = self.effects.as_ref()?.iter().filter(|name| keep(name));
             Some(names.cloned().collect())
         };
-        let logs = self.data.iter().filter(|given| **given != path).cloned().collect();
+        let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
+        let logs = self.data.iter().filter(|given| !paths.contains(given)).cloned().collect();
         let campaign = Args {
-            data: vec![path],
+            data: paths,
             effects: named(&|name| is_at_rest(name) || !is_of_log(name)),
             check: self.check.clone().filter(|_| !of_log),
             ..self.clone()
@@ -99,7 +100,7 @@ impl Together {
     pub(super) fn new(
         [of_campaign, of_log]: &[Args; 2],
         source: Source,
-        bytes: Vec<u8>,
+        files: Vec<(PathBuf, Vec<u8>)>,
         parts: Vec<Part>,
         catalogues: Catalogues,
         quiet: bool,
@@ -108,7 +109,7 @@ impl Together {
         let told = motion.springs();
         let effect = told.effect.identifier();
         let campaign =
-            Campaign::new(of_campaign, source, bytes, &told.told, catalogues.at_rest, quiet)?;
+            Campaign::new(of_campaign, source, files, &told.told, catalogues.at_rest, quiet)?;
         let springs = campaign.beside_log().map_or_else(Vec::new, |both| both.springs.clone());
         let known: Vec<Spring> = springs.iter().filter_map(|joined| joined.together).collect();
         let ((_, alone), (model, both)) = (motion.beside(&[])?, motion.beside(&known)?);

@@ -1,12 +1,13 @@
 //! Measurement files, each mistake shown at its cell.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
 use stiffarm_gap::io::{MOST_MISTAKES, ReadError};
 use stiffarm_gap::measurement::Layout;
+use stiffarm_gap::observe::Bench;
 use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
@@ -16,6 +17,31 @@ use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::note::note;
 use crate::terminal::snippet;
 use crate::terminal::text::listed;
+
+/// What is known of the bench on which a file was measured.
+#[derive(Clone, Default, clap::Args)]
+pub struct BenchArgs {
+    /// Known constants of the bench (TOML): points and their distances, planes, centres. What it does not
+    /// give is co-estimated
+    #[arg(long, value_name = "BENCH.toml")]
+    bench: Option<PathBuf>,
+}
+
+impl BenchArgs {
+    /// What the reader of a file must know of the robot and the bench.
+    ///
+    /// # Errors
+    /// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
+    pub fn layout(&self, source: &Source) -> Result<Layout, Failure> {
+        let layout = layout(source)?;
+        let Some(path) = &self.bench else { return Ok(layout) };
+        let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+        let text = String::from_utf8_lossy(&bytes);
+        let bench = Bench::read(&path.display().to_string(), &text);
+        let bench = bench.map_err(|error| refusal(&bytes, &error))?;
+        Ok(Layout { bench, ..layout })
+    }
+}
 
 /// What the reader of a file must know of the robot.
 ///

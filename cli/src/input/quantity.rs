@@ -1,19 +1,10 @@
 //! Numbers on the command line: SI, or with a unit right behind them (`30deg`, `3e-05m`).
 
-use stiffarm_gap::measurement::{Dimension, Unit};
+use stiffarm_gap::io::plain;
+pub use stiffarm_gap::io::quantity as read;
+use stiffarm_gap::measurement::Dimension;
 
 use crate::terminal::failure::Failure;
-
-/// A finite number, in SI.
-pub fn read(text: &str, dimension: Option<Dimension>) -> Option<f64> {
-    let text = text.trim();
-    let of_unit = || {
-        let number = text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.');
-        let unit = Unit::named(text[number.len()..].trim_start())?;
-        Some(unit.to_si(plain(number)?)).filter(|_| Some(unit.dimension) == dimension)
-    };
-    plain(text).or_else(of_unit).filter(|x| x.is_finite())
-}
 
 /// A number that has its unit: for options that are never in SI by default.
 pub fn with_unit(option: &str, text: &str, dimension: Dimension) -> Result<f64, Failure> {
@@ -61,12 +52,6 @@ pub fn list(
 /// `1 value`, `2 values`.
 pub fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
-/// A number in digits; `inf` and `nan` are none.
-fn plain(text: &str) -> Option<f64> {
-    let digits = text.bytes().any(|b| b.is_ascii_digit());
-    text.parse().ok().filter(|x: &f64| digits && x.is_finite())
 }
 
 #[cfg(test)]

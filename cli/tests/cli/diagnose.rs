@@ -2,6 +2,7 @@
 
 mod campaign;
 mod plant;
+mod sockets;
 
 use serde_json::Value;
 

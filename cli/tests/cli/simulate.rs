@@ -142,3 +142,51 @@ fn mistakes_are_named_and_nothing_is_written() {
         assert!(error.contains(expected), "{error}");
     }
 }
+
+/// A file of balls in sockets has joint values alone, and what was put in is found with a bench and without.
+#[test]
+fn sockets_are_simulated_and_diagnosed() {
+    let folder = Folder::new();
+    let csv = simulated(&["--measure", "point", "--poses", "36", "--effect", SPRING]);
+    assert!(header(&csv).contains("point") && !header(&csv).contains("x[m]"), "{csv}");
+    let file = folder.file("sockets.csv", &csv);
+    let out = stiffarm(&["diagnose", "ur5", &file]).good();
+    assert!(
+        out.contains("joint compliance at joint 2") && out.contains("distance from the point"),
+        "{out}"
+    );
+    let pair = "[[pair]]\npoints = [\"socket 0.1\", \"socket 0.2\"]\ndistance = \"1 m\"\nsigma = \"1 m\"\n";
+    let bench = folder.file("bench.toml", pair);
+    let out = stiffarm(&["diagnose", "ur5", &file, "--bench", &bench]).good();
+    assert!(
+        out.contains("socket 0.1 and socket 0.2") && out.contains("known: 1000.00 ± 1000.00 mm"),
+        "{out}"
+    );
+    let wrong = folder.file("wrong.toml", "[[socket]]\nname = \"a\"\n");
+    let err = stiffarm(&["diagnose", "ur5", &file, "--bench", &wrong]).refused();
+    assert!(err.contains("wrong.toml") && err.contains("unknown field `socket`"), "{err}");
+    let plates = simulated(&["--measure", "plane", "--poses", "36", "--effect", SPRING]);
+    let out = stiffarm(&["diagnose", "ur5", &folder.file("plates.csv", &plates)]).good();
+    assert!(
+        out.contains("joint compliance at joint 2") && out.contains("error of the reading"),
+        "{out}"
+    );
+    let again = stiffarm(&["simulate", "ur5", &file, "--csv", "-", "--effect", SPRING]).good();
+    assert_eq!(header(&again), header(&csv));
+}
+
+/// A tracker's file and a file of sockets are one campaign; a spring is told by both.
+#[test]
+fn files_of_several_instruments_are_one_campaign() {
+    let folder = Folder::new();
+    let tracker = simulated(&["--measure", "position", "--poses", "12", "--effect", SPRING]);
+    let sockets =
+        simulated(&["--measure", "point", "--poses", "36", "--seed", "4", "--effect", SPRING]);
+    let [a, b] =
+        [("a.csv", &tracker), ("b.csv", &sockets)].map(|(name, text)| folder.file(name, text));
+    let found = stiffarm(&["diagnose", "ur5", &a, &b, "--json", "-", "--quiet"]).good();
+    let found: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!(found["measurements"], 3 * (12 + 36));
+    assert_eq!(found["findings"][0]["effect"], "joint_compliance");
+    assert_eq!(found["bench"].as_array().map(Vec::len), Some(6));
+}

@@ -97,7 +97,8 @@ impl Search<'_, '_> {
         let out = rows.iter().zip(&seen).zip(&fits).filter(|(_, fits)| !**fits);
         let told = out.map(|((row, seen), _)| {
             let size = |from| seen.map(|[gap, _]| gap.fixed_rows::<3>(from).norm());
-            LeftOut { line: row.line, position: size(0), rotation: size(3) }
+            let session = row.session.clone().filter(|_| self.problem.sessions.len() > 1);
+            LeftOut { line: row.line, session, position: size(0), rotation: size(3) }
         });
         let told = told.collect();
         let gaps: Vec<_> =

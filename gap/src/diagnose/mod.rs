@@ -185,6 +185,8 @@ pub fn diagnose_with(
         parts: looked.parts,
         by: search.slices(&before, &after),
         nuisances: verdict::nuisances(&problem, &explained.fit.model),
+        bench: judged.bench,
+        pairs: judged.pairs,
         geometry_along: problem.along.is_some(),
         hangs_as_measured: explained.fit.model.axes == Axes::Measuring,
         covers: verdict::cover(&problem),

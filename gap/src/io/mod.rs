@@ -21,7 +21,7 @@ pub use map::Map;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use nearest::{did_you_mean, nearest};
 pub use source::{MOST_BYTES, bytes};
-pub use unit::{Dimension, Unit};
+pub use unit::{Dimension, Unit, plain, quantity};
 
 pub(crate) use mistake::Mistakes;
 pub(crate) use source::decoded;

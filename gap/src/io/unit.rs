@@ -127,6 +127,24 @@ const WORDS: [(&str, &[&str]); 11] = [
     ("kg", &["kg"]),
 ];
 
+/// A number as a person writes it, in SI: plain, or with its unit behind it (`30deg`, `3e-05 m`); `None` of
+/// what is none, is not finite, or has the unit of another quantity.
+pub fn quantity(text: &str, dimension: Option<Dimension>) -> Option<f64> {
+    let text = text.trim();
+    let of_unit = || {
+        let number = text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.');
+        let unit = Unit::named(text[number.len()..].trim_start())?;
+        Some(unit.to_si(plain(number)?)).filter(|_| Some(unit.dimension) == dimension)
+    };
+    plain(text).or_else(of_unit).filter(|x| x.is_finite())
+}
+
+/// A number in digits; `inf` and `nan` are none.
+pub fn plain(text: &str) -> Option<f64> {
+    let digits = text.bytes().any(|b| b.is_ascii_digit());
+    text.parse().ok().filter(|x: &f64| digits && x.is_finite())
+}
+
 impl Unit {
     /// The unit of that name; names are case-sensitive, and signs (`µm`, `°`, `N·m`) are names.
     pub fn named(name: &str) -> Option<Unit> {

@@ -1,10 +1,14 @@
 //! The rows below the header: cells into numbers in SI.
 
-use super::Row;
 use super::header::Head;
 use super::payload::Payloads;
 use super::role::{Family, Layout, Role};
+use super::told::Told;
+use super::{Kind, Row};
 use crate::io::{Convention, Fault, Mistake, Unit, did_you_mean, nearest};
+
+/// A distance that is read.
+const READ: Role = Role::Measured(Family::Distance, 0);
 
 /// A number as the cell has it, before its unit; `expected` is what the message asks for.
 pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
@@ -55,7 +59,7 @@ pub(crate) fn row(
     cells: &[&str],
     heads: &[Head],
     layout: &Layout,
-    (planned, orientation): (bool, Convention),
+    (planned, orientation, kind): (bool, Convention, Option<Kind>),
 ) -> Result<Row, Vec<Mistake>> {
     let whole = |fault: Fault| Err(vec![fault.at(line, None)]);
     if cells.len() != heads.len() {
@@ -65,14 +69,25 @@ pub(crate) fn row(
         return whole(Fault::hole("an empty row of commas", "a measurement", "remove the row"));
     }
     let mut row = Row::new(line, vec![0.0; layout.motions.len()]);
-    let mut mistakes = Vec::new();
+    let (mut told, mut mistakes) = (Told::default(), Vec::new());
+    // Of a bench each row has cells of its own kind.
+    let mixed = matches!(kind, Some(Kind::Bench { .. }));
     let open = |head: &Head, cell: &str| {
-        planned && cell.is_empty() && matches!(head.role, Some(Role::Measured(..) | Role::Sim(..)))
+        let Some(role) = head.role.filter(|_| cell.is_empty()) else { return false };
+        let is_measured = matches!(role, Role::Measured(..) | Role::Sim(..) | Role::Along);
+        planned && is_measured || mixed && (Told::takes(role) || role == Role::Sigma(None))
     };
     for (head, cell) in heads.iter().zip(cells).filter(|(head, cell)| !open(head, cell)) {
-        if let Err(fault) = fill(&mut row, head, cell, layout) {
+        if let Err(fault) = fill(&mut row, &mut told, head, cell, layout) {
             mistakes.push(fault.at(line, Some(head.column.clone())));
         }
+    }
+    let distance = heads.iter().zip(cells).find(|(head, _)| head.role == Some(READ));
+    if let (Some(_), Some((head, cell))) = (told.negative(), distance) {
+        let fault = Fault::new(*cell, "a distance", "it is not below zero");
+        mistakes.push(fault.at(line, Some(head.column.clone())));
+    } else if let Err(fault) = told.into_row(kind, planned, &mut row) {
+        mistakes.push(fault.at(line, None));
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
@@ -91,7 +106,13 @@ pub(crate) fn row(
     Ok(row)
 }
 
-fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), Fault> {
+fn fill(
+    row: &mut Row,
+    told: &mut Told,
+    head: &Head,
+    cell: &str,
+    layout: &Layout,
+) -> Result<(), Fault> {
     let value = || quantity(cell, head.unit);
     match head.role {
         None | Some(Role::Extra) => {}
@@ -118,14 +139,17 @@ fn fill(row: &mut Row, head: &Head, cell: &str, layout: &Layout) -> Result<(), F
             let found = name(cell, "the name of a payload, or `none`")?;
             row.payload = Some(Box::new(Payloads::named(layout.payloads.as_ref(), &found)?));
         }
-        Some(Role::From) => row.from_point = Some(name(cell, "the name of a point")?),
-        Some(Role::FromAt(k)) => row.from.get_or_insert([0.0; 3])[k] = value()?,
-        Some(Role::Measured(Family::Distance, _)) => {
-            row.measured[0] = value()?;
-            if row.measured[0] < 0.0 {
-                return Err(Fault::new(cell, "a distance", "it is not below zero"));
-            }
-        }
+        Some(Role::From) => told.from = Some(name(cell, "the name of a point")?),
+        Some(Role::FromAt(k)) => told.from_at[k] = Some(value()?),
+        Some(Role::Measured(Family::Distance, _)) => told.distance = Some(value()?),
+        Some(Role::BoardPose(k)) => row.measured[k] = value()?,
+        Some(Role::BoardTurn(k)) => told.turn[k] = Some(value()?),
+        Some(Role::Camera) => told.camera = Some(name(cell, "the name of a camera")?),
+        Some(Role::Board) => told.board = Some(name(cell, "the name of a board")?),
+        Some(Role::Point) => told.point = Some(name(cell, "the name of a point")?),
+        Some(Role::Plane) => told.plane = Some(name(cell, "the name of a plane")?),
+        Some(Role::Along) => told.along = Some(value()?),
+        Some(Role::Normal(k)) => told.normal[k] = Some(value()?),
         Some(Role::Measured(_, k)) => row.measured[k] = value()?,
         Some(Role::Sigma(of)) => {
             let sd = value().and_then(|sd| match sd > 0.0 {

@@ -1,7 +1,10 @@
 //! The header row: what each column is, and whether the columns together make a measurement.
 
 use super::Kind;
-use super::role::{FROM_NAMES, Family, Layout, POSE_NAMES, Role, SIGMA_PREFIX, nearest_name};
+use super::role::{
+    BOARD_NAMES, BOARD_QUATERNION, FROM_NAMES, Family, Layout, NORMAL_NAMES, POSE_NAMES, Role,
+    SIGMA_PREFIX, nearest_name,
+};
 use crate::io::columns::{Header, split};
 use crate::io::{Column, Fault, Map, Mistakes, Unit};
 
@@ -100,7 +103,7 @@ pub(crate) fn family(kind: Kind) -> Family {
     match kind {
         Kind::Pose { .. } | Kind::Coordinates { .. } => Family::Pose,
         Kind::Displacement { .. } => Family::Displacement,
-        Kind::Distance => Family::Distance,
+        Kind::Distance | Kind::Bench { .. } => Family::Distance,
     }
 }
 
@@ -119,9 +122,16 @@ pub(crate) fn kind(
     let mut wrong =
         |head: &Head, fault: Fault| mistakes.add(fault.at(line, Some(head.column.clone())));
     let mut of_each = Family::ALL.into_iter().filter_map(|f| first(f).map(|head| (f, head)));
+    let of_board = |h: &&Head| matches!(h.role, Some(Role::BoardPose(_) | Role::BoardTurn(_)));
+    if let Some(column) = heads.iter().find(of_board) {
+        return board(heads, column, &mut wrong);
+    }
+    if let Some(column) = heads.iter().find(|h| h.role.is_some_and(Role::is_of_bench)) {
+        return bench(heads, column, &mut wrong);
+    }
     let Some((family, of_it)) = of_each.next() else {
-        let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement) or \
-                        `distance`";
+        let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement), \
+                        `distance`, `point`, `plane` or `along`";
         mistakes.add(
             Fault::new("no measured column", expected, "add what was measured").at(line, None),
         );
@@ -199,6 +209,85 @@ pub(crate) fn kind(
         wrong(head, without(head, &missing, expected, &help));
     }
     Some((kind, given))
+}
+
+/// A file of a board's poses in a camera's axes; `column` is one of theirs.
+fn board(
+    heads: &[Head],
+    column: &Head,
+    wrong: &mut dyn FnMut(&Head, Fault),
+) -> Option<(Kind, [bool; 6])> {
+    let find = |role| heads.iter().find(|h| h.role == Some(role));
+    for head in heads {
+        let is_other = head.role.is_some_and(Role::is_of_bench)
+            || matches!(head.role, Some(Role::Measured(..) | Role::Sim(..) | Role::Sigma(_)));
+        if is_other {
+            let found = format!("`{}` beside `{}`", head.name, column.name);
+            let help = "put what another instrument measured into a file of its own";
+            wrong(head, Fault::new(found, "a board's pose alone", help));
+        }
+    }
+    let place: Vec<_> = (0..3).map(|k| find(Role::BoardPose(k))).collect();
+    let vector: Vec<_> = (3..6).map(|k| find(Role::BoardPose(k))).collect();
+    let turn: Vec<_> = (0..4).map(|k| find(Role::BoardTurn(k))).collect();
+    let help = "a board's pose is its place and either a rotation vector or a quaternion";
+    let [no_place, no_vector, no_turn] = [
+        absent(&place, &BOARD_NAMES[..3]),
+        absent(&vector, &BOARD_NAMES[3..]),
+        absent(&turn, &BOARD_QUATERNION),
+    ];
+    if !no_place.is_empty() {
+        wrong(column, without(column, &no_place, "all of cx, cy, cz", help));
+    }
+    let both = "cx cy cz, and crx cry crz or cqw cqx cqy cqz";
+    match (no_vector.is_empty(), no_turn.is_empty()) {
+        (false, false) => {
+            let missing = if turn.iter().any(Option::is_some) { no_turn } else { no_vector };
+            wrong(column, without(column, &missing, both, help));
+        }
+        (true, true) => wrong(column, Fault::new("two orientations", both, "remove one")),
+        _ => {}
+    }
+    Some((Kind::Pose { orientation: true }, [false; 6]))
+}
+
+/// A file of what instruments read that are no trackers; `column` is one of theirs.
+fn bench(
+    heads: &[Head],
+    column: &Head,
+    wrong: &mut dyn FnMut(&Head, Fault),
+) -> Option<(Kind, [bool; 6])> {
+    let find = |role| heads.iter().find(|h| h.role == Some(role));
+    for head in heads {
+        let of_tracker = match head.role {
+            Some(Role::Measured(family, _)) => family != Family::Distance,
+            Some(Role::Sim(..) | Role::Sigma(Some(_))) => true,
+            _ => false,
+        };
+        if of_tracker {
+            let found = format!("`{}` beside `{}`", head.name, column.name);
+            let help = "put what a tracker measured into a file of its own; `sigma` is the standard deviation \
+                        of each row's reading";
+            wrong(head, Fault::new(found, "`distance`, `point`, `plane` or `along`", help));
+        }
+    }
+    let normal: Vec<_> = (0..3).map(|k| find(Role::Normal(k))).collect();
+    let help = "the direction of a component has three numbers";
+    match (find(Role::Along), partial(&normal, &NORMAL_NAMES)) {
+        (Some(along), None) if normal[0].is_none() => {
+            wrong(along, without(along, "nx, ny, nz", "its direction", help));
+        }
+        (_, Some((head, missing))) => {
+            wrong(head, without(head, &missing, "all of nx, ny, nz", help))
+        }
+        _ => {}
+    }
+    let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
+    if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
+        let help = "the point from which a distance is measured has three coordinates";
+        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
+    }
+    Some((Kind::Bench { points: find(Role::Point).is_some() }, [false; 6]))
 }
 
 /// A column of a standard deviation, and those that are missing beside it.

@@ -3,8 +3,9 @@
 //! A header row, then one row per measurement; `#` begins a comment line. A column is `name` or
 //! `name[unit]`; the order is free. A file measures *either* poses (`x y z`, and all or none of `rx
 //! ry rz`) *or* some coordinates of positions (a touch probe's `x` alone) *or* displacements (any
-//! subset of `dx dy dz drx dry drz`) *or* distances from a fixed point (`distance`: a ball bar, a
-//! wire). `rx ry rz` are a rotation vector, or three turns if a comment above the header says so:
+//! subset of `dx dy dz drx dry drz`) *or* what other instruments read ([`observe`](crate::observe)): distances
+//! from a fixed point (`distance`: a ball bar, a wire), a `point` that stays where it is, a `plane`, a
+//! component `along` `nx ny nz`; of these each row may have its own. `rx ry rz` are a rotation vector, or three turns if a comment above the header says so:
 //! `# orientation = zyx` ([`Convention`]). Nothing is guessed: an angle without a unit is in radians, and a column that is not known is
 //! kept as it is and reported.
 //!
@@ -17,6 +18,8 @@ mod header;
 mod payload;
 mod role;
 mod seen;
+mod stack;
+mod told;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -25,8 +28,8 @@ use nalgebra::Vector6;
 
 pub use payload::{Body, Hung, Payloads};
 pub use role::{
-    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, POSE_NAMES, SIGMA_PREFIX,
-    SIM_PREFIX, WRENCH_NAMES,
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, POSE_NAMES,
+    READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
 };
 
 use crate::io::table::{Records, Separator, commented};
@@ -35,6 +38,7 @@ pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
 };
 use crate::io::{Convention, Mistakes}; // alias: old path
+use crate::observe::{Aim, Pair, View};
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
@@ -52,6 +56,11 @@ pub struct Measurements {
     pub sim_given: [bool; 6],
     /// Number of distinct poses: each row's [`Row::group`] is below it.
     pub poses: usize,
+    /// Whether a camera tells of a board: where either is on the arm, or beside it, nobody knows, and both frames
+    /// are fitted along.
+    pub by_camera: bool,
+    /// Points whose distance is known.
+    pub pairs: Vec<Pair>,
     /// The columns that have no meaning here, as they stand.
     pub extra: Vec<ExtraColumn>,
     /// Columns that are known but play no part: a component that is simulated, or has a standard
@@ -99,6 +108,11 @@ pub enum Kind {
     },
     /// How far the measured point is from a fixed one: a ball bar's.
     Distance,
+    /// What other instruments read of the measured point, each row its own ([`Row::aim`]).
+    Bench {
+        /// Whether some rows have the point in one place: three numbers, else one.
+        points: bool,
+    },
 }
 
 impl Kind {
@@ -118,6 +132,8 @@ impl Kind {
             Kind::Pose { .. } | Kind::Coordinates { .. } => POSE_NAMES,
             Kind::Displacement { .. } => DISPLACEMENT_NAMES,
             Kind::Distance => DISTANCE_NAMES,
+            Kind::Bench { points: true } => POSE_NAMES,
+            Kind::Bench { points: false } => READING_NAMES,
         }
     }
 
@@ -134,6 +150,7 @@ impl Kind {
             Kind::Displacement { components } => components,
             Kind::Coordinates { components: [x, y, z] } => [x, y, z, false, false, false],
             Kind::Distance => [true, false, false, false, false, false],
+            Kind::Bench { points: p } => [true, p, p, false, false, false],
         }
     }
 }
@@ -169,13 +186,12 @@ pub struct Row {
     pub session: Option<String>,
     /// What the `payload` column hangs on the tool; its weight is part of the wrench.
     pub payload: Option<Box<Hung>>,
-    /// Of a distance the point from which it is measured, in the measuring frame, m; `None` is
-    /// unknown.
-    pub from: Option<[f64; 3]>,
-    /// The name of such a point; unknown ones of one name and session are one point.
-    pub from_point: Option<String>,
-    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. A distance
-    /// is the first of them.
+    /// The names of the camera and the board of whose pose is told, in the camera's axes; may be empty.
+    pub camera: Option<Box<[String; 2]>>,
+    /// What is read of the measured point by an instrument that is no tracker.
+    pub aim: Option<Box<Aim>>,
+    /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. One number
+    /// is the first of them; a point that is in one place reads 0.
     pub measured: Vector6<f64>,
     /// The instrument's own standard deviation of each of these, m and rad, 0 where the file has no
     /// column for it; `None` if it has none at all.
@@ -200,11 +216,25 @@ impl Row {
             offset: Some([0.0; 3]),
             session: None,
             payload: None,
-            from: None,
-            from_point: None,
+            camera: None,
+            aim: None,
             measured: Vector6::zeros(),
             sigma: None,
             sim: None,
+        }
+    }
+
+    /// What reads it in a file of that kind, if it is no tracker.
+    pub fn view(&self, kind: Kind) -> Option<View> {
+        let is_bench = matches!(kind, Kind::Distance | Kind::Bench { .. });
+        self.aim.as_deref().filter(|_| is_bench).map(|aim| aim.view)
+    }
+
+    /// Which of the six components are measured in this row of a file of that kind.
+    pub fn components(&self, kind: Kind) -> [bool; 6] {
+        match (kind, &self.aim) {
+            (Kind::Bench { .. }, Some(aim)) => core::array::from_fn(|k| k < aim.seen.components()),
+            _ => kind.components(),
         }
     }
 }
@@ -234,6 +264,8 @@ impl Measurements {
             rows,
             kind,
             sim_given: [false; 6],
+            by_camera: false,
+            pairs: Vec::new(),
             extra: Vec::new(),
             unused: Vec::new(),
             skipped: Vec::new(),
@@ -343,7 +375,13 @@ fn read_into(
             return Err(fault.at(record.line, None));
         }
         let cells = record.texts()?;
-        match cells::row(record.line, &cells, &heads, layout, (planned, orientation)) {
+        match cells::row(
+            record.line,
+            &cells,
+            &heads,
+            layout,
+            (planned, orientation, kind.map(|k| k.0)),
+        ) {
             Ok(row) => {
                 rows.push(row);
                 extra.iter_mut().for_each(|extra| extra.take(record.line, &cells));
@@ -370,7 +408,7 @@ fn read_into(
     };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
     let family = header::family(kind);
-    Ok(Some(Measurements {
+    let mut data = Measurements {
         file: file.to_owned(),
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
@@ -380,8 +418,14 @@ fn read_into(
         rows,
         kind,
         sim_given,
+        by_camera: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
+        pairs: Vec::new(),
         poses,
-    }))
+    };
+    if let Err(fault) = layout.bench.set_up(&mut data) {
+        mistakes.add(Mistake::from(fault));
+    }
+    Ok(Some(data))
 }
 
 /// How a comment above the header says that `rx ry rz` are written: `# orientation = zyx`.

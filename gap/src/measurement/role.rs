@@ -4,6 +4,7 @@ use stiffarm_kernels::Motion;
 
 use super::payload::Payloads;
 use crate::io::{Dimension, Fault, nearest};
+use crate::observe::Bench;
 
 /// Components of a measured pose, in the order of a twist.
 pub const POSE_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -13,6 +14,18 @@ pub const DISPLACEMENT_NAMES: [&str; 6] = ["dx", "dy", "dz", "drx", "dry", "drz"
 
 /// What a distance measures: one number, told as the first of six.
 pub const DISTANCE_NAMES: [&str; 6] = ["distance", "", "", "", "", ""];
+
+/// One number that instruments of several kinds read.
+pub const READING_NAMES: [&str; 6] = ["reading", "", "", "", "", ""];
+
+/// The direction along which a component is read.
+pub const NORMAL_NAMES: [&str; 3] = ["nx", "ny", "nz"];
+
+/// The pose of a board in a camera's axes: its place, and its rotation vector.
+pub const BOARD_NAMES: [&str; 6] = ["cx", "cy", "cz", "crx", "cry", "crz"];
+
+/// Its orientation as a quaternion.
+pub const BOARD_QUATERNION: [&str; 4] = ["cqw", "cqx", "cqy", "cqz"];
 
 /// The point from which a distance is measured.
 pub const FROM_NAMES: [&str; 3] = ["from_x", "from_y", "from_z"];
@@ -40,6 +53,8 @@ pub struct Layout {
     pub markers: Vec<Marker>,
     /// The `[[payload]]` of the robot file, and the arm that carries them; `None` without any.
     pub payloads: Option<Payloads>,
+    /// What is known of the bench.
+    pub bench: Bench,
 }
 
 /// A measured point on the tool.
@@ -75,6 +90,22 @@ pub(crate) enum Role {
     From,
     /// A coordinate of it.
     FromAt(usize),
+    /// The name of a place in which the measured point is.
+    Point,
+    /// The name of a plane.
+    Plane,
+    /// The component along a direction.
+    Along,
+    /// A component of the direction.
+    Normal(usize),
+    /// The name of a camera.
+    Camera,
+    /// The name of a board.
+    Board,
+    /// A component of a board's pose.
+    BoardPose(usize),
+    /// A component of its quaternion.
+    BoardTurn(usize),
     Measured(Family, usize),
     Sim(Family, usize),
     /// The instrument's standard deviation of one component; of all positions.
@@ -115,6 +146,11 @@ pub(crate) const fn component_dimension(component: usize) -> Dimension {
 }
 
 impl Role {
+    /// Whether a file with such a column has what instruments read that are no trackers.
+    pub(crate) fn is_of_bench(self) -> bool {
+        matches!(self, Role::Point | Role::Plane | Role::Along)
+    }
+
     /// The role of the column called `name` (without its unit).
     pub(crate) fn of(name: &str, layout: &Layout) -> Result<Role, Fault> {
         if let Some(joint) = numbered(name, 'q', layout)? {
@@ -138,10 +174,24 @@ impl Role {
         if let Some(k) = FROM_NAMES.iter().position(|n| *n == name) {
             return Ok(Role::FromAt(k));
         }
+        if let Some(k) = BOARD_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::BoardPose(k));
+        }
+        if let Some(k) = BOARD_QUATERNION.iter().position(|n| *n == name) {
+            return Ok(Role::BoardTurn(k));
+        }
+        if let Some(k) = NORMAL_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::Normal(k));
+        }
         Ok(match name {
             "session" => Role::Session,
             "payload" => Role::Payload,
             "from" => Role::From,
+            "point" => Role::Point,
+            "plane" => Role::Plane,
+            "along" => Role::Along,
+            "camera" => Role::Camera,
+            "board" => Role::Board,
             "temperature" => Role::Temperature,
             "time" => Role::Time,
             "pose" => Role::Pose,
@@ -161,13 +211,15 @@ impl Role {
             Role::Wrench(k) => Some(if k < 3 { Dimension::Force } else { Dimension::Moment }),
             Role::Temperature => Some(Dimension::Temperature),
             Role::Time => Some(Dimension::Time),
-            Role::Measured(_, k) | Role::Sim(_, k) | Role::Sigma(Some((_, k))) => {
-                Some(component_dimension(k))
-            }
+            Role::Measured(_, k)
+            | Role::BoardPose(k)
+            | Role::Sim(_, k)
+            | Role::Sigma(Some((_, k))) => Some(component_dimension(k)),
             Role::Sigma(None) => Some(Dimension::Length),
-            Role::FromAt(_) => Some(Dimension::Length),
+            Role::FromAt(_) | Role::Along => Some(Dimension::Length),
             Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
-            Role::Session | Role::Payload | Role::From => None,
+            Role::Session | Role::Payload | Role::From | Role::Point | Role::Plane => None,
+            Role::Normal(_) | Role::BoardTurn(_) | Role::Camera | Role::Board => None,
         }
     }
 }
@@ -194,7 +246,8 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
     let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
-    let fixed = fixed.into_iter().chain(FROM_NAMES).chain([SIGMA]).map(str::to_owned);
+    let bench = ["point", "plane", "along", "camera", "board", SIGMA];
+    let fixed = fixed.into_iter().chain(FROM_NAMES).chain(bench).map(str::to_owned);
     let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));
     let sim = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));
@@ -217,6 +270,7 @@ mod tests {
             readings: true,
             markers: Vec::new(),
             payloads: None,
+            bench: Bench::NONE,
         }
     }
 

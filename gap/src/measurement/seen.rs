@@ -8,10 +8,10 @@ impl Measurements {
     /// What was measured, told in a frame that stands at `base` in the measuring frame; `None` where
     /// components that are not measured would be needed.
     pub fn seen_from(&self, base: &Isometry3<f64>) -> Option<Measurements> {
-        if self.kind == Kind::Distance {
+        if matches!(self.kind, Kind::Distance | Kind::Bench { .. }) {
             let mut seen = self.clone();
-            for from in seen.rows.iter_mut().filter_map(|row| row.from.as_mut()) {
-                *from = (base.inverse() * Point3::from(*from)).into();
+            for aim in seen.rows.iter_mut().filter_map(|row| row.aim.as_deref_mut()) {
+                aim.view = aim.view.seen_from(base)?;
             }
             return Some(seen);
         }

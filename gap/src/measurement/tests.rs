@@ -1,4 +1,6 @@
 use super::*;
+use crate::observe::{Bench, Seen, View};
+use nalgebra::Vector3;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
@@ -39,6 +41,7 @@ fn layout() -> Layout {
             bodies: vec![body("5kg", 5.0, [0.0, 0.0, 0.06]), body("ball", 0.5, [0.01, 0.0, 0.0])],
             arm: carrier(),
         }),
+        bench: Bench::NONE,
     }
 }
 
@@ -150,13 +153,135 @@ fn an_orientation_may_be_three_turns() {
 fn distances_and_single_coordinates_are_measured() {
     let ball = good("q1,q2,q3,distance[mm],from_x,from_y,from_z[mm]\n0,0,0,300,1,2,3000\n");
     assert_eq!((ball.kind, ball.rows[0].measured[0]), (Kind::Distance, 0.3));
-    assert_eq!((ball.rows[0].from, ball.components()), (Some([1.0, 2.0, 3.0]), 1));
+    let aim = |data: &Measurements| data.rows[0].aim.as_deref().cloned().expect("an aim");
+    let place = Some(Vector3::new(1.0, 2.0, 3.0));
+    assert_eq!((aim(&ball).view.place(), aim(&ball).free, ball.components()), (place, &[][..], 1));
     let wire = good("q1,q2,q3,distance,from,sim_distance\n0,0,0,0.3,socket 1,0.2\n");
-    assert_eq!((wire.rows[0].from, wire.sim_given[0]), (None, true));
-    assert_eq!(wire.rows[0].from_point.as_deref(), Some("socket 1"));
+    assert_eq!((aim(&wire).free.len(), wire.sim_given[0]), (3, true));
+    assert_eq!(aim(&wire).name, "socket 1");
     let probe = good("q1,q2,q3,y[mm]\n0,0,0,5\n");
     assert_eq!(probe.kind, Kind::Coordinates { components: [false, true, false] });
     assert_eq!((probe.kind.measured(), probe.rows[0].measured[1]), (vec!["y"], 5e-3));
+}
+
+/// Each row of a bench has cells of its own kind.
+#[test]
+fn a_bench_is_read_row_by_row() {
+    let text = "point,plane,distance[mm],from,along[um],nx,ny,nz,q1,q2,q3,sigma[um]\n\
+        front:0,,,,,,,,0,0,0,100\n\
+        ,table,0.5,,,,,,0,0,0,20\n\
+        ,table,,,,,,,0,0,0,\n\
+        ,,250,wire,,,,,0,0,0,50\n\
+        ,,,,30,0,0.6,0.8,0,0,0,2\n";
+    let data = good(text);
+    assert_eq!(data.kind, Kind::Bench { points: true });
+    let aim = |row: usize| data.rows[row].aim.as_deref().expect("an aim");
+    let seen: Vec<_> = (0..5).map(|row| aim(row).seen).collect();
+    assert_eq!(seen, [Seen::Point, Seen::Plane, Seen::Plane, Seen::Distance, Seen::Direction]);
+    let numbers: usize = data
+        .rows
+        .iter()
+        .map(|row| row.components(data.kind).into_iter().filter(|is| *is).count())
+        .sum();
+    assert_eq!(numbers, 3 + 4);
+    let read = [0.0, 0.5e-3, 0.0, 0.25, 30.0 * 1e-6];
+    assert!(data.rows.iter().zip(read).all(|(row, read)| row.measured[0] == read));
+    assert_eq!(aim(4).view, View::Direction(Vector3::new(0.0, 0.6, 0.8)));
+    assert_eq!((data.rows[2].sigma.as_ref(), aim(3).name.as_str()), (None, "wire"));
+    for (text, told) in [
+        (
+            "point,plane,q1,q2,q3\na,b,0,0,0\n",
+            "line 2: found more than one reading, expected one reading a row",
+        ),
+        ("point,plane,q1,q2,q3\n,,0,0,0\n", "line 2: found no reading, expected one of `point`"),
+        ("point,x,y,z,q1,q2,q3\na,1,2,3,0,0,0\n", "column 2 `x`: found `x` beside `point`"),
+        ("along,q1,q2,q3\n1,0,0,0\n", "found `along` without nx, ny, nz"),
+        ("along,nx,ny,nz,q1,q2,q3\n1,1,1,0,0,0,0\n", "expected a unit vector"),
+        (
+            "point,distance,q1,q2,q3\n,-1,0,0,0\n",
+            "column 2 `distance`: found -1, expected a distance",
+        ),
+    ] {
+        let error = read_error(text);
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+#[test]
+fn a_bench_file_says_what_is_known() {
+    let known = |bench: &str, text: &str| {
+        let bench = Bench::read("bench.toml", bench).map_err(|error| error.to_string())?;
+        let layout = Layout { bench, ..layout() };
+        let read = Measurements::from_bytes("b.csv", text.as_bytes(), &layout);
+        read.map_err(|error| error.to_string())
+    };
+    let bench = "[[point]]\nname = \"a\"\nat = [1, \"20 mm\", 0]\n\
+        [[pair]]\npoints = [\"a\", \"b\"]\ndistance = \"50 mm\"\nsigma = \"0.1 mm\"\n\
+        [[plane]]\nname = \"table\"\nnormal = [0, 0, 2]\nsigma = \"20 um\"\n\
+        [[centre]]\nname = \"wire\"\n";
+    let text = "point,plane,distance,from,q1,q2,q3\na,,,,0,0,0\nb,,,,0,0,0\n,table,,,0,0,0\n,,1,wire,0,0,0\n";
+    let data = known(bench, text).expect("a bench");
+    let aim = |row: usize| data.rows[row].aim.as_deref().expect("an aim");
+    assert_eq!(aim(0).view, View::Point(Vector3::new(1.0, 0.02, 0.0)));
+    let free: Vec<usize> = (0..4).map(|row| aim(row).free.len()).collect();
+    // A plane of which the normal is known has its height free; a wire has an unknown length beyond its place.
+    assert_eq!(free, [0, 3, 1, 4]);
+    assert_eq!(data.rows[2].sigma.as_ref().map(|sigma| sigma[0]), Some(20.0 * 1e-6));
+    assert_eq!((data.pairs[0].distance, data.pairs[0].sigma), (0.05, 0.1 * 1e-3));
+    for (bench, told) in [
+        ("[[socket]]\nname = \"a\"\n", "line 1: found no bench: unknown field `socket`"),
+        (
+            "[[point]]\nname = \"a\"\nat = [1, \"2 kg\", 0]\n",
+            "line 3: found no bench: \"2 kg\" is no length",
+        ),
+        ("[[point]]\nname = \"a\"\n[[point]]\nname = \"a\"\n", "found [[point]] `a` twice"),
+        ("[[pair]]\npoints = [\"a\", \"c\"]\ndistance = 1\n", "no row with point `c`"),
+        ("[[pair]]\npoints = [\"a\", \"a\"]\ndistance = 1\n", "`a` with itself"),
+        ("[[plane]]\nname = \"t\"\nnormal = [0, 0, 0]\n", "no direction"),
+    ] {
+        let error = known(bench, text).expect_err("no bench");
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+/// A board's pose by a quaternion is the one by its vector; of a camera on the tool it is the camera's in the
+/// board's axes.
+#[test]
+fn a_camera_tells_where_a_board_is() {
+    let by_vector =
+        good("camera,board,q1,q2,q3,cx[mm],cy,cz,crx[deg],cry,crz\nl,b,0,0,0,100,0.2,0.3,90,0,0\n");
+    let half = 0.5_f64.sqrt();
+    let text = format!(
+        "camera,board,q1,q2,q3,cx,cy,cz,cqw,cqx,cqy,cqz\nl,b,0,0,0,0.1,0.2,0.3,{half},{half},0,0\n"
+    );
+    let by_quaternion = good(&text);
+    assert_eq!(by_vector.kind, Kind::Pose { orientation: true });
+    assert!(by_vector.by_camera && by_quaternion.by_camera);
+    assert!((by_vector.rows[0].measured - by_quaternion.rows[0].measured).amax() < 1e-15);
+    let bench = "[[camera]]\nname = \"l\"\non = \"tool\"\n";
+    let layout = Layout { bench: Bench::read("b.toml", bench).expect("a bench"), ..layout() };
+    let carried = Measurements::from_bytes("b.csv", text.as_bytes(), &layout).expect("a file");
+    // Back by a quarter about x: (x, y, z) is seen at (−x, −z, y).
+    let seen = Vector6::new(-0.1, -0.3, 0.2, -core::f64::consts::FRAC_PI_2, 0.0, 0.0);
+    assert!((carried.rows[0].measured - seen).amax() < 1e-15, "{}", carried.rows[0].measured);
+    for (text, told) in [
+        ("q1,q2,q3,cx,cy,crx,cry,crz\n0,0,0,1,1,0,0,0\n", "`cx` without cz"),
+        ("q1,q2,q3,cx,cy,cz\n0,0,0,1,1,0\n", "`cx` without crx, cry, crz"),
+        ("q1,q2,q3,cx,cy,cz,cqw,cqx\n0,0,0,1,1,0,1,0\n", "`cx` without cqy, cqz"),
+        ("q1,q2,q3,cx,cy,cz,cqw,cqx,cqy,cqz\n0,0,0,1,1,0,1,1,0,0\n", "a quaternion of length 1.4"),
+        ("q1,q2,q3,cx,cy,cz,crx,cry,crz,x\n0,0,0,1,1,0,0,0,0,1\n", "`x` beside `cx`"),
+        (
+            "camera,q1,q2,q3,cx,cy,cz,crx,cry,crz\nl,0,0,0,1,1,0,0,0,0\nr,0,0,0,1,1,0,0,0,0\n",
+            "expected one camera and one board",
+        ),
+    ] {
+        let error = read_error(text);
+        assert!(error.contains(told), "{error}");
+    }
+}
+
+fn read_error(text: &str) -> String {
+    read(text).expect_err("a mistake").to_string()
 }
 
 #[test]
@@ -300,7 +425,7 @@ const MISTAKES: &[(&str, &str)] = &[
     (
         "q1,q2,q3,fx\n0,0,0,1\n",
         "line 1: found no measured column, expected any of `x y z` (a position), any of \
-         `dx dy dz drx dry drz` (a displacement) or `distance`: add what was measured",
+         `dx dy dz drx dry drz` (a displacement), `distance`, `point`, `plane` or `along`: add what was measured",
     ),
     (
         "q1,q2,q3,x,y,z,dz\n0,0,0,1,1,1,1\n",

@@ -5,8 +5,9 @@ use stiffarm_kernels::generic::Arm;
 
 use super::text::{Columns, number, quoted};
 use crate::measurement::{
-    FROM_NAMES, Kind, Measurements, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
 };
+use crate::observe::{Aim, Seen, View};
 
 /// The measurement file of some measurements: comment lines, a header with SI units, and one line
 /// per row. Numbers have as many digits as it takes to read the same numbers back.
@@ -53,23 +54,22 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
             columns.add(format!("{name}[{unit}]"), move |r| number(load(r)));
         }
     }
-    if data.kind == Kind::Distance && all(|r| r.from_point.is_some()) {
-        columns.add("from", |r| quoted(r.from_point.as_deref()));
-    }
-    if data.kind == Kind::Distance && all(|r| r.from.is_some()) {
-        for (k, name) in FROM_NAMES.iter().enumerate() {
-            columns.add(format!("{name}[m]"), move |r| number(r.from.unwrap_or_default()[k]));
-        }
+    let is_bench = matches!(data.kind, Kind::Bench { .. });
+    if is_bench || data.kind == Kind::Distance {
+        bench(&mut columns, data);
     }
     let names = data.kind.names();
     let measured = data.kind.components();
-    for k in (0..6).filter(|k| measured[*k]) {
+    for k in (0..6).filter(|k| measured[*k] && !is_bench) {
         let unit = if k < 3 { "m" } else { "rad" };
         columns.add(format!("{}[{unit}]", names[k]), move |r| number(r.measured[k]));
     }
     let has_sigma =
         |k: &usize| data.rows.iter().all(|r| r.sigma.as_ref().is_some_and(|s| s[*k] > 0.0));
-    for k in (0..6).filter(|k| measured[*k]).filter(has_sigma) {
+    if is_bench && has_sigma(&0) {
+        columns.add("sigma[m]", |r| number(r.sigma.as_ref().map_or(0.0, |sigma| sigma[0])));
+    }
+    for k in (0..6).filter(|k| measured[*k] && !is_bench).filter(has_sigma) {
         let unit = if k < 3 { "m" } else { "rad" };
         let cell = move |r: &&Row| number(r.sigma.as_ref().map_or(0.0, |sigma| sigma[k]));
         columns.add(format!("{SIGMA_PREFIX}{}[{unit}]", names[k]), cell);
@@ -80,4 +80,49 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
         columns.add(format!("{SIM_PREFIX}{}[{unit}]", names[k]), cell);
     }
     columns.text(comments, data.rows.iter())
+}
+
+/// The columns of what instruments read that are no trackers; cells of other kinds are empty.
+fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
+    let any = |is: &dyn Fn(&Aim) -> bool| data.rows.iter().filter_map(|r| r.aim.as_deref()).any(is);
+    fn of<'r>(row: &'r Row, seen: Seen) -> Option<&'r Aim> {
+        row.aim.as_deref().filter(|aim| aim.seen == seen)
+    }
+    let name = move |row: &&Row, seen: Seen| {
+        of(row, seen).map_or_else(String::new, |aim| quoted(Some(&aim.name)))
+    };
+    for seen in [Seen::Point, Seen::Plane] {
+        if any(&|aim| aim.seen == seen) {
+            columns.add(seen.thing(), move |r| name(r, seen));
+        }
+    }
+    if any(&|aim| aim.seen == Seen::Distance && !aim.name.is_empty()) {
+        columns.add("from", move |r| name(r, Seen::Distance));
+    }
+    if any(&|aim| aim.seen == Seen::Distance && aim.free.is_empty()) {
+        for (k, name) in FROM_NAMES.iter().enumerate() {
+            let at = move |r: &&Row| {
+                let place = of(r, Seen::Distance).and_then(|aim| aim.view.place());
+                place.map_or_else(String::new, |at| number(at[k]))
+            };
+            columns.add(format!("{name}[m]"), at);
+        }
+    }
+    let reads = |r: &&Row, seen: &[Seen]| {
+        let is = r.aim.as_deref().is_some_and(|aim| seen.contains(&aim.seen));
+        if is { number(r.measured[0]) } else { String::new() }
+    };
+    if data.kind != Kind::Distance && any(&|aim| matches!(aim.seen, Seen::Distance | Seen::Plane)) {
+        columns.add("distance[m]", move |r| reads(r, &[Seen::Distance, Seen::Plane]));
+    }
+    if any(&|aim| aim.seen == Seen::Direction) {
+        columns.add("along[m]", move |r| reads(r, &[Seen::Direction]));
+        for (k, name) in NORMAL_NAMES.iter().enumerate() {
+            let cell = move |r: &&Row| match r.aim.as_deref().map(|aim| aim.view) {
+                Some(View::Direction(along)) => number(along[k]),
+                _ => String::new(),
+            };
+            columns.add(*name, cell);
+        }
+    }
 }

@@ -26,6 +26,7 @@ mod notation;
 mod observe;
 mod reading;
 mod reality;
+mod seated;
 mod text;
 mod transform;
 mod truth;

@@ -10,6 +10,7 @@ use super::reading::direction;
 use super::reality::{Jump, Reality};
 use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
 use crate::measurement::{Kind, Row};
+use crate::observe::View;
 use crate::rng::{Rng, Stream};
 
 /// Frames that nobody knows.
@@ -69,13 +70,24 @@ impl Shown {
         }
     }
 
-    /// How far it is from the row's fixed point, as the first number; one that is not known is the
-    /// measuring frame's origin.
-    fn from(&self, row: &Row) -> Shown {
-        let [x, y, z] = row.from.unwrap_or_default();
-        let [dx, dy, dz] = [self.position.x - x, self.position.y - y, self.position.z - z];
-        let distance = (dx * dx + dy * dy + dz * dz).sqrt();
-        Shown { position: Vector3::new(distance, 0.0, 0.0), rotation: Matrix3::identity() }
+    /// What the row's instrument reads, if it is no tracker.
+    fn by(self, row: &Row) -> Shown {
+        let Some(aim) = row.aim.as_deref() else { return self };
+        let p = self.position;
+        let one = |reading| Vector3::new(reading, 0.0, 0.0);
+        let position = match &aim.view {
+            View::Point(at) => p - at,
+            View::Distance { from, offset } => {
+                let [x, y, z] = [p.x - from.x, p.y - from.y, p.z - from.z];
+                one((x * x + y * y + z * z).sqrt() + offset)
+            }
+            View::Plane(plane) => {
+                let n = plane.normal;
+                one(n.x * p.x + n.y * p.y + n.z * p.z - plane.offset())
+            }
+            View::Direction(n) => one(n.x * p.x + n.y * p.y + n.z * p.z),
+        };
+        Shown { position, rotation: Matrix3::identity() }
     }
 
     pub(super) fn noisy(mut self, noise: Noise, rng: &mut Rng) -> Shown {
@@ -214,7 +226,7 @@ impl Reality {
         let loaded: Shown = under(&at.row.wrench)?;
         match kind {
             Kind::Displacement { .. } => Ok(loaded.less(&under(&Vector6::zeros())?)),
-            Kind::Distance => Ok(loaded.from(at.row)),
+            Kind::Distance | Kind::Bench { .. } => Ok(loaded.by(at.row)),
             Kind::Pose { .. } | Kind::Coordinates { .. } => Ok(loaded),
         }
     }
@@ -240,7 +252,7 @@ impl Reality {
         let loaded = under(&at.row.wrench);
         match kind {
             Kind::Displacement { .. } => loaded.less(&under(&Vector6::zeros())),
-            Kind::Distance => loaded.from(at.row),
+            Kind::Distance | Kind::Bench { .. } => loaded.by(at.row),
             Kind::Pose { .. } | Kind::Coordinates { .. } => loaded,
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::io::{Convention, Unit};
 use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, WRENCH_NAMES};
+use crate::observe::Bench;
 
 /// What a column is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,8 +79,13 @@ const LOADS: [&str; 12] = [
 const DATES: [&str; 3] = ["date", "datum", "day"];
 
 /// Any arm: what is not a joint's is the same on all.
-pub(super) const ANY: Layout =
-    Layout { motions: Vec::new(), markers: Vec::new(), readings: false, payloads: None };
+pub(super) const ANY: Layout = Layout {
+    motions: Vec::new(),
+    markers: Vec::new(),
+    readings: false,
+    payloads: None,
+    bench: Bench::NONE,
+};
 
 /// The numbers of an orientation, by their names.
 const ORIENTATIONS: [(Convention, &[&str]); 7] = [

@@ -3,6 +3,7 @@ use stiffarm_kernels::Motion;
 
 use super::*;
 use crate::measurement::{Kind, Layout, Measurements};
+use crate::observe::Bench;
 
 fn import_with(text: &str, map: &str) -> Result<Imported, ReadError> {
     let map = Map::read("map.toml", map)?;
@@ -17,6 +18,7 @@ fn rows(text: &str, map: &str, joints: usize) -> Measurements {
         markers: Vec::new(),
         readings: true,
         payloads: None,
+        bench: Bench::NONE,
     };
     let read = Measurements::from_bytes("out.csv", imported.csv.as_bytes(), &layout);
     read.unwrap_or_else(|e| panic!("{e}\n{}", imported.csv))

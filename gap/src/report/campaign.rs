@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Word;
 pub use super::{CannotSee, Finding};
+use super::{Parameter, Word};
 use crate::gap::Statistics;
 use crate::measurement::Row;
 use crate::shrink::Shrink;
@@ -54,6 +54,12 @@ pub struct Diagnosis {
     /// Frames that were fitted along, and are no findings.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub nuisances: Vec<NuisanceReport>,
+    /// Things of the bench that were fitted along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bench: Vec<BenchReport>,
+    /// Points of the bench whose distance is known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<PairReport>,
     /// Whether zeros, lengths and twists of the table were fitted along, and are no finding.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub geometry_along: bool,
@@ -97,6 +103,9 @@ pub struct Gauge {
 pub struct LeftOut {
     /// Its line in the file.
     pub line: u64,
+    /// Its session, where there are several: of several files its file, too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
     /// How far it is from what the model with the findings predicts, m; `None` where that model comes to
     /// no rest under its load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -104,6 +113,13 @@ pub struct LeftOut {
     /// The same of its rotation, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<f64>,
+}
+
+impl LeftOut {
+    /// Whether it is this row.
+    pub fn is(&self, row: &Row) -> bool {
+        self.line == row.line && (self.session.is_none() || self.session == row.session)
+    }
 }
 
 /// A part of the gap.
@@ -146,6 +162,33 @@ pub struct NuisanceReport {
     pub translation: [f64; 3],
     /// Rotation vector, rad; 0 of a point.
     pub rotation: [f64; 3],
+}
+
+/// A thing of the bench that was fitted along.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BenchReport {
+    /// `point`, `plane` or `centre` (from which distances are measured).
+    pub kind: String,
+    /// As the file calls it; may be empty.
+    pub name: String,
+    /// The session whose it is, where there are several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub session: Option<String>,
+    /// Measuring frame, m. Of a plane the unit normal and the distance from the origin along it.
+    pub constants: Vec<Parameter>,
+}
+
+/// Two points of the bench whose distance is known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PairReport {
+    /// Their names.
+    pub points: [String; 2],
+    /// The known distance, m.
+    pub known: f64,
+    /// Its standard deviation, m.
+    pub sigma: f64,
+    /// The distance of the points as they were fitted, m.
+    pub fitted: f64,
 }
 
 /// The range of the data.

@@ -47,7 +47,7 @@ pub fn equilibrium(arm: &Arm, q: &[f64], wrench: &Vector6<f64>) -> Result<State,
 }
 
 /// Simulates one row with the arm as its table has it. An unknown marker offset counts as zero, and an
-/// unknown point from which a distance is measured as the origin of the measuring frame.
+/// unknown place of the bench as the origin of the measuring frame.
 ///
 /// # Errors
 /// [`Unstable`] if the arm has no stable equilibrium under the row's load.
@@ -56,13 +56,7 @@ pub fn simulate(arm: &Arm, row: &Row, kind: Kind) -> Result<Sim, Unstable> {
     let sim = Sim::of(kind, Isometry3::translation(x, y, z), None, |loaded| {
         Actual::new(arm, &row.q, &if loaded { row.wrench } else { Vector6::zeros() })
     });
-    Ok(sim?.seen_from(origin(kind, row)))
-}
-
-/// Where a row's distance is measured from, measuring frame, m: of an unknown point its origin. `None`
-/// of other kinds.
-pub(crate) fn origin(kind: Kind, row: &Row) -> Option<Vector3<f64>> {
-    (kind == Kind::Distance).then(|| row.from.unwrap_or_default().into())
+    Ok(sim?.seen_by(row.view(kind)))
 }
 
 /// Translation of a twist.

@@ -8,6 +8,7 @@ use super::rest::{beyond_first_order, follow_loads, rest};
 use super::state::State;
 use super::{rotation, translation};
 use crate::measurement::Kind;
+use crate::observe::View;
 
 /// What an instrument reads: of a pose its position and orientation, of a displacement the
 /// difference and the rotation from the unloaded to the loaded tool; axes of the measuring frame. A
@@ -49,19 +50,19 @@ pub struct Sim {
     pub base: Isometry3<f64>,
     /// What the instrument makes of a metre.
     pub metre: f64,
-    /// Where a distance is measured from, in the measuring frame, m; `None` if none is.
-    pub from: Option<Vector3<f64>>,
+    /// What an instrument reads that is no tracker; `None` of a tracker.
+    pub view: Option<View>,
 }
 
 impl Sim {
-    /// The same arm, of which an instrument at `from` (measuring frame, m) reads how far away it is.
-    pub fn seen_from(self, from: Option<Vector3<f64>>) -> Sim {
-        Sim { from, ..self }
+    /// The same arm, read by another instrument than a tracker.
+    pub fn seen_by(self, view: Option<View>) -> Sim {
+        Sim { view, ..self }
     }
 
-    /// From where a distance is measured to the measured point, measuring frame, m.
-    fn line(&self, from: &Vector3<f64>) -> Vector3<f64> {
-        (self.base * Point3::from(self.point(&self.loaded))).coords * self.metre - from
+    /// The measured point under load, measuring frame, m.
+    pub fn seen_point(&self) -> Vector3<f64> {
+        (self.base * Point3::from(self.point(&self.loaded))).coords * self.metre
     }
 
     /// Brings the arm to rest as `actual` has it with the row's wrench (`true`) and, for a
@@ -96,9 +97,9 @@ impl Sim {
             Kind::Displacement { .. } => {
                 Some(at_rest(&actual(false), near.and_then(|n| n.unloaded.as_ref()))?)
             }
-            Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => None,
+            _ => None,
         };
-        Ok(Sim { loaded, unloaded, measured, base, metre, from: None })
+        Ok(Sim { loaded, unloaded, measured, base, metre, view: None })
     }
 
     /// The measured point of a state in the arm's base frame, m.
@@ -108,17 +109,16 @@ impl Sim {
 
     /// What the instrument would read.
     pub fn reading(&self) -> Reading {
-        if let Some(from) = &self.from {
-            let position = Vector3::new(self.line(from).norm(), 0.0, 0.0);
+        if let Some(view) = &self.view {
+            let position = view.read(&self.seen_point());
             return Reading { position, rotation: UnitQuaternion::identity() };
         }
         let loaded = self.point(&self.loaded);
         let rotation = self.loaded.tool.rotation * self.measured.rotation;
         match &self.unloaded {
-            None => Reading {
-                position: (self.base * Point3::from(loaded)).coords * self.metre,
-                rotation: self.base.rotation * rotation,
-            },
+            None => {
+                Reading { position: self.seen_point(), rotation: self.base.rotation * rotation }
+            }
             Some(unloaded) => {
                 let turned = self.loaded.tool.rotation * unloaded.tool.rotation.inverse();
                 Reading {
@@ -150,13 +150,12 @@ impl Sim {
             column.fixed_rows_mut::<3>(0).copy_from(&shift);
             column.fixed_rows_mut::<3>(3).copy_from(&turn);
         }
-        if let Some(from) = &self.from {
-            // Where the two points are one, nothing moves them apart to first order.
-            let along = self.line(from).try_normalize(0.0).unwrap_or_default();
+        if let Some(view) = &self.view {
+            let by_point = view.by_point(&self.seen_point());
             for mut column in change.column_iter_mut() {
-                let longer = along.dot(&column.fixed_rows::<3>(0));
+                let read = by_point * column.fixed_rows::<3>(0);
                 column.fill(0.0);
-                column[0] = longer;
+                column.fixed_rows_mut::<3>(0).copy_from(&read);
             }
         }
         change

@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_gap::diagnose::Diagnosed;
 use stiffarm_gap::measurement::{Kind, Row};
+use stiffarm_gap::observe::{Aim, Bench, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, csv};
 use stiffarm_gap::simulate::simulate;
@@ -38,11 +39,13 @@ fn is_found(found: &Diagnosed) {
 fn a_distance_is_that_of_the_measured_point() {
     let arm = sprung(Convention::Modified);
     let mut row = reading(&[0.4, -0.7, 0.2, 0.9, -0.3], [30.0, -20.0, -90.0, 1.0, 2.0, 3.0]);
-    row.from = Some([0.3, -0.2, 0.5]);
+    let from = Vector3::new(0.3, -0.2, 0.5);
+    let view = View::Distance { from, offset: 0.0 };
+    row.aim = Some(Box::new(Aim::known(Seen::Distance, "", view)));
     row.offset = Some([0.0, 0.1, 0.02]);
     let at = simulate(&arm, &row, Kind::Pose { orientation: true }).expect("at rest").reading();
     // In space the marker is where the instrument of poses sees it.
-    let far = (at.position - Vector3::new(0.3, -0.2, 0.5)).norm();
+    let far = (at.position - from).norm();
     let seen = simulate(&arm, &row, Kind::Distance).expect("at rest");
     assert!((seen.reading().vector() - Vector6::ith(0, far)).amax() < 1e-15);
     let told = plant(&arm, &[]).measure(&rows(Kind::Distance, vec![row]), EXACT, 0).expect("rows");
@@ -62,11 +65,12 @@ fn a_ball_bar_shows_a_soft_joint() {
         readings: true,
         markers: Vec::new(),
         payloads: None,
+        bench: Bench::NONE,
     };
     let text = csv(&arm, &data, &[]);
     let read = Measurements::from_bytes("bar.csv", text.as_bytes(), &layout).expect("a file");
     assert_eq!((read.kind, read.poses), (Kind::Distance, data.poses));
-    let same = |(a, b): (&Row, &Row)| a.measured == b.measured && a.from == b.from;
+    let same = |(a, b): (&Row, &Row)| a.measured == b.measured && a.aim == b.aim;
     assert!(read.rows.iter().zip(&data.rows).all(same));
 }
 
@@ -75,10 +79,9 @@ fn a_point_that_nobody_knows_is_fitted_along() {
     let arm = loaded(Convention::Standard);
     let mut data =
         plant(&arm, &[TRUTH]).measure(&design(&arm, Kind::Distance), NOISE, 1).expect("rows");
-    let was = Vector3::from(data.rows[0].from.expect("a point"));
-    for row in &mut data.rows {
-        (row.from, row.from_point) = (None, Some("socket".to_owned()));
-    }
+    let was = data.rows[0].aim.as_ref().and_then(|aim| aim.view.place()).expect("a place");
+    let socket = |name: &str| Some(Box::new(Aim::at(Seen::Distance, name)));
+    data.rows.iter_mut().for_each(|row| row.aim = socket("socket"));
     let found = found(&arm, &data);
     is_found(&found);
     let [point] = &found.diagnosis.nuisances[..] else { panic!("{:?}", found.diagnosis.nuisances) };
@@ -88,9 +91,12 @@ fn a_point_that_nobody_knows_is_fitted_along() {
     let same = found.explanation.predict(&data).expect("predicted");
     let [before, after] = [&same.before, &same.after].map(|gaps| gaps[7][0].abs());
     assert!(before.is_finite() && after < 1e-4, "{before:e} {after:e}");
-    data.rows.iter_mut().for_each(|row| row.from_point = Some("another".to_owned()));
-    let refused = found.explanation.predict(&data).unwrap_err().to_string();
-    assert!(refused.contains("found distances from the point `another`"), "{refused}");
+    // One that only the other file has is fitted to it.
+    data.rows.iter_mut().for_each(|row| row.aim = socket("another"));
+    let again = found.explanation.predict(&data).expect("predicted").after;
+    let squares: f64 = again.iter().map(|gap| gap[0] * gap[0]).sum();
+    let left = (squares / again.len() as f64).sqrt() / NOISE.position;
+    assert!((0.7..1.3).contains(&left), "{left}");
 }
 
 #[test]

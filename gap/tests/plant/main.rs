@@ -2,6 +2,7 @@
 //! what a truth would add.
 
 mod arms;
+mod bench;
 mod closed_forms;
 mod distances;
 mod kinematic;

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::identify::measured::{Answer, Question, identify_measured};
 use stiffarm_gap::measurement::{Layout, Measurements};
+use stiffarm_gap::observe::Bench;
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
@@ -89,7 +90,13 @@ impl Rig {
             writeln!(text, "{}", cells.collect::<Vec<_>>().join(",")).unwrap();
         }
         let motions = arm.joints.iter().map(|joint| joint.motion).collect();
-        let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None };
+        let layout = Layout {
+            motions,
+            readings: true,
+            markers: Vec::new(),
+            payloads: None,
+            bench: Bench::NONE,
+        };
         Measurements::from_bytes("campaign.csv", text.as_bytes(), &layout).unwrap()
     }
 }

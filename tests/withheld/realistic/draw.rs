@@ -255,7 +255,13 @@ fn as_read(arm: &Arm, measured: &Measurements, file: &str) -> (Measurements, Str
     }
     let text = csv(arm, &rounded, &[]);
     let motions = arm.joints.iter().map(|joint| joint.motion).collect();
-    let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None };
+    let layout = Layout {
+        motions,
+        readings: true,
+        markers: Vec::new(),
+        payloads: None,
+        bench: stiffarm_gap::observe::Bench::NONE,
+    };
     let data = Measurements::from_bytes(file, text.as_bytes(), &layout).expect("our own file");
     (data, text)
 }

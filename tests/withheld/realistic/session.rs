@@ -69,16 +69,5 @@ pub fn rows(model: &Model, arm: &Arm, orientation: bool, loads: bool, seed: u64)
         row.temperature = Some(((20.0 + warm) * 1e3).round() / 1e3);
         row.direction = Some(arm.joints.iter().map(|_| order.sign() as i8).collect());
     }
-    Measurements {
-        file: "the session".to_owned(),
-        rows,
-        kind: Kind::Pose { orientation },
-        sim_given: [false; 6],
-        poses: count,
-        extra: Vec::new(),
-        unused: Vec::new(),
-        skipped: Vec::new(),
-        measured_in: [None; 6],
-        wrench_in: [None; 6],
-    }
+    Measurements::new("the session", Kind::Pose { orientation }, rows)
 }

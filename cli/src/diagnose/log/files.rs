@@ -14,10 +14,10 @@ use crate::terminal::failure::Failure;
 pub enum Files {
     /// A joint log, file by file.
     Log(Vec<Part>),
-    /// The bytes of a measurement file.
-    Measurements(Vec<u8>),
-    /// A measurement file and the log of the same arm.
-    Both(PathBuf, Vec<u8>, Vec<Part>),
+    /// Measurement files, and their bytes.
+    Measurements(Vec<(PathBuf, Vec<u8>)>),
+    /// Measurement files and the log of the same arm.
+    Both(Vec<(PathBuf, Vec<u8>)>, Vec<Part>),
 }
 
 /// A file of a log.
@@ -93,25 +93,19 @@ fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// Opens the files, and knows by their columns what they are.
 ///
 /// # Errors
-/// [`Failure`]: a file that cannot be read, several that are no log, options of a log beside one that is
-/// none.
+/// [`Failure`]: a file that cannot be read, options of a log beside files that are none.
 pub fn files(args: &Args) -> Result<Files, Failure> {
     let parts = parts(&args.data)?;
     let is_log = |part: &Part| args.log.map.is_some() || part.is_log();
     let (of_log, others): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(is_log);
-    let several = "measurements are diagnosed file by file";
+    let measured = |parts: Vec<Part>| -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+        parts.iter().map(|part| Ok((part.path.clone(), part.bytes()?))).collect()
+    };
     if !of_log.is_empty() {
-        return match <[Part; 1]>::try_from(others) {
-            Ok([part]) => Ok(Files::Both(part.path.clone(), part.bytes()?, of_log)),
-            Err(others) if others.is_empty() => Ok(Files::Log(of_log)),
-            Err(others) => {
-                let message = format!(
-                    "found {} files beside a joint log, expected one of measurements",
-                    others.len()
-                );
-                Err(Failure::with_help(message, several))
-            }
-        };
+        return Ok(match others.is_empty() {
+            true => Files::Log(of_log),
+            false => Files::Both(measured(others)?, of_log),
+        });
     }
     let refused = |what: String, help| {
         let first = &args.data[0].display();
@@ -122,10 +116,7 @@ pub fn files(args: &Args) -> Result<Files, Failure> {
             "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
         return refused(format!("{option} is for joint logs"), help);
     }
-    match <[Part; 1]>::try_from(others) {
-        Ok([part]) => part.bytes().map(Files::Measurements),
-        Err(parts) => refused(format!("found {} files", parts.len()), several),
-    }
+    measured(others).map(Files::Measurements)
 }
 
 /// Whether a file is a log by its columns, or a folder of one.

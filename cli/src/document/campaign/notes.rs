@@ -1,6 +1,7 @@
 //! Where the error lies, what was co-estimated, what remains, what these data cannot show, what was not read.
 
-use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, Share};
+use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, PairReport, Share};
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::io::Unit;
 use stiffarm_gap::measurement::ExtraColumn;
 
@@ -36,6 +37,7 @@ impl Campaign<'_> {
             Some(shares("Located at", &self.found.places, remark)),
             Block::note("Depends on", self.parts()),
             Block::note("Co-estimated", self.nuisances()),
+            Block::note("Pairs", self.pairs()),
             Block::note("Loads", self.loads()),
             Block::note("Outliers", self.outliers()),
             Block::note("Check", self.checked()),
@@ -69,6 +71,17 @@ impl Campaign<'_> {
         listed(&all, MOST)
     }
 
+    /// Points of the bench whose distance is known, and what it came out as.
+    fn pairs(&self) -> String {
+        let pair = |pair: &PairReport| {
+            let [known, fitted, sigma] =
+                [pair.known, pair.fitted, pair.sigma].map(|length| fixed(1e3 * length, 2));
+            let [one, other] = &pair.points;
+            format!("{one} and {other} {fitted} mm apart (known: {known} ± {sigma} mm)")
+        };
+        listed(&self.found.pairs.iter().map(pair).collect::<Vec<_>>(), MOST)
+    }
+
     /// The rows that do not fit, the worst first.
     fn outliers(&self) -> String {
         let mut rows: Vec<&LeftOut> = self.found.left_out.iter().collect();
@@ -84,7 +97,9 @@ impl Campaign<'_> {
             let text = size(row).map_or("no equilibrium under its load".to_owned(), |size| {
                 units.main([size, size]).with_unit(size)
             });
-            format!("line {} ({text})", row.line)
+            let of = row.session.as_deref().map(|session| session.trim_end_matches(':'));
+            let of = of.map_or_else(String::new, |session| format!(" of {session}"));
+            format!("line {}{of} ({text})", row.line)
         };
         let each: Vec<String> = rows.iter().map(far).collect();
         let (out, all) = (each.len(), self.found.measurements);
@@ -99,11 +114,27 @@ impl Campaign<'_> {
         let Some(check) = self.check else { return String::new() };
         let of = format!("{} of the {} rows of {}", check.inside, check.rows, check.file);
         let within = "within the joint ranges, loads and leverage of these data";
+        let all = check.all.map(|[before, after]| {
+            format!("on all rows, extrapolated, {}", self.shrunk(&before, &after))
+        });
         let (Some(before), Some(after)) = (check.before, check.after) else {
-            return format!("{of} lie {within}: none is judged");
+            let none = format!("{of} lie {within}: none is judged");
+            return [Some(none), all].into_iter().flatten().collect::<Vec<_>>().join("; ");
         };
+        let sizes = self.shrunk(&before, &after);
+        if check.fitted {
+            let expected = self.main().with_unit(self.rms()[1]);
+            return format!(
+                "{sizes} on {of}, which are the fitted rows: on new rows expect {expected}"
+            );
+        }
+        let outside = all.unwrap_or_else(|| "no row lies outside".to_owned());
+        format!("{sizes} on {of} that lie {within}; {outside}")
+    }
+
+    fn shrunk(&self, before: &Statistics, after: &Statistics) -> String {
         let units = self.units();
-        let sizes = if units.positions {
+        if units.positions {
             let shown = units.length([before.position_rms, after.position_rms]);
             format!(
                 "{} rms, 95 % {}, max {}",
@@ -114,19 +145,7 @@ impl Campaign<'_> {
         } else {
             let shown = units.angle([before.rotation_rms, after.rotation_rms]);
             format!("{} rms", shown.change(before.rotation_rms, after.rotation_rms))
-        };
-        if check.fitted {
-            let expected = self.main().with_unit(self.rms()[1]);
-            return format!(
-                "{sizes} on {of}, which are the fitted rows: on new rows expect {expected}"
-            );
         }
-        let outside = match check.rows - check.inside {
-            0 => "no row lies outside".to_owned(),
-            1 => "1 row outside is not judged".to_owned(),
-            n => format!("{n} rows outside are not judged"),
-        };
-        format!("{sizes} on {of} that lie {within}; {outside}")
     }
 
     /// What of the residuals is not as least squares takes noise to be.

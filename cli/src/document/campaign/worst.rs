@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector6;
 use stiffarm_gap::gap::rms;
+use stiffarm_gap::measurement::Row;
 
 use super::{Campaign, Fitted};
 
@@ -28,9 +29,9 @@ impl Campaign<'_> {
         let size = |gaps: &[Vector6<f64>], rows: &[usize]| {
             rms(&rows.iter().map(|k| gaps[*k].fixed_rows::<3>(first).norm()).collect::<Vec<_>>())
         };
-        let out = |line| self.found.left_out.iter().any(|row| row.line == line);
+        let out = |row: &Row| self.found.left_out.iter().any(|out| out.is(row));
         let mut poses: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (k, row) in self.data.rows.iter().enumerate().filter(|(_, row)| !out(row.line)) {
+        for (k, row) in self.data.rows.iter().enumerate().filter(|(_, row)| !out(row)) {
             poses.entry(row.group).or_default().push(k);
         }
         let pose = |rows: &Vec<usize>| {

@@ -3,7 +3,7 @@
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::{Diagnosis, Finding};
 use stiffarm_gap::effects::{Catalogue, Place};
-use stiffarm_gap::measurement::Kind;
+use stiffarm_gap::measurement::Row;
 
 use super::shape::Shaped;
 
@@ -15,8 +15,9 @@ pub fn curves<'a>(
     catalogue: &Catalogue,
 ) -> Vec<Shaped<'a>> {
     let displaced = data.kind.is_difference();
-    // A joint's part of a distance is told only where the point is known.
-    if data.kind == Kind::Distance && data.rows.iter().any(|row| row.from.is_none()) {
+    // A joint's part of a reading is told only where the thing that is read is known.
+    let is_unknown = |row: &Row| row.aim.as_ref().is_some_and(|aim| !aim.free.is_empty());
+    if data.rows.iter().any(is_unknown) {
         return Vec::new();
     }
     let curve = |finding: &'a Finding| {

@@ -142,7 +142,7 @@ fn circumstances(rows: &[Row], columns: &mut Columns) -> Vec<Against> {
 
 /// Where the translation stands, or the rotation without one.
 fn vectors(experiment: &Experiment<'_>, components: &[Component]) -> [[Option<usize>; 3]; 2] {
-    if experiment.data.kind == Kind::Distance {
+    if matches!(experiment.data.kind, Kind::Distance | Kind::Bench { .. }) {
         return [[None; 3]; 2];
     }
     let first = if experiment.has_positions() { 0 } else { 3 };

@@ -74,9 +74,7 @@ fn middle(rows: &[Row]) -> usize {
 fn measured(experiment: &Experiment<'_>, row: &Row) -> Vector3<f64> {
     match experiment.data.kind {
         Kind::Pose { .. } => row.measured.fixed_rows::<3>(0).into_owned(),
-        Kind::Displacement { .. } | Kind::Coordinates { .. } | Kind::Distance => {
-            (experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row))).coords
-        }
+        _ => (experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row))).coords,
     }
 }
 

@@ -110,7 +110,7 @@ pub(super) fn torque(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Op
     let loaded = under(&row.wrench)?;
     match experiment.data.kind {
         Kind::Displacement { .. } => Some(loaded - under(&Vector6::zeros())?),
-        Kind::Pose { .. } | Kind::Coordinates { .. } | Kind::Distance => Some(loaded),
+        _ => Some(loaded),
     }
 }
 
@@ -122,10 +122,10 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
     let arm = experiment.placed.pose(&row.q).rotation * Vector3::from(experiment.offset(row));
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
     let frame = experiment.placed.base.rotation;
-    if let (Kind::Distance, Some(from)) = (experiment.data.kind, row.from) {
+    if let Some(aim) = &row.aim {
         let point = experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row));
-        let along = (point - Point3::from(from)).try_normalize(0.0).unwrap_or_default();
-        return Vector6::ith(0, along.dot(&(frame * moved)));
+        let read = aim.view.by_point(&point.coords) * (frame * moved);
+        return Vector6::new(read.x, read.y, read.z, 0.0, 0.0, 0.0);
     }
     let (from, part) =
         if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };

@@ -256,7 +256,7 @@ fn another_file_is_predicted() {
     let found = bench.json(&bench.robot, &run, &["--check", &other]);
     let check = &found["check"];
     let keys: Vec<&String> = check.as_object().expect("an object").keys().collect();
-    assert_eq!(keys, ["file", "rows", "inside", "fitted", "before", "after"]);
+    assert_eq!(keys, ["file", "rows", "inside", "fitted", "before", "after", "all"]);
     assert_eq!(check["fitted"], false);
     assert_eq!((check["file"].as_str(), check["rows"].as_u64()), (Some(&*other), Some(48)));
     let inside = check["inside"].as_u64().expect("a number");
@@ -268,8 +268,9 @@ fn another_file_is_predicted() {
     let out = bench.diagnose(&bench.robot, &run, &["--check", &other]);
     let said = flat(&out);
     let part = format!("on {inside} of the 48 rows of ");
-    let outside = format!("{} rows outside are not judged", 48 - inside);
-    assert!(said.contains(&part) && said.contains(&outside), "{out}");
+    assert!(said.contains(&part) && said.contains("; on all rows, extrapolated, "), "{out}");
+    let all = |which: usize| number(&check["all"][which]["position_rms"]);
+    assert!(all(0) > all(1) && all(1) > 0.0, "{check}");
 
     // Rows that all lie elsewhere are not judged at all.
     let far = "q1,q2,q3,x,y,z,rx,ry,rz\n50,0,0,1,0,0,0,0,0\n51,0,0,1,0,0,0,0,0\n";

@@ -20,4 +20,4 @@ pub(crate) use folds::Folds;
 pub(crate) use misfits::fitting;
 pub(crate) use noise::Noise;
 pub(crate) use precision::Precision;
-pub(crate) use problem::{LARGEST, Problem};
+pub(crate) use problem::{LARGEST, Problem, Thing};

@@ -49,8 +49,10 @@ pub(crate) struct Level {
     /// read more than once and visited again.
     pub(crate) visits: Option<f64>,
     pub(crate) source: Source,
-    /// Measured components of this kind in a row.
+    /// Measured components of this kind in a row, at the most.
     pub(crate) components: usize,
+    /// The same on average over the rows.
+    pub(crate) per_row: f64,
     /// The first of the three components of a twist.
     first: usize,
 }
@@ -76,9 +78,14 @@ impl Noise {
         let kept: Vec<usize> = (0..residual.len()).filter(|row| problem.fits[*row]).collect();
         let level = |first: usize, given: Option<f64>| {
             let components = (first..first + 3).filter(|&k| problem.mask[k] > 0.0).count();
-            let repeats = Repeats::of(problem, kept.clone(), &gap, first, components);
+            let own = |row: &usize| problem.data.rows[*row].components(problem.data.kind);
+            let numbers: usize = (kept.iter().map(own))
+                .map(|is| is[first..first + 3].iter().filter(|is| **is).count())
+                .sum();
+            let per_row = numbers as f64 / kept.len().max(1) as f64;
+            let repeats = Repeats::of(problem, kept.clone(), &gap, first, per_row);
             let visits = repeats.as_ref().and_then(Repeats::visits);
-            let with = |sd, source| Level { sd, visits, source, components, first };
+            let with = |sd, source| Level { sd, visits, source, components, per_row, first };
             if let Some(sd) = given {
                 return with(sd, Source::Option);
             }
@@ -92,7 +99,8 @@ impl Noise {
             let total = problem.numbers();
             // Each kind pays for the parameters by its part of the numbers measured.
             let left = total.saturating_sub(parameters).max(1) as f64 / total.max(1) as f64;
-            let freedom = left * (problem.free_rows() * components) as f64;
+            let held = problem.constants.len() * components;
+            let freedom = left * numbers.saturating_sub(held) as f64;
             let squares: f64 = kept.iter().map(|row| square(&gap(*row), first)).sum();
             with(if freedom > 0.0 { (squares / freedom).sqrt() } else { 0.0 }, Source::Residual)
         };
@@ -116,7 +124,7 @@ impl Noise {
 
     pub(crate) fn report(&self) -> NoiseReport {
         let is_there = |l: &Level| l.components > 0;
-        let rms = |l: &Level, sd: f64| sd * (l.components as f64).sqrt();
+        let rms = |l: &Level, sd: f64| sd * l.per_row.sqrt();
         let visits = |l: &Level| l.visits.filter(|_| is_there(l)).map(|sd| rms(l, sd));
         let from = |l: &Level| is_there(l).then(|| l.source.name().into());
         let (position, rotation) = (&self.position, &self.rotation);
@@ -148,21 +156,21 @@ impl Noise {
         residual: impl Iterator<Item = Vector6<f64>>,
         parameters: usize,
     ) -> bool {
-        let (mut rows, mut sums) = (0, [0.0; 2]);
+        let (mut rows, mut sums) = (0_u32, [0.0; 2]);
         for gap in residual {
             rows += 1;
             let parts = [&self.position, &self.rotation].map(|level| level.square(&gap));
             sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
         }
         let kinds = [&self.position, &self.rotation];
-        let measured: usize = kinds.iter().map(|l| l.components).sum();
+        let measured: f64 = kinds.iter().map(|l| l.per_row).sum();
         let judged = kinds
             .iter()
             .filter(|l| l.components > 0 && l.sd > 0.0 && l.source != Source::Residual)
             .count();
         kinds.iter().zip(sums).any(|(level, squares)| {
-            let share = level.components as f64 / measured.max(1) as f64;
-            let freedom = (rows * level.components) as f64 - share * parameters as f64;
+            let share = level.per_row / if measured > 0.0 { measured } else { 1.0 };
+            let freedom = f64::from(rows) * level.per_row - share * parameters as f64;
             let more = squares > freedom * (EXCESS * level.sd).powi(2);
             let chance = level.chance(squares, freedom);
             more && chance.is_some_and(|p| p * (judged as f64) < UNEXPLAINED)
@@ -229,7 +237,7 @@ impl Repeats {
         mut rows: Vec<usize>,
         gap: &dyn Fn(usize) -> Vector6<f64>,
         first: usize,
-        components: usize,
+        per_row: f64,
     ) -> Option<Self> {
         let visits = &problem.visits;
         rows.sort_by_key(|row| (visits.repeats[*row], visits.of_row[*row]));
@@ -254,7 +262,7 @@ impl Repeats {
                 times -= count * count / all;
             }
         }
-        let numbers = |apart: &Apart| (apart.beyond * components) as f64;
+        let numbers = |apart: &Apart| apart.beyond as f64 * per_row;
         let (inside, outside) = (numbers(&within), numbers(&between));
         let sum = within.squares + between.squares;
         if within.beyond + between.beyond < LEAST_REPEATS || inside + outside <= 0.0 || sum <= 0.0 {

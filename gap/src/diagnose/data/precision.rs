@@ -1,13 +1,22 @@
 //! How precise each reading is beside the others, where the file says what its instrument's standard
 //! deviation was.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector6;
 
 use crate::gap::rms;
-use crate::measurement::Measurements;
+use crate::measurement::{Kind, Measurements, Row};
 
 /// Halvings of an interval of variances: each is a binary digit.
 const HALVINGS: usize = 60;
+
+/// Numbers of an instrument by which its precision is told: a standard deviation is then known to a sixth.
+const ENOUGH: f64 = 20.0;
+
+/// An instrument that is a hundred times as precise as the others decides alone; one that seems more precise fits
+/// by chance.
+const MOST_APART: f64 = 100.0;
 
 /// What each measured number is to be multiplied by to be as uncertain as all others, of both kinds by
 /// itself; nothing where the file has no standard deviations.
@@ -37,9 +46,11 @@ impl Precision {
         let kinds = [0..3, 3..6].map(|range| {
             let numbers: Vec<[f64; 2]> = (data.rows.iter().zip(gaps).zip(fits))
                 .filter(|(_, fits)| **fits)
-                .filter_map(|((row, gap), _)| Some((row.sigma.as_deref()?, gap)))
-                .flat_map(|(sigma, gap)| {
-                    range.clone().map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
+                .filter_map(|((row, gap), _)| Some((row, row.sigma.as_deref()?, gap)))
+                .flat_map(|(row, sigma, gap)| {
+                    let is = row.components(data.kind);
+                    let own = range.clone().filter(move |k| is[*k]);
+                    own.map(move |k| [sigma[k].powi(2), gap[k].powi(2)])
                 })
                 .filter(|[variance, _]| *variance > 0.0)
                 .collect();
@@ -48,6 +59,35 @@ impl Precision {
         let all = (kinds.iter().map(Vec::len).sum::<usize>()).max(1) as f64;
         let part = 1.0 - (parameters as f64 / all).min(1.0);
         Self::with(data, kinds.map(|numbers| scatter(&numbers, part)))
+            .by_instrument(data, gaps, fits)
+    }
+
+    /// Of a bench each instrument of each session by itself is as precise as what it leaves says.
+    fn by_instrument(self, data: &Measurements, gaps: &[Vector6<f64>], fits: &[bool]) -> Self {
+        let Kind::Bench { .. } = data.kind else { return self };
+        let of = |row: &Row| (row.session.clone(), row.aim.as_ref().map(|aim| aim.seen));
+        let mut instruments: HashMap<_, [f64; 2]> = HashMap::new();
+        let mut pooled = [0.0; 2];
+        for (number, (row, gap)) in data.rows.iter().zip(gaps).enumerate().filter(|(k, _)| fits[*k])
+        {
+            let size = gap.component_mul(&self.of_row(number)).norm_squared();
+            let count = row.components(data.kind).iter().filter(|is| **is).count() as f64;
+            for sums in [instruments.entry(of(row)).or_default(), &mut pooled] {
+                *sums = [sums[0] + size, sums[1] + count];
+            }
+        }
+        let mean = |[squares, count]: [f64; 2]| (squares / count.max(1.0)).sqrt();
+        if instruments.len() < 2 || mean(pooled) <= 0.0 {
+            return self;
+        }
+        let scale = |row: &Row| match instruments.get(&of(row)) {
+            Some(own) if own[1] >= ENOUGH && mean(*own) > 0.0 => {
+                (mean(pooled) / mean(*own)).clamp(1.0 / MOST_APART, MOST_APART)
+            }
+            _ => 1.0,
+        };
+        let each = data.rows.iter().enumerate().map(|(k, row)| self.of_row(k) * scale(row));
+        Self { rows: each.collect(), ..self }
     }
 
     fn with(data: &Measurements, beyond: [f64; 2]) -> Self {
@@ -86,7 +126,8 @@ impl Precision {
     /// Whether no number's differs by more than this part.
     pub(crate) fn is_near(&self, other: &Self, part: f64) -> bool {
         let both = self.rows.iter().zip(&other.rows);
-        both.into_iter().all(|(a, b)| a.zip_map(b, |a, b| (a / b).ln().abs()).max() < part)
+        self.rows.len() == other.rows.len()
+            && both.into_iter().all(|(a, b)| a.zip_map(b, |a, b| (a / b).ln().abs()).max() < part)
     }
 }
 

@@ -7,12 +7,14 @@ use stiffarm_kernels::generic::Arm;
 use super::misfits::ordinary;
 use super::precision::Precision;
 use super::visits::Visits;
+use crate::diagnose::fit::Place;
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::measurement::{Kind, Measurements, Row};
-use crate::simulate::{Actual, Moments, Reading, Sim, origin};
+use crate::observe::{Aim, Pair, Seen};
+use crate::simulate::{Actual, Moments, Reading, Sim};
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
@@ -20,6 +22,14 @@ pub(crate) const LARGEST: f64 = 1e50;
 
 /// Rows that are worked on at once: what is found of each is more than what is kept of it.
 const AT_ONCE: usize = 1 << 14;
+
+/// A thing of the bench that is unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Thing {
+    pub(crate) aim: Aim,
+    /// Each session has its own.
+    pub(crate) session: usize,
+}
 
 /// An arm and its measurements.
 #[derive(Clone)]
@@ -49,10 +59,12 @@ pub(crate) struct Problem<'a> {
     pub(crate) sessions: Vec<String>,
     /// Which of them a row is of.
     pub(crate) session_of: Vec<usize>,
-    /// The unknown points from which distances are measured: what they are called, and the session.
-    pub(crate) centres: Vec<(String, usize)>,
-    /// Which of them a row has.
-    pub(crate) centre_of: Vec<Option<usize>>,
+    /// The things of the bench that are unknown.
+    pub(crate) bench: Vec<Thing>,
+    /// Which of them a row reads.
+    pub(crate) bench_of: Vec<Option<usize>>,
+    /// Points of the bench whose distance is known, and where they are.
+    pub(crate) pairs: Vec<(Pair, [Place; 2])>,
     /// Rows that have an unknown constant of their own, so that only what sets them apart counts;
     /// all rows stand in one of these sets, or there are none.
     pub(crate) constants: Vec<Vec<usize>>,
@@ -96,12 +108,13 @@ impl<'a> Problem<'a> {
             session_of.extend(rows.iter().map(|_| sessions.len()));
             sessions.push(rows[0].session.clone().unwrap_or_default());
         }
-        let (mut centres, mut centre_of) = (Vec::new(), Vec::with_capacity(data.rows.len()));
+        let (mut bench, mut bench_of) = (Vec::new(), Vec::with_capacity(data.rows.len()));
         for (row, session) in data.rows.iter().zip(&session_of) {
-            let is_unknown = data.kind == Kind::Distance && row.from.is_none();
-            let centre = (row.from_point.clone().unwrap_or_default(), *session);
-            centre_of.push(is_unknown.then(|| number_of(&mut centres, centre)));
+            let unknown = row.aim.as_deref().filter(|aim| !aim.free.is_empty());
+            let thing = unknown.map(|aim| Thing { aim: aim.clone(), session: *session });
+            bench_of.push(thing.map(|thing| number_of(&mut bench, thing)));
         }
+        let pairs = pairs(data, &bench, &session_of);
         let known: Vec<Known> =
             options.known.iter().filter(|known| known.is_there(data)).cloned().collect();
         let moments = Moments::of(data);
@@ -130,7 +143,7 @@ impl<'a> Problem<'a> {
             let unloaded = |wrong| if fits[number] { Err(wrong) } else { sim(Vector6::zeros()) };
             let sim = sim(row.wrench).or_else(unloaded);
             let sim = sim.map_err(|_| DiagnoseError::Unstable { file: file(), line })?;
-            let sim = sim.seen_from(origin(data.kind, row));
+            let sim = sim.seen_by(row.view(data.kind));
             let tool = sim.loaded.tool.translation.vector;
             if !sim.loaded.torque.iter().chain(tool.iter()).all(is_small) {
                 return Err(too_large());
@@ -157,7 +170,10 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             known,
-            nuisances: options.nuisances.clone(),
+            nuisances: match data.by_camera {
+                true => Nuisance::ALL.to_vec(),
+                false => options.nuisances.clone(),
+            },
             along: options.along().filter(|e| e.excluded(data).is_none()),
             priors: options.priors.clone(),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
@@ -165,8 +181,9 @@ impl<'a> Problem<'a> {
             marker_of,
             sessions,
             session_of,
-            centres,
-            centre_of,
+            bench,
+            bench_of,
+            pairs,
             constants: Vec::new(),
             fits,
             precision: Precision::default(),
@@ -203,14 +220,11 @@ impl<'a> Problem<'a> {
         each.map(|(row, gap)| gap.component_mul(&self.precision.of_row(row)))
     }
 
-    /// Rows that are counted, beyond one for each constant.
-    pub(crate) fn free_rows(&self) -> usize {
-        self.kept_rows().count() - self.constants.len()
-    }
-
     /// Numbers that are measured and counted, beyond those that constants take.
     pub(crate) fn numbers(&self) -> usize {
-        self.free_rows() * self.measured.len()
+        let of_row = |row: &Row| row.components(self.data.kind).iter().filter(|is| **is).count();
+        let counted: usize = self.kept_rows().map(of_row).sum();
+        counted - self.constants.len() * self.measured.len()
     }
 
     /// Whether positions are measured; else only rotations are.
@@ -284,8 +298,28 @@ fn placed(reading: &Reading, frame: &Isometry3<f64>, kind: Kind) -> Reading {
             position: turn * reading.position,
             rotation: turn * reading.rotation * turn.inverse(),
         },
-        Kind::Distance => *reading,
+        Kind::Distance | Kind::Bench { .. } => *reading,
     }
+}
+
+/// The pairs of points that were measured in one session; of points that are known both ends are, and the pair
+/// says nothing.
+fn pairs(data: &Measurements, bench: &[Thing], session_of: &[usize]) -> Vec<(Pair, [Place; 2])> {
+    let mut all: Vec<(Pair, [Place; 2])> = Vec::new();
+    let sessions = session_of.last().map_or(0, |last| last + 1);
+    for (pair, session) in data.pairs.iter().flat_map(|p| (0..sessions).map(move |s| (p, s))) {
+        let place = |name: &String| {
+            let is = |aim: &Aim| aim.seen == Seen::Point && aim.name == *name;
+            let fitted = bench.iter().position(|t| t.session == session && is(&t.aim));
+            let of_session = data.rows.iter().zip(session_of).filter(|(_, s)| **s == session);
+            let known = || of_session.filter_map(|(row, _)| row.aim.as_deref()).find(|aim| is(aim));
+            fitted.map(Place::Fitted).or_else(|| known()?.view.place().map(Place::Known))
+        };
+        if let [Some(one), Some(other)] = pair.points.each_ref().map(place) {
+            all.push((pair.clone(), [one, other]));
+        }
+    }
+    all
 }
 
 /// The number of an entry, which is put in if it is new.

@@ -14,7 +14,8 @@ pub(crate) struct Visits {
     /// The visit of each row: rows of one pose under one load that follow each other are one, for the
     /// arm did not move between them.
     pub(crate) of_row: Vec<usize>,
-    /// What each row repeats: rows of one pose with one load, marker and direction of approach.
+    /// What each row repeats: rows of one pose with one load, marker and direction of approach, of which one
+    /// thing is read.
     pub(crate) repeats: Vec<usize>,
 }
 
@@ -37,7 +38,8 @@ impl Visits {
             of_row.push(visit);
             last = Some(here);
             let next = sets.len();
-            let key = (here, row.marker.as_deref(), row.direction.as_deref());
+            let aim = row.aim.as_deref().map(|aim| (aim.seen, aim.name.as_str()));
+            let key = (here, row.marker.as_deref(), row.direction.as_deref(), aim);
             repeats.push(*sets.entry(key).or_insert(next));
         }
         Self { of_row, repeats }

@@ -1,38 +1,46 @@
 //! First guess of unknown frames, good enough for the exact fit to converge from: a tracker may
 //! stand anywhere.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::model::Model;
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::infer::Basis;
 use crate::measurement::Kind;
+use crate::observe::View;
 use crate::simulate::Reading;
+
+/// Most steps of a thing's least squares, which are nearly linear from where they begin.
+const MOST_STEPS: usize = 20;
+
+/// A step below this, m and rad, is the last.
+const SETTLED: f64 = 1e-12;
 
 /// The nominal model with unknown frames where the measurements put them to a first guess.
 ///
 /// The base of each session by the rigid motion that brings the simulated points closest to the
-/// measured ones (Kabsch), a distance's point by its distances from the simulated ones, the tool's
+/// measured ones (Kabsch), a thing of the bench by what was read of the simulated points, the tool's
 /// orientation by the mean of what is then left of the rotations.
 pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     let mut model = Model::nominal(problem);
     let (base, tool) =
         (problem.is_unknown(Nuisance::BaseFrame), problem.is_unknown(Nuisance::ToolFrame));
-    if !base && !tool && problem.centres.is_empty() {
+    if !base && !tool && problem.bench.is_empty() {
         return Ok(model);
     }
     let rows = 0..problem.data.rows.len();
     // Of very many rows the states are more than memory holds.
     let seen = rows.clone().into_par_iter().map(|row| {
         let sim = model.sim(problem, row, None)?;
-        Ok((sim.reading(), (sim.base * Point3::from(sim.point(&sim.loaded))).coords))
+        Ok((sim.reading(), sim.seen_point()))
     });
     let seen: Vec<(Reading, Vector3<f64>)> = seen.collect::<Result<_, DiagnoseError>>()?;
-    for (number, centre) in model.centres.iter_mut().enumerate() {
-        let of = rows.clone().filter(|row| problem.centre_of[*row] == Some(number));
-        let far = of.map(|row| (seen[row].1, problem.data.rows[row].measured[0]));
-        *centre = equidistant(&far.collect::<Vec<_>>());
+    for (number, (view, thing)) in model.bench.iter_mut().zip(&problem.bench).enumerate() {
+        let of = rows.clone().filter(|row| problem.bench_of[*row] == Some(number));
+        let read = of.map(|row| (seen[row].1, problem.data.rows[row].measured[0]));
+        *view = thing.aim.guess(&read.collect::<Vec<_>>());
     }
     let Kind::Pose { orientation } = problem.data.kind else { return Ok(model) };
     let readings: Vec<Reading> = seen.into_iter().map(|(reading, _)| reading).collect();
@@ -62,6 +70,47 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     Ok(model)
 }
 
+/// A thing of the bench by what was read of it, the rest of the model as it is: least squares, from a first
+/// guess.
+///
+/// # Errors
+/// [`DiagnoseError::Unstable`] of a row.
+pub(crate) fn fitted_thing(
+    problem: &Problem<'_>,
+    model: &Model,
+    thing: usize,
+) -> Result<View, DiagnoseError> {
+    let rows = (0..problem.data.rows.len()).filter(|row| problem.bench_of[*row] == Some(thing));
+    let rows: Vec<usize> = rows.filter(|row| problem.fits[*row]).collect();
+    let read: Vec<_> = (rows.into_par_iter())
+        .map(|row| {
+            let point = model.sim(problem, row, None)?.seen_point();
+            Ok((point, problem.data.rows[row].measured.fixed_rows::<3>(0).into_owned()))
+        })
+        .collect::<Result<_, DiagnoseError>>()?;
+    let aim = &problem.bench[thing].aim;
+    if read.is_empty() {
+        return Ok(aim.view);
+    }
+    let mut view = aim.guess(&read.iter().map(|(p, value)| (*p, value[0])).collect::<Vec<_>>());
+    let count = aim.free.len();
+    for _ in 0..MOST_STEPS {
+        let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
+        for (point, value) in &read {
+            let shifts = view.as_shifts(point).select_columns(aim.free);
+            let block = view.by_point(point) * shifts;
+            normal += block.tr_mul(&block);
+            right += block.tr_mul(&(value - view.read(point)));
+        }
+        let step = Basis::new(&normal).solve(&right);
+        view = aim.moved(view, step.as_slice());
+        if step.amax() < SETTLED {
+            break;
+        }
+    }
+    Ok(view)
+}
+
 /// The rigid motion that takes `from` closest to `to`.
 pub(crate) fn rigid(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Isometry3<f64> {
     let mean = |points: &[Vector3<f64>]| points.iter().sum::<Vector3<f64>>() / points.len() as f64;
@@ -69,25 +118,6 @@ pub(crate) fn rigid(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Isometry3<f64
     let moment = from.iter().zip(to).map(|(f, t)| (t - there) * (f - here).transpose());
     let rotation = nearest_rotation(&moment.sum());
     Isometry3::from_parts((there - rotation * here).into(), rotation)
-}
-
-/// The point that has given distances from others, by least squares of `|p|² − 2 p·c + |c|² = d²`,
-/// which is linear in c and `|c|²`; of points in a plane it is one of the two that are as good.
-fn equidistant(seen: &[(Vector3<f64>, f64)]) -> Vector3<f64> {
-    let middle = seen.iter().map(|(p, _)| p).sum::<Vector3<f64>>() / seen.len() as f64;
-    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    for (point, distance) in seen {
-        let arm = point - middle;
-        normal += arm * arm.transpose();
-        right += arm * (0.5 * (arm.norm_squared() - distance * distance));
-    }
-    let svd = normal.svd(true, true);
-    let least = f64::EPSILON.sqrt() * svd.singular_values.max();
-    let foot = middle + svd.solve(&right, least).unwrap_or_default();
-    let flat: Vec<usize> = (0..3).filter(|k| svd.singular_values[*k] <= least).collect();
-    let (Some(u), [normal]) = (svd.u, &flat[..]) else { return foot };
-    let height = seen.iter().map(|(p, d)| d * d - (p - foot).norm_squared()).sum::<f64>();
-    foot + u.column(*normal) * (height / seen.len() as f64).max(0.0).sqrt()
 }
 
 /// The rotation with the largest trace product with a matrix.
@@ -105,21 +135,6 @@ fn nearest_rotation(matrix: &Matrix3<f64>) -> UnitQuaternion<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_point_is_found_by_its_distances() {
-        let centre = Vector3::new(0.7, -0.4, 0.3);
-        let at = |k: f64| Vector3::new((1.3 * k).sin(), (2.1 * k).cos(), 0.2 * k);
-        let seen = |at: &dyn Fn(f64) -> Vector3<f64>| -> Vec<_> {
-            (0..7).map(|k| at(f64::from(k))).map(|p| (p, (p - centre).norm())).collect()
-        };
-        assert!((equidistant(&seen(&at)) - centre).norm() < 1e-12);
-        // Above a plane nothing tells the point from its mirror image.
-        let flat = |k: f64| Vector3::new(at(k).x, at(k).y, 0.0);
-        let found = equidistant(&seen(&flat));
-        let folded = Vector3::new(found.x, found.y, found.z.abs());
-        assert!((folded - centre).norm() < 1e-12, "{found}");
-    }
 
     #[test]
     fn a_rigid_motion_is_found_back() {

@@ -10,10 +10,12 @@
 
 mod align;
 mod axes;
+mod bond;
 mod model;
 mod refit;
 
-pub(crate) use align::{aligned, rigid};
+pub(crate) use align::{aligned, fitted_thing, rigid};
 pub(crate) use axes::Axes;
+pub(crate) use bond::Place;
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{Fit, block, normal_equations, refit, refit_below, squares, step, strain};

@@ -3,18 +3,20 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Isometry3, Matrix6xX, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6xX, Point3, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::axes::Axes;
+use super::bond::Bond;
 use crate::diagnose::data::{LARGEST, Problem};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
 use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
-use crate::simulate::{Actual, Moment, Sim, Site, State, origin};
+use crate::observe::View;
+use crate::simulate::{Actual, Moment, Sim, Site, State};
 
 /// An effect with its values.
 #[derive(Clone)]
@@ -44,8 +46,8 @@ pub(crate) struct Model {
     pub(crate) axes: Axes,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
-    /// Where the unknown points are from which distances are measured, measuring frame, m.
-    pub(crate) centres: Vec<Vector3<f64>>,
+    /// The unknown things of the bench.
+    pub(crate) bench: Vec<View>,
     pub(crate) found: Vec<Fitted>,
 }
 
@@ -76,7 +78,7 @@ impl Model {
             bases: vec![problem.arm.base; problem.sessions.len()],
             axes: Axes::Arm,
             markers: vec![Vector3::zeros(); problem.markers.len()],
-            centres: vec![Vector3::zeros(); problem.centres.len()],
+            bench: problem.bench.iter().map(|thing| thing.aim.view).collect(),
             found: along.into_iter().collect(),
         }
     }
@@ -131,9 +133,9 @@ impl Model {
         let at_rest = Sim::of(problem.data.kind, measured, near, |loaded| {
             self.actual(problem, row, loaded && load)
         });
-        let from = origin(problem.data.kind, &problem.data.rows[row]);
-        let from = problem.centre_of[row].map(|centre| self.centres[centre]).or(from);
-        Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_from(from))
+        let known = || problem.data.rows[row].view(problem.data.kind);
+        let view = problem.bench_of[row].map(|thing| self.bench[thing]).or_else(known);
+        Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_by(view))
     }
 
     /// Brings every row to rest; `near` is where to begin.
@@ -227,7 +229,8 @@ impl Model {
 
     /// Number of nuisance parameters.
     pub(crate) fn nuisances(problem: &Problem<'_>) -> usize {
-        6 * problem.frames().count() + 3 * (problem.markers.len() + problem.centres.len())
+        let bench = problem.bench.iter().map(|thing| thing.aim.free.len());
+        6 * problem.frames().count() + 3 * problem.markers.len() + bench.sum::<usize>()
     }
 
     /// Number of parameters: of the nuisances first, then of each effect found.
@@ -259,13 +262,15 @@ impl Model {
             }
             put(&shifts);
         }
-        for centre in 0..problem.centres.len() {
-            let mut shifts = Matrix6xX::zeros(3);
-            if problem.centre_of[row] == Some(centre) {
-                // The tool's way in base axes that reads as much as the point's way back.
+        for (number, (thing, view)) in problem.bench.iter().zip(&self.bench).enumerate() {
+            let mut shifts = Matrix6xX::zeros(thing.aim.free.len());
+            if problem.bench_of[row] == Some(number) {
+                // The tool's way in base axes that reads as much as each constant.
                 let back = s.base.rotation.inverse().to_rotation_matrix();
-                let shift = back.matrix() * (-1.0 / s.actual.metre);
-                shifts.fixed_view_mut::<3, 3>(0, 0).copy_from(&shift);
+                let seen = (s.base * Point3::from(s.point)).coords * s.actual.metre;
+                let all = back.matrix() * view.as_shifts(&seen) / s.actual.metre;
+                let free = all.select_columns(thing.aim.free);
+                shifts.fixed_rows_mut::<3>(0).copy_from(&free);
             }
             put(&shifts);
         }
@@ -281,6 +286,11 @@ impl Model {
         let mut held = vec![0.0; Self::nuisances(problem)];
         held.extend(self.found.iter().flat_map(|f| &f.held));
         held
+    }
+
+    /// What is known of the bench beside the rows.
+    pub(crate) fn bonds(&self, problem: &Problem<'_>) -> Vec<Bond> {
+        Bond::all(problem, self)
     }
 
     /// The values of all parameters, those of the nuisances as 0.
@@ -303,9 +313,13 @@ impl Model {
                 Nuisance::ToolFrame => model.arm.tool *= by,
             }
         }
-        let all = model.markers.iter_mut().chain(&mut model.centres);
-        for (point, step) in all.zip(points.chunks_exact(3)) {
+        let (markers, mut bench) = points.split_at(3 * problem.markers.len());
+        for (point, step) in model.markers.iter_mut().zip(markers.chunks_exact(3)) {
             *point += Vector3::from_column_slice(step);
+        }
+        for (view, thing) in model.bench.iter_mut().zip(&problem.bench) {
+            let (step, others) = bench.split_at(thing.aim.free.len());
+            (*view, bench) = (thing.aim.moved(*view, step), others);
         }
         let mut effects = effects;
         for found in &mut model.found {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
 use rayon::prelude::*;
 
+use super::bond::Bond;
 use super::model::{Model, Predicted};
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::DiagnoseError;
@@ -158,13 +159,16 @@ pub(crate) fn normal_equations(
         normal[(at, at)] += held * held;
         right[at] -= held * held * value;
     }
+    fit.model.bonds(problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
     (normal, right)
 }
 
-/// What it costs that values are beyond what is usual.
+/// What it costs that values are beyond what is usual, and against what is known of the bench.
 pub(crate) fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
     let values = model.values(problem);
-    model.held(problem).iter().zip(values).map(|(held, value)| (held * value).powi(2)).sum()
+    let held = model.held(problem);
+    let usual: f64 = held.iter().zip(values).map(|(h, value)| (h * value).powi(2)).sum();
+    usual + model.bonds(problem).iter().map(Bond::square).sum::<f64>()
 }
 
 /// Weighted 6×k block of one row.

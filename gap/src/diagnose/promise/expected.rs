@@ -49,7 +49,7 @@ impl Explanation {
     pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
         let row = Row { wrench: *wrench, ..Row::new(0, q.to_vec()) };
         let kind = match self.kind {
-            Kind::Distance => Kind::Pose { orientation: false },
+            Kind::Distance | Kind::Bench { .. } => Kind::Pose { orientation: false },
             kind => kind,
         };
         let data = Measurements::new("the posture", kind, vec![row]);
@@ -57,7 +57,7 @@ impl Explanation {
         let placed = |model: &Model| {
             let mut model = model.clone();
             model.markers.clear();
-            model.centres.clear();
+            model.bench.clear();
             model
         };
         let (before, after) = (placed(&self.before), placed(&self.after));

@@ -5,8 +5,8 @@ use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 use super::spread::Spread;
-use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Fitted, Model};
+use crate::diagnose::data::{Problem, Thing};
+use crate::diagnose::fit::{Fitted, Model, fitted_thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known, file_name};
@@ -23,7 +23,7 @@ pub struct Explanation {
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
     sessions: Vec<String>,
-    centres: Vec<(String, usize)>,
+    bench: Vec<Thing>,
     catalogue: Catalogue,
     pub(super) known: Vec<Known>,
     covers: Cover,
@@ -67,7 +67,7 @@ impl Explanation {
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
             sessions: problem.sessions.clone(),
-            centres: problem.centres.clone(),
+            bench: problem.bench.clone(),
             covers: covers.clone(),
             catalogue: options.catalogue.clone(),
             known: options.known.clone(),
@@ -117,12 +117,13 @@ impl Explanation {
         Options { nuisances, known, ..Options::default() }
     }
 
-    /// What the models make of measurements of the arm. Frames, markers and points stay where they were
-    /// fitted. What happened at a time is carried to no other file.
+    /// What the models make of measurements of the arm. Frames, markers and things of the bench stay where
+    /// they were fitted; constants of things that only these measurements have are fitted to them, so that the
+    /// gap is what they leave. What happened at a time is carried to no other file.
     ///
     /// # Errors
-    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`], [`DiagnoseError::NewSession`] or
-    /// [`DiagnoseError::NewPoint`] for a marker, base or point whose place was never fitted.
+    /// [`DiagnoseError`] of the data, and [`DiagnoseError::NewMarker`] or [`DiagnoseError::NewSession`] for a
+    /// marker or base whose place was never fitted.
     pub fn predict(&self, data: &Measurements) -> Result<Prediction, DiagnoseError> {
         let mut problem = Problem::new(&self.nominal, data, &self.options())?;
         let mut places = Vec::with_capacity(problem.markers.len());
@@ -133,32 +134,41 @@ impl Explanation {
                 marker: name.clone(),
             })?);
         }
-        let sessions: Vec<usize> = problem
+        let sessions: Vec<Option<usize>> = problem
             .sessions
             .iter()
             .map(|name| self.session(&problem, name))
             .collect::<Result<_, _>>()?;
-        let mut centres = Vec::with_capacity(problem.centres.len());
-        for (name, session) in &problem.centres {
-            let same = |(known, of): &(String, usize)| known == name && *of == sessions[*session];
-            centres.push(self.centres.iter().position(same).ok_or_else(|| {
-                DiagnoseError::NewPoint { file: data.file.clone(), point: name.clone() }
-            })?);
-        }
+        let known_thing = |Thing { aim, session }: &Thing| {
+            let same = |known: &Thing| {
+                let is = (known.aim.seen, &known.aim.name) == (aim.seen, &aim.name);
+                is && sessions[*session] == Some(known.session)
+            };
+            self.bench.iter().position(same)
+        };
+        let bench: Vec<Option<usize>> = problem.bench.iter().map(known_thing).collect();
         let lasts = |f: &Fitted| data.file == self.file || f.effect.depends() != Depends::Session;
         let carried = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
-            model.bases = sessions.iter().map(|k| model.bases[*k]).collect();
-            model.centres = centres.iter().map(|k| model.centres[*k]).collect();
+            model.bases = sessions.iter().map(|k| model.bases[k.unwrap_or(0)]).collect();
+            let things = bench.iter().zip(&problem.bench);
+            let known =
+                |(k, new): (&Option<usize>, &Thing)| k.map_or(new.aim.view, |k| model.bench[k]);
+            model.bench = things.map(known).collect();
             model.found.retain(lasts);
             model
         };
-        let [start, model] = [&self.before, &self.after].map(carried);
+        let [mut start, mut model] = [&self.before, &self.after].map(carried);
         // A load far beyond the others may be more than the arm bears.
         let bears =
             |row: usize| [&start, &model].iter().all(|m| m.seen(&problem, row, None).is_ok());
         problem.fits = (0..data.rows.len()).map(|row| problem.fits[row] || bears(row)).collect();
+        for thing in (0..bench.len()).filter(|k| bench[*k].is_none()) {
+            for model in [&mut start, &mut model] {
+                model.bench[thing] = fitted_thing(&problem, model, thing)?;
+            }
+        }
         let before = start.predict(&problem, None)?.gaps;
         let after = model.predict(&problem, None)?;
         let frames = 6 * problem.nuisances.len();
@@ -176,18 +186,21 @@ impl Explanation {
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
     }
 
-    /// Which of the diagnosed sessions a session of other data is measured in.
-    fn session(&self, other: &Problem<'_>, name: &str) -> Result<usize, DiagnoseError> {
+    /// Which of the diagnosed sessions a session of other data is measured in; `None` is another one, where
+    /// the base is known.
+    fn session(&self, other: &Problem<'_>, name: &str) -> Result<Option<usize>, DiagnoseError> {
         let known = self.sessions.iter().position(|known| known == name);
         let is_one = |names: &[String]| matches!(names, [one] if one.is_empty());
         // A file without the column is of the one session that there is.
         let only = self.sessions.len() == 1 && other.sessions.len() == 1;
         let only = only && (is_one(&self.sessions) || is_one(&other.sessions));
-        let any = only || self.centres.is_empty() && !other.is_unknown(Nuisance::BaseFrame);
-        known.or(any.then_some(0)).ok_or_else(|| DiagnoseError::NewSession {
-            file: other.data.file.clone(),
-            session: name.to_owned(),
-            known: self.sessions.join(", "),
-        })
+        if known.is_none() && !only && other.is_unknown(Nuisance::BaseFrame) {
+            return Err(DiagnoseError::NewSession {
+                file: other.data.file.clone(),
+                session: name.to_owned(),
+                known: self.sessions.join(", "),
+            });
+        }
+        Ok(known.or(only.then_some(0)))
     }
 }

@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{DMatrix, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
 
 use super::first::First;
 use super::forward::{Explained, Search};
@@ -32,6 +32,8 @@ impl<'s> Search<'s, '_> {
         for (at, held) in now.fit.model.held(self.problem).iter().enumerate() {
             normal[(at, at)] += held * held;
         }
+        let mut right = DVector::zeros(normal.nrows());
+        now.fit.model.bonds(self.problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
         normal
     }
 

@@ -79,6 +79,7 @@ impl Search<'_, '_> {
             normal[(at, at)] += held * held;
             right[at] -= held * held * value;
         }
+        model.bonds(self.problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
         let left = self.left(begun);
         let all = normal.nrows() - fitted;
         let basis = Basis::new(&normal.view((0, 0), (fitted, fitted)).into_owned());

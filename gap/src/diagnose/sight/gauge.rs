@@ -45,12 +45,13 @@ impl Search<'_, '_> {
             six.map(|k| format!("{k} of {}{of}", n.identifier()))
         };
         let frames = self.problem.frames().flat_map(frame);
-        let three = |of: String| ["x", "y", "z"].map(|k| format!("{k} of {of}"));
-        let markers = self.problem.markers.iter().flat_map(|m| three(format!("marker {m}")));
-        let centre = |(name, session): &(String, usize)| {
-            three(format!("point {name}").trim_end().to_owned() + &of(*session))
-        };
-        let centres = self.problem.centres.iter().flat_map(centre);
+        let three = |m: &String| ["x", "y", "z"].map(|k| format!("{k} of marker {m}"));
+        let markers = self.problem.markers.iter().flat_map(three);
+        let bench = self.problem.bench.iter().flat_map(|thing| {
+            let name = thing.aim.full_name() + &of(thing.session);
+            let constant = |k: &usize| format!("{} of {name}", thing.aim.seen.constant(*k));
+            thing.aim.free.iter().map(constant).collect::<Vec<_>>()
+        });
         let each = geometry.iter().filter_map(Candidate::effect).flat_map(|(effect, spot)| {
             let all = effect.parameters(self.problem.arm, spot);
             let named = move |name: &str| format!("{name} of {}", spot.place);
@@ -60,6 +61,6 @@ impl Search<'_, '_> {
             let all = effect.parameters(self.problem.arm, Spot { place: Place::Arm, form: 0 });
             all.into_iter().map(|p| p.name.into_owned()).collect::<Vec<_>>()
         });
-        frames.chain(markers).chain(centres).chain(along).chain(each).collect()
+        frames.chain(markers).chain(bench).chain(along).chain(each).collect()
     }
 }

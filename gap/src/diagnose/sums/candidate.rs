@@ -174,20 +174,19 @@ impl Candidate {
         self.effect().is_some_and(|(e, _)| matches!(e.forms_are(), Forms::Orders { .. }))
     }
 
-    /// Whether it is told from some effects of a model: of orders of a periodic error at one joint, by
-    /// how far apart they are, `resolved` for each joint.
+    /// Whether it is told from some effects of a model: no effect is there twice, and orders of a periodic error
+    /// at one joint are told apart by how far they are from each other, `resolved` for each joint.
     pub(crate) fn is_apart<'f>(
         &self,
         resolved: &[f64],
         others: impl IntoIterator<Item = &'f Fitted>,
     ) -> bool {
-        let Some((effect, spot)) = self.effect().filter(|_| self.forms_are_orders()) else {
-            return true;
-        };
+        let Some((effect, spot)) = self.effect() else { return true };
         let is_near = |other: &Fitted| {
+            let apart = other.spot.form.abs_diff(spot.form) as f64;
             other.effect == effect
                 && other.spot.place == spot.place
-                && (other.spot.form.abs_diff(spot.form) as f64) < resolved[spot.row()]
+                && (apart == 0.0 || self.forms_are_orders() && apart < resolved[spot.row()])
         };
         !others.into_iter().any(is_near)
     }

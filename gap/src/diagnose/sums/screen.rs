@@ -136,6 +136,11 @@ fn held(problem: &Problem<'_>, model: &Model, choice: &Choice, sizes: &[usize]) 
         products.zr[at] = -weight * values[column];
         products.rr += weight * values[column].powi(2);
     }
+    // The constants of the bench are kept, and before all else.
+    for bond in model.bonds(problem) {
+        bond.add(&mut products.zz, &mut products.zr);
+        products.rr += bond.square();
+    }
     products
 }
 

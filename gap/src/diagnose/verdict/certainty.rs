@@ -79,6 +79,8 @@ impl Search<'_, '_> {
         let held = now.fit.model.held(problem);
         let mut normal = seen.clone();
         held.iter().enumerate().for_each(|(k, held)| normal[(k, k)] += held * held);
+        let mut right = DVector::zeros(parameters);
+        now.fit.model.bonds(problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
         let basis = Basis::new(&normal);
         let covariance = &basis.t * basis.t.transpose() * variance;
         let jackknife = jackknife(&basis, &sums);

@@ -7,7 +7,9 @@ use super::outcome::Held;
 use super::refitted::Refitted;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
-use crate::diagnose::report::{Finding, Observability, Residual, Unexplained};
+use crate::diagnose::report::{
+    BenchReport, Finding, Observability, PairReport, Residual, Unexplained,
+};
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::Statistics;
 use crate::infer::constants::SIGNIFICANT;
@@ -26,6 +28,8 @@ pub(crate) struct Judged {
     pub(crate) unexplained: Unexplained,
     pub(crate) residual: Option<Residual>,
     pub(crate) observability: Option<Observability>,
+    pub(crate) bench: Vec<BenchReport>,
+    pub(crate) pairs: Vec<PairReport>,
 }
 
 impl Search<'_, '_> {
@@ -71,8 +75,17 @@ impl Search<'_, '_> {
                 let residual = is_there.then(|| self.residual(&now, before, after));
                 let observability = self.observability(&now.fit, &certainty);
                 let after = if groups.is_empty() { before.to_vec() } else { shrinking.after };
-                let judged =
-                    Judged { findings, after, shrink, unexplained, residual, observability };
+                let (bench, pairs) = (self.bench(&now, &certainty), self.pairs_apart(&now));
+                let judged = Judged {
+                    findings,
+                    after,
+                    shrink,
+                    unexplained,
+                    residual,
+                    observability,
+                    bench,
+                    pairs,
+                };
                 return Ok((now, judged));
             };
             let mut group = groups[worst].clone();

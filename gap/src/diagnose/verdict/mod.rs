@@ -8,6 +8,7 @@
 //! it (`separate`); and what is left (`remainder`). What is not significant beside all the
 //! others is taken out again. `nested` runs the search itself again without each fold, `springs` asks for those of the joints that a log tells too. [`Rival`] is another model, which the file's columns predict with.
 
+mod bench;
 mod bootstrap;
 mod certainty;
 mod compared;

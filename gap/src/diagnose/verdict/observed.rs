@@ -86,14 +86,17 @@ impl Search<'_, '_> {
             };
             FRAME.map(|axis| format!("{axis} of {of}"))
         });
-        let centres = problem.centres.iter().map(|(name, _)| name);
-        let points = problem.markers.iter().chain(centres);
-        let markers = points.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));
+        let markers = problem.markers.iter();
+        let markers = markers.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));
+        let bench = problem.bench.iter().flat_map(|thing| {
+            let (aim, name) = (&thing.aim, thing.aim.full_name());
+            aim.free.iter().map(move |k| format!("{} of {name}", aim.seen.constant(*k)))
+        });
         let effects = model.found.iter().flat_map(|found| {
             let (effect, place) = (found.effect.identifier(), found.spot.place);
             let all = found.effect.parameters(problem.arm, found.spot).into_iter();
             all.map(move |p| format!("{} of {effect} at {place}", p.name))
         });
-        frames.chain(markers).chain(effects).collect()
+        frames.chain(markers).chain(bench).chain(effects).collect()
     }
 }

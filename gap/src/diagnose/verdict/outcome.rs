@@ -99,7 +99,11 @@ impl<'h> Held<'h> {
         let held = self.fit.model.held(self.problem);
         let mut matrix = rows.zz.select_rows(kept).select_columns(kept);
         kept.iter().enumerate().for_each(|(k, at)| matrix[(k, k)] += held[*at].powi(2));
-        let right = rows.zr.select_rows(kept);
+        let mut right = rows.zr.select_rows(kept);
+        // The constants of the bench are kept, and before all else.
+        for bond in self.fit.model.bonds(self.problem) {
+            bond.add(&mut matrix, &mut right);
+        }
         let found = match matrix.clone().cholesky().filter(|root| is_decided(root, &matrix)) {
             Some(root) => root.solve(&right),
             None => Basis::new(&matrix).solve(&right),

@@ -1,18 +1,19 @@
 //! The findings and frames as they are reported.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::bootstrap::shrink;
 use super::certainty::Certainty;
 use super::outcome::Shrinking;
 use super::refitted::Refitted;
-use crate::diagnose::data::Problem;
+use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::rms;
 use crate::infer::interval;
+use crate::observe::View;
 use crate::report::{Finding, HeldOutGap, Parameter};
 use crate::shrink::Shrink;
 
@@ -123,11 +124,18 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
         |name: &str, at: &Vector3<f64>, session| frame(name, &Isometry3::from(*at), session);
     let markers = problem.markers.iter().zip(&model.markers);
     let markers = markers.map(|(name, at)| point(name, at, None));
-    let centres = problem.centres.iter().zip(&model.centres).map(|((name, session), at)| {
-        let name = if name.is_empty() { "centre" } else { name };
-        point(name, at, of(*session))
+    let bench = problem.bench.iter().zip(&model.bench).map(|(Thing { aim, session }, view)| {
+        let name = if aim.name.is_empty() { aim.seen.thing() } else { &aim.name };
+        match view {
+            View::Plane(plane) => {
+                let turn = UnitQuaternion::rotation_between(&Vector3::z(), &plane.normal);
+                let at = Isometry3::from_parts(plane.at.into(), turn.unwrap_or_default());
+                frame(name, &at, of(*session))
+            }
+            _ => point(name, &view.place().unwrap_or_default(), of(*session)),
+        }
     });
-    frames.chain(markers).chain(centres).collect()
+    frames.chain(markers).chain(bench).collect()
 }
 
 /// Where the data has been.

@@ -81,8 +81,9 @@ fn problem<'a>(
     options: &Options,
 ) -> Result<Problem<'a>, DiagnoseError> {
     let mut problem = Problem::new(arm, data, options)?;
-    if let Some((point, _)) = problem.centres.first() {
-        return Err(DiagnoseError::NewPoint { file: data.file.clone(), point: point.clone() });
+    if let Some(thing) = problem.bench.first() {
+        let point = thing.aim.full_name();
+        return Err(DiagnoseError::NewPoint { file: data.file.clone(), point });
     }
     if !data.kind.is_difference() {
         let mut place = HashMap::new();

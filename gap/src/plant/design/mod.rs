@@ -6,13 +6,17 @@
 //! warms up.
 
 mod approach;
+mod bench;
 mod climate;
 mod loads;
 mod poses;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use bench::placed;
+
 use crate::measurement::{Kind, Measurements, Row};
+use crate::observe::{Aim, Seen, View};
 
 /// What the experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +69,9 @@ impl Design {
     /// Readings are whole microradians (micrometres), loads whole thousandths of SI.
     pub fn rows(&self, arm: &Arm) -> Measurements {
         let mut rows = Vec::new();
-        let poses = poses::draw(arm, self);
+        let mut poses = poses::draw(arm, self);
+        let is_bench = matches!(self.kind, Kind::Bench { .. });
+        let aims = if is_bench { bench::reach(arm, self, &mut poses) } else { Vec::new() };
         let loads = loads::draw(arm, self, &poses);
         for _ in 0..self.repeats {
             for (group, (q, loads)) in poses.iter().zip(&loads).enumerate() {
@@ -75,11 +81,17 @@ impl Design {
                 }
             }
         }
+        if is_bench {
+            rows.iter_mut()
+                .for_each(|row: &mut Row| row.aim = Some(Box::new(aims[row.group].clone())));
+        }
         approach::fill(self, &mut rows);
         climate::fill(self.seed, &mut rows);
         if self.kind == Kind::Distance {
             let middle = poses::middle(arm, &poses);
-            rows.iter_mut().for_each(|row| row.from = Some(middle));
+            let view = View::Distance { from: middle.into(), offset: 0.0 };
+            let aim = Aim::known(Seen::Distance, "", view);
+            rows.iter_mut().for_each(|row| row.aim = Some(Box::new(aim.clone())));
         }
         Measurements::new(&format!("the {} design", self.shape.name()), self.kind, rows)
     }

@@ -10,7 +10,7 @@ use super::{Design, Shape, rounded};
 use crate::rng::{Rng, Stream};
 
 /// Where a joint that has no limits may go: 150° to either side, or half a metre out.
-fn range(joint: &Joint) -> [f64; 2] {
+pub(super) fn range(joint: &Joint) -> [f64; 2] {
     let free = match joint.motion {
         Motion::Revolute => [-150_f64.to_radians(), 150_f64.to_radians()],
         Motion::Prismatic => [0.0, 0.5],

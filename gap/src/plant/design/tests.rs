@@ -3,6 +3,7 @@ use nalgebra::Vector6;
 use super::*;
 use crate::fixture;
 use crate::measurement::Layout;
+use crate::observe::Bench;
 use crate::plant::{Noise, Plant, csv};
 
 const POSE: Kind = Kind::Pose { orientation: true };
@@ -78,6 +79,7 @@ fn the_file_reads_back() {
         readings: true,
         markers: Vec::new(),
         payloads: None,
+        bench: Bench::NONE,
     };
     let only_dz = [false, false, true, false, true, false];
     let kinds =

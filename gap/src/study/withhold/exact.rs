@@ -7,7 +7,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::effects::Known;
 use crate::measurement::{Measurements, Row};
 use crate::plant::{Frames, Plant, PlantError, Truth, has_law};
-use crate::simulate::{Actual, Moment, Sim, moments, origin};
+use crate::simulate::{Actual, Moment, Sim, moments};
 use crate::whole::Whole;
 
 /// A design as an arm, and what its file says beyond the table, show it with these truths, in frames
@@ -56,7 +56,7 @@ pub fn exact<'a>(
                 truths.iter().for_each(|truth| put(truth, &mut actual, row, &when, sign));
                 actual
             })?;
-            let sim = sim.seen_from(origin(design.kind, row));
+            let sim = sim.seen_by(row.view(design.kind));
             let mask = Vector6::from_iterator(design.kind.components().map(f64::from));
             Ok(sim.reading().vector().component_mul(&mask))
         };

@@ -1,0 +1,77 @@
+//! The bench as it was fitted along, with intervals.
+
+use super::certainty::Certainty;
+use crate::diagnose::data::Thing;
+use crate::diagnose::fit::{Model, Place};
+use crate::diagnose::report::{BenchReport, PairReport};
+use crate::diagnose::search::{Explained, Search};
+use crate::observe::View;
+use crate::report::Parameter;
+
+impl Search<'_, '_> {
+    /// Every thing of the bench that was unknown. A plane is told by its normal and its distance from the origin.
+    pub(super) fn bench(&self, now: &Explained, certainty: &Certainty) -> Vec<BenchReport> {
+        let (problem, model) = (self.problem, &now.fit.model);
+        let sizes = problem.bench.iter().map(|thing| thing.aim.free.len());
+        let mut at = Model::nuisances(problem) - sizes.sum::<usize>();
+        let mut all = Vec::new();
+        for (Thing { aim, session }, view) in problem.bench.iter().zip(&model.bench) {
+            let mut half = [0.0; 4];
+            for free in aim.free {
+                half[*free] = certainty.half[at];
+                at += 1;
+            }
+            let parameter =
+                |name: &'static str, value: f64, half: f64, unit: &'static str| Parameter {
+                    name: name.into(),
+                    value,
+                    unit: unit.into(),
+                    ci95: [value - half, value + half],
+                    by_command: None,
+                };
+            let constants = match view {
+                View::Plane(plane) => {
+                    let [u, v] = plane.axes();
+                    let tilted = |u: f64, v: f64| (u * half[0]).hypot(v * half[1]);
+                    let normal = ["nx", "ny", "nz"].into_iter().enumerate();
+                    let normal = normal
+                        .map(|(k, name)| parameter(name, plane.normal[k], tilted(u[k], v[k]), "1"));
+                    let offset = tilted(u.dot(&plane.at), v.dot(&plane.at)).hypot(half[2]);
+                    normal.chain([parameter("offset", plane.offset(), offset, "m")]).collect()
+                }
+                View::Point(place) | View::Distance { from: place, .. } => {
+                    let offset =
+                        if let View::Distance { offset, .. } = view { *offset } else { 0.0 };
+                    let values = [place.x, place.y, place.z, offset];
+                    let name = |k: usize| aim.seen.constant(k);
+                    aim.free.iter().map(|&k| parameter(name(k), values[k], half[k], "m")).collect()
+                }
+                View::Direction(_) => Vec::new(),
+            };
+            all.push(BenchReport {
+                kind: aim.seen.thing().to_owned(),
+                name: aim.name.clone(),
+                session: (problem.sessions.len() > 1).then(|| problem.sessions[*session].clone()),
+                constants,
+            });
+        }
+        all
+    }
+
+    /// Every distance between points that is known, and the one that was fitted.
+    pub(super) fn pairs_apart(&self, now: &Explained) -> Vec<PairReport> {
+        let place = |place: &Place| match place {
+            Place::Known(at) => Some(*at),
+            Place::Fitted(thing) => now.fit.model.bench[*thing].place(),
+        };
+        let each = self.problem.pairs.iter().filter_map(|(pair, [one, other])| {
+            Some(PairReport {
+                points: pair.points.clone(),
+                known: pair.distance,
+                sigma: pair.sigma,
+                fitted: (place(one)? - place(other)?).norm(),
+            })
+        });
+        each.collect()
+    }
+}

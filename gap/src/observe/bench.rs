@@ -1,0 +1,288 @@
+//! What is known of a bench (`--bench`).
+//!
+//! ```toml
+//! [[point]]                     # a socket, a cone
+//! name = "front:0"
+//! at = [0.4, 0.1, "20 mm"]      # if it is known
+//!
+//! [[pair]]                      # how far two points are apart
+//! points = ["front:0", "front:1"]
+//! distance = "50 mm"
+//! sigma = "0.1 mm"
+//!
+//! [[plane]]
+//! name = "table"
+//! normal = [0, 0, 1]            # if it is known
+//! offset = "0 mm"
+//! sigma = "20 um"               # how flat it is: of every row that has no sigma of its own
+//!
+//! [[centre]]                    # of a ball bar, a draw wire
+//! name = "wire"
+//! at = [1.0, 0.0, 0.5]          # if it is known
+//! length_offset = "0 mm"        # what it reads at no distance, if that is known
+//!
+//! [[camera]]                    # that tells where a board is
+//! name = "left"
+//! on = "tool"                   # else "base", beside the arm, and the board is on the tool
+//! ```
+//!
+//! A number is in metres; a text has its unit. What is not said is unknown, and fitted along.
+
+use nalgebra::{Isometry3, Unit, Vector3};
+use serde::Deserialize;
+
+use super::{Aim, Pair, Plane, Seen, View};
+use crate::io::{Dimension, Fault, ReadError, quantity};
+use crate::measurement::{Measurements, Row};
+
+/// What is known of a bench.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Bench {
+    /// The file as it was named, for messages.
+    #[serde(skip)]
+    pub file: String,
+    point: Vec<Point>,
+    pair: Vec<Known>,
+    plane: Vec<Flat>,
+    centre: Vec<Centre>,
+    camera: Vec<Camera>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Point {
+    name: String,
+    at: Option<[Length; 3]>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Known {
+    points: [String; 2],
+    distance: Length,
+    sigma: Option<Length>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Flat {
+    name: String,
+    normal: Option<[f64; 3]>,
+    offset: Option<Length>,
+    sigma: Option<Length>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Centre {
+    name: String,
+    at: Option<[Length; 3]>,
+    length_offset: Option<Length>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Camera {
+    name: String,
+    on: Mount,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Mount {
+    Base,
+    Tool,
+}
+
+/// m.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
+struct Length(f64);
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Metres(f64),
+    Text(String),
+}
+
+impl TryFrom<Written> for Length {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Length, String> {
+        let (found, length) = match written {
+            Written::Metres(metres) => (metres.to_string(), Some(metres)),
+            Written::Text(text) => {
+                let length = quantity(&text, Some(Dimension::Length));
+                (format!("{text:?}"), length)
+            }
+        };
+        length.filter(|x| x.is_finite()).map(Length).ok_or_else(|| {
+            let units = Dimension::Length.units();
+            format!("{found} is no length: write metres, or a text with one of {units}")
+        })
+    }
+}
+
+/// A pair whose standard deviation nobody tells is known to a micrometre.
+const EXACT: f64 = 1e-6;
+
+impl Bench {
+    /// Of which nothing is known.
+    pub const NONE: Bench = Bench {
+        file: String::new(),
+        point: Vec::new(),
+        pair: Vec::new(),
+        plane: Vec::new(),
+        centre: Vec::new(),
+        camera: Vec::new(),
+    };
+
+    /// Reads what is known; `file` is what messages call it.
+    ///
+    /// # Errors
+    /// [`ReadError`]: what is no bench, with the line and what was expected.
+    pub fn read(file: &str, text: &str) -> Result<Bench, ReadError> {
+        let bench: Bench = toml::from_str(text).map_err(|error| {
+            let before = error.span().and_then(|span| text.get(..span.start));
+            let line = before.map(|before| 1 + before.matches('\n').count() as u64);
+            Fault::new("no bench", "", error.message()).within(line, None).of(file)
+        })?;
+        let wrong = |found: String, expected: &str, help: &str| {
+            Err(Fault::new(found, expected, help).of(file))
+        };
+        for pair in &bench.pair {
+            let [one, other] = &pair.points;
+            if one == other {
+                let found = format!("a [[pair]] of `{one}` with itself");
+                return wrong(found, "two points", "name the other");
+            }
+            if pair.distance.0 <= 0.0 || pair.sigma.is_some_and(|sigma| sigma.0 <= 0.0) {
+                let found = format!(
+                    "a [[pair]] of `{one}` and `{other}` with a length that is not above 0"
+                );
+                return wrong(found, "a distance and a standard deviation above 0", "");
+            }
+        }
+        for plane in &bench.plane {
+            let normal = plane.normal.map(Vector3::from);
+            if normal.is_some_and(|n| n.norm() == 0.0 || !n.norm().is_finite()) {
+                let found = format!("the normal of plane `{}`, which has no direction", plane.name);
+                return wrong(found, "three numbers, not all 0", "");
+            }
+            if plane.sigma.is_some_and(|sigma| sigma.0 <= 0.0) {
+                let found = format!("the sigma of plane `{}`, not above 0", plane.name);
+                return wrong(found, "a standard deviation", "");
+            }
+        }
+        let points = bench.point.iter().map(|one| ("point", &one.name));
+        let planes = bench.plane.iter().map(|one| ("plane", &one.name));
+        let centres = bench.centre.iter().map(|one| ("centre", &one.name));
+        let mut names: Vec<_> = points.chain(planes).chain(centres).collect();
+        names.sort_unstable();
+        if let Some([(table, name), _]) = names.array_windows().find(|[one, next]| one == next) {
+            let found = format!("[[{table}]] `{name}` twice");
+            return wrong(found, "one table for each name", "remove one");
+        }
+        Ok(Bench { file: file.to_owned(), ..bench })
+    }
+
+    /// Puts what is known into measurements that were read. A pair of which the file has neither point is
+    /// another file's.
+    ///
+    /// # Errors
+    /// [`Fault`]: a pair of which the file has one point alone.
+    pub(crate) fn set_up(&self, data: &mut Measurements) -> Result<(), Fault> {
+        data.rows.iter_mut().for_each(|row| self.known(row));
+        self.one_camera(data)?;
+        data.rows.iter_mut().for_each(|row| self.carried(row));
+        let has = |name: &String| {
+            let of = |aim: &Aim| aim.seen == Seen::Point && aim.name == *name;
+            data.rows.iter().any(|row| row.aim.as_deref().is_some_and(of))
+        };
+        for Known { points, distance, sigma } in &self.pair {
+            let (distance, sigma) = (distance.0, sigma.map_or(EXACT, |sigma| sigma.0));
+            match points.each_ref().map(has) {
+                [true, true] => data.pairs.push(Pair { points: points.clone(), distance, sigma }),
+                [false, false] => {}
+                [is_first, _] => {
+                    let [one, other] = points;
+                    let (is, not) = if is_first { (one, other) } else { (other, one) };
+                    return Err(Fault::new(
+                        format!(
+                            "a [[pair]] of `{is}` and `{not}` in {}, and no row with point `{not}`",
+                            self.file
+                        ),
+                        "rows of both points or of none",
+                        "mend the name, or remove the pair",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Of each camera and board the frames are others, and a file has one of either.
+    fn one_camera(&self, data: &Measurements) -> Result<(), Fault> {
+        let mut named = data.rows.iter().map(|row| row.camera.as_deref());
+        let first = named.next().flatten();
+        let Some(other) = named.find(|other| *other != first) else { return Ok(()) };
+        let told = |names: Option<&[String; 2]>| match names {
+            Some([camera, board]) => format!("camera `{camera}` with board `{board}`"),
+            None => "neither camera nor board".to_owned(),
+        };
+        let found = format!("{} and {}", told(first), told(other));
+        Err(Fault::new(found, "one camera and one board", "put each into a file of its own"))
+    }
+
+    /// The pose of a camera on the tool in the board's axes, in place of the board's in the camera's.
+    fn carried(&self, row: &mut Row) {
+        let name = row.camera.as_ref().map_or("", |names| &names[0]);
+        let on = self.camera.iter().find(|camera| camera.name == name).map(|camera| camera.on);
+        if on == Some(Mount::Tool) {
+            let [x, y, z, u, v, w] = row.measured.into();
+            let board = Isometry3::new(Vector3::new(x, y, z), Vector3::new(u, v, w));
+            let camera = board.inverse();
+            row.measured.fixed_rows_mut::<3>(0).copy_from(&camera.translation.vector);
+            row.measured.fixed_rows_mut::<3>(3).copy_from(&camera.rotation.scaled_axis());
+        }
+    }
+
+    fn known(&self, row: &mut Row) {
+        let Some(aim) = row.aim.as_deref_mut() else { return };
+        let place = |at: [Length; 3]| Vector3::from(at.map(|x| x.0));
+        match aim.seen {
+            Seen::Point => {
+                let at = self.point.iter().find(|one| one.name == aim.name).and_then(|one| one.at);
+                if let Some(at) = at {
+                    aim.set(View::Point(place(at)), &[]);
+                }
+            }
+            Seen::Distance => {
+                let Some(of) = self.centre.iter().find(|one| one.name == aim.name) else { return };
+                let offset = of.length_offset.map_or(0.0, |offset| offset.0);
+                let from = of.at.map_or_else(Vector3::zeros, place);
+                let free: &[usize] = match (of.at.is_some(), of.length_offset.is_some()) {
+                    (true, true) => &[],
+                    (true, false) => &[3],
+                    (false, true) => &[0, 1, 2],
+                    (false, false) => &[0, 1, 2, 3],
+                };
+                aim.set(View::Distance { from, offset }, free);
+            }
+            Seen::Plane => {
+                let Some(of) = self.plane.iter().find(|one| one.name == aim.name) else { return };
+                if let Some(normal) = of.normal.map(|n| Unit::new_normalize(Vector3::from(n))) {
+                    let offset = of.offset.map_or(0.0, |offset| offset.0);
+                    let free: &[usize] = if of.offset.is_some() { &[] } else { &[2] };
+                    aim.set(View::Plane(Plane::new(normal, offset)), free);
+                }
+                if let (Some(sigma), None) = (of.sigma, &row.sigma) {
+                    row.sigma.get_or_insert_default()[0] = sigma.0;
+                }
+            }
+            Seen::Direction => {}
+        }
+    }
+}

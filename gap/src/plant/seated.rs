@@ -1,0 +1,63 @@
+//! Balls in sockets: the arm goes where the bench holds it, and the controller reads the joints there.
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::{Plant, PlantError};
+use crate::measurement::Measurements;
+use crate::observe::Seen;
+
+/// Step of the joints by which a derivative is taken, rad or m.
+const STEP: f64 = 1e-6;
+
+/// Rounds of Newton's method: what is amiss is millimetres, and the derivative is that of the first posture.
+const ROUNDS: usize = 6;
+
+impl Plant {
+    /// Measurements of points in places with the joints moved, by as little as can be, until the reading of the
+    /// point from its place is 0: what such a file has no column for. The play that was drawn as noise stays in
+    /// the joints. Rows of other instruments stay as they are.
+    ///
+    /// # Errors
+    /// As [`Plant::measure`].
+    pub fn seated(&self, measured: &Measurements) -> Result<Measurements, PlantError> {
+        let is_held = |row: usize| {
+            measured.rows[row].aim.as_deref().is_some_and(|aim| aim.seen == Seen::Point)
+        };
+        let held: Vec<usize> = (0..measured.rows.len()).filter(|row| is_held(*row)).collect();
+        let Some(joints) = held.first().map(|row| measured.rows[*row].q.len()) else {
+            return Ok(measured.clone());
+        };
+        let read = |data: &Measurements| -> Result<Vec<Vector3<f64>>, PlantError> {
+            let exact = self.exact(data)?;
+            let three = |row: &usize| exact.rows[*row].measured.fixed_rows::<3>(0).into_owned();
+            Ok(held.iter().map(three).collect())
+        };
+        let mut seated = measured.clone();
+        let first = read(&seated)?;
+        let noise = held
+            .iter()
+            .zip(&first)
+            .map(|(row, exact)| measured.rows[*row].measured.fixed_rows::<3>(0) - exact);
+        let noise: Vec<Vector3<f64>> = noise.collect();
+        let mut slopes = vec![DMatrix::zeros(3, joints); held.len()];
+        for joint in 0..joints {
+            let mut moved = seated.clone();
+            held.iter().for_each(|row| moved.rows[*row].q[joint] += STEP);
+            for ((slope, then), now) in slopes.iter_mut().zip(read(&moved)?).zip(&first) {
+                slope.set_column(joint, &((then - now) / STEP));
+            }
+        }
+        for _ in 0..ROUNDS {
+            let now = read(&seated)?;
+            for (((row, slope), exact), noise) in held.iter().zip(&slopes).zip(&now).zip(&noise) {
+                let off = exact + noise;
+                let back = slope.clone().svd(true, true).solve(&-off, f64::EPSILON);
+                let Ok(back) = back else { continue };
+                let q = &mut seated.rows[*row].q;
+                q.iter_mut().zip(back.iter()).for_each(|(q, back)| *q += back);
+            }
+        }
+        held.iter().for_each(|row| seated.rows[*row].measured.fill(0.0));
+        Ok(seated)
+    }
+}
