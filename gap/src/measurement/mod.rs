@@ -38,7 +38,7 @@ pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
 };
 use crate::io::{Convention, Mistakes}; // alias: old path
-use crate::observe::{Aim, Pair, View};
+use crate::observe::{Aim, Pair, Seen, View};
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
@@ -335,6 +335,17 @@ impl Measurements {
         let read = read.map_err(|mistake| mistakes.add(mistake)).ok().flatten();
         mistakes.check(file)?;
         read.ok_or_else(|| Fault::new("nothing", "measurements", "").of(file))
+    }
+
+    /// What is measured, as reports have it: `x y z`, or the things of a bench.
+    pub fn subject(&self) -> String {
+        let Kind::Bench { .. } = self.kind else { return self.kind.measured().join(" ") };
+        let things = [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction];
+        let is_there = |seen: &Seen| {
+            self.rows.iter().filter_map(|row| row.aim.as_deref()).any(|aim| aim.seen == *seen)
+        };
+        let each = things.into_iter().filter(is_there).map(|seen| format!("{}s", seen.thing()));
+        each.collect::<Vec<_>>().join(", ")
     }
 
     /// Number of measured components of one row.

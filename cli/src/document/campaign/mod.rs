@@ -15,7 +15,7 @@ mod tests;
 mod worst;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Diagnosis, Prediction};
+use stiffarm_gap::diagnose::{Diagnosis, NuisanceReport, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
@@ -116,8 +116,9 @@ impl Campaign<'_> {
             false => format!("held out in {} folds of poses", found.held_out.folds),
         };
         let rows = counted(found.measurements, "measurement");
-        let (measured, poses) = (data.kind.measured().join(" "), counted(data.poses, "pose"));
-        let each = match found.nuisances.iter().any(|frame| frame.session.is_some()) {
+        let (measured, poses) = (data.subject(), counted(data.poses, "pose"));
+        let own = |frame: &NuisanceReport| frame.name == "base_frame" && frame.session.is_some();
+        let each = match found.nuisances.iter().any(own) {
             true => ", each with its own frame",
             false => "",
         };
