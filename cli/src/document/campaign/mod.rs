@@ -15,7 +15,7 @@ mod tests;
 mod worst;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Diagnosis, NuisanceReport, Prediction};
+use stiffarm_gap::diagnose::{Diagnosis, Nuisance, NuisanceReport, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
@@ -117,8 +117,8 @@ impl Campaign<'_> {
         };
         let rows = counted(found.measurements, "measurement");
         let (measured, poses) = (data.subject(), counted(data.poses, "pose"));
-        let own = |frame: &NuisanceReport| frame.name == "base_frame" && frame.session.is_some();
-        let each = match found.nuisances.iter().any(own) {
+        let own = |frame: &NuisanceReport| Nuisance::BaseFrame.identifier() == frame.name;
+        let each = match found.nuisances.iter().any(|f| own(f) && f.session.is_some()) {
             true => ", each with its own frame",
             false => "",
         };

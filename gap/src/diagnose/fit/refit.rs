@@ -80,6 +80,8 @@ pub(crate) fn refit_below(
         squares(problem, &predicted.gaps, weights) + strain(problem, model)
     };
     let mut now = cost(&fit.model, &fit.predicted);
+    // Frames alone are fitted to rounding: theirs is hand-eye calibration.
+    let last = if fit.model.found.is_empty() { LAST * LAST } else { LAST };
     let mut predicted = 0;
     for _ in 0..MOST_STEPS {
         // Frames are fitted to the end; effects are not told before.
@@ -87,7 +89,7 @@ pub(crate) fn refit_below(
             break;
         }
         let (step, promised) = step(problem, &fit, weights);
-        if promised <= LAST * (1.0 + now) || now - HOPE * promised > below {
+        if promised <= last * (1.0 + now) || now - HOPE * promised > below {
             break;
         }
         let mut part = 1.0;
@@ -107,7 +109,7 @@ pub(crate) fn refit_below(
             part /= 2.0;
         }
         let Some((next, then)) = better else { break };
-        let settled = now - then <= LAST * (1.0 + now);
+        let settled = now - then <= last * (1.0 + now);
         (fit, now) = (next, then);
         if settled {
             break;
