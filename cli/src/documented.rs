@@ -85,5 +85,8 @@ fn words_are_those_of_a_shell() {
     let command = "stiffarm a --b 'c d' --e=\"f g\"h ''  # i";
     assert_eq!(words(command), ["stiffarm", "a", "--b", "c d", "--e=f gh", ""]);
     assert_eq!(words("stiffarm a | less"), ["stiffarm", "a"]);
-    assert_eq!(commands("```sh\nstiffarm a \\\n  b\n```\nstiffarm c\n"), [(2, "stiffarm a   b".to_owned())]);
+    assert_eq!(
+        commands("```sh\nstiffarm a \\\n  b\n```\nstiffarm c\n"),
+        [(2, "stiffarm a   b".to_owned())]
+    );
 }
