@@ -18,7 +18,7 @@ class Browser:
         if not program:
             raise SystemExit("error: found no Chromium\n       help: tools/install chromium")
         self.patience, self.count, self.buffer, self.events = patience, 0, b"", []
-        self.profile = tempfile.TemporaryDirectory()
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         (read, to_browser), (from_browser, write) = os.pipe(), os.pipe()
 
         def pipes():

@@ -165,8 +165,9 @@ async function save(what) {
     return urdf.failure ? say(urdf.failure, true) : download("corrected.urdf", urdf.written.get("<urdf"));
   }
   const corrected = new Map([["corrected.toml", bytesOf(answer.written.get("<robot"))]]);
-  const c = await run(["generate", "corrected.toml", "--emit", "c"], corrected);
-  return c.failure ? say(c.failure, true) : download("corrected.c", c.written.get("-"));
+  const c = await run(["generate", "corrected.toml", "--emit", "c", "--out", "<c>"], corrected);
+  if (c.failure) return say(c.failure, true);
+  for (const [name, text] of c.written) download(name.split("/").pop(), text);
 }
 
 // Each example fills in what a reader would choose; simulated ones are simulated here.
