@@ -70,10 +70,9 @@ async function look() {
     return say(answer.failure, true);
   }
   const csv = answer.written.get("<readings");
-  const ours = (text) => text.split(/\r?\n/).find((line) => line && !line.startsWith("#"));
-  const same = !map && ours(decoder.decode(bytes)) === ours(csv);
-  chosen.table = same ? null : { name: "readings.csv", bytes: bytesOf(csv) };
-  columns(understood(answer.remarks, csv));
+  const found = understood(answer.remarks, csv);
+  chosen.table = !map && isOurs(found, answer.remarks) ? null : { name: "readings.csv", bytes: bytesOf(csv) };
+  columns(found);
   say(answer.remarks.filter((remark) => !/^(note: )?`/.test(remark)).join(" "));
 }
 

@@ -44,6 +44,18 @@ function isLog(text) {
   return has(/^(t|time|stamp|timestamp)/) && has(/^(tau|i|q_cmd)_?\d|effort|current|torque/) && !has(/^[xyz]$/);
 }
 
+const TURNS = ["rx", "ry", "rz"];
+
+// Whether a table is a measurement file as it stands: every column has our name, and nothing else was to be said of it.
+function isOurs(found, remarks) {
+  const known = ({ theirs, role, unit }) => {
+    const { name, unit: given } = parted(theirs);
+    return role === "" || (name === role && (unit === "" || given === unit || given === ""));
+  };
+  const beside = remarks.filter((remark) => !/^(note: )?`/.test(remark));
+  return found.every(known) && beside.every((remark) => /^(note: )?\d+ rows?$/.test(remark.trim()));
+}
+
 // The columns that remarks of `stiffarm measurements` name: theirs, what it became, its first values.
 function understood(remarks, csv) {
   const lines = csv.split("\n").filter((line) => line && !line.startsWith("#"));
@@ -57,7 +69,11 @@ function understood(remarks, csv) {
   for (const remark of remarks) {
     const kept = /^(?:note: )?`(.+?)` is kept as `(.+?)`/.exec(remark);
     const is = /^(?:note: )?`([^`]+?)` is ([a-z_0-9]+)(?:\[([^\]]*)\])?/.exec(remark);
-    if (kept) {
+    const turned = /^(?:note: )?((?:`[^`]+`(?:, )?)+) are rx, ry, rz/.exec(remark);
+    if (turned) {
+      const theirs = [...turned[1].matchAll(/`([^`]+)`/g)].map((name) => name[1]);
+      theirs.forEach((name, k) => found.push({ theirs: name, role: TURNS[k] ?? "", unit: "", values: values(TURNS[k]) }));
+    } else if (kept) {
       found.push({ theirs: kept[1], role: "", unit: "", values: values(parted(kept[2]).name) });
     } else if (is && is[2] !== "a") {
       found.push({ theirs: is[1], role: is[2], unit: is[3] ?? "", values: values(is[2]) });
