@@ -32,16 +32,19 @@ function robotFiles() {
   return files;
 }
 
+// A name that the input does not show: of a file that was dropped, of an example.
+const beside = (input, name) => (at(input).files[0]?.name === name ? "" : name);
+
 async function takeRobot(file) {
   chosen.robot = { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
-  at("robot-name").textContent = file.name;
+  at("robot-name").textContent = beside("robot-file", file.name);
   at("built-in").value = "";
   await look();
 }
 
 async function takeData(name, bytes) {
   Object.assign(chosen, { data: { name, bytes }, said: new Map() });
-  at("data-name").textContent = name;
+  at("data-name").textContent = beside("data-file", name);
   chosen.log = isLog(decoder.decode(bytes));
   at("kind").value = chosen.log ? "log" : "campaign";
   await look();
@@ -77,6 +80,7 @@ async function look() {
 }
 
 function columns(found) {
+  const short = (value) => (/^-?[\d.]+$/.test(value) ? String(Number(Number(value).toPrecision(6))) : value);
   const rows = found.map(({ theirs, role, unit, values }) => {
     const said = chosen.said.get(theirs) ?? { role, unit };
     const roleOf = element("input", { value: said.role, size: 11, placeholder: "not used" });
@@ -91,7 +95,7 @@ function columns(found) {
     };
     roleOf.onchange = () => change("");
     unitOf.onchange = () => change(unitOf.value);
-    const firsts = element("td", { className: "number" }, values.join("  "));
+    const firsts = element("td", { className: "number" }, values.map(short).join("  "));
     return element("tr", {}, element("th", { scope: "row" }, theirs), element("td", {}, roleOf), element("td", {}, unitOf), firsts);
   });
   at("rows").replaceChildren(...rows);
@@ -181,6 +185,12 @@ const EXAMPLES = {
     const options = "--noise-position 30um --noise-rotation 0.005deg";
     const made = await run(words, new Map());
     await example("kuka_kr240", "kr.csv", bytesOf(made.written.get("<kr")), options);
+  },
+  panda: async () => {
+    const words = ["simulate", "panda", "--log", "<log", "--runs", "1"];
+    words.push("--effect", "coulomb_friction@joint 1=5", "--effect", "viscous_friction@joint 2=3");
+    const made = await run(words, new Map());
+    await example("panda", "log.csv", bytesOf(made.written.get("<log")), "");
   },
 };
 
