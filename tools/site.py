@@ -2,6 +2,7 @@
 """Builds the site from docs/ and robots/ with mdBook, and checks its links.
 
     tools/site.py                      into target/site/book
+    tools/site.py --page FILE          with the page that web/build made
     tools/site.py --source URL         links into the sources lead to URL/<path>; without it they are text
     tools/site.py --mdbook PROGRAM     this mdBook [default: the one on PATH, or MDBOOK from crates.io, built into target/tools]
 
@@ -115,8 +116,8 @@ def robots(pages):
         yield name, f"robots/{name}.md"
 
 
-def lay_out(folder, source):
-    """Writes mdBook's input."""
+def lay_out(folder, source, page):
+    """Writes mdBook's input; `page` is the one that web/build made, if it is to be there."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ROOT / "docs", folder / "src", ignore=shutil.ignore_patterns("*.md", "book.toml"))
     shutil.copy(ROOT / "docs/book.toml", folder)
@@ -127,6 +128,10 @@ def lay_out(folder, source):
         below = "".join(f"    - [{title}]({page})\n" for title, page in made)
         summary = re.sub(rf"(.*\({re.escape(parent)}\)\n)", lambda line: line[1] + below, pages["SUMMARY.md"])
         pages["SUMMARY.md"] = summary
+    if page:
+        shutil.copy(page, folder / "src/stiffarm.html")
+        head, rest = pages["index.md"].split("\n\n| ", 1)
+        pages["index.md"] = f"{head}\n\n**[Diagnose in your browser](stiffarm.html)**\n\n| {rest}"
     for name, text in pages.items():
         file = folder / "src" / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -147,10 +152,11 @@ def mdbook(given):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--source", metavar="URL", help="where the sources can be read")
+    arguments.add_argument("--page", metavar="FILE", help="what web/build made")
     arguments.add_argument("--mdbook", metavar="PROGRAM", help="the mdBook to run")
     given = arguments.parse_args()
     folder = TARGET / "site"
-    lay_out(folder, given.source)
+    lay_out(folder, given.source, given.page)
     subprocess.run([mdbook(given.mdbook), "build", folder], check=True)
     book = folder / "book"
     # Absolute links of the page for what is not found hold on a server alone.
