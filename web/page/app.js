@@ -132,6 +132,8 @@ async function diagnose() {
 
 function busy(is, words = []) {
   at("work").hidden = !is;
+  // What is being diagnosed does not change meanwhile.
+  for (const part of document.querySelectorAll("header, .inputs, #columns")) part.inert = is;
   at("diagnose").disabled = is || !(chosen.robot && chosen.data);
   if (is) {
     at("result").hidden = true;

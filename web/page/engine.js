@@ -20,9 +20,10 @@ let end = null;
 async function run(words, files, hears = () => {}) {
   const module = await program;
   const worker = new Worker(source);
+  let mine;
   try {
     return await new Promise((resolve, reject) => {
-      end = () => reject(new Ended());
+      end = mine = () => reject(new Ended());
       worker.onmessage = ({ data }) => {
         if (data.doing) hears(data.doing, data.part);
         else if (data.broken) reject(new Error(data.broken));
@@ -32,7 +33,7 @@ async function run(words, files, hears = () => {}) {
       worker.postMessage({ module, words, files: [...files] });
     });
   } finally {
-    end = null;
+    if (end === mine) end = null;
     worker.terminate();
   }
 }
