@@ -182,6 +182,9 @@ def main():
         command([*words, "--noise-position", "30um", "--seed", "1", "--withhold", "--csv", "campaign.csv"], folder)
         here, there = same(page, folder, "kuka_kr240", folder / "campaign.csv", "--noise-position 30um")
         print(f"300 rows: {here / there:.1f} times the command's time")
+        (folder / "kr240.urdf").write_bytes((ROOT / "tests/data/urdf/kr240.urdf").read_bytes())
+        command(["simulate", "kr240.urdf", *words[2:-1], "transmission_error@joint 3:cos 2=0.2mrad", "--csv", "urdf.csv"], folder)
+        same(page, folder, folder / "kr240.urdf", folder / "urdf.csv")
         command(["simulate", "panda", "--log", "log.csv", "--runs", "1", "--effect", "coulomb_friction@joint 1=5"], folder)
         same(page, folder, "panda", folder / "log.csv", "--torque-side motor")
 
