@@ -23,6 +23,8 @@ pub struct Host {
     pub words: Vec<String>,
     /// Its files, by the names that the command's words have for them.
     pub files: HashMap<String, Vec<u8>>,
+    /// Called on the work's thread with what is being done, and what part of it is.
+    hears: Option<fn(&str, Option<f64>)>,
     heard: Mutex<Heard>,
     stop: Stop,
 }
@@ -49,10 +51,19 @@ thread_local! {
 impl Host {
     /// With these files.
     pub fn new(words: Vec<String>, files: HashMap<String, Vec<u8>>) -> Arc<Host> {
+        Host::hearing(words, files, None)
+    }
+
+    /// The same for a program without other threads, which hears how far the work is by being called.
+    pub fn hearing(
+        words: Vec<String>,
+        files: HashMap<String, Vec<u8>>,
+        hears: Option<fn(&str, Option<f64>)>,
+    ) -> Arc<Host> {
         // What is heard is text, wherever it is shown.
         console::set_colors_enabled(false);
         console::set_colors_enabled_stderr(false);
-        Arc::new(Host { words, files, ..Host::default() })
+        Arc::new(Host { words, files, hears, ..Host::default() })
     }
 
     /// Does `work` inside this program.
@@ -100,6 +111,9 @@ impl Host {
     pub(crate) fn is_doing(&self, what: &str, part: Option<f64>) {
         if self.stop.is_asked() {
             resume_unwind(Box::new(Ended));
+        }
+        if let Some(hears) = self.hears {
+            hears(what, part);
         }
         self.heard().doing = Some((what.to_owned(), part));
     }

@@ -10,6 +10,8 @@ mod compensate;
 mod completions;
 mod diagnose;
 mod document;
+#[cfg(test)]
+mod documented;
 mod effects;
 mod eval;
 mod generate;

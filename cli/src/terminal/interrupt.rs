@@ -19,17 +19,20 @@ pub fn stop() -> Stop {
         return host.stop();
     }
     let begin = || {
-        let handler = || {
-            if is_asked() {
-                std::process::exit(INTERRUPTED.into());
-            }
-            SEARCH.get().into_iter().for_each(Stop::ask);
-        };
         // Where no handler can be set, the first Ctrl-C ends the program, as it always does.
-        ctrlc::set_handler(handler).unwrap_or_default();
+        #[cfg(not(target_family = "wasm"))]
+        ctrlc::set_handler(interrupted).unwrap_or_default();
         Stop::default()
     };
     SEARCH.get_or_init(begin).clone()
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn interrupted() {
+    if is_asked() {
+        std::process::exit(INTERRUPTED.into());
+    }
+    SEARCH.get().into_iter().for_each(Stop::ask);
 }
 
 /// Whether Ctrl-C has asked for the end.

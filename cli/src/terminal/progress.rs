@@ -1,5 +1,6 @@
-//! A progress bar on the terminal, for what takes longer than a second.
+//! A progress bar on the terminal, for what takes longer than a second; or what a host is told.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
 
@@ -18,48 +19,71 @@ const TURN: Duration = Duration::from_millis(120);
 
 /// How far the work has come.
 pub struct Progress {
-    bar: ProgressBar,
-    begun: Instant,
-    shown: Once,
-    quiet: bool,
-    host: Option<Arc<Host>>,
+    what: String,
+    steps: u64,
+    done: AtomicU64,
+    to: To,
+}
+
+/// Who is told. Without a terminal no clock is asked: a browser has none for this library.
+enum To {
+    Nobody,
+    Terminal { bar: ProgressBar, begun: Instant, shown: Once },
+    Host(Arc<Host>),
 }
 
 impl Progress {
     /// Of so many steps; `what` stands before the bar.
     pub fn new(what: &str, steps: usize, quiet: bool) -> Progress {
-        let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("█▌░"));
-        bar.set_message(what.to_owned());
-        let host = host();
-        Progress { bar, begun: Instant::now(), shown: Once::new(), quiet, host }
+        let steps = steps as u64;
+        let to = match host() {
+            Some(host) => To::Host(host),
+            None if quiet => To::Nobody,
+            None => To::terminal(what, steps),
+        };
+        Progress { what: what.to_owned(), steps, done: AtomicU64::new(0), to }
     }
 
     /// A part from 0 to 1 of all steps.
     pub fn reach(&self, part: f64, steps: usize) {
         let at = (part.clamp(0.0, 1.0) * steps as f64) as u64;
-        self.add(usize::try_from(at.saturating_sub(self.bar.position())).unwrap_or(0));
+        let done = self.done.load(Ordering::Relaxed);
+        self.add(usize::try_from(at.saturating_sub(done)).unwrap_or(0));
     }
 
     /// So many steps more.
     pub fn add(&self, steps: usize) {
-        if !self.quiet && self.host.is_none() && self.begun.elapsed() > PATIENCE {
-            // Draws nothing where standard error is no terminal.
-            self.shown.call_once(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
+        let done = self.done.fetch_add(steps as u64, Ordering::Relaxed) + steps as u64;
+        match &self.to {
+            To::Nobody => {}
+            To::Terminal { bar, begun, shown } => {
+                if begun.elapsed() > PATIENCE {
+                    // Draws nothing where standard error is no terminal.
+                    shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
+                }
+                bar.inc(steps as u64);
+            }
+            To::Host(host) => {
+                let part = done as f64 / self.steps.max(1) as f64;
+                host.is_doing(&self.what, Some(part.min(1.0)));
+            }
         }
-        self.bar.inc(steps as u64);
-        if let Some(host) = &self.host {
-            let all = self.bar.length().unwrap_or_default().max(1);
-            let part = self.bar.position() as f64 / all as f64;
-            host.is_doing(&self.bar.message(), Some(part.min(1.0)));
-        }
+    }
+}
+
+impl To {
+    fn terminal(what: &str, steps: u64) -> To {
+        let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+        let style = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("█▌░"));
+        bar.set_message(what.to_owned());
+        To::Terminal { bar, begun: Instant::now(), shown: Once::new() }
     }
 }
 
 /// What is being done, where nobody knows how much of it there is.
 pub struct Stages {
-    bar: ProgressBar,
+    bar: Option<ProgressBar>,
     host: Option<Arc<Host>>,
 }
 
@@ -67,15 +91,17 @@ impl Stages {
     /// Nothing said yet.
     pub fn new(quiet: bool) -> Stages {
         let host = host();
-        if quiet || host.is_some() {
-            return Stages { bar: ProgressBar::hidden(), host };
-        }
+        let at_terminal = !quiet && host.is_none();
+        Stages { bar: at_terminal.then(Stages::terminal), host }
+    }
+
+    fn terminal() -> ProgressBar {
         // Draws nothing where standard error is no terminal.
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         let style = ProgressStyle::with_template("{spinner} {msg}  {elapsed}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
         bar.enable_steady_tick(TURN);
-        Stages { bar, host }
+        bar
     }
 
     /// What is being done now.
@@ -83,18 +109,22 @@ impl Stages {
         if let Some(host) = &self.host {
             host.is_doing(&what, None);
         }
-        self.bar.set_message(what);
+        if let Some(bar) = &self.bar {
+            bar.set_message(what);
+        }
     }
 }
 
 impl Drop for Stages {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.bar.iter().for_each(ProgressBar::finish_and_clear);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        if let To::Terminal { bar, .. } = &self.to {
+            bar.finish_and_clear();
+        }
     }
 }
