@@ -9,6 +9,7 @@ mod arms;
 mod campaigns;
 mod goals;
 mod logs;
+mod mistakes;
 mod pairs;
 mod realistic;
 mod stream;

@@ -13,7 +13,7 @@ use nalgebra::{
     DMatrix, DVector, Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3, Vector6,
 };
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Convention};
+use stiffarm_kernels::generic::{self, Arm, Convention};
 
 use super::kind::Mistake;
 use super::rows::Rows;
@@ -92,17 +92,19 @@ type Gap = (Vector3<f64>, Vector3<f64>);
 
 impl Fit {
     /// Of `chosen` rows without `mistakes`, `arm` being the one without them; `lever` is what a rotation
-    /// counts, m. `None` where numbers are no place of an arm.
+    /// counts, m. The springs give only if it is `loaded`. `None` where numbers are no place of an arm.
     pub(super) fn new(
         all: &Rows<'_>,
         chosen: &[usize],
         mistakes: &[Mistake],
         arm: &Arm,
         lever: f64,
+        loaded: bool,
     ) -> Option<Fit> {
         let first_base = arm.base.rotation;
         let mut arm = arm.clone();
-        let has_mass = arm.joints.iter().any(|joint| joint.mass != 0.0 || joint.beam.is_some());
+        let is_heavy = |joint: &generic::Joint| joint.mass != 0.0 || joint.beam.is_some();
+        let has_mass = loaded && arm.joints.iter().any(is_heavy);
         let down = arm.gravity;
         arm.base = Isometry3::identity();
         let mut rows = Vec::with_capacity(chosen.len());
@@ -121,7 +123,7 @@ impl Fit {
             if has_mass {
                 torque.copy_from_slice(arm.weight_torque(&told.q).as_slice());
             }
-            if told.wrench.amax() > 0.0 {
+            if loaded && told.wrench.amax() > 0.0 {
                 is_loaded = true;
                 let own = arm.joint_torque(&told.q, &told.wrench);
                 torque.iter_mut().zip(&own).for_each(|(sum, own)| *sum += own);

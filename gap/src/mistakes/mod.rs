@@ -43,6 +43,11 @@ pub struct Mended {
     family: Vec<Robot>,
 }
 
+/// What is wrong with an arm's file or with the measurements, if anything is.
+pub fn mistaken(arm: &Arm, data: &Measurements, options: &Options) -> Option<Mistaken> {
+    find(arm, data, options).map(|(mistaken, _)| mistaken)
+}
+
 /// What is wrong, if anything is, and the file without it.
 pub(crate) fn find(
     arm: &Arm,

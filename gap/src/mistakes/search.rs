@@ -77,16 +77,21 @@ impl Search<'_> {
         arm
     }
 
-    fn fit(&self, mut mistakes: Vec<Mistake>, rows: &[usize]) -> Option<(Vec<Mistake>, Fit)> {
+    fn fit(
+        &self,
+        mut mistakes: Vec<Mistake>,
+        rows: &[usize],
+        loaded: bool,
+    ) -> Option<(Vec<Mistake>, Fit)> {
         mistakes.sort_by_key(|mistake| mistake.order());
         let arm = self.arm_without(&mistakes);
-        let fit = Fit::new(&self.rows, rows, &mistakes, &arm, self.lever)?;
+        let fit = Fit::new(&self.rows, rows, &mistakes, &arm, self.lever, loaded)?;
         Some((mistakes, fit))
     }
 
     /// With all unknowns.
     pub(super) fn tried(&self, mistakes: Vec<Mistake>) -> Option<Tried> {
-        let (mistakes, fit) = self.fit(mistakes, &self.rows.chosen)?;
+        let (mistakes, fit) = self.fit(mistakes, &self.rows.chosen, true)?;
         let left = fit.refined();
         left.size.is_finite().then_some(Tried { mistakes, left })
     }
@@ -140,7 +145,7 @@ impl Search<'_> {
         let of_first = |first: usize| {
             let pair = |second: usize| {
                 let pair = vec![all[first], all[second]];
-                let (mistakes, fit) = self.fit(pair, &few)?;
+                let (mistakes, fit) = self.fit(pair, &few, false)?;
                 let size = fit.framed(FEW_TURNS).size;
                 size.is_finite().then_some((size, mistakes))
             };
@@ -155,7 +160,8 @@ impl Search<'_> {
     /// The mistakes. `nothing` is the file as it is.
     pub(super) fn run(&self, nothing: &Tried, is_stream: bool) -> Found {
         let is_large = nothing.left.size > ORDINARY * self.reach;
-        let strained = 0.5 * nothing.left.strain > CERTAIN + (self.all.len() as f64).ln();
+        // Zeros and springs within their prior scales leave no room for another unit of the loads.
+        let strained = 0.5 * nothing.left.strain > CERTAIN;
         if !is_large {
             let loads: Vec<Mistake> =
                 self.all.iter().filter(|mistake| strained && mistake.is_of_load()).copied().collect();
