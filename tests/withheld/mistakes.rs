@@ -74,7 +74,8 @@ impl Case {
         let robots = if kind == "other_robot" { &ROBOTS[..4] } else { &ROBOTS[..] };
         let (id, stiffness, payload) = robots[seed as usize % robots.len()];
         let arm = arm(id, stiffness);
-        let shape = if kind == "moment_unit" || rng.unit() < 0.3 { Shape::Force } else { Shape::Payload };
+        let shape =
+            if kind == "moment_unit" || rng.unit() < 0.3 { Shape::Force } else { Shape::Payload };
         let orientation = rng.unit() < 0.5;
         let kind_of = Kind::Pose { orientation };
         let design = Design { shape, poses: 60, repeats: 1, payload, kind: kind_of, seed };
@@ -212,7 +213,9 @@ impl Case {
             "coordinate_unit" => {
                 let (axis, factor) = (self.rng.below(4), self.one(&[1e3, 1e-3, 1.0 / 0.0254]));
                 for row in &mut self.data.rows {
-                    (0..3).filter(|k| axis == 3 || *k == axis).for_each(|k| row.measured[k] *= factor);
+                    (0..3)
+                        .filter(|k| axis == 3 || *k == axis)
+                        .for_each(|k| row.measured[k] *= factor);
                 }
                 if axis == 3 { "coordinates".to_owned() } else { ["x", "y", "z"][axis].to_owned() }
             }
@@ -225,7 +228,8 @@ impl Case {
             }
             "stuck_reading" => {
                 let (j, rows) = (self.joint(true), self.data.rows.len());
-                let from = if self.rng.unit() < 0.3 { 0 } else { rows / 4 + self.rng.below(rows / 3) };
+                let from =
+                    if self.rng.unit() < 0.3 { 0 } else { rows / 4 + self.rng.below(rows / 3) };
                 let stuck = self.data.rows[from].q[j];
                 self.data.rows[from..].iter_mut().for_each(|row| row.q[j] = stuck);
                 at(j)
@@ -292,7 +296,9 @@ fn truths(arm: &Arm, rng: &mut Rng) -> Vec<String> {
 /// Whether a set of mistakes is what was planted.
 fn is_that(found: &[Wrong], planted: &[(&str, String)]) -> bool {
     let is = |wrong: &Wrong| {
-        planted.iter().any(|(kind, place)| wrong.kind == *kind && (place.is_empty() || wrong.place == *place))
+        planted
+            .iter()
+            .any(|(kind, place)| wrong.kind == *kind && (place.is_empty() || wrong.place == *place))
     };
     found.len() == planted.len() && found.iter().all(is)
 }
@@ -308,7 +314,10 @@ fn names(found: &Option<Mistaken>) -> String {
 }
 
 /// Named, and the number of cases.
-fn rates(kinds: &[&'static str], seeds: core::ops::Range<u64>) -> BTreeMap<&'static str, [usize; 2]> {
+fn rates(
+    kinds: &[&'static str],
+    seeds: core::ops::Range<u64>,
+) -> BTreeMap<&'static str, [usize; 2]> {
     let mut rates = BTreeMap::new();
     for kind in kinds {
         let [named, of] = rates.entry(*kind).or_insert([0, 0]);

@@ -39,7 +39,10 @@ const KEPT: f64 = 0.75;
 
 /// Turns of the closed forms, and steps of the least squares.
 const TURNS: usize = 12;
-const STEPS: usize = 8;
+const STEPS: usize = 12;
+
+/// Part of the cost, and of the scale, that a step leaves where the fit is at its end.
+const SETTLED: f64 = 0.999;
 
 /// What is left of the gap.
 #[derive(Clone, Copy, Debug)]
@@ -172,10 +175,9 @@ impl Fit {
         self.align(TURNS);
         let mut gaps = self.gaps();
         let mut damping = 1e-6;
-        let mut cost = self.cost(&gaps, f64::INFINITY);
         for _ in 0..STEPS {
             let scale = self.scale(&gaps);
-            cost = cost.min(self.cost(&gaps, scale));
+            let cost = self.cost(&gaps, scale);
             let Some(step) = self.step(&gaps, scale, damping) else { break };
             let before = self.unknowns();
             self.advance(&step);
@@ -183,9 +185,8 @@ impl Fit {
             let next = self.gaps();
             let after = self.cost(&next, scale);
             if after.is_finite() && after < cost {
-                let settled = after > 0.9999 * cost;
-                (gaps, cost, damping) = (next, after, damping * 0.1);
-                if settled {
+                (gaps, damping) = (next, damping * 0.1);
+                if after > SETTLED * cost && self.scale(&gaps) > SETTLED * scale {
                     break;
                 }
             } else {
@@ -199,13 +200,18 @@ impl Fit {
     fn compliance(&self, joint: usize) -> f64 {
         let (soft, scale) = self.soft[joint];
         // A file's own spring is there; another one is as far as the data want it.
-        if scale == NO_SPRING { soft * self.springs[joint] } else { soft * self.springs[joint].exp() }
+        if scale == NO_SPRING {
+            soft * self.springs[joint]
+        } else {
+            soft * self.springs[joint].exp()
+        }
     }
 
     /// The joints' values in a row as the springs give.
     fn joints(&self, row: &Row) -> Vec<f64> {
         let each = row.q.iter().zip(&row.torque).enumerate();
-        let gives = |j: usize, torque: f64| if self.is_loaded { self.compliance(j) * torque } else { 0.0 };
+        let gives =
+            |j: usize, torque: f64| if self.is_loaded { self.compliance(j) * torque } else { 0.0 };
         each.map(|(j, (q, torque))| q + self.zeros[j] + gives(j, *torque)).collect()
     }
 
@@ -223,7 +229,9 @@ impl Fit {
                 };
                 let pairs = self.rows.iter().zip(&poses).filter(of);
                 let (from, to): (Vec<_>, Vec<_>) = pairs
-                    .map(|(row, pose)| ((pose * Point3::from(self.points[row.point])).coords, row.at))
+                    .map(|(row, pose)| {
+                        ((pose * Point3::from(self.points[row.point])).coords, row.at)
+                    })
                     .unzip();
                 if from.len() >= 3 {
                     self.bases[session] = rigid(&from, &to);
@@ -286,7 +294,8 @@ impl Fit {
     fn axes(&self, q: &[f64]) -> (Vec<(Vector3<f64>, Vector3<f64>)>, Isometry3<f64>) {
         let frames = self.arm.frames(q);
         let first = usize::from(self.arm.convention == Convention::Modified);
-        let axis = |frame: &Isometry3<f64>| (frame.rotation * Vector3::z(), frame.translation.vector);
+        let axis =
+            |frame: &Isometry3<f64>| (frame.rotation * Vector3::z(), frame.translation.vector);
         let axes = frames[first..][..self.arm.dof()].iter().map(axis).collect();
         (axes, frames[self.arm.dof()] * self.arm.tool)
     }
@@ -333,10 +342,12 @@ impl Fit {
     }
 
     fn left(&self, gaps: &[Gap]) -> Left {
-        let of = |part: fn(&Gap) -> f64| crate::gap::rms(&gaps.iter().map(part).collect::<Vec<_>>());
+        let of =
+            |part: fn(&Gap) -> f64| crate::gap::rms(&gaps.iter().map(part).collect::<Vec<_>>());
         let free = self.rows.iter().filter(|row| row.free.is_some()).count() as f64;
         let part = if self.has_rotation { 6.0 } else { 3.0 };
-        let turned = self.bases.first().map_or(0.0, |base| base.rotation.angle_to(&self.first_base));
+        let turned =
+            self.bases.first().map_or(0.0, |base| base.rotation.angle_to(&self.first_base));
         let size = self.scale(gaps);
         Left {
             size: if size.is_finite() { size } else { f64::INFINITY },
@@ -393,7 +404,8 @@ impl Fit {
                 }
             }
             let mut gap = stacked(gap.0, gap.1);
-            let weight = 1.0 / (1.0 + (self.size(&(head(&gap), tail(&gap))) / scale).powi(2) / FLAT);
+            let weight =
+                1.0 / (1.0 + (self.size(&(head(&gap), tail(&gap))) / scale).powi(2) / FLAT);
             for (_, column) in &mut columns {
                 weighted(column, self.lever);
             }

@@ -148,7 +148,12 @@ impl Mistake {
     /// two mistakes explain the same.
     pub(super) fn rarity(self) -> f64 {
         match self {
-            Mistake::Sign { .. } | Mistake::Load { .. } | Mistake::Stuck { .. } => 0.0,
+            Mistake::Sign { .. } | Mistake::Stuck { .. } => 0.0,
+            Mistake::Load { factor } => match factor {
+                9.80665 | -1.0 => 0.0,
+                f if f == 1.0 / 9.80665 => 0.5,
+                _ => 2.0,
+            },
             Mistake::Exchanged { axes: [0, 1], turns: Turns::Kept } => 0.0,
             Mistake::Coupling { joint, of, .. } if joint == of + 1 => 0.0,
             Mistake::Zero { .. } | Mistake::TwistSign { .. } | Mistake::ReadingUnit { .. } => 0.5,
@@ -157,6 +162,8 @@ impl Mistake {
             }
             Mistake::Swapped { joints: [a, b] } if b == a + 1 => 0.5,
             Mistake::Coupling { .. } | Mistake::Twist { .. } => 2.0,
+            // One entry is less to be wrong than a whole table.
+            Mistake::Other(_) => 6.0,
             _ => 1.0,
         }
     }

@@ -90,7 +90,9 @@ impl<'a> Rows<'a> {
         let of_data: Vec<Mistake> =
             mistakes.iter().filter(|mistake| !mistake.is_of_robot()).copied().collect();
         let stands = |row: usize| {
-            !of_data.iter().any(|m| matches!(m, Mistake::Stuck { from, .. } if row >= *from && *from > 0))
+            !of_data
+                .iter()
+                .any(|m| matches!(m, Mistake::Stuck { from, .. } if row >= *from && *from > 0))
         };
         let rows = std::mem::take(&mut data.rows).into_iter().enumerate();
         data.rows = rows

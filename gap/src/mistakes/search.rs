@@ -6,10 +6,11 @@ use stiffarm_kernels::generic::Arm;
 use super::fit::{Fit, Left};
 use super::kind::Mistake;
 use super::rows::Rows;
+use crate::doubts::reach;
 
 /// Of the reach: lengths held to 0.3 mm and angles to 0.5 mrad leave less beside fitted zeros and springs, and
 /// so do three of a hundred of the arms with ordinary effects. A smaller gap is not asked for mistakes.
-const ORDINARY: f64 = 2e-3;
+const ORDINARY: f64 = 1e-3;
 
 /// Of the reach: what a mistake that is named may leave.
 const EXPLAINED: f64 = 0.02;
@@ -53,7 +54,7 @@ pub(super) struct Search<'a> {
     pub all: Vec<Mistake>,
     /// What a rotation counts, m per rad.
     pub lever: f64,
-    /// The arm's reach, m.
+    /// The arm's reach, m, and three times what was measured where that is less.
     pub reach: f64,
     /// Whether the base is where the file says, so that its turn speaks against a mistake.
     pub base_is_known: bool,
@@ -75,6 +76,11 @@ impl Search<'_> {
         let mut arm = self.arm.clone();
         mistakes.iter().for_each(|mistake| mistake.alter(&mut arm, self.family));
         arm
+    }
+
+    /// The lesser of the reaches of both arms, m: a length in a wrong unit is no arm's.
+    fn reach_without(&self, mistakes: &[Mistake]) -> f64 {
+        reach(&self.arm_without(mistakes)).min(reach(self.arm))
     }
 
     fn fit(
@@ -107,7 +113,12 @@ impl Search<'_> {
     }
 
     /// Of those that leave what an arm leaves, the likeliest, and others that are as likely.
-    fn best(&self, against: &Tried, part: f64, mut tried: Vec<Tried>) -> Option<(Tried, Vec<Tried>)> {
+    fn best(
+        &self,
+        against: &Tried,
+        part: f64,
+        mut tried: Vec<Tried>,
+    ) -> Option<(Tried, Vec<Tried>)> {
         let least = tried.iter().map(|one| one.left.size).fold(f64::INFINITY, f64::min);
         // Differences below a thousandth of the gap are those of the fit's end.
         let floor = 1e-3 * against.left.size.min(self.reach) + 1e-2 * least;
@@ -120,7 +131,7 @@ impl Search<'_> {
             } else {
                 one.left.size <= part * against.left.size
             };
-            ends && one.left.size <= EXPLAINED * self.reach && gain > cost
+            ends && one.left.size <= EXPLAINED * self.reach_without(&one.mistakes) && gain > cost
         });
         tried.sort_by(|a, b| self.score(b, floor).total_cmp(&self.score(a, floor)));
         let mut tried = tried.into_iter();
@@ -140,7 +151,8 @@ impl Search<'_> {
     /// The pairs that leave least with frames alone, on few rows.
     fn pairs(&self) -> Vec<Tried> {
         let few = self.rows.fewer(FEW);
-        let is_apart = |mistake: &&Mistake| !matches!(mistake, Mistake::Stuck { .. }) && !mistake.is_of_load();
+        let is_apart =
+            |mistake: &&Mistake| !matches!(mistake, Mistake::Stuck { .. }) && !mistake.is_of_load();
         let all: Vec<Mistake> = self.all.iter().filter(is_apart).copied().collect();
         let of_first = |first: usize| {
             let pair = |second: usize| {
@@ -160,12 +172,10 @@ impl Search<'_> {
     /// The mistakes. `nothing` is the file as it is.
     pub(super) fn run(&self, nothing: &Tried, is_stream: bool) -> Found {
         let is_large = nothing.left.size > ORDINARY * self.reach;
-        // Zeros and springs within their prior scales leave no room for another unit of the loads.
-        let strained = 0.5 * nothing.left.strain > CERTAIN;
         if !is_large {
-            let loads: Vec<Mistake> =
-                self.all.iter().filter(|mistake| strained && mistake.is_of_load()).copied().collect();
-            let tried = loads.into_par_iter().filter_map(|load| self.tried(vec![load])).collect();
+            // What loads do is of the size of what springs do, whatever their unit.
+            let loads = self.all.par_iter().filter(|mistake| mistake.is_of_load());
+            let tried = loads.filter_map(|load| self.tried(vec![*load])).collect();
             let best = self.best(nothing, MOST_LEFT, tried);
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }

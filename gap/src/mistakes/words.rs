@@ -131,13 +131,20 @@ impl Mistake {
 
     /// How it is mended where `--write-robot` does not do it; empty where it does.
     pub(super) fn mending(self) -> String {
-        let (q, unit) = (|joint: usize| format!("q{}", joint + 1), |name: &str, told: &str| {
-            format!("write {name}[{told}] in the header of the measurement file")
-        });
+        let (q, unit) = (
+            |joint: usize| format!("q{}", joint + 1),
+            |name: &str, told: &str| {
+                format!("write {name}[{told}] in the header of the measurement file")
+            },
+        );
         match self {
             _ if self.is_of_robot() => String::new(),
             Mistake::Swapped { joints: [a, b] } => {
-                format!("exchange the names {} and {} in the header of the measurement file", q(a), q(b))
+                format!(
+                    "exchange the names {} and {} in the header of the measurement file",
+                    q(a),
+                    q(b)
+                )
             }
             Mistake::ReadingUnit { joint, factor } => match factor {
                 f if f == DEGREE => unit(&q(joint), "deg"),
@@ -146,7 +153,9 @@ impl Mistake {
             },
             Mistake::Late { rows } => format!(
                 "move the columns q1 … {} by {} row{} in the measurement file",
-                if rows > 0 { "up" } else { "down" }, rows.abs(), if rows.abs() == 1 { "" } else { "s" }
+                if rows > 0 { "up" } else { "down" },
+                rows.abs(),
+                if rows.abs() == 1 { "" } else { "s" }
             ),
             Mistake::Stuck { joint, .. } => {
                 format!("read {} again, or leave out the measurements where it is stuck", q(joint))
@@ -154,7 +163,9 @@ impl Mistake {
             Mistake::Coordinate { axis: Some(axis), factor } => {
                 unit(&AXES[axis].to_string(), length_unit(factor))
             }
-            Mistake::Coordinate { axis: None, factor } => unit("x, y, z: each", length_unit(factor)),
+            Mistake::Coordinate { axis: None, factor } => {
+                unit("x, y, z: each", length_unit(factor))
+            }
             Mistake::Exchanged { axes: [a, b], .. } => format!(
                 "exchange the names {} and {} in the header of the measurement file",
                 AXES[a], AXES[b]

@@ -61,6 +61,9 @@ impl Campaign<'_> {
             (!lines.is_empty()).then_some(Block::Note { name, lines, most })
         };
         let most = lines.len();
-        [note("Mistaken", lines, most), note("Or else", same, MOST_SAME)].into_iter().flatten().collect()
+        [note("Mistaken", lines, most), note("Or else", same, MOST_SAME)]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }
