@@ -22,6 +22,9 @@ pub(super) const UNEXPLAINED: f64 = 0.05;
 /// zeros and springs are a half of.
 const MOST_LEFT: f64 = 0.5;
 
+/// Another unit of the loads leaves at most this part: the springs made up for it.
+const MOST_LEFT_OF_LOADS: f64 = 1.1;
+
 /// A second mistake leaves at most this part of what the first has left.
 const MOST_LEFT_SECOND: f64 = 1.0 / 3.0;
 
@@ -78,9 +81,12 @@ impl Search<'_> {
         arm
     }
 
-    /// The lesser of the reaches of both arms, m: a length in a wrong unit is no arm's.
+    /// How far an arm without the mistakes can be, m. A length in a wrong unit is no arm's, nor is a reach that
+    /// is far beyond what was measured.
     fn reach_without(&self, mistakes: &[Mistake]) -> f64 {
-        reach(&self.arm_without(mistakes)).min(reach(self.arm))
+        let rescaled = mistakes.iter().any(|m| matches!(m, Mistake::Coordinate { .. }));
+        let given = if rescaled { reach(self.arm) } else { self.reach };
+        reach(&self.arm_without(mistakes)).min(given)
     }
 
     fn fit(
@@ -126,11 +132,10 @@ impl Search<'_> {
         let before = self.score(against, floor);
         tried.retain(|one| {
             let gain = self.score(one, floor) - before;
-            let ends = if one.mistakes.iter().all(|mistake| mistake.is_of_load()) {
-                one.left.size <= 1.1 * against.left.size
-            } else {
-                one.left.size <= part * against.left.size
-            };
+            // Springs make up for another unit of all loads, at the cost of being no arm's.
+            let is_load = |mistake: &Mistake| matches!(mistake, Mistake::Load { .. });
+            let part = if one.mistakes.iter().all(is_load) { MOST_LEFT_OF_LOADS } else { part };
+            let ends = one.left.size <= part * against.left.size;
             ends && one.left.size <= EXPLAINED * self.reach_without(&one.mistakes) && gain > cost
         });
         tried.sort_by(|a, b| self.score(b, floor).total_cmp(&self.score(a, floor)));
