@@ -110,16 +110,17 @@ pub fn diagnose_with(
     let Some((mistaken, mended)) = mistakes::find(arm, data, options) else {
         return diagnose_as_told(arm, data, options, progress);
     };
+    let mut options = options.clone();
+    // In a gap that is no arm's there is nothing to be found.
+    if mended.as_ref().is_none_or(|mended| !mended.is_whole) {
+        options.effects = Some(Vec::new());
+    }
     let mut diagnosed = match &mended {
         Some(Mended { arm, data, known, .. }) => {
-            let options = Options { known: known.clone(), ..options.clone() };
+            options.known.clone_from(known);
             diagnose_as_told(arm, data, &options, progress)?
         }
-        // In a gap that is no arm's there is nothing to be found.
-        None => {
-            let options = Options { effects: Some(Vec::new()), ..options.clone() };
-            diagnose_as_told(arm, data, &options, progress)?
-        }
+        None => diagnose_as_told(arm, data, &options, progress)?,
     };
     diagnosed.diagnosis.mistaken = Some(mistaken);
     Ok(Diagnosed { mended, ..diagnosed })

@@ -39,6 +39,8 @@ pub struct Mended {
     pub data: Measurements,
     /// What the robot file says of the arm beyond its table.
     pub known: Vec<Known>,
+    /// Whether the rows say enough without the mistakes; not where a reading is stuck in most of them.
+    pub is_whole: bool,
     mistakes: Vec<Mistake>,
     family: Vec<Robot>,
 }
@@ -88,6 +90,9 @@ pub(crate) fn find(
                 arm: search.arm_without(&best.mistakes),
                 data: search.rows.mended(&best.mistakes),
                 known: known(&best.mistakes, &options.known, &options.catalogue),
+                is_whole: !best.mistakes.iter().any(
+                    |m| matches!(m, Mistake::Stuck { from, .. } if *from < data.rows.len() / 2),
+                ),
                 family: others.iter().map(|(robot, _)| (*robot).clone()).collect(),
                 mistakes: best.mistakes.clone(),
             };

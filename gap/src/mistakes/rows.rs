@@ -89,10 +89,10 @@ impl<'a> Rows<'a> {
         let mut data = self.data.clone();
         let of_data: Vec<Mistake> =
             mistakes.iter().filter(|mistake| !mistake.is_of_robot()).copied().collect();
+        let half = self.data.rows.len() / 2;
         let stands = |row: usize| {
-            !of_data
-                .iter()
-                .any(|m| matches!(m, Mistake::Stuck { from, .. } if row >= *from && *from > 0))
+            let is_stuck = |mistake: &Mistake| matches!(mistake, Mistake::Stuck { from, .. } if row >= *from && *from >= half);
+            !of_data.iter().any(is_stuck)
         };
         let rows = std::mem::take(&mut data.rows).into_iter().enumerate();
         data.rows = rows

@@ -24,7 +24,10 @@ impl Campaign<'_> {
         match &self.found.mistaken {
             None => self.explained(),
             Some(wrong) if wrong.mistakes.is_empty() => self.no_arms(wrong),
-            Some(wrong) => format!("{} Without it: {}", self.mistaken(wrong), self.explained()),
+            Some(wrong) => {
+                let it = if wrong.mistakes.len() == 1 { "it" } else { "them" };
+                format!("{} Without {it}: {}", self.mistaken(wrong), self.explained())
+            }
         }
     }
 
