@@ -83,12 +83,11 @@ impl Mistake {
                 format!("joint {0} turns against its reading: J{0} := -J{0}", joint + 1)
             }
             Mistake::Coupling { joint, of, ratio } => format!(
-                "joint {0}'s reading {1} joint {2}'s angle: J{0} := J{0} {3} J{2}{4}",
+                "joint {0}'s reading counts joint {1}'s angle: J{0} := J{0} {2} J{1}{3}",
                 joint + 1,
-                if ratio > 0.0 { "leaves out" } else { "counts" },
                 of + 1,
                 if ratio > 0.0 { '+' } else { '-' },
-                if joint == of + 1 { " (a Fanuc's convention)" } else { "" }
+                if (joint, of) == (2, 1) { " (a Fanuc's convention)" } else { "" }
             ),
             Mistake::Swapped { joints: [a, b] } => {
                 format!("the readings of joints {} and {} stand in each other's columns", a + 1, b + 1)
@@ -133,8 +132,11 @@ impl Mistake {
     pub(super) fn mending(self) -> String {
         let (q, unit) = (
             |joint: usize| format!("q{}", joint + 1),
-            |name: &str, told: &str| {
-                format!("write {name}[{told}] in the header of the measurement file")
+            |name: &str, told: &str, factor: f64| {
+                format!(
+                    "write {name}[{told}] in the header of the measurement file, or, if that is there, \
+                     multiply by {factor:.6}"
+                )
             },
         );
         match self {
@@ -147,12 +149,12 @@ impl Mistake {
                 )
             }
             Mistake::ReadingUnit { joint, factor } => match factor {
-                f if f == DEGREE => unit(&q(joint), "deg"),
-                f if f == 1.0 / DEGREE => unit(&q(joint), "rad"),
-                f => unit(&q(joint), length_unit(f)),
+                f if f == DEGREE => unit(&q(joint), "deg", f),
+                f if f == 1.0 / DEGREE => unit(&q(joint), "rad", f),
+                f => unit(&q(joint), length_unit(f), f),
             },
             Mistake::Late { rows } => format!(
-                "move the columns q1 … {} by {} row{} in the measurement file",
+                "move the columns of readings {} by {} row{} in the measurement file",
                 if rows > 0 { "up" } else { "down" },
                 rows.abs(),
                 if rows.abs() == 1 { "" } else { "s" }
@@ -161,10 +163,11 @@ impl Mistake {
                 format!("read {} again, or leave out the measurements where it is stuck", q(joint))
             }
             Mistake::Coordinate { axis: Some(axis), factor } => {
-                unit(&AXES[axis].to_string(), length_unit(factor))
+                unit(&AXES[axis].to_string(), length_unit(factor), factor)
             }
             Mistake::Coordinate { axis: None, factor } => {
-                unit("x, y, z: each", length_unit(factor))
+                let told = length_unit(factor);
+                unit(&format!("x[{told}], y[{told}], z"), told, factor)
             }
             Mistake::Exchanged { axes: [a, b], .. } => format!(
                 "exchange the names {} and {} in the header of the measurement file",
