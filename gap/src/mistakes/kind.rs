@@ -118,7 +118,7 @@ impl Mistake {
         // The delay of a stream is a number of its own, which `latency` fits.
         all.extend(ROWS.iter().filter(|_| !is_stream).map(|rows| Mistake::Late { rows: *rows }));
         of_positions(data, &mut all);
-        all.extend(of_loads(data));
+        all.extend(of_loads(arm, data));
         all
     }
 
@@ -304,12 +304,16 @@ fn of_positions(data: &Measurements, all: &mut Vec<Mistake>) {
     }
 }
 
-fn of_loads(data: &Measurements) -> Vec<Mistake> {
+/// Springs ten times as soft are loads of ten times the size: where the file lacks a spring, only the sign of the loads
+/// is told.
+fn of_loads(arm: &Arm, data: &Measurements) -> Vec<Mistake> {
+    let has_springs = arm.joints.iter().all(|joint| joint.compliance > 0.0);
     let loaded = |from: usize| {
         data.rows.iter().any(|row| own_wrench(row).fixed_rows::<3>(from).amax() > 0.0)
     };
     let (forces, moments) = (loaded(0), loaded(3));
-    let loads = LOADS.iter().filter(|_| forces || moments).map(|&factor| Mistake::Load { factor });
+    let is_told = |factor: &&f64| (forces || moments) && (has_springs || **factor == -1.0);
+    let loads = LOADS.iter().filter(is_told).map(|&factor| Mistake::Load { factor });
     let moments = MOMENTS.iter().filter(|_| forces && moments);
     loads.chain(moments.map(|&factor| Mistake::Moment { factor })).collect()
 }
