@@ -44,6 +44,10 @@ const FEW: usize = 36;
 const FEW_TURNS: usize = 4;
 const BEST_PAIRS: usize = 48;
 
+/// Part by which what the frames leave changes at least where a mistake does more than to move a frame;
+/// rounding is far below.
+const UNSEEN: f64 = 1e-6;
+
 /// What was tried, and what it leaves.
 #[derive(Clone, Debug)]
 pub(super) struct Tried {
@@ -148,9 +152,18 @@ impl Search<'_> {
         Some((best, same))
     }
 
-    /// Every mistake beside others.
+    /// Every mistake beside others, but for those that only move a frame.
     fn beside(&self, others: &[Mistake]) -> Vec<Tried> {
-        let is_new = |mistake: &&Mistake| !others.contains(mistake);
+        let framed = |mistakes: Vec<Mistake>| {
+            let fit = self.fit(mistakes, &self.rows.chosen, false);
+            fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
+        };
+        let before = framed(others.to_vec());
+        let is_new = |mistake: &&Mistake| {
+            let seen = || framed([others, &[**mistake]].concat());
+            !others.contains(mistake)
+                && (mistake.is_of_load() || (seen() / before - 1.0).abs() > UNSEEN)
+        };
         let each = self.all.par_iter().filter(is_new);
         each.filter_map(|mistake| self.tried([others, &[*mistake]].concat())).collect()
     }

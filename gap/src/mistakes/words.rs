@@ -67,13 +67,13 @@ impl Mistake {
                     Entry::Theta => ("theta", angle(factor)),
                     Entry::Alpha => ("alpha", angle(factor)),
                 };
-                format!("{name} of joint {} in the table is {told}", row + 1)
+                format!("the table's {name} of joint {} is {told}", row + 1)
             }
             Mistake::TwistSign { row } => {
-                format!("alpha of joint {} in the table has the wrong sign", row + 1)
+                format!("the table's alpha of joint {} has the wrong sign", row + 1)
             }
             Mistake::Twist { row, by } => {
-                format!("alpha of joint {} in the table is off by {by}°", row + 1)
+                format!("the table's alpha of joint {} is off by {by}°", row + 1)
             }
             Mistake::Zero { joint, by } => {
                 format!("the zero of joint {} is off by {by}°: J{0} := J{0} {1} {2}°", joint + 1,

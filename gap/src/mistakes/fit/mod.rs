@@ -26,8 +26,8 @@ const ZERO: f64 = 0.01;
 /// joint differ by half of it.
 const SPRING: f64 = 0.5;
 
-/// The same of a spring that the file has not, about [`SOFTNESS`].
-const NO_SPRING: f64 = 2.0;
+/// Prior scale of a spring that the file has not, in units of [`SOFTNESS`]: small servos are ten times as soft.
+const NO_SPRING: f64 = 10.0;
 
 /// Compliance of a joint times the cube of the reach, 1/Pa: arms with published springs, from the iiwa
 /// (1.5e4 N·m/rad at 1.3 m) to the KR 240 (3.8e6 at 3 m), lie within a factor of five.

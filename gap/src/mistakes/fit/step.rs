@@ -108,12 +108,12 @@ impl Fit {
         for j in 0..dof {
             self.at.zeros[j] += step[tools + j];
             if self.is_loaded {
-                let (now, most) = (&mut self.at.springs[j], step[tools + dof + j].clamp(-1.5, 1.5));
-                *now += most;
-                if self.soft[j].1 == NO_SPRING {
-                    // A spring that the file has not is no softer than nothing.
-                    *now = now.max(0.0);
-                }
+                let (now, by) = (&mut self.at.springs[j], step[tools + dof + j]);
+                // A spring that the file has not is no stiffer than rigid; another one is told by its logarithm.
+                *now = match self.soft[j].1 == NO_SPRING {
+                    true => (*now + by).max(0.0),
+                    false => *now + by.clamp(-1.5, 1.5),
+                };
             }
         }
     }
