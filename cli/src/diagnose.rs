@@ -12,6 +12,7 @@ mod together;
 
 use std::path::PathBuf;
 
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::diagnose::{Prior, Stage};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::log::effects::Catalogue as LogCatalogue;
@@ -177,7 +178,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if !enough && !written.contains(&&Target::Stdout) {
         print(&found.text(args.all))?;
     }
-    Ok(if found.is_accepted() { Verdict::Good } else { Verdict::Failed })
+    Ok(match (found.is_unexplained(), found.is_accepted()) {
+        (true, _) => Verdict::Unexplained,
+        (false, true) => Verdict::Good,
+        (false, false) => Verdict::Failed,
+    })
 }
 
 /// Diagnoses what was given, with the effects of `catalogues`.
@@ -222,6 +227,15 @@ impl Found {
             Found::Campaign(found) => found.is_accepted(),
             Found::Motion(_) => true,
             Found::Together(found) => found.campaign.is_accepted(),
+        }
+    }
+
+    /// Whether what was measured is no arm's, and no mistake explains why.
+    fn is_unexplained(&self) -> bool {
+        match self {
+            Found::Campaign(found) => found.is_unexplained(),
+            Found::Motion(_) => false,
+            Found::Together(found) => found.campaign.is_unexplained(),
         }
     }
 
@@ -308,6 +322,12 @@ fn in_words(stage: Stage) -> String {
         }
         Stage::Judge(found) => format!("judging {} and their rivals", counted(found, "finding")),
     }
+}
+
+/// The built-in robots: a file may be that of another one.
+fn family() -> Vec<Robot> {
+    let read = |arm: &stiffarm_robots::Arm| Robot::from_toml(arm.toml, arm.id).ok();
+    stiffarm_robots::ARMS.iter().filter_map(read).map(|(robot, _)| robot).collect()
 }
 
 fn plain(error: DiagnoseError) -> Failure {
@@ -401,6 +421,7 @@ impl Args {
             tolerance: tolerance.transpose()?,
             rivals: self.rivals.clone(),
             known: source.known.clone(),
+            family: family(),
             springs: springs.to_vec(),
             stop: interrupt::stop(),
             catalogue,

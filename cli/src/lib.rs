@@ -64,7 +64,7 @@ diagnosis in JSON: the robot with what it found.
 Units are SI (m, rad, N, N·m, kg) unless one stands beside a number: 30deg, 12in, 50lbf.
 
 Exit status: 0 well; 1 a check failed; 2 an argument or a file could not be used, and nothing was
-written; 130 interrupted by Ctrl-C: what was found until then is told and written.";
+written; 3 the measurements are no arm's, and no mistake explains why (diagnose); 130 interrupted by Ctrl-C: what was found until then is told and written.";
 
 /// The whole command line.
 #[derive(Parser)]
@@ -107,6 +107,8 @@ enum Verdict {
     Good,
     /// What was to be checked is not so.
     Failed,
+    /// What was measured is no arm's, and nothing explains why.
+    Unexplained,
 }
 
 /// Runs the command line that this process was started with.
@@ -118,6 +120,7 @@ pub fn main() -> ExitCode {
         Ok(_) if interrupt::is_asked() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(Verdict::Good) => ExitCode::SUCCESS,
         Ok(Verdict::Failed) => ExitCode::from(1),
+        Ok(Verdict::Unexplained) => ExitCode::from(3),
         Err(failure) => {
             failure.print();
             ExitCode::from(2)

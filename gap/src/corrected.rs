@@ -36,7 +36,7 @@ pub struct Outcome {
 /// The robot that `diagnosed` was made of, with what was found put into it: findings, frames and
 /// markers that were fitted along. Springs that a log tells too are those of both.
 pub fn corrected(robot: &Robot, diagnosed: &Diagnosed) -> Corrected {
-    let Diagnosed { diagnosis, explanation, beside_log } = diagnosed;
+    let Diagnosed { diagnosis, explanation, beside_log, .. } = diagnosed;
     let explanation = beside_log.as_ref().map_or(explanation, |both| &both.explanation);
     let mut file = RobotFile::new(robot, explanation.arm());
     for (name, place) in explanation.markers() {

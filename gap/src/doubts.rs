@@ -68,7 +68,7 @@ pub fn units(arm: &Arm, data: &Measurements) -> Vec<String> {
 }
 
 /// All lengths laid end to end, m: no point of the tool is farther from the base.
-fn reach(arm: &Arm) -> f64 {
+pub(crate) fn reach(arm: &Arm) -> f64 {
     let slide = |joint: &Joint| match (joint.motion, joint.limits) {
         (Motion::Prismatic, Some([low, high])) => low.abs().max(high.abs()),
         _ => 0.0,

@@ -27,6 +27,7 @@ mod infer;
 pub mod io;
 pub mod log;
 pub mod measurement;
+pub mod mistakes;
 pub mod motion;
 pub mod observe;
 pub mod performance;

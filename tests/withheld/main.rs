@@ -10,6 +10,7 @@ mod bench;
 mod campaigns;
 mod goals;
 mod logs;
+mod mistakes;
 mod pairs;
 mod realistic;
 mod stream;

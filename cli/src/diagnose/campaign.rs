@@ -93,9 +93,16 @@ impl Campaign {
             data::doubted(&arm, other, &options.nuisances, quiet);
         }
         let stages = Stages::new(quiet);
-        let diagnosed = diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
-            .map_err(plain)?;
+        let mut diagnosed =
+            diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
+                .map_err(plain)?;
         drop(stages);
+        // All that follows is of the file without its mistakes.
+        let (mut source, mut arm, mut data) = (source, arm, data);
+        if let Some(mended) = diagnosed.mended.take() {
+            source.robot = mended.robot(&source.robot);
+            (arm, data) = (mended.arm, mended.data);
+        }
         let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
         let check = check.map_err(plain)?;
         let found = &diagnosed.diagnosis;
@@ -123,6 +130,12 @@ impl Campaign {
     /// Whether the corrected arm is within the tolerance that was asked for; none is always kept.
     pub fn is_accepted(&self) -> bool {
         self.accepted.as_ref().is_none_or(|accepted| accepted.accepted)
+    }
+
+    /// Whether what was measured is no arm's, and no mistake explains why.
+    pub(super) fn is_unexplained(&self) -> bool {
+        let mistaken = self.diagnosed.diagnosis.mistaken.as_ref();
+        mistaken.is_some_and(|mistaken| mistaken.mistakes.is_empty())
     }
 
     /// The diagnosis in JSON.

@@ -58,6 +58,11 @@ impl<'a> Corrections<'a> {
             let text = "the arm is corrected by what the simulator of the sim_ columns lacks";
             caveats.push(text.to_owned());
         }
+        let wrong = self.diagnosed.diagnosis.mistaken.iter().flat_map(|all| &all.mistakes);
+        let in_data = wrong.filter(|wrong| !wrong.in_robot_file);
+        caveats.extend(in_data.map(|wrong| {
+            format!("no robot file mends that {}: {}", wrong.sentence, wrong.mending)
+        }));
         let bases = self.diagnosed.diagnosis.nuisances.iter().filter(|n| n.session.is_some());
         if bases.count() > 0 {
             let text = "every session was measured in a frame of its own: [base] stays as it was, and \
@@ -93,13 +98,17 @@ impl<'a> Corrections<'a> {
     /// What was put in, line by line.
     pub fn lines(&self) -> Vec<String> {
         let (diagnosis, found) = (&self.diagnosed.diagnosis, self.found());
-        let mut lines = vec!["Put in, with 95 % intervals:".to_owned()];
+        let wrong = diagnosis.mistaken.iter().flat_map(|mistaken| &mistaken.mistakes);
+        let mended = wrong.filter(|wrong| wrong.in_robot_file);
+        let mut lines: Vec<String> =
+            mended.map(|wrong| format!("Mended: {}.", wrong.sentence)).collect();
+        lines.push("Put in, with 95 % intervals:".to_owned());
         lines.extend(found.outcomes.iter().map(line));
         lines.extend(diagnosis.nuisances.iter().map(frame));
         if diagnosis.hangs_as_measured {
             lines.push("  gravity: down as the measuring frame stands, in gravity".to_owned());
         }
-        if lines.len() == 1 {
+        if lines.last().is_some_and(|last| !last.starts_with(' ')) {
             lines.push("  nothing".to_owned());
         }
         lines

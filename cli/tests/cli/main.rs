@@ -17,6 +17,7 @@ mod import;
 mod log;
 mod map;
 mod measurements;
+mod mistakes;
 mod motion;
 mod others;
 mod papers;

@@ -45,6 +45,7 @@ pub use promise::{Expected, Explanation, Prediction, Trust};
 use crate::gap::Statistics;
 // alias: old path
 use crate::measurement::Measurements;
+use crate::mistakes::{self, Mended};
 pub use crate::report::campaign as report;
 pub use crate::report::campaign::*;
 pub use crate::report::{Alternative, Parameter as ParameterReport};
@@ -69,6 +70,8 @@ pub struct Diagnosed {
     pub explanation: Explanation,
     /// The same beside the springs that a log tells too; where [`Options::springs`] has any.
     pub beside_log: Option<BesideLog>,
+    /// The arm and the rows that all of it is of, where the given ones have mistakes.
+    pub mended: Option<Mended>,
 }
 
 /// What a campaign says together with a log.
@@ -103,6 +106,33 @@ pub fn diagnose_with(
 ) -> Result<Diagnosed, DiagnoseError> {
     options.check()?;
     progress(Stage::Align);
+    options.effects()?;
+    let Some((mistaken, mended)) = mistakes::find(arm, data, options) else {
+        return diagnose_as_told(arm, data, options, progress);
+    };
+    let mut options = options.clone();
+    // In a gap that is no arm's there is nothing to be found.
+    if mended.as_ref().is_none_or(|mended| !mended.is_whole) {
+        options.effects = Some(Vec::new());
+    }
+    let mut diagnosed = match &mended {
+        Some(Mended { arm, data, known, .. }) => {
+            options.known.clone_from(known);
+            diagnose_as_told(arm, data, &options, progress)?
+        }
+        None => diagnose_as_told(arm, data, &options, progress)?,
+    };
+    diagnosed.diagnosis.mistaken = Some(mistaken);
+    Ok(Diagnosed { mended, ..diagnosed })
+}
+
+/// The same of an arm and rows that are taken to mean what they say.
+fn diagnose_as_told(
+    arm: &Arm,
+    data: &Measurements,
+    options: &Options,
+    progress: &(dyn Fn(Stage) + Sync),
+) -> Result<Diagnosed, DiagnoseError> {
     let effects = options.effects()?;
     let mut problem = Problem::new(arm, data, options)?;
     problem.precision = Precision::of(data);
@@ -174,6 +204,7 @@ pub fn diagnose_with(
             nested_in_time,
             noise: explained.noise.report(),
         },
+        mistaken: None,
         places: looked.places,
         findings,
         cannot_see: looked.cannot_see,
@@ -207,7 +238,7 @@ pub fn diagnose_with(
         }
     };
     let explanation = told(explained);
-    Ok(Diagnosed { diagnosis, explanation, beside_log })
+    Ok(Diagnosed { diagnosis, explanation, beside_log, mended: None })
 }
 
 /// Every fold must leave poses by which the base of each session is told.

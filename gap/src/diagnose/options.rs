@@ -1,5 +1,7 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
+use stiffarm_codegen::robot::Robot;
+
 use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, Law, ToolFrame};
@@ -93,6 +95,8 @@ pub struct Options {
     /// Prefixes of extra columns that hold another model's predictions of the measured quantities:
     /// `ycd` stands for `ycd_dx` … `ycd_drz`, or `ycd_x` … `ycd_rz`.
     pub rivals: Vec<String>,
+    /// Robots that the arm may be in place of the file's, where their joints are of the same kinds.
+    pub family: Vec<Robot>,
     /// Ends the search early when it is asked.
     pub stop: Stop,
 }

@@ -45,6 +45,11 @@ pub trait AtRest: Law {
     /// How it moves its carrier, whatever the load: the motion per unit of each parameter; of a frame, of all six.
     fn moves_by(&self, _: &Row, _: &Moment, _: Spot, _each: &mut dyn FnMut(f64)) {}
 
+    /// Where the effect's one number is what a joint turns by per turn of another one, or of its own reading.
+    fn turns_with(&self, _joint: usize, _of: usize) -> Option<Spot> {
+        None
+    }
+
     /// How its joint gives under its torque: the motion per unit of the one parameter.
     fn gives(&self, _: &Row, _: Spot) -> Option<Gives> {
         None

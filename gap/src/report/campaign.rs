@@ -24,6 +24,10 @@ pub struct Diagnosis {
     pub held_out: HeldOut,
     /// The gap before and after, and the noise.
     pub gap: GapReport,
+    /// What is wrong with the file or the readings: all else is told without it. `None` if nothing is known to
+    /// be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistaken: Option<Mistaken>,
     /// Where the gap lies, largest share first.
     #[serde(rename = "where")]
     pub places: Vec<Share>,
@@ -87,6 +91,36 @@ impl Diagnosis {
             (false, true) => "with frames and geometry fitted",
         }
     }
+}
+
+/// Mistakes of a robot file or of readings, and what the gap is without them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mistaken {
+    /// One or two; none where the gap is no arm's and no mistake explains it: then no effect was looked for.
+    pub mistakes: Vec<Wrong>,
+    /// Other mistakes that these data do not distinguish from them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub same: Vec<Vec<Wrong>>,
+    /// Root mean square of the positions' gap with them and without, frames, zeros and springs fitted to both, m.
+    pub position: [f64; 2],
+    /// The same of rotations, rad; 0 where none is measured.
+    pub rotation: [f64; 2],
+}
+
+/// A mistake.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Wrong {
+    /// `joint_sign`, `reading_coupling`, …
+    pub kind: Word,
+    /// Where it is.
+    pub place: String,
+    /// What is wrong.
+    pub sentence: String,
+    /// What is to be changed in the measurement file; empty where the robot file is to be.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub mending: String,
+    /// Whether a corrected robot file is without it.
+    pub in_robot_file: bool,
 }
 
 /// A number of the geometry that is one with others: only a sum of them is seen.

@@ -7,6 +7,7 @@ mod findings;
 mod hidden;
 mod known;
 mod method;
+mod mistakes;
 mod notes;
 mod performance;
 mod sentence;
@@ -60,6 +61,7 @@ impl Campaign<'_> {
     /// The document.
     pub fn document(&self) -> Document {
         let mut blocks = vec![Block::Sentence(self.sentence())];
+        blocks.extend(self.mistakes());
         blocks.extend(self.acceptance());
         blocks.push(self.errors());
         blocks.extend(self.findings());

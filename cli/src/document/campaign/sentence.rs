@@ -21,6 +21,18 @@ const LEAST_POSES: usize = 6;
 impl Campaign<'_> {
     /// What removes the error, how far, and what is left open.
     pub(super) fn sentence(&self) -> String {
+        match &self.found.mistaken {
+            None => self.explained(),
+            Some(wrong) if wrong.mistakes.is_empty() => self.no_arms(wrong),
+            Some(wrong) => {
+                let it = if wrong.mistakes.len() == 1 { "it" } else { "them" };
+                format!("{} Without {it}: {}", self.mistaken(wrong), self.explained())
+            }
+        }
+    }
+
+    /// The same of a file without mistakes.
+    fn explained(&self) -> String {
         let found = &self.found.findings;
         let stopped = match self.found.stopped {
             true => " The search was stopped before its end: there may be more to find.",

@@ -26,6 +26,10 @@ impl Law for JointCoupling {
 }
 
 impl AtRest for JointCoupling {
+    fn turns_with(&self, joint: usize, of: usize) -> Option<Spot> {
+        (joint != of).then(|| Spot { form: of, ..Spot::of_joint(joint) })
+    }
+
     fn places(&self, arm: &Arm) -> Vec<Place> {
         if arm.dof() < 2 { Vec::new() } else { At::Joints.places(arm) }
     }

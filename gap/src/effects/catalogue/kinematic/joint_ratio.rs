@@ -27,6 +27,10 @@ impl Law for JointRatio {
 }
 
 impl AtRest for JointRatio {
+    fn turns_with(&self, joint: usize, of: usize) -> Option<Spot> {
+        (joint == of).then(|| Spot::of_joint(joint))
+    }
+
     fn moves_by(&self, row: &Row, _: &Moment, spot: Spot, each: &mut dyn FnMut(f64)) {
         each(row.q[spot.row()]);
     }

@@ -1,0 +1,96 @@
+//! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
+
+use serde_json::Value;
+
+use crate::support::{Folder, stiffarm, text};
+
+/// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
+fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
+    let path = text(&folder.path("given.csv"));
+    let zeros =
+        ["--effect", "joint_offset@joint 2=3 mrad", "--effect", "joint_offset@joint 4=-2 mrad"];
+    let given = ["simulate", "ur5", "--poses", "40", "--payload", "0kg", "--measure", "position"];
+    let noise = ["--noise-position", "30um", "--csv", &path];
+    stiffarm(&[&given[..], &zeros[..], &noise[..]].concat()).good();
+    let all = std::fs::read_to_string(&path).expect("measurements");
+    let mut lines = all.lines().filter(|line| !line.starts_with('#'));
+    let header = lines.next().expect("a header").to_owned();
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+    (header, lines.map(cells).collect())
+}
+
+/// The column of that name.
+fn column(header: &str, name: &str) -> usize {
+    let is = |cell: &str| cell.split('[').next() == Some(name);
+    header.split(',').position(is).unwrap_or_else(|| panic!("no {name} in {header}"))
+}
+
+fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> String {
+    let rows: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
+    folder.file(name, &format!("{header}\n{}\n", rows.join("\n")))
+}
+
+/// What a run prints that may have doubts beside it.
+fn good(arguments: &[&str]) -> String {
+    let ended = stiffarm(arguments);
+    assert_eq!(ended.status, 0, "{}", ended.err);
+    // Lines are broken where the screen ends.
+    ended.out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+const FRAMES: [&str; 2] = ["--nuisance", "base_frame,tool_frame"];
+
+#[test]
+fn a_coupling_is_named_and_written() {
+    let folder = Folder::new();
+    let (header, mut rows) = campaign(&folder);
+    let [two, three] = ["q2", "q3"].map(|name| column(&header, name));
+    for row in &mut rows {
+        let number = |at: usize| row[at].parse::<f64>().expect("a number");
+        row[three] = (number(three) + number(two)).to_string();
+    }
+    let data = file(&folder, "coupled.csv", &header, &rows);
+    let [json, robot] = ["found.json", "better.toml"].map(|name| text(&folder.path(name)));
+    let outputs = ["--json", &json, "--write-robot", &robot];
+    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..], &outputs[..]].concat());
+    assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
+    assert!(shown.contains("instead of"), "{shown}");
+    let told = std::fs::read_to_string(&json).expect("a diagnosis");
+    let told: Value = serde_json::from_str(&told).expect("JSON");
+    let wrong = &told["mistaken"]["mistakes"][0];
+    assert_eq!(
+        (&wrong["kind"], &wrong["in_robot_file"]),
+        (&"reading_coupling".into(), &true.into())
+    );
+    // The written arm has nothing wrong with it.
+    let again = good(&[&["diagnose", &robot, &data], &FRAMES[..]].concat());
+    assert!(!again.contains("Joint 3's reading"), "{again}");
+}
+
+#[test]
+fn exchanged_coordinates_are_to_be_mended_in_the_measurements() {
+    let folder = Folder::new();
+    let (header, mut rows) = campaign(&folder);
+    let [x, y] = ["x", "y"].map(|name| column(&header, name));
+    rows.iter_mut().for_each(|row| row.swap(x, y));
+    let data = file(&folder, "exchanged.csv", &header, &rows);
+    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    assert!(shown.contains("exchange the names x and y"), "{shown}");
+}
+
+#[test]
+fn rows_of_other_poses_are_no_arm() {
+    let folder = Folder::new();
+    let (header, mut rows) = campaign(&folder);
+    let measured = ["x", "y", "z"].map(|name| column(&header, name));
+    // Every position is that of the row seven on.
+    let was = rows.clone();
+    for (number, row) in rows.iter_mut().enumerate() {
+        measured.iter().for_each(|k| row[*k].clone_from(&was[(number + 7) % was.len()][*k]));
+    }
+    let data = file(&folder, "other.csv", &header, &rows);
+    let ended = stiffarm(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    assert_eq!(ended.status, 3, "{}", ended.err);
+    let out = ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(out.contains("Nothing explains the position error"), "{out}");
+}

@@ -1,0 +1,317 @@
+//! A file without some mistakes, exactly: every frame where it fits best, and the ordinary unknowns of an
+//! arm, its joints' zeros and springs, about what the file says of them.
+//!
+//! ```text
+//! p_k = B_s · T(q_k + δ + c ∘ τ_k) · o_m
+//! ```
+//!
+//! The base B of each session and the point o of each marker in a session (with the tool's orientation where that
+//! is measured) begin where closed forms put them (Kabsch; a mean), each exact where the other is. Then all
+//! are refined by least squares with weights of Cauchy's form, for some rows are just wrong.
+
+mod align;
+mod step;
+
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use stiffarm_kernels::generic::{self, Arm, Convention};
+
+use super::kind::Mistake;
+use super::rows::Rows;
+use crate::doubts::reach;
+
+/// Prior scale of a joint's zero, rad (m): marks and masters are good to some mrad.
+const ZERO: f64 = 0.01;
+
+/// Prior scale of the logarithm of a spring that the file has: published and identified stiffnesses of one
+/// joint differ by half of it.
+const SPRING: f64 = 0.5;
+
+/// Prior scale of a spring that the file has not, in units of [`SOFTNESS`]: small servos are ten times as soft.
+const NO_SPRING: f64 = 10.0;
+
+/// Compliance of a joint times the cube of the reach, 1/Pa: arms with published springs, from the iiwa
+/// (1.5e4 N·m/rad at 1.3 m) to the KR 240 (3.8e6 at 3 m), lie within a factor of five.
+const SOFTNESS: f64 = 3e-5;
+
+/// Where Cauchy's weights are a half, in squares of the scale: nine of ten rows of a normal law weigh more.
+const FLAT: f64 = 9.0;
+
+/// Part of the rows, those that fit best, by which what is left is judged.
+const KEPT: f64 = 0.75;
+
+/// Turns of the closed forms, and steps of the least squares.
+const TURNS: usize = 12;
+const STEPS: usize = 12;
+
+/// Part of the cost, and of the scale, that a step leaves where the fit is at its end.
+const SETTLED: f64 = 0.999;
+
+/// What is left of the gap.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    /// Root mean square of those rows that fit best, m; a rotation counts by a lever.
+    pub size: f64,
+    /// How far zeros and springs went from what the file says, in squares of their prior scales.
+    pub strain: f64,
+    /// Root mean square of all rows, positions (m) and rotations (rad).
+    pub position: f64,
+    pub rotation: f64,
+    /// Rows that were fitted, less those whose joint was free.
+    pub rows: f64,
+    /// How far the base turned from where the file has it, rad.
+    pub turned: f64,
+}
+
+/// One row.
+struct Row {
+    q: Vec<f64>,
+    torque: Vec<f64>,
+    at: Vector3<f64>,
+    turn: UnitQuaternion<f64>,
+    session: usize,
+    point: usize,
+    /// The joint whose reading is not known.
+    free: Option<usize>,
+}
+
+/// A file without some mistakes, and its unknowns.
+pub(super) struct Fit {
+    arm: Arm,
+    rows: Vec<Row>,
+    has_rotation: bool,
+    /// m per rad: what a rotation counts.
+    lever: f64,
+    is_loaded: bool,
+    at: Unknowns,
+    /// Compliances at which `springs` is zero, and the prior scales of their logarithms.
+    soft: Vec<(f64, f64)>,
+    first_base: UnitQuaternion<f64>,
+}
+
+/// What is fitted.
+#[derive(Clone)]
+struct Unknowns {
+    /// Of each session.
+    bases: Vec<Isometry3<f64>>,
+    /// Of each marker in a session, tool frame, m.
+    points: Vec<Vector3<f64>>,
+    /// The measured frame's orientation in the tool frame, of each session.
+    tools: Vec<UnitQuaternion<f64>>,
+    /// rad (m if prismatic).
+    zeros: Vec<f64>,
+    /// By which [`Fit::compliance`] is told.
+    springs: Vec<f64>,
+    /// Of each row, what its joint turns by whose reading is not known, rad (m).
+    turned: Vec<f64>,
+}
+
+/// The gap of a row: at the point, and of the rotation.
+type Gap = (Vector3<f64>, Vector3<f64>);
+
+impl Fit {
+    /// Of `chosen` rows without `mistakes`, `arm` being the one without them; `lever` is what a rotation
+    /// counts, m. The springs give only if it is `loaded`. `None` where numbers are no place of an arm.
+    pub(super) fn new(
+        all: &Rows<'_>,
+        chosen: &[usize],
+        mistakes: &[Mistake],
+        arm: &Arm,
+        lever: f64,
+        loaded: bool,
+    ) -> Option<Fit> {
+        let first_base = arm.base.rotation;
+        let mut arm = arm.clone();
+        let is_heavy = |joint: &generic::Joint| joint.mass != 0.0 || joint.beam.is_some();
+        let has_mass = loaded && arm.joints.iter().any(is_heavy);
+        let down = arm.gravity;
+        arm.base = Isometry3::identity();
+        let mut rows = Vec::with_capacity(chosen.len());
+        let mut is_loaded = has_mass && down != Vector3::zeros();
+        for &number in chosen {
+            let Some(told) = all.told(number, mistakes) else { continue };
+            let free = mistakes.iter().find_map(|mistake| match mistake {
+                Mistake::Stuck { joint, from } => (number >= *from).then_some(*joint),
+                _ => None,
+            });
+            let measured = told.measured;
+            if !told.q.iter().chain(&measured).chain(&told.wrench).all(|x| x.abs() < 1e9) {
+                return None;
+            }
+            let mut torque = vec![0.0; arm.dof()];
+            if has_mass {
+                torque.copy_from_slice(arm.weight_torque(&told.q).as_slice());
+            }
+            if loaded && told.wrench.amax() > 0.0 {
+                is_loaded = true;
+                let own = arm.joint_torque(&told.q, &told.wrench);
+                torque.iter_mut().zip(&own).for_each(|(sum, own)| *sum += own);
+            }
+            rows.push(Row {
+                torque,
+                at: measured.fixed_rows::<3>(0).into_owned(),
+                turn: UnitQuaternion::from_scaled_axis(measured.fixed_rows::<3>(3).into_owned()),
+                session: all.session_of[number],
+                point: all.point_of[number],
+                free,
+                q: told.q,
+            });
+        }
+        // Few rows fit anything.
+        if 2 * rows.len() < chosen.len() {
+            return None;
+        }
+        let has_rotation = all.data.kind.components()[3];
+        let reach = reach(&arm).max(1e-3);
+        let soft = arm.joints.iter().map(|joint| match joint.compliance {
+            0.0 => (SOFTNESS / reach.powi(3), NO_SPRING),
+            file => (file, SPRING),
+        });
+        Some(Fit {
+            has_rotation,
+            lever: if has_rotation { lever } else { 0.0 },
+            is_loaded,
+            at: Unknowns {
+                bases: vec![Isometry3::identity(); all.sessions],
+                points: all.points.iter().map(|point| Vector3::from(*point)).collect(),
+                tools: vec![UnitQuaternion::identity(); all.sessions],
+                zeros: vec![0.0; arm.dof()],
+                springs: vec![0.0; arm.dof()],
+                turned: vec![0.0; rows.len()],
+            },
+            soft: soft.collect(),
+            first_base,
+            rows,
+            arm,
+        })
+    }
+
+    /// With the frames alone in closed form.
+    pub(super) fn framed(mut self, turns: usize) -> Left {
+        self.align(turns);
+        let gaps = self.gaps();
+        self.left(&gaps)
+    }
+
+    /// With all unknowns.
+    pub(super) fn refined(mut self) -> Left {
+        self.align(TURNS);
+        let mut gaps = self.gaps();
+        let mut damping = 1e-6;
+        for _ in 0..STEPS {
+            let scale = self.scale(&gaps);
+            let cost = self.cost(&gaps, scale);
+            let Some(step) = self.step(&gaps, scale, damping) else { break };
+            let before = self.at.clone();
+            self.advance(&step);
+            self.free_joints();
+            let next = self.gaps();
+            let after = self.cost(&next, scale);
+            if after.is_finite() && after < cost {
+                (gaps, damping) = (next, damping * 0.1);
+                if after > SETTLED * cost && self.scale(&gaps) > SETTLED * scale {
+                    break;
+                }
+            } else {
+                self.at = before;
+                damping = (damping * 100.0).max(1e-4);
+            }
+        }
+        self.left(&gaps)
+    }
+
+    fn compliance(&self, joint: usize) -> f64 {
+        let (soft, scale) = self.soft[joint];
+        // A file's own spring is there; another one is as far as the data want it.
+        if scale == NO_SPRING {
+            soft * self.at.springs[joint]
+        } else {
+            soft * self.at.springs[joint].exp()
+        }
+    }
+
+    /// The joints' values in a row as the springs give.
+    fn joints(&self, number: usize) -> Vec<f64> {
+        let row = &self.rows[number];
+        let gives =
+            |j: usize| if self.is_loaded { self.compliance(j) * row.torque[j] } else { 0.0 };
+        let each = row.q.iter().zip(&self.at.zeros).enumerate();
+        let mut q: Vec<f64> = each.map(|(j, (q, zero))| q + zero + gives(j)).collect();
+        if let Some(joint) = row.free {
+            q[joint] += self.at.turned[number];
+        }
+        q
+    }
+
+    /// The tool in every row, base frame.
+    fn poses(&self) -> Vec<Isometry3<f64>> {
+        (0..self.rows.len()).map(|number| self.arm.pose(&self.joints(number))).collect()
+    }
+
+    /// Axis and a point on it of every joint, and the tool, base frame.
+    fn axes(&self, q: &[f64]) -> (Vec<(Vector3<f64>, Vector3<f64>)>, Isometry3<f64>) {
+        let frames = self.arm.frames(q);
+        let first = usize::from(self.arm.convention == Convention::Modified);
+        let axis =
+            |frame: &Isometry3<f64>| (frame.rotation * Vector3::z(), frame.translation.vector);
+        let axes = frames[first..][..self.arm.dof()].iter().map(axis).collect();
+        (axes, frames[self.arm.dof()] * self.arm.tool)
+    }
+
+    fn gaps(&self) -> Vec<Gap> {
+        let gap = |(row, pose): (&Row, Isometry3<f64>)| {
+            let base = &self.at.bases[row.session];
+            let at = base * pose * Point3::from(self.at.points[row.point]);
+            let turned = base.rotation * pose.rotation * self.at.tools[row.session];
+            let turn = match self.has_rotation {
+                true => (row.turn * turned.inverse()).scaled_axis(),
+                false => Vector3::zeros(),
+            };
+            (row.at - at.coords, turn)
+        };
+        self.rows.iter().zip(self.poses()).map(gap).collect()
+    }
+
+    fn size(&self, gap: &Gap) -> f64 {
+        gap.0.norm().hypot(self.lever * gap.1.norm())
+    }
+
+    /// Root mean square of the rows that fit best.
+    fn scale(&self, gaps: &[Gap]) -> f64 {
+        let mut sizes: Vec<f64> = gaps.iter().map(|gap| self.size(gap)).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes.truncate(((KEPT * sizes.len() as f64).ceil() as usize).max(1));
+        crate::gap::rms(&sizes).max(1e-9)
+    }
+
+    /// Of Cauchy's form, with the priors.
+    fn cost(&self, gaps: &[Gap], scale: f64) -> f64 {
+        let of_gap = |gap: &Gap| (self.size(gap) / scale).powi(2);
+        let rows = gaps.iter().map(|gap| FLAT * (of_gap(gap) / FLAT).ln_1p()).sum::<f64>();
+        rows + self.strain()
+    }
+
+    /// Squares of zeros and springs in their prior scales.
+    fn strain(&self) -> f64 {
+        let zeros = self.at.zeros.iter().map(|zero| (zero / ZERO).powi(2)).sum::<f64>();
+        let springs = self.at.springs.iter().zip(&self.soft);
+        zeros + springs.map(|(by, (_, scale))| (by / scale).powi(2)).sum::<f64>()
+    }
+
+    fn left(&self, gaps: &[Gap]) -> Left {
+        let of =
+            |part: fn(&Gap) -> f64| crate::gap::rms(&gaps.iter().map(part).collect::<Vec<_>>());
+        let free = self.rows.iter().filter(|row| row.free.is_some()).count() as f64;
+        let part = if self.has_rotation { 6.0 } else { 3.0 };
+        let turned =
+            self.at.bases.first().map_or(0.0, |base| base.rotation.angle_to(&self.first_base));
+        let size = self.scale(gaps);
+        Left {
+            size: if size.is_finite() { size } else { f64::INFINITY },
+            strain: self.strain(),
+            position: of(|gap| gap.0.norm()),
+            rotation: of(|gap| gap.1.norm()),
+            rows: self.rows.len() as f64 - free / part,
+            turned,
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Mistakes in a robot file or in readings: a sign, a zero by a quarter of a turn, a coupling of one, a unit.
+//!
+//! They come before mechanics. A gap that is larger than makers' tolerances leave beside fitted frames, zeros
+//! and springs is first asked for mistakes: each is taken out exactly, with the frames refitted ([`fit`]), alone
+//! and in pairs ([`search`]). What is named leaves what an arm leaves; the diagnosis then goes on without
+//! it. A gap of decimetres that no mistake explains is no arm's: no effect is looked for.
+
+mod fit;
+mod kind;
+mod rows;
+mod search;
+mod words;
+
+use stiffarm_codegen::number::Number;
+use stiffarm_codegen::robot::{Angle, Convention, Joint, Robot, Value};
+use stiffarm_kernels::generic::Arm;
+
+use crate::diagnose::{Nuisance, Options};
+use crate::doubts::reach;
+use crate::effects::{Catalogue, Known};
+use crate::measurement::Measurements;
+use crate::report::campaign::{Mistaken, Wrong};
+use crate::simulate::is_stream;
+use kind::{Entry, Mistake};
+use rows::Rows;
+use search::{Found, Search, Tried};
+
+/// Fewer poses do not tell frames and six zeros from a mistake.
+const LEAST_POSES: usize = 12;
+
+/// Part of the reach that a rad of the tool's rotation counts: a tool's own length.
+const LEVER: f64 = 0.2;
+
+/// A file without its mistakes: what the diagnosis goes on with.
+pub struct Mended {
+    /// The arm.
+    pub arm: Arm,
+    /// The measurements.
+    pub data: Measurements,
+    /// What the robot file says of the arm beyond its table.
+    pub known: Vec<Known>,
+    /// Whether the rows say enough without the mistakes; not where a reading is stuck in most of them.
+    pub is_whole: bool,
+    mistakes: Vec<Mistake>,
+    family: Vec<Robot>,
+}
+
+/// What is wrong with an arm's file or with the measurements, if anything is.
+pub fn mistaken(arm: &Arm, data: &Measurements, options: &Options) -> Option<Mistaken> {
+    find(arm, data, options).map(|(mistaken, _)| mistaken)
+}
+
+/// What is wrong, if anything is, and the file without it.
+pub(crate) fn find(
+    arm: &Arm,
+    data: &Measurements,
+    options: &Options,
+) -> Option<(Mistaken, Option<Mended>)> {
+    let fits = data.kind.is_pose() && !data.sim_given.contains(&true) && data.poses >= LEAST_POSES;
+    let size = |row: &crate::measurement::Row| row.q.len() == arm.dof();
+    let reach = reach(arm);
+    if !fits || !data.rows.iter().all(size) || !reach.is_finite() || reach <= 0.0 {
+        return None;
+    }
+    let others = options.family.iter().map(|robot| (robot, crate::robot::arm(robot)));
+    let is_other = |other: &Arm| {
+        let motions = |arm: &Arm| arm.joints.iter().map(|j| j.motion).collect::<Vec<_>>();
+        let table = |arm: &Arm| arm.joints.iter().map(|j| [j.a, j.d, j.alpha]).collect::<Vec<_>>();
+        motions(other) == motions(arm) && table(other) != table(arm)
+    };
+    let others: Vec<(&Robot, Arm)> =
+        others.filter_map(|(robot, arm)| Some((robot, arm.ok().filter(&is_other)?))).collect();
+    let family: Vec<Arm> = others.iter().map(|(_, arm)| arm.clone()).collect();
+    let search = Search {
+        arm,
+        rows: Rows::of(arm, data, &options.known),
+        all: Mistake::all(arm, data, family.len()),
+        family: &family,
+        lever: LEVER * reach.min(extent(data)),
+        reach: reach.min(3.0 * extent(data)),
+        base_is_known: !options.nuisances.contains(&Nuisance::BaseFrame),
+    };
+    let nothing = search.tried(Vec::new())?;
+    let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
+    match search.run(&nothing, data.sessions().any(is_stream)) {
+        Found::Nothing => None,
+        Found::Unexplained => Some((told(&nothing, None, &[], &names), None)),
+        Found::Mistakes(best, same) => {
+            let mended = Mended {
+                arm: search.arm_without(&best.mistakes),
+                data: search.rows.mended(&best.mistakes),
+                known: known(&best.mistakes, &options.known, &options.catalogue),
+                is_whole: !best.mistakes.iter().any(
+                    |m| matches!(m, Mistake::Stuck { from, .. } if *from < data.rows.len() / 2),
+                ),
+                family: others.iter().map(|(robot, _)| (*robot).clone()).collect(),
+                mistakes: best.mistakes.clone(),
+            };
+            Some((told(&nothing, Some(&best), &same, &names), Some(mended)))
+        }
+    }
+}
+
+/// Half of the space in which three quarters of the measured points are, m.
+fn extent(data: &Measurements) -> f64 {
+    let spread = |axis: usize| {
+        let mut all: Vec<f64> = data.rows.iter().map(|row| row.measured[axis]).collect();
+        all.sort_by(f64::total_cmp);
+        let at = |part: f64| crate::gap::percentile(&all, part);
+        at(0.875) - at(0.125)
+    };
+    let mut spreads = [0, 1, 2].map(spread);
+    spreads.sort_by(f64::total_cmp);
+    // One coordinate may be in another unit, whatever it says.
+    spreads[1].max(1e-3)
+}
+
+fn told(nothing: &Tried, best: Option<&Tried>, same: &[Tried], family: &[&str]) -> Mistaken {
+    let wrong = |mistake: &Mistake| Wrong {
+        kind: mistake.kind().into(),
+        place: mistake.place(),
+        sentence: mistake.sentence(family),
+        mending: mistake.mending(),
+        in_robot_file: mistake.is_of_robot(),
+    };
+    let mistakes = best.map_or_else(Vec::new, |best| best.mistakes.iter().map(wrong).collect());
+    let after = best.unwrap_or(nothing).left;
+    Mistaken {
+        mistakes,
+        same: same.iter().map(|tried| tried.mistakes.iter().map(wrong).collect()).collect(),
+        position: [nothing.left.position, after.position],
+        rotation: [nothing.left.rotation, after.rotation],
+    }
+}
+
+/// The effects of a robot file with those that hold what joints do beside their readings.
+fn known(mistakes: &[Mistake], known: &[Known], catalogue: &Catalogue) -> Vec<Known> {
+    let mut known = known.to_vec();
+    for mistake in mistakes {
+        let (joint, of, ratio) = match *mistake {
+            Mistake::Sign { joint } => (joint, joint, -2.0),
+            Mistake::Coupling { joint, of, ratio } => (joint, of, ratio),
+            _ => continue,
+        };
+        let Some((effect, spot)) =
+            catalogue.iter().find_map(|effect| Some((effect, effect.turns_with(joint, of)?)))
+        else {
+            continue;
+        };
+        match known.iter_mut().find(|known| known.effect == effect && known.spot == spot) {
+            Some(known) => known.values[0] += ratio,
+            None => known.push(Known {
+                effect,
+                spot,
+                values: vec![ratio],
+                session: None,
+                at: stiffarm_codegen::robot::Spot::default(),
+            }),
+        }
+    }
+    known
+}
+
+impl Mended {
+    /// The robot file without the mistakes that its table has.
+    pub fn robot(&self, robot: &Robot) -> Robot {
+        let mut robot = robot.clone();
+        for mistake in &self.mistakes {
+            match *mistake {
+                Mistake::Other(k) => {
+                    let other = self.family[k].clone();
+                    robot = Robot {
+                        name: other.name,
+                        joints: other.joints,
+                        convention: other.convention,
+                        ..robot
+                    };
+                }
+                Mistake::Convention => {
+                    robot.convention = match robot.convention {
+                        Convention::Standard => Convention::Modified,
+                        Convention::Modified => Convention::Standard,
+                    }
+                }
+                Mistake::Entry { row, .. }
+                | Mistake::TwistSign { row }
+                | Mistake::Twist { row, .. }
+                | Mistake::Zero { joint: row, .. } => entries(&mut robot.joints[row], mistake),
+                _ => {}
+            }
+        }
+        robot
+    }
+}
+
+/// Changes the entries of a row as a mistake's mending changes the arm's.
+fn entries(joint: &mut Joint, mistake: &Mistake) {
+    let scaled = |value: &mut Value, factor: f64| {
+        if let Value::Number(number) = value {
+            *number = Number::rounded(factor * number.to_f64());
+        }
+    };
+    let turned = |angle: &mut Angle, to: &dyn Fn(f64) -> f64| {
+        let to = angle.radians().map(to);
+        *angle = to.and_then(Angle::from_radians).unwrap_or_else(|| angle.clone());
+    };
+    match *mistake {
+        Mistake::Entry { entry: Entry::A, factor, .. } => scaled(&mut joint.a, factor),
+        Mistake::Entry { entry: Entry::D, factor, .. } => scaled(&mut joint.d, factor),
+        Mistake::Entry { entry: Entry::Theta, factor, .. } => {
+            turned(&mut joint.theta, &|x| factor * x);
+        }
+        Mistake::Entry { entry: Entry::Alpha, factor, .. } => {
+            turned(&mut joint.alpha, &|x| factor * x);
+        }
+        Mistake::TwistSign { .. } => turned(&mut joint.alpha, &|x| -x),
+        Mistake::Twist { by, .. } => {
+            turned(&mut joint.alpha, &|x| x + kind::DEGREE * f64::from(by));
+        }
+        Mistake::Zero { by, .. } => turned(&mut joint.theta, &|x| x + kind::DEGREE * f64::from(by)),
+        _ => {}
+    }
+}

@@ -1,0 +1,158 @@
+//! The rows by which mistakes are judged: spread over the file, each with what belongs to it.
+
+use nalgebra::Vector6;
+use stiffarm_kernels::generic::Arm;
+
+use super::kind::{Mistake, Told, own_wrench};
+use crate::effects::{Carrier, Known};
+use crate::measurement::{Measurements, Row};
+use crate::simulate::Moments;
+
+/// Rows that a fit is of. A mistake that moves the tool by millimetres is seen on a few dozen.
+const MOST: usize = 240;
+
+/// The rows, and which frame each is measured in.
+pub(super) struct Rows<'a> {
+    pub data: &'a Measurements,
+    /// Numbers of the rows.
+    pub chosen: Vec<usize>,
+    /// Session of each row of the file.
+    pub session_of: Vec<usize>,
+    /// Measured point of each row of the file: a marker in a session, since a target may be put on anew.
+    pub point_of: Vec<usize>,
+    pub sessions: usize,
+    /// For each measured point, where the file says that it is on the tool, m.
+    pub points: Vec<[f64; 3]>,
+    /// What the robot file's effects move each joint by, for each row of the file; empty without any.
+    moved: Vec<Vec<f64>>,
+}
+
+impl<'a> Rows<'a> {
+    /// Of measurements of `arm` that has the effects `known`.
+    pub(super) fn of(arm: &Arm, data: &'a Measurements, known: &[Known]) -> Self {
+        let every = data.rows.len().div_ceil(MOST);
+        let (mut session_of, mut point_of) = (Vec::new(), Vec::new());
+        let mut names: Vec<(usize, Option<&String>)> = Vec::new();
+        let (mut points, mut sessions) = (Vec::new(), 0);
+        for rows in data.sessions() {
+            for row in rows {
+                let name = (sessions, row.marker.as_ref());
+                let known = names.iter().position(|known| *known == name);
+                point_of.push(known.unwrap_or_else(|| {
+                    names.push(name);
+                    points.push(row.offset.unwrap_or_default());
+                    names.len() - 1
+                }));
+                session_of.push(sessions);
+            }
+            sessions += 1;
+        }
+        let chosen = (0..data.rows.len()).step_by(every).collect();
+        let moved = moved(arm, data, known);
+        Rows { data, chosen, session_of, point_of, sessions, points, moved }
+    }
+
+    /// The same of at most `most` rows.
+    pub(super) fn fewer(&self, most: usize) -> Vec<usize> {
+        self.chosen.iter().copied().step_by(self.chosen.len().div_ceil(most)).collect()
+    }
+
+    /// What a row says without the mistakes, and the joints' values; `None` where they leave it without a
+    /// reading.
+    pub(super) fn told(&self, row: usize, mistakes: &[Mistake]) -> Option<Told> {
+        let at = mistakes.iter().try_fold(row, |at, mistake| match mistake {
+            Mistake::Late { rows } => self.neighbour(at, *rows),
+            _ => Some(at),
+        })?;
+        let here: &Row = &self.data.rows[row];
+        let q = self.data.rows[at].q.clone();
+        let mut told = Told { q, measured: here.measured, wrench: own_wrench(here) };
+        mistakes.iter().for_each(|mistake| mistake.reword(&mut told));
+        if let Some(hung) = &here.payload {
+            told.wrench += hung.weight;
+        }
+        if let Some(moved) = self.moved.get(at) {
+            told.q.iter_mut().zip(moved).for_each(|(q, by)| *q += by);
+        }
+        mistakes.iter().for_each(|mistake| mistake.turn(&mut told.q));
+        Some(told)
+    }
+
+    /// The row so many rows on, in the same session.
+    fn neighbour(&self, row: usize, by: i32) -> Option<usize> {
+        let at = row.checked_add_signed(by as isize)?;
+        (self.session_of.get(at)? == &self.session_of[row]).then_some(at)
+    }
+
+    /// The measurements without the mistakes; rows that have no reading then are left out.
+    pub(super) fn mended(&self, mistakes: &[Mistake]) -> Measurements {
+        let mut data = self.data.clone();
+        let of_data: Vec<Mistake> =
+            mistakes.iter().filter(|mistake| !mistake.is_of_robot()).copied().collect();
+        let half = self.data.rows.len() / 2;
+        let stands = |row: usize| {
+            let is_stuck = |mistake: &Mistake| matches!(mistake, Mistake::Stuck { from, .. } if row >= *from && *from >= half);
+            !of_data.iter().any(is_stuck)
+        };
+        let rows = std::mem::take(&mut data.rows).into_iter().enumerate();
+        data.rows = rows
+            .filter(|(number, _)| stands(*number))
+            .filter_map(|(number, row)| {
+                let at = of_data.iter().try_fold(number, |at, mistake| match mistake {
+                    Mistake::Late { rows } => self.neighbour(at, *rows),
+                    _ => Some(at),
+                })?;
+                let hung = row.payload.as_ref().map_or_else(Vector6::zeros, |hung| hung.weight);
+                let (q, measured, wrench) =
+                    (self.data.rows[at].q.clone(), row.measured, own_wrench(&row));
+                let mut told = Told { q, measured, wrench };
+                let mut sigma = row.sigma.as_deref().map(|sigma| Told {
+                    q: told.q.clone(),
+                    measured: *sigma,
+                    wrench: Vector6::zeros(),
+                });
+                for mistake in &of_data {
+                    mistake.reword(&mut told);
+                    if let Some(sigma) = &mut sigma {
+                        mistake.reword(sigma);
+                    }
+                }
+                Some(Row {
+                    q: told.q,
+                    measured: told.measured,
+                    wrench: told.wrench + hung,
+                    sigma: sigma.map(|sigma| Box::new(sigma.measured.abs())),
+                    ..row
+                })
+            })
+            .collect();
+        data
+    }
+}
+
+/// What the effects of a robot file move each joint by.
+fn moved(arm: &Arm, data: &Measurements, known: &[Known]) -> Vec<Vec<f64>> {
+    let of_joints: Vec<(usize, &Known)> = known
+        .iter()
+        .filter(|known| known.is_there(data))
+        .filter_map(|known| match known.effect.carrier(known.spot) {
+            Some(Carrier::Joint(joint)) => Some((joint, known)),
+            _ => None,
+        })
+        .collect();
+    if of_joints.is_empty() {
+        return Vec::new();
+    }
+    let moments = Moments::of(data);
+    let of_row = |(number, row): (usize, &Row)| {
+        let (mut by, when) = (vec![0.0; arm.dof()], moments.at(number));
+        for (joint, known) in &of_joints {
+            let mut values = known.values.iter();
+            known.effect.moves_by(row, &when, known.spot, &mut |unit| {
+                by[*joint] += values.next().map_or(0.0, |value| value * unit);
+            });
+        }
+        by
+    };
+    data.rows.iter().enumerate().map(of_row).collect()
+}
