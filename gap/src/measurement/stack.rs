@@ -29,7 +29,7 @@ impl Measurements {
         }
         let (first, second) = match first.kind == second.kind {
             true => (first, second),
-            false => (first.as_bench(&second.file)?, second.as_bench("the other files")?),
+            false => (first.on_bench(&second.file)?, second.on_bench("the other files")?),
         };
         if first.sim_given != second.sim_given || first.by_camera != second.by_camera {
             let expected = "the same columns `sim_…`, and a camera's poses with their like";
@@ -90,7 +90,7 @@ impl Measurements {
     }
 
     /// Positions as what an instrument at the origin reads, beside instruments that are no trackers.
-    fn as_bench(mut self, other: &str) -> Result<Measurements, ReadError> {
+    fn on_bench(mut self, other: &str) -> Result<Measurements, ReadError> {
         let points = match self.kind {
             Kind::Pose { orientation: false } if !self.sim_given.contains(&true) => true,
             Kind::Distance if !self.sim_given.contains(&true) => false,

@@ -85,7 +85,7 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
 /// The columns of what instruments read that are no trackers; cells of other kinds are empty.
 fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
     let any = |is: &dyn Fn(&Aim) -> bool| data.rows.iter().filter_map(|r| r.aim.as_deref()).any(is);
-    fn of<'r>(row: &'r Row, seen: Seen) -> Option<&'r Aim> {
+    fn of(row: &Row, seen: Seen) -> Option<&Aim> {
         row.aim.as_deref().filter(|aim| aim.seen == seen)
     }
     let name = move |row: &&Row, seen: Seen| {

@@ -58,7 +58,7 @@ pub fn placed(arm: &Arm, design: &Measurements) -> Measurements {
         let is_placed = matches!(aim.seen, Seen::Point | Seen::Plane);
         is_placed.then(|| (aim.clone(), row.session.clone()))
     };
-    let mut things: Vec<((Aim, Option<String>), Vec<usize>)> = Vec::new();
+    let mut things: Vec<(_, Vec<usize>)> = Vec::new();
     for (number, row) in design.rows.iter().enumerate() {
         let Some(key) = key(row) else { continue };
         match things.iter_mut().find(|(known, _)| *known == key) {
