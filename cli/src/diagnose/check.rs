@@ -51,7 +51,7 @@ impl Check {
             (inside > 0).then(|| Statistics::of(&judged))
         };
         let is_extrapolated = !fitted && inside < other.rows.len();
-        let all = [&predicted.before, &predicted.after].map(|gaps| Statistics::of(gaps));
+        let all = [&predicted.before, &predicted.after].map(Statistics::of);
         Ok(Check {
             file: other.file.clone(),
             rows: other.rows.len(),
