@@ -23,7 +23,7 @@ impl Mistake {
             Mistake::Stuck { .. } => "stuck_reading",
             Mistake::Coordinate { .. } => "coordinate_unit",
             Mistake::Exchanged { .. } | Mistake::Mirrored { .. } => "measuring_axes",
-            Mistake::Load { factor } if factor == -1.0 => "load_sign",
+            Mistake::Load { factor: -1.0 } => "load_sign",
             Mistake::Load { .. } => "load_unit",
             Mistake::Moment { .. } => "moment_unit",
         }

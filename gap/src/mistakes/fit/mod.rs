@@ -105,6 +105,9 @@ struct Unknowns {
     turned: Vec<f64>,
 }
 
+/// Direction of a joint's axis, and a point on it, base frame.
+type Axis = (Vector3<f64>, Vector3<f64>);
+
 /// The gap of a row: at the point, and of the rotation.
 type Gap = (Vector3<f64>, Vector3<f64>);
 
@@ -248,7 +251,7 @@ impl Fit {
     }
 
     /// Axis and a point on it of every joint, and the tool, base frame.
-    fn axes(&self, q: &[f64]) -> (Vec<(Vector3<f64>, Vector3<f64>)>, Isometry3<f64>) {
+    fn axes(&self, q: &[f64]) -> (Vec<Axis>, Isometry3<f64>) {
         let frames = self.arm.frames(q);
         let first = usize::from(self.arm.convention == Convention::Modified);
         let axis =
