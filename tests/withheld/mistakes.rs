@@ -83,10 +83,8 @@ impl Case {
         if kind == "late_readings" || rng.unit() < 0.5 {
             let mut last = usize::MAX;
             design.rows.retain(|row| std::mem::replace(&mut last, row.group) != row.group);
-            let mut wanted = 0;
-            for row in &mut design.rows {
-                row.line = wanted + 2;
-                wanted += 1;
+            for (row, line) in design.rows.iter_mut().zip(2..) {
+                row.line = line;
             }
         }
         let truths = truths(&arm, &mut rng);

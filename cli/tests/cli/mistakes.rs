@@ -27,7 +27,7 @@ fn column(header: &str, name: &str) -> usize {
 
 fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> String {
     let rows: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
-    folder.file(name, &format!("{header}\n{}\n", rows.join("\n")))
+    folder.file(name, format!("{header}\n{}\n", rows.join("\n")))
 }
 
 /// What a run prints that may have doubts beside it.
