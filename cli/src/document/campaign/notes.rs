@@ -62,7 +62,8 @@ impl Campaign<'_> {
     fn nuisances(&self) -> String {
         let frame = |n: &NuisanceReport| {
             let [x, y, z] = n.translation.map(|x| short(1e3 * x));
-            let of = n.session.as_ref().map_or_else(String::new, |name| format!(" in {name}"));
+            let of = n.session.as_deref().map(|session| session.trim_end_matches(':'));
+            let of = of.map_or_else(String::new, |session| format!(" in {session}"));
             format!("{}{of} at ({x}, {y}, {z}) mm", words(&n.name))
         };
         let geometry = "geometry: lengths, twists and zeros of the table";
