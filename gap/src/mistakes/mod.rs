@@ -1,8 +1,8 @@
 //! Mistakes in a robot file or in readings: a sign, a zero by a quarter of a turn, a coupling of one, a unit.
 //!
 //! They come before mechanics. A gap that is larger than makers' tolerances leave beside fitted frames, zeros
-//! and springs is first asked for mistakes: each is taken out exactly, with the frames refitted ([`fit`]), alone
-//! and in pairs ([`search`]). What is named leaves what an arm leaves; the diagnosis then goes on without
+//! and springs is first asked for mistakes: each is taken out exactly, with the frames refitted (`fit`), alone
+//! and in pairs (`search`). What is named leaves what an arm leaves; the diagnosis then goes on without
 //! it. A gap of decimetres that no mistake explains is no arm's: no effect is looked for.
 
 mod fit;
