@@ -135,7 +135,7 @@ fn options_go_with_what_the_file_is() {
     let band = ["diagnose", "lin_planar", data, "--band", "5Hz"];
     assert!(stiffarm(&band).refused().contains("--band is for joint logs"));
     let two = ["diagnose", "lin_planar", data, data];
-    assert!(stiffarm(&two).refused().contains("found 2 files"));
+    assert!(stiffarm(&two).refused().contains("found the same file twice"));
 }
 
 /// The search that has not seen a block leaves at least what the fit of all findings leaves, and of two
