@@ -12,7 +12,7 @@ use crate::observe::{Aim, Plane, Seen, View};
 /// Sockets or plates of a bench: fewer tell some of an arm's lengths from each other badly.
 const THINGS: usize = 6;
 
-/// Steps that bring a posture there, and postures that are tried until one goes.
+/// Steps that bring a posture there, and postures that are tried at most.
 const STEPS: usize = 60;
 const TRIES: usize = 400;
 
@@ -32,10 +32,17 @@ pub(super) fn reach(arm: &Arm, design: &Design, postures: &mut [Vec<f64>]) -> Ve
     let mut more = Design { poses: TRIES, seed: design.seed.wrapping_add(1), ..*design };
     let mut spare = Vec::new();
     let mut chosen = Vec::with_capacity(postures.len());
+    let homes: Vec<Vec<f64>> = postures.iter().take(THINGS).cloned().collect();
     for (number, posture) in postures.iter_mut().enumerate() {
         let aim = &things[number % things.len()];
-        let mut q = posture.clone();
+        let (mut q, mut tries) = (posture.clone(), 0);
         while !bring(arm, &at, &mut q, aim) {
+            tries += 1;
+            if tries > TRIES {
+                // Where nothing else goes, the posture by which the thing was placed does.
+                q.clone_from(&homes[number % things.len()]);
+                break;
+            }
             q = spare.pop().unwrap_or_else(|| {
                 more.seed = more.seed.wrapping_add(1);
                 spare = poses::draw(arm, &more);
@@ -80,7 +87,8 @@ pub fn placed(arm: &Arm, design: &Measurements) -> Measurements {
     placed
 }
 
-/// A socket where the tool is, of a name that no other seed has, or a plate near it: a floor and two walls in turn, each a little tilted.
+/// A socket where the tool is, of a name that no other seed has, or a plate near it: a floor and two walls in turn,
+/// each a little tilted.
 fn aim(design: &Design, number: usize, at: Vector3<f64>) -> Aim {
     if design.kind == (Kind::Bench { points: true }) {
         let view = View::Point(at.map(|x| rounded(x, 1e6)));
