@@ -33,6 +33,16 @@ impl Run {
 /// The repository's folder: robots, documents and data lie there.
 pub const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
+/// Real data that are no part of this repository: in the directory that `STIFFARM_DATA` names, or in `shared/data`
+/// beside the checkout.
+pub fn data(name: &str) -> String {
+    let beside = || format!("{REPOSITORY}/../shared/data");
+    let directory = std::env::var("STIFFARM_DATA").unwrap_or_else(|_| beside());
+    let path = format!("{directory}/{name}");
+    assert!(Path::new(&path).exists(), "{path} is not there: set STIFFARM_DATA");
+    path
+}
+
 /// The binary, in the repository's folder, without a terminal.
 pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_stiffarm"));

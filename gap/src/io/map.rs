@@ -22,6 +22,7 @@ use serde::Deserialize;
 
 use super::convention::Convention;
 use super::mistake::{Fault, ReadError};
+use super::source::from_toml;
 use super::table::Separator;
 
 /// What is said of a table.
@@ -102,11 +103,7 @@ impl Map {
     /// [`ReadError`]: what is no map, with the line and what was expected.
     pub fn read(file: &str, text: &str) -> Result<Map, ReadError> {
         let wrong = |found: String, expected: &str| Fault::new(found, expected, "").of(file);
-        let map: Map = toml::from_str(text).map_err(|error| {
-            let line = error.span().and_then(|span| text.get(..span.start));
-            let line = line.map(|before| 1 + before.matches('\n').count() as u64);
-            Fault::new("no map", "", error.message()).within(line, None).of(file)
-        })?;
+        let map: Map = from_toml(file, text, "no map")?;
         if let Some(c) = map.separator.filter(|c| !c.is_ascii()) {
             return Err(wrong(format!("`separator = \"{c}\"`"), "a character of ASCII"));
         }

@@ -24,4 +24,4 @@ pub use source::{MOST_BYTES, bytes};
 pub use unit::{Dimension, Unit, plain, quantity};
 
 pub(crate) use mistake::Mistakes;
-pub(crate) use source::decoded;
+pub(crate) use source::{decoded, from_toml};

@@ -5,6 +5,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
+
+use super::mistake::{Fault, ReadError};
+
 /// Largest file that is read, bytes.
 pub const MOST_BYTES: u64 = 512 << 20;
 
@@ -55,6 +59,22 @@ pub(crate) fn decoded(bytes: &[u8]) -> (Cow<'_, str>, Option<&'static str>) {
             (Cow::Owned(read.collect()), Some("Windows-1252"))
         }
     }
+}
+
+/// What TOML says; `file` is what messages call it, and `found` what it is where it says something else.
+///
+/// # Errors
+/// [`ReadError`], with the line.
+pub(crate) fn from_toml<T: DeserializeOwned>(
+    file: &str,
+    text: &str,
+    found: &str,
+) -> Result<T, ReadError> {
+    toml::from_str(text).map_err(|error| {
+        let before = error.span().and_then(|span| text.get(..span.start));
+        let line = before.map(|before| 1 + before.matches('\n').count() as u64);
+        Fault::new(found, "", error.message()).within(line, None).of(file)
+    })
 }
 
 #[cfg(test)]

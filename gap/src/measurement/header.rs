@@ -191,10 +191,7 @@ pub(crate) fn kind(
         let found = format!("`{}` in a file that measures no distance", head.name);
         wrong(head, Fault::new(found, "a column `distance`", "add it, or remove the point"));
     }
-    if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
-        let help = "the point from which a distance is measured has three coordinates";
-        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
-    }
+    whole_point(&at, &mut wrong);
     if let (Some(named), Some(head)) = (find(Role::From), at.iter().flatten().next()) {
         let found = format!("both a point's name (`from`) and its place (`{}`)", head.name);
         wrong(named, Fault::new(found, "one of them", "a point with a name alone is fitted"));
@@ -209,6 +206,14 @@ pub(crate) fn kind(
         wrong(head, without(head, &missing, expected, &help));
     }
     Some((kind, given))
+}
+
+/// The point from which a distance is measured, with all its coordinates or none.
+fn whole_point(at: &[Option<&Head>], wrong: &mut dyn FnMut(&Head, Fault)) {
+    if let Some((head, missing)) = partial(at, &FROM_NAMES) {
+        let help = "the point from which a distance is measured has three coordinates";
+        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
+    }
 }
 
 /// A file of a board's poses in a camera's axes; `column` is one of theirs.
@@ -283,10 +288,7 @@ fn bench(
         _ => {}
     }
     let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
-    if let Some((head, missing)) = partial(&at, &FROM_NAMES) {
-        let help = "the point from which a distance is measured has three coordinates";
-        wrong(head, without(head, &missing, "all of from_x, from_y, from_z or none", help));
-    }
+    whole_point(&at, wrong);
     Some((Kind::Bench { points: find(Role::Point).is_some() }, [false; 6]))
 }
 

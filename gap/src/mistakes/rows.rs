@@ -60,10 +60,7 @@ impl<'a> Rows<'a> {
     /// What a row says without the mistakes, and the joints' values; `None` where they leave it without a
     /// reading.
     pub(super) fn told(&self, row: usize, mistakes: &[Mistake]) -> Option<Told> {
-        let at = mistakes.iter().try_fold(row, |at, mistake| match mistake {
-            Mistake::Late { rows } => self.neighbour(at, *rows),
-            _ => Some(at),
-        })?;
+        let at = self.with_reading_of(row, mistakes)?;
         let here: &Row = &self.data.rows[row];
         let q = self.data.rows[at].q.clone();
         let mut told = Told { q, measured: here.measured, wrench: own_wrench(here) };
@@ -76,6 +73,14 @@ impl<'a> Rows<'a> {
         }
         mistakes.iter().for_each(|mistake| mistake.turn(&mut told.q));
         Some(told)
+    }
+
+    /// The row that has a row's readings; `None` where none has.
+    fn with_reading_of(&self, row: usize, mistakes: &[Mistake]) -> Option<usize> {
+        mistakes.iter().try_fold(row, |at, mistake| match mistake {
+            Mistake::Late { rows } => self.neighbour(at, *rows),
+            _ => Some(at),
+        })
     }
 
     /// The row so many rows on, in the same session.
@@ -98,10 +103,7 @@ impl<'a> Rows<'a> {
         data.rows = rows
             .filter(|(number, _)| stands(*number))
             .filter_map(|(number, row)| {
-                let at = of_data.iter().try_fold(number, |at, mistake| match mistake {
-                    Mistake::Late { rows } => self.neighbour(at, *rows),
-                    _ => Some(at),
-                })?;
+                let at = self.with_reading_of(number, &of_data)?;
                 let hung = row.payload.as_ref().map_or_else(Vector6::zeros, |hung| hung.weight);
                 let (q, measured, wrench) =
                     (self.data.rows[at].q.clone(), row.measured, own_wrench(&row));

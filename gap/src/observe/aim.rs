@@ -94,6 +94,12 @@ impl Aim {
         format!("{} {}", self.seen.thing(), self.name).trim_end().to_owned()
     }
 
+    /// What reports call its free constants: `x of point front:0`.
+    pub(crate) fn unknowns(&self) -> impl Iterator<Item = String> + '_ {
+        let name = self.full_name();
+        self.free.iter().map(move |k| format!("{} of {name}", self.seen.constant(*k)))
+    }
+
     /// The free constants moved.
     pub(crate) fn moved(&self, view: View, by: &[f64]) -> View {
         let mut all = [0.0; 4];

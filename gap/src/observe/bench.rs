@@ -32,7 +32,7 @@ use nalgebra::{Isometry3, Unit, Vector3};
 use serde::Deserialize;
 
 use super::{Aim, Pair, Plane, Seen, View};
-use crate::io::{Dimension, Fault, ReadError, quantity};
+use crate::io::{Dimension, Fault, ReadError, from_toml, quantity};
 use crate::measurement::{Measurements, Row};
 
 /// What is known of a bench.
@@ -144,11 +144,7 @@ impl Bench {
     /// # Errors
     /// [`ReadError`]: what is no bench, with the line and what was expected.
     pub fn read(file: &str, text: &str) -> Result<Bench, ReadError> {
-        let bench: Bench = toml::from_str(text).map_err(|error| {
-            let before = error.span().and_then(|span| text.get(..span.start));
-            let line = before.map(|before| 1 + before.matches('\n').count() as u64);
-            Fault::new("no bench", "", error.message()).within(line, None).of(file)
-        })?;
+        let bench: Bench = from_toml(file, text, "no bench")?;
         let wrong = |found: String, expected: &str, help: &str| {
             Err(Fault::new(found, expected, help).of(file))
         };

@@ -5,14 +5,10 @@
 
 use serde_json::Value;
 
-use crate::support::{REPOSITORY, stiffarm};
+use crate::support::{self, stiffarm};
 
 fn file(name: &str) -> String {
-    let beside = || format!("{REPOSITORY}/../shared/data");
-    let directory = std::env::var("STIFFARM_DATA").unwrap_or_else(|_| beside());
-    let path = format!("{directory}/sockets/panda_1/{name}");
-    assert!(std::path::Path::new(&path).exists(), "{path} is not there: set STIFFARM_DATA");
-    path
+    support::data(&format!("sockets/panda_1/{name}"))
 }
 
 /// Found at one place, held out there and predicted at the others, mm rms. The limits are what was reached and a

@@ -6,14 +6,10 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, REPOSITORY, stiffarm};
+use crate::support::{self, Folder, stiffarm};
 
 fn data(name: &str) -> String {
-    let beside = || format!("{REPOSITORY}/../shared/data");
-    let directory = std::env::var("STIFFARM_DATA").unwrap_or_else(|_| beside());
-    let path = format!("{directory}/logs/{name}");
-    assert!(std::path::Path::new(&path).exists(), "{path} is not there: set STIFFARM_DATA");
-    path
+    support::data(&format!("logs/{name}"))
 }
 
 fn diagnosed(arguments: &[&str]) -> Value {

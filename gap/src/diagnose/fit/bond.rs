@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::model::Model;
 use crate::diagnose::data::Problem;
+use crate::observe::Pair;
 
 /// A measurement of constants alone.
 pub(crate) struct Bond {
@@ -17,22 +18,13 @@ pub(crate) struct Bond {
 impl Bond {
     /// All of a model.
     pub(super) fn all(problem: &Problem<'_>, model: &Model) -> Vec<Bond> {
-        let first = Model::nuisances(problem)
-            - problem.bench.iter().map(|t| t.aim.free.len()).sum::<usize>();
-        let begin = |thing: usize| {
-            first + problem.bench[..thing].iter().map(|t| t.aim.free.len()).sum::<usize>()
-        };
-        let of_pair = |(pair, places): &(_, [Place; 2])| {
-            let pair: &crate::observe::Pair = pair;
-            let at = |place: &Place| match place {
-                Place::Known(at) => *at,
-                Place::Fitted(thing) => model.bench[*thing].place().unwrap_or_default(),
-            };
-            let (left, by_first) = pair.weighed([at(&places[0]), at(&places[1])]);
+        let begins = Model::begins_of_bench(problem);
+        let of_pair = |(pair, places): &(Pair, [Place; 2])| {
+            let (left, by_first) = pair.weighed(places.map(|place| place.at(model)));
             let mut columns = Vec::new();
             for (place, by) in places.iter().zip([by_first, -by_first]) {
                 if let Place::Fitted(thing) = place {
-                    columns.extend((0..3).map(|k| (begin(*thing) + k, by[k])));
+                    columns.extend((0..3).map(|k| (begins[*thing] + k, by[k])));
                 }
             }
             Bond { columns, left }
@@ -61,4 +53,15 @@ pub(crate) enum Place {
     Known(Vector3<f64>),
     /// Of the bench's unknown things, the one of this number.
     Fitted(usize),
+}
+
+impl Place {
+    /// Where it is by a model, m, measuring frame.
+    pub(crate) fn at(self, model: &Model) -> Vector3<f64> {
+        match self {
+            Place::Known(at) => at,
+            // A pair's ends are points, which are in a place.
+            Place::Fitted(thing) => model.bench[thing].place().unwrap_or_default(),
+        }
+    }
 }

@@ -3,13 +3,13 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Isometry3, Matrix6xX, Point3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Isometry3, Matrix6xX, Point3, Vector3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::axes::Axes;
 use super::bond::Bond;
-use crate::diagnose::data::{LARGEST, Problem};
+use crate::diagnose::data::{LARGEST, Problem, Thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
@@ -227,6 +227,17 @@ impl Model {
         }
     }
 
+    /// The first parameter of each unknown thing of the bench: they are the last of the nuisances.
+    pub(crate) fn begins_of_bench(problem: &Problem<'_>) -> Vec<usize> {
+        let first = 6 * problem.frames().count() + 3 * problem.markers.len();
+        let begin = |at: &mut usize, thing: &Thing| {
+            let begin = *at;
+            *at += thing.aim.free.len();
+            Some(begin)
+        };
+        problem.bench.iter().scan(first, begin).collect()
+    }
+
     /// Number of nuisance parameters.
     pub(crate) fn nuisances(problem: &Problem<'_>) -> usize {
         let bench = problem.bench.iter().map(|thing| thing.aim.free.len());
@@ -286,6 +297,21 @@ impl Model {
         let mut held = vec![0.0; Self::nuisances(problem)];
         held.extend(self.found.iter().flat_map(|f| &f.held));
         held
+    }
+
+    /// Adds to normal equations whose first parameters are the model's what holds them: each loosely to what is
+    /// usual, and the bench's constants to what is known beside the rows.
+    pub(crate) fn hold(
+        &self,
+        problem: &Problem<'_>,
+        normal: &mut DMatrix<f64>,
+        right: &mut DVector<f64>,
+    ) {
+        for (at, (held, value)) in self.held(problem).iter().zip(self.values(problem)).enumerate() {
+            normal[(at, at)] += held * held;
+            right[at] -= held * held * value;
+        }
+        self.bonds(problem).iter().for_each(|bond| bond.add(normal, right));
     }
 
     /// What is known of the bench beside the rows.

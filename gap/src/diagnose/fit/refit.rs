@@ -156,12 +156,7 @@ pub(crate) fn normal_equations(
             right += with_gap;
         }
     }
-    let held = fit.model.held(problem);
-    for (at, (held, value)) in held.iter().zip(fit.model.values(problem)).enumerate() {
-        normal[(at, at)] += held * held;
-        right[at] -= held * held * value;
-    }
-    fit.model.bonds(problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
+    fit.model.hold(problem, &mut normal, &mut right);
     (normal, right)
 }
 

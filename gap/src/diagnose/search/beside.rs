@@ -29,11 +29,8 @@ impl<'s> Search<'s, '_> {
             return normal_equations(self.problem, &now.fit, &now.weights).0;
         };
         let mut normal = gathered.total.zz.clone();
-        for (at, held) in now.fit.model.held(self.problem).iter().enumerate() {
-            normal[(at, at)] += held * held;
-        }
         let mut right = DVector::zeros(normal.nrows());
-        now.fit.model.bonds(self.problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
+        now.fit.model.hold(self.problem, &mut normal, &mut right);
         normal
     }
 

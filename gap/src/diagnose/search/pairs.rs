@@ -74,12 +74,7 @@ impl Search<'_, '_> {
         let gathered = self.gather(begun, ordinary, &[]);
         let mut normal = gathered.total.zz;
         let mut right = gathered.total.zr;
-        let values = model.values(self.problem);
-        for (at, (held, value)) in model.held(self.problem).iter().zip(values).enumerate() {
-            normal[(at, at)] += held * held;
-            right[at] -= held * held * value;
-        }
-        model.bonds(self.problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
+        model.hold(self.problem, &mut normal, &mut right);
         let left = self.left(begun);
         let all = normal.nrows() - fitted;
         let basis = Basis::new(&normal.view((0, 0), (fitted, fitted)).into_owned());

@@ -48,9 +48,8 @@ impl Search<'_, '_> {
         let three = |m: &String| ["x", "y", "z"].map(|k| format!("{k} of marker {m}"));
         let markers = self.problem.markers.iter().flat_map(three);
         let bench = self.problem.bench.iter().flat_map(|thing| {
-            let name = thing.aim.full_name() + &of(thing.session);
-            let constant = |k: &usize| format!("{} of {name}", thing.aim.seen.constant(*k));
-            thing.aim.free.iter().map(constant).collect::<Vec<_>>()
+            let of = of(thing.session);
+            thing.aim.unknowns().map(move |name| name + &of)
         });
         let each = geometry.iter().filter_map(Candidate::effect).flat_map(|(effect, spot)| {
             let all = effect.parameters(self.problem.arm, spot);

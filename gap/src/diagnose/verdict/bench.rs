@@ -2,7 +2,7 @@
 
 use super::certainty::Certainty;
 use crate::diagnose::data::Thing;
-use crate::diagnose::fit::{Model, Place};
+use crate::diagnose::fit::Model;
 use crate::diagnose::report::{BenchReport, PairReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::observe::View;
@@ -12,15 +12,11 @@ impl Search<'_, '_> {
     /// Every thing of the bench that was unknown. A plane is told by its normal and its distance from the origin.
     pub(super) fn bench(&self, now: &Explained, certainty: &Certainty) -> Vec<BenchReport> {
         let (problem, model) = (self.problem, &now.fit.model);
-        let sizes = problem.bench.iter().map(|thing| thing.aim.free.len());
-        let mut at = Model::nuisances(problem) - sizes.sum::<usize>();
+        let things = problem.bench.iter().zip(&model.bench);
         let mut all = Vec::new();
-        for (Thing { aim, session }, view) in problem.bench.iter().zip(&model.bench) {
+        for ((Thing { aim, session }, view), at) in things.zip(Model::begins_of_bench(problem)) {
             let mut half = [0.0; 4];
-            for free in aim.free {
-                half[*free] = certainty.half[at];
-                at += 1;
-            }
+            aim.free.iter().zip(&certainty.half[at..]).for_each(|(free, own)| half[*free] = *own);
             let parameter =
                 |name: &'static str, value: f64, half: f64, unit: &'static str| Parameter {
                     name: name.into(),
@@ -60,17 +56,12 @@ impl Search<'_, '_> {
 
     /// Every distance between points that is known, and the one that was fitted.
     pub(super) fn pairs_apart(&self, now: &Explained) -> Vec<PairReport> {
-        let place = |place: &Place| match place {
-            Place::Known(at) => Some(*at),
-            Place::Fitted(thing) => now.fit.model.bench[*thing].place(),
-        };
-        let each = self.problem.pairs.iter().filter_map(|(pair, [one, other])| {
-            Some(PairReport {
-                points: pair.points.clone(),
-                known: pair.distance,
-                sigma: pair.sigma,
-                fitted: (place(one)? - place(other)?).norm(),
-            })
+        let model = &now.fit.model;
+        let each = self.problem.pairs.iter().map(|(pair, [one, other])| PairReport {
+            points: pair.points.clone(),
+            known: pair.distance,
+            sigma: pair.sigma,
+            fitted: (one.at(model) - other.at(model)).norm(),
         });
         each.collect()
     }

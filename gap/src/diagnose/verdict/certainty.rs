@@ -76,11 +76,8 @@ impl Search<'_, '_> {
             .collect();
         let mut seen = DMatrix::zeros(parameters, parameters);
         sums.iter().for_each(|(own, _)| seen += own);
-        let held = now.fit.model.held(problem);
-        let mut normal = seen.clone();
-        held.iter().enumerate().for_each(|(k, held)| normal[(k, k)] += held * held);
-        let mut right = DVector::zeros(parameters);
-        now.fit.model.bonds(problem).iter().for_each(|bond| bond.add(&mut normal, &mut right));
+        let (mut normal, mut right) = (seen.clone(), DVector::zeros(parameters));
+        now.fit.model.hold(problem, &mut normal, &mut right);
         let basis = Basis::new(&normal);
         let covariance = &basis.t * basis.t.transpose() * variance;
         let jackknife = jackknife(&basis, &sums);

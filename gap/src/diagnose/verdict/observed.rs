@@ -88,10 +88,7 @@ impl Search<'_, '_> {
         });
         let markers = problem.markers.iter();
         let markers = markers.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));
-        let bench = problem.bench.iter().flat_map(|thing| {
-            let (aim, name) = (&thing.aim, thing.aim.full_name());
-            aim.free.iter().map(move |k| format!("{} of {name}", aim.seen.constant(*k)))
-        });
+        let bench = problem.bench.iter().flat_map(|thing| thing.aim.unknowns());
         let effects = model.found.iter().flat_map(|found| {
             let (effect, place) = (found.effect.identifier(), found.spot.place);
             let all = found.effect.parameters(problem.arm, found.spot).into_iter();
