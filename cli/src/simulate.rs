@@ -296,8 +296,8 @@ impl ExperimentArgs {
                 MeasureArg::Position => Kind::Pose { orientation: false },
                 MeasureArg::Displacement => Kind::Displacement { components: [true; 6] },
                 MeasureArg::Distance => Kind::Distance,
-                MeasureArg::Point => Kind::Bench { points: true },
-                MeasureArg::Plane => Kind::Bench { points: false },
+                MeasureArg::Point => Kind::Bench { lengths: 3, angles: false },
+                MeasureArg::Plane => Kind::Bench { lengths: 1, angles: false },
             },
             seed: self.seed,
         })

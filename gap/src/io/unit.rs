@@ -33,6 +33,8 @@ pub enum Dimension {
     Acceleration,
     /// Radians per second squared.
     AngularAcceleration,
+    /// Pixels of a picture.
+    Pixels,
 }
 
 /// One unit: `SI value = factor · value + offset`.
@@ -56,7 +58,7 @@ const DEGREE: f64 = PI / 180.0;
 const INCH: f64 = 0.0254;
 
 /// Every unit; of each quantity the SI unit first.
-const UNITS: [Unit; 41] = [
+const UNITS: [Unit; 42] = [
     unit("m", Dimension::Length, 1.0),
     unit("mm", Dimension::Length, 1e-3),
     unit("um", Dimension::Length, 1e-6),
@@ -98,6 +100,7 @@ const UNITS: [Unit; 41] = [
     unit("rad/s^2", Dimension::AngularAcceleration, 1.0),
     unit("deg/s^2", Dimension::AngularAcceleration, DEGREE),
     unit("mrad/s^2", Dimension::AngularAcceleration, 1e-3),
+    unit("px", Dimension::Pixels, 1.0),
 ];
 
 /// Signs that stand for letters: `µ` (as the micro sign and as the Greek letter), `°`, `N·m`, `N*m`.
@@ -229,6 +232,7 @@ impl fmt::Display for Dimension {
             Dimension::AngularSpeed => "an angular speed",
             Dimension::Acceleration => "an acceleration",
             Dimension::AngularAcceleration => "an angular acceleration",
+            Dimension::Pixels => "a place in a picture",
         })
     }
 }

@@ -74,8 +74,13 @@ pub(crate) fn row(
     let mixed = matches!(kind, Some(Kind::Bench { .. }));
     let open = |head: &Head, cell: &str| {
         let Some(role) = head.role.filter(|_| cell.is_empty()) else { return false };
-        let is_measured = matches!(role, Role::Measured(..) | Role::Sim(..) | Role::Along);
-        planned && is_measured || mixed && (Told::takes(role) || role == Role::Sigma(None))
+        let is_measured = matches!(
+            role,
+            Role::Measured(..) | Role::Sim(..) | Role::Along | Role::Tilt(_) | Role::Pixel(_)
+        );
+        let is_other = Told::takes(role)
+            || matches!(role, Role::Sigma(None) | Role::Camera | Role::Board | Role::Marker);
+        planned && is_measured || mixed && is_other
     };
     for (head, cell) in heads.iter().zip(cells).filter(|(head, cell)| !open(head, cell)) {
         if let Err(fault) = fill(&mut row, &mut told, head, cell, layout) {
@@ -128,10 +133,12 @@ fn fill(
         Some(Role::Marker) => {
             let found = name(cell, "the name of a marker")?;
             let names: Vec<&str> = layout.markers.iter().map(|m| m.name.as_str()).collect();
-            let Some(marker) = layout.markers.iter().find(|m| m.name == found) else {
-                return Err(unknown("marker", &found, &names, "name one of them"));
-            };
-            row.offset = marker.translation;
+            match layout.markers.iter().find(|m| m.name == found) {
+                Some(marker) => row.offset = marker.translation,
+                // Which board's it is, and where, is known when the row is.
+                None if layout.bench.has_corner(&found) => {}
+                None => return Err(unknown("marker", &found, &names, "name one of them")),
+            }
             row.marker = Some(found);
         }
         Some(Role::Session) => row.session = Some(name(cell, "the name of a session")?),
@@ -149,6 +156,9 @@ fn fill(
         Some(Role::Point) => told.point = Some(name(cell, "the name of a point")?),
         Some(Role::Plane) => told.plane = Some(name(cell, "the name of a plane")?),
         Some(Role::Along) => told.along = Some(value()?),
+        Some(Role::Zero) => told.zero = Some(name(cell, "the name of a zero")?),
+        Some(Role::Tilt(k)) => told.tilt[k] = Some(value()?),
+        Some(Role::Pixel(k)) => told.pixel[k] = Some(value()?),
         Some(Role::Normal(k)) => told.normal[k] = Some(value()?),
         Some(Role::Measured(_, k)) => row.measured[k] = value()?,
         Some(Role::Sigma(of)) => {
@@ -160,6 +170,7 @@ fn fill(
                     "the instrument's standard deviation of the reading",
                 )),
             })?;
+            told.sigma_is = head.unit.filter(|_| head.unit_text.is_some()).map(|unit| unit.dimension);
             let all = row.sigma.get_or_insert_default();
             match of {
                 Some((_, k)) => all[k] = sd,

@@ -2,11 +2,11 @@
 
 use super::Kind;
 use super::role::{
-    BOARD_NAMES, BOARD_QUATERNION, FROM_NAMES, Family, Layout, NORMAL_NAMES, POSE_NAMES, Role,
-    SIGMA_PREFIX, nearest_name,
+    BOARD_NAMES, BOARD_QUATERNION, FROM_NAMES, Family, Layout, NORMAL_NAMES, PIXEL_NAMES, POSE_NAMES, Role,
+    SIGMA_PREFIX, TILT_NAMES, nearest_name,
 };
 use crate::io::columns::{Header, split};
-use crate::io::{Column, Fault, Map, Mistakes, Unit};
+use crate::io::{Column, Dimension, Fault, Map, Mistakes, Unit};
 
 /// One column of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,6 +95,14 @@ fn unit_of(
             _ => Ok(None),
         };
     };
+    // Of a bench the standard deviation has the unit of the row's reading.
+    let of_reading = |found: &&str| {
+        let unit = Unit::named(found).filter(|_| role == Role::Sigma(None))?;
+        matches!(unit.dimension, Dimension::Angle | Dimension::Pixels).then_some(unit)
+    };
+    if let Some(unit) = found.as_ref().and_then(of_reading) {
+        return Ok(Some(unit));
+    }
     found.map_or_else(|| Ok(expected.si()), |found| expected.unit(found, Unit::named)).map(Some)
 }
 
@@ -131,7 +139,7 @@ pub(crate) fn kind(
     }
     let Some((family, of_it)) = of_each.next() else {
         let expected = "any of `x y z` (a position), any of `dx dy dz drx dry drz` (a displacement), \
-                        `distance`, `point`, `plane` or `along`";
+                        `distance`, `point`, `plane`, `along`, `tilt_x tilt_y` or `u v`";
         mistakes.add(
             Fault::new("no measured column", expected, "add what was measured").at(line, None),
         );
@@ -273,8 +281,24 @@ fn bench(
             let found = format!("`{}` beside `{}`", head.name, column.name);
             let help = "put what a tracker measured into a file of its own; `sigma` is the standard deviation \
                         of each row's reading";
-            wrong(head, Fault::new(found, "`distance`, `point`, `plane` or `along`", help));
+            let expected = "`distance`, `point`, `plane`, `along`, `tilt_x tilt_y` or `u v`";
+            wrong(head, Fault::new(found, expected, help));
         }
+    }
+    type Two = (fn(usize) -> Role, [&'static str; 2], &'static str);
+    let twos: [Two; 2] = [
+        (Role::Tilt, TILT_NAMES, "an inclinometer reads two angles"),
+        (Role::Pixel, PIXEL_NAMES, "a place in a picture has two coordinates"),
+    ];
+    for (role, names, help) in twos {
+        let both: Vec<_> = (0..2).map(|k| find(role(k))).collect();
+        if let Some((head, missing)) = partial(&both, &names) {
+            wrong(head, without(head, &missing, &format!("both {} and {}", names[0], names[1]), help));
+        }
+    }
+    if let (Some(zero), None) = (find(Role::Zero), find(Role::Along)) {
+        let help = "the zero is that of a dial gauge";
+        wrong(zero, without(zero, "along", "a component along a direction", help));
     }
     let normal: Vec<_> = (0..3).map(|k| find(Role::Normal(k))).collect();
     let help = "the direction of a component has three numbers";
@@ -289,7 +313,11 @@ fn bench(
     }
     let at: Vec<_> = (0..3).map(|k| find(Role::FromAt(k))).collect();
     whole_point(&at, wrong);
-    Some((Kind::Bench { points: find(Role::Point).is_some() }, [false; 6]))
+    let has = |roles: &[Role]| roles.iter().any(|role| find(*role).is_some());
+    let one = has(&[Role::Plane, Role::Along, Role::Measured(Family::Distance, 0)]);
+    let lengths = if has(&[Role::Point]) { 3 } else { usize::from(one) };
+    let angles = has(&[Role::Tilt(0), Role::Pixel(0)]);
+    Some((Kind::Bench { lengths, angles }, [false; 6]))
 }
 
 /// A column of a standard deviation, and those that are missing beside it.

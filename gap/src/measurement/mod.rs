@@ -28,8 +28,8 @@ use nalgebra::Vector6;
 
 pub use payload::{Body, Hung, Payloads};
 pub use role::{
-    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, POSE_NAMES,
-    READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, PIXEL_NAMES, POSE_NAMES,
+    READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
 };
 
 use crate::io::table::{Records, Separator, commented};
@@ -56,9 +56,12 @@ pub struct Measurements {
     pub sim_given: [bool; 6],
     /// Number of distinct poses: each row's [`Row::group`] is below it.
     pub poses: usize,
-    /// Whether a camera tells of a board: where either is on the arm, or beside it, nobody knows, and both frames
-    /// are fitted along.
+    /// Whether a camera tells what it sees: where it or what it sees is beside the arm nobody knows, and the base
+    /// frame is fitted along.
     pub by_camera: bool,
+    /// Whether it tells of a board: where the board or the camera is on the tool nobody knows either, and the tool
+    /// frame is fitted along, too.
+    pub by_board: bool,
     /// Points whose distance is known.
     pub pairs: Vec<Pair>,
     /// The columns that have no meaning here, as they stand.
@@ -110,8 +113,10 @@ pub enum Kind {
     Distance,
     /// What other instruments read of the measured point, each row its own ([`Row::aim`]).
     Bench {
-        /// Whether some rows have the point in one place: three numbers, else one.
-        points: bool,
+        /// How many lengths a row reads at most: three of a point, else one or none.
+        lengths: usize,
+        /// Whether some rows read two angles.
+        angles: bool,
     },
 }
 
@@ -132,8 +137,11 @@ impl Kind {
             Kind::Pose { .. } | Kind::Coordinates { .. } => POSE_NAMES,
             Kind::Displacement { .. } => DISPLACEMENT_NAMES,
             Kind::Distance => DISTANCE_NAMES,
-            Kind::Bench { points: true } => POSE_NAMES,
-            Kind::Bench { points: false } => READING_NAMES,
+            Kind::Bench { lengths: 3, .. } => core::array::from_fn(|k| match k {
+                0..3 => POSE_NAMES[k],
+                _ => READING_NAMES[k],
+            }),
+            Kind::Bench { .. } => READING_NAMES,
         }
     }
 
@@ -150,7 +158,7 @@ impl Kind {
             Kind::Displacement { components } => components,
             Kind::Coordinates { components: [x, y, z] } => [x, y, z, false, false, false],
             Kind::Distance => [true, false, false, false, false, false],
-            Kind::Bench { points: p } => [true, p, p, false, false, false],
+            Kind::Bench { lengths, angles: a } => [lengths > 0, lengths > 1, lengths > 1, a, a, false],
         }
     }
 }
@@ -233,7 +241,7 @@ impl Row {
     /// Which of the six components are measured in this row of a file of that kind.
     pub fn components(&self, kind: Kind) -> [bool; 6] {
         match (kind, &self.aim) {
-            (Kind::Bench { .. }, Some(aim)) => core::array::from_fn(|k| k < aim.seen.components()),
+            (Kind::Bench { .. }, Some(aim)) => aim.seen.components(),
             _ => kind.components(),
         }
     }
@@ -265,6 +273,7 @@ impl Measurements {
             kind,
             sim_given: [false; 6],
             by_camera: false,
+            by_board: false,
             pairs: Vec::new(),
             extra: Vec::new(),
             unused: Vec::new(),
@@ -340,11 +349,10 @@ impl Measurements {
     /// What is measured, as reports have it: `x y z`, or the things of a bench.
     pub fn subject(&self) -> String {
         let Kind::Bench { .. } = self.kind else { return self.kind.measured().join(" ") };
-        let things = [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction];
         let is_there = |seen: &Seen| {
             self.rows.iter().filter_map(|row| row.aim.as_deref()).any(|aim| aim.seen == *seen)
         };
-        let each = things.into_iter().filter(is_there).map(|seen| format!("{}s", seen.thing()));
+        let each = Seen::ALL.into_iter().filter(is_there).map(|seen| format!("{}s", seen.thing()));
         each.collect::<Vec<_>>().join(", ")
     }
 
@@ -414,7 +422,7 @@ fn read_into(
     let measured = kind.components();
     let unused = |h: &&header::Head| match h.role {
         Some(Role::Sim(_, k) | Role::Sigma(Some((_, k)))) => !measured[k],
-        Some(Role::Sigma(None)) => measured[..3] == [false; 3],
+        Some(Role::Sigma(None)) => measured[..3] == [false; 3] && !matches!(kind, Kind::Bench { .. }),
         _ => false,
     };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
@@ -429,7 +437,8 @@ fn read_into(
         rows,
         kind,
         sim_given,
-        by_camera: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
+        by_camera: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_) | Role::Pixel(_)))),
+        by_board: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
         pairs: Vec::new(),
         poses,
     };

@@ -15,11 +15,17 @@ pub const DISPLACEMENT_NAMES: [&str; 6] = ["dx", "dy", "dz", "drx", "dry", "drz"
 /// What a distance measures: one number, told as the first of six.
 pub const DISTANCE_NAMES: [&str; 6] = ["distance", "", "", "", "", ""];
 
-/// One number that instruments of several kinds read.
-pub const READING_NAMES: [&str; 6] = ["reading", "", "", "", "", ""];
+/// What instruments of several kinds read: a length, or two angles.
+pub const READING_NAMES: [&str; 6] = ["reading", "", "", "angle_u", "angle_v", ""];
 
 /// The direction along which a component is read.
 pub const NORMAL_NAMES: [&str; 3] = ["nx", "ny", "nz"];
+
+/// Two axes of the flange above the horizontal.
+pub const TILT_NAMES: [&str; 2] = ["tilt_x", "tilt_y"];
+
+/// Where a camera shows a marker.
+pub const PIXEL_NAMES: [&str; 2] = ["u", "v"];
 
 /// The pose of a board in a camera's axes: its place, and its rotation vector.
 pub const BOARD_NAMES: [&str; 6] = ["cx", "cy", "cz", "crx", "cry", "crz"];
@@ -98,6 +104,12 @@ pub(crate) enum Role {
     Along,
     /// A component of the direction.
     Normal(usize),
+    /// The name of a zero of such components that nobody knows.
+    Zero,
+    /// An angle of an inclinometer.
+    Tilt(usize),
+    /// A coordinate in a camera's picture.
+    Pixel(usize),
     /// The name of a camera.
     Camera,
     /// The name of a board.
@@ -148,7 +160,8 @@ pub(crate) const fn component_dimension(component: usize) -> Dimension {
 impl Role {
     /// Whether a file with such a column has what instruments read that are no trackers.
     pub(crate) fn is_of_bench(self) -> bool {
-        matches!(self, Role::Point | Role::Plane | Role::Along)
+        let named = matches!(self, Role::Point | Role::Plane | Role::Along);
+        named || matches!(self, Role::Tilt(_) | Role::Pixel(_))
     }
 
     /// The role of the column called `name` (without its unit).
@@ -183,6 +196,12 @@ impl Role {
         if let Some(k) = NORMAL_NAMES.iter().position(|n| *n == name) {
             return Ok(Role::Normal(k));
         }
+        if let Some(k) = TILT_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::Tilt(k));
+        }
+        if let Some(k) = PIXEL_NAMES.iter().position(|n| *n == name) {
+            return Ok(Role::Pixel(k));
+        }
         Ok(match name {
             "session" => Role::Session,
             "payload" => Role::Payload,
@@ -190,6 +209,7 @@ impl Role {
             "point" => Role::Point,
             "plane" => Role::Plane,
             "along" => Role::Along,
+            "zero" => Role::Zero,
             "camera" => Role::Camera,
             "board" => Role::Board,
             "temperature" => Role::Temperature,
@@ -217,8 +237,11 @@ impl Role {
             | Role::Sigma(Some((_, k))) => Some(component_dimension(k)),
             Role::Sigma(None) => Some(Dimension::Length),
             Role::FromAt(_) | Role::Along => Some(Dimension::Length),
+            Role::Tilt(_) => Some(Dimension::Angle),
+            Role::Pixel(_) => Some(Dimension::Pixels),
             Role::Direction(_) | Role::Pose | Role::Marker | Role::Extra => None,
             Role::Session | Role::Payload | Role::From | Role::Point | Role::Plane => None,
+            Role::Zero => None,
             Role::Normal(_) | Role::BoardTurn(_) | Role::Camera | Role::Board => None,
         }
     }
@@ -246,8 +269,8 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
     let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
-    let bench = ["point", "plane", "along", "camera", "board", SIGMA];
-    let fixed = fixed.into_iter().chain(FROM_NAMES).chain(bench).map(str::to_owned);
+    let bench = ["point", "plane", "along", "zero", "camera", "board", SIGMA];
+    let fixed = fixed.into_iter().chain(FROM_NAMES).chain(bench).chain(TILT_NAMES).map(str::to_owned);
     let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));
     let sim = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));

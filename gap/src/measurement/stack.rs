@@ -31,14 +31,16 @@ impl Measurements {
             true => (first, second),
             false => (first.on_bench(&second.file)?, second.on_bench("the other files")?),
         };
-        if first.sim_given != second.sim_given || first.by_camera != second.by_camera {
+        let differ = (first.by_camera, first.by_board) != (second.by_camera, second.by_board);
+        if first.sim_given != second.sim_given || differ {
             let expected = "the same columns `sim_…`, and a camera's poses with their like";
             return Err(Fault::new("files that differ in them", expected, "").of(&second.file));
         }
-        let points = [first.kind, second.kind].contains(&Kind::Bench { points: true });
-        let kind = match first.kind {
-            Kind::Bench { .. } => Kind::Bench { points },
-            kind => kind,
+        let kind = match (first.kind, second.kind) {
+            (Kind::Bench { lengths: a, angles: b }, Kind::Bench { lengths: c, angles: d }) => {
+                Kind::Bench { lengths: a.max(c), angles: b || d }
+            }
+            (kind, _) => kind,
         };
         let mut rows = first.rows;
         let more = second.rows.into_iter();
@@ -65,6 +67,7 @@ impl Measurements {
             kind,
             sim_given: first.sim_given,
             by_camera: first.by_camera,
+            by_board: first.by_board || second.by_board,
             poses: first.poses + second.poses,
             pairs,
             extra,
@@ -91,9 +94,9 @@ impl Measurements {
 
     /// Positions as what an instrument at the origin reads, beside instruments that are no trackers.
     fn on_bench(mut self, other: &str) -> Result<Measurements, ReadError> {
-        let points = match self.kind {
-            Kind::Pose { orientation: false } if !self.sim_given.contains(&true) => true,
-            Kind::Distance if !self.sim_given.contains(&true) => false,
+        let lengths = match self.kind {
+            Kind::Pose { orientation: false } if !self.sim_given.contains(&true) => 3,
+            Kind::Distance if !self.sim_given.contains(&true) => 1,
             Kind::Bench { .. } => return Ok(self),
             _ => {
                 let found = format!("{} beside {other}", self.kind.measured().join(" "));
@@ -106,7 +109,7 @@ impl Measurements {
             let origin = View::Point(Vector3::zeros());
             row.aim = Some(Box::new(Aim::known(Seen::Point, "", origin)));
         }
-        Ok(Measurements { kind: Kind::Bench { points }, ..self })
+        Ok(Measurements { kind: Kind::Bench { lengths, angles: false }, ..self })
     }
 }
 
@@ -131,9 +134,9 @@ mod tests {
     fn files_are_sittings_of_one_campaign() {
         let position = Kind::Pose { orientation: false };
         let [a, b] = ["run/a.csv", "b.csv"].map(|name| file(name, position, 3));
-        let c = file("c.csv", Kind::Bench { points: false }, 2);
+        let c = file("c.csv", Kind::Bench { lengths: 1, angles: false }, 2);
         let both = a.and(b).expect("alike").and(c).expect("a bench");
-        assert_eq!((both.kind, both.rows.len(), both.poses), (Kind::Bench { points: true }, 8, 8));
+        assert_eq!((both.kind, both.rows.len(), both.poses), (Kind::Bench { lengths: 3, angles: false }, 8, 8));
         let sessions: Vec<_> = both.sessions().map(|rows| rows[0].session.as_deref()).collect();
         assert_eq!(sessions, [Some("a.csv:"), Some("b.csv:"), Some("c.csv:")]);
         assert_eq!((both.rows[7].group, both.rows[0].components(both.kind)[2]), (7, true));

@@ -174,7 +174,7 @@ fn a_bench_is_read_row_by_row() {
         ,,250,wire,,,,,0,0,0,50\n\
         ,,,,30,0,0.6,0.8,0,0,0,2\n";
     let data = good(text);
-    assert_eq!(data.kind, Kind::Bench { points: true });
+    assert_eq!(data.kind, Kind::Bench { lengths: 3, angles: false });
     let aim = |row: usize| data.rows[row].aim.as_deref().expect("an aim");
     let seen: Vec<_> = (0..5).map(|row| aim(row).seen).collect();
     assert_eq!(seen, [Seen::Point, Seen::Plane, Seen::Plane, Seen::Distance, Seen::Direction]);
@@ -186,7 +186,7 @@ fn a_bench_is_read_row_by_row() {
     assert_eq!(numbers, 3 + 4);
     let read = [0.0, 0.5e-3, 0.0, 0.25, 30.0 * 1e-6];
     assert!(data.rows.iter().zip(read).all(|(row, read)| row.measured[0] == read));
-    assert_eq!(aim(4).view, View::Direction(Vector3::new(0.0, 0.6, 0.8)));
+    assert_eq!(aim(4).view, View::Direction { along: Vector3::new(0.0, 0.6, 0.8), offset: 0.0 });
     assert_eq!((data.rows[2].sigma.as_ref(), aim(3).name.as_str()), (None, "wire"));
     for (text, told) in [
         (

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Plane, View, distance, middle};
+use super::{Lens, MOST_CONSTANTS, Plane, View, distance, lens, middle};
 
 /// A kind of thing that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -15,7 +15,14 @@ pub enum Seen {
     Plane,
     /// The point's component along a direction: a dial gauge, an LVDT.
     Direction,
+    /// By how much the flange is tilted: an inclinometer.
+    Level,
+    /// Where a camera shows the point, or a place from where it sits on the tool.
+    Camera,
 }
+
+/// The numbers of constants, of which views have some from the first on.
+const NUMBERS: [usize; MOST_CONSTANTS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 /// What one row reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +38,17 @@ pub struct Aim {
 }
 
 impl Seen {
-    /// How many numbers it reads; they stand first among the components of a position.
-    pub fn components(self) -> usize {
-        if self == Seen::Point { 3 } else { 1 }
+    /// All of them.
+    pub const ALL: [Seen; 6] =
+        [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction, Seen::Level, Seen::Camera];
+
+    /// Which of the six components it reads: lengths are a position's, angles a rotation's.
+    pub fn components(self) -> [bool; 6] {
+        match self {
+            Seen::Point => [true, true, true, false, false, false],
+            Seen::Distance | Seen::Plane | Seen::Direction => [true, false, false, false, false, false],
+            Seen::Level | Seen::Camera => [false, false, false, true, true, false],
+        }
     }
 
     /// What reports call the thing.
@@ -43,31 +58,44 @@ impl Seen {
             Seen::Distance => "centre",
             Seen::Plane => "plane",
             Seen::Direction => "direction",
+            Seen::Level => "inclinometer",
+            Seen::Camera => "camera",
         }
     }
 
     /// What reports call a constant.
     pub fn constant(self, number: usize) -> &'static str {
-        let names = match self {
-            Seen::Plane => ["first tilt", "second tilt", "offset", ""],
-            Seen::Point | Seen::Distance | Seen::Direction => ["x", "y", "z", "length offset"],
+        let names: &[&'static str] = match self {
+            Seen::Plane => &["first tilt", "second tilt", "offset"],
+            Seen::Point | Seen::Distance => &["x", "y", "z", "length offset"],
+            Seen::Direction => &["zero"],
+            Seen::Level => &["zero of tilt_x", "zero of tilt_y"],
+            Seen::Camera => &lens::NAMES,
         };
         names[number]
     }
 
     /// The unit of a constant.
     pub fn unit(self, number: usize) -> &'static str {
-        if self == Seen::Plane && number < 2 { "rad" } else { "m" }
+        match self {
+            Seen::Level => "rad",
+            Seen::Plane if number < 2 => "rad",
+            Seen::Camera => if number < lens::OF_MATRIX { "px" } else { "1" },
+            _ => "m",
+        }
     }
 
     /// Nothing is known of it. A distance is measured from the place, nothing beyond.
     fn anywhere(self) -> (View, &'static [usize]) {
         let place = Vector3::zeros();
+        let lens = Lens::new([1.0, 1.0, 0.0, 0.0], &[]);
         match self {
             Seen::Point => (View::Point(place), &[0, 1, 2]),
             Seen::Distance => (View::Distance { from: place, offset: 0.0 }, &[0, 1, 2]),
             Seen::Plane => (View::Plane(Plane::new(Vector3::z_axis(), 0.0)), &[0, 1, 2]),
-            Seen::Direction => (View::Direction(Vector3::x()), &[]),
+            Seen::Direction => (View::Direction { along: Vector3::x(), offset: 0.0 }, &[0]),
+            Seen::Level => (View::Level([0.0; 2]), &[0, 1]),
+            Seen::Camera => (View::Camera { lens, target: None }, &[]),
         }
     }
 }
@@ -82,6 +110,11 @@ impl Aim {
     /// At something that is known.
     pub fn known(seen: Seen, name: impl Into<String>, view: View) -> Aim {
         Aim { seen, name: name.into(), view, free: &[] }
+    }
+
+    /// The constants from one to before another, as [`Aim::free`] has them.
+    pub(super) fn some(from: usize, to: usize) -> &'static [usize] {
+        &NUMBERS[from..to]
     }
 
     /// Says what is known of it.
@@ -100,12 +133,21 @@ impl Aim {
         self.free.iter().map(move |k| format!("{} of {name}", self.seen.constant(*k)))
     }
 
+    /// The instrument alone, without what it is pointed at in a row.
+    pub(crate) fn instrument(&self) -> Aim {
+        let view = match self.view {
+            View::Camera { lens, .. } => View::Camera { lens, target: None },
+            View::Direction { offset, .. } => View::Direction { along: Vector3::x(), offset },
+            view => view,
+        };
+        Aim { view, ..self.clone() }
+    }
+
     /// The free constants moved.
     pub(crate) fn moved(&self, view: View, by: &[f64]) -> View {
-        let mut all = [0.0; 4];
+        let mut all = [0.0; MOST_CONSTANTS];
         self.free.iter().zip(by).for_each(|(at, by)| all[*at] = *by);
-        let count = view.as_shifts(&Vector3::zeros()).ncols();
-        view.moved(&all[..count])
+        view.moved(&all[..view.constants()])
     }
 
     /// Constants that come close to what was read at these points, good enough for least squares to converge
@@ -128,7 +170,7 @@ impl Aim {
                 View::Plane(Plane::new(plane.normal, -mean(&|p| plane.normal.dot(p))))
             }
             (View::Plane(_), _) => View::Plane(Plane::through(read)),
-            (view @ View::Direction(_), _) => view,
+            (view, _) => view,
         }
     }
 }

@@ -21,15 +21,27 @@
 //! at = [1.0, 0.0, 0.5]          # if it is known
 //! length_offset = "0 mm"        # what it reads at no distance, if that is known
 //!
-//! [[camera]]                    # that tells where a board is
+//! [[camera]]                    # that tells where a board is, or what it shows
 //! name = "left"
 //! on = "tool"                   # else "base", beside the arm, and the board is on the tool
+//! matrix = [[900, 0, 640], [0, 900, 360], [0, 0, 1]]
+//! distortion = [-0.2, 0.05, 0.001, -0.002, 0.01]
+//! fit = ["matrix"]              # these values are near, and fitted along
+//!
+//! [[board]]
+//! name = "charuco"
+//! on = "base"                   # else "tool"; where the camera is not
+//! corners = { c0 = ["0 mm", "0 mm", "0 mm"], c1 = ["30 mm", "0 mm", "0 mm"] }
 //! ```
 //!
 //! A number is in metres; a text has its unit. What is not said is unknown, and fitted along.
 
-use nalgebra::{Isometry3, Unit, Vector3};
+mod camera;
+
+use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
+
+use camera::{Board, Camera};
 
 use super::{Aim, Pair, Plane, Seen, View};
 use crate::io::{Dimension, Fault, ReadError, from_toml, quantity};
@@ -47,6 +59,7 @@ pub struct Bench {
     plane: Vec<Flat>,
     centre: Vec<Centre>,
     camera: Vec<Camera>,
+    board: Vec<Board>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -79,20 +92,6 @@ struct Centre {
     name: String,
     at: Option<[Length; 3]>,
     length_offset: Option<Length>,
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Camera {
-    name: String,
-    on: Mount,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Mount {
-    Base,
-    Tool,
 }
 
 /// m.
@@ -137,6 +136,7 @@ impl Bench {
         plane: Vec::new(),
         centre: Vec::new(),
         camera: Vec::new(),
+        board: Vec::new(),
     };
 
     /// Reads what is known; `file` is what messages call it.
@@ -172,10 +172,16 @@ impl Bench {
                 return wrong(found, "a standard deviation", "");
             }
         }
+        for camera in &bench.camera {
+            camera.check().map_err(|fault| fault.of(file))?;
+        }
         let points = bench.point.iter().map(|one| ("point", &one.name));
         let planes = bench.plane.iter().map(|one| ("plane", &one.name));
         let centres = bench.centre.iter().map(|one| ("centre", &one.name));
-        let mut names: Vec<_> = points.chain(planes).chain(centres).collect();
+        let cameras = bench.camera.iter().map(|one| ("camera", &one.name));
+        let boards = bench.board.iter().map(|one| ("board", &one.name));
+        let mut names: Vec<_> =
+            points.chain(planes).chain(centres).chain(cameras).chain(boards).collect();
         names.sort_unstable();
         if let Some([(table, name), _]) = names.array_windows().find(|[one, next]| one == next) {
             let found = format!("[[{table}]] `{name}` twice");
@@ -191,8 +197,7 @@ impl Bench {
     /// [`Fault`]: a pair of which the file has one point alone.
     pub(crate) fn set_up(&self, data: &mut Measurements) -> Result<(), Fault> {
         data.rows.iter_mut().for_each(|row| self.known(row));
-        self.one_camera(data)?;
-        data.rows.iter_mut().for_each(|row| self.carried(row));
+        self.look(data)?;
         let has = |name: &String| {
             let of = |aim: &Aim| aim.seen == Seen::Point && aim.name == *name;
             data.rows.iter().any(|row| row.aim.as_deref().is_some_and(of))
@@ -217,32 +222,6 @@ impl Bench {
             }
         }
         Ok(())
-    }
-
-    /// Of each camera and board the frames are others, and a file has one of either.
-    fn one_camera(&self, data: &Measurements) -> Result<(), Fault> {
-        let mut named = data.rows.iter().map(|row| row.camera.as_deref());
-        let first = named.next().flatten();
-        let Some(other) = named.find(|other| *other != first) else { return Ok(()) };
-        let told = |names: Option<&[String; 2]>| match names {
-            Some([camera, board]) => format!("camera `{camera}` with board `{board}`"),
-            None => "neither camera nor board".to_owned(),
-        };
-        let found = format!("{} and {}", told(first), told(other));
-        Err(Fault::new(found, "one camera and one board", "put each into a file of its own"))
-    }
-
-    /// The pose of a camera on the tool in the board's axes, in place of the board's in the camera's.
-    fn carried(&self, row: &mut Row) {
-        let name = row.camera.as_ref().map_or("", |names| &names[0]);
-        let on = self.camera.iter().find(|camera| camera.name == name).map(|camera| camera.on);
-        if on == Some(Mount::Tool) {
-            let [x, y, z, u, v, w] = row.measured.into();
-            let board = Isometry3::new(Vector3::new(x, y, z), Vector3::new(u, v, w));
-            let camera = board.inverse();
-            row.measured.fixed_rows_mut::<3>(0).copy_from(&camera.translation.vector);
-            row.measured.fixed_rows_mut::<3>(3).copy_from(&camera.rotation.scaled_axis());
-        }
     }
 
     fn known(&self, row: &mut Row) {
@@ -278,7 +257,7 @@ impl Bench {
                     row.sigma.get_or_insert_default()[0] = sigma.0;
                 }
             }
-            Seen::Direction => {}
+            Seen::Direction | Seen::Level | Seen::Camera => {}
         }
     }
 }

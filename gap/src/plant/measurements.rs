@@ -5,7 +5,8 @@ use stiffarm_kernels::generic::Arm;
 
 use super::text::{Columns, number, quoted};
 use crate::measurement::{
-    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX, WRENCH_NAMES,
+    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES,
+    WRENCH_NAMES,
 };
 use crate::observe::{Aim, Seen, View};
 
@@ -43,7 +44,7 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
             columns.add(format!("s{}", j + 1), side);
         }
     }
-    if all(|r| r.marker.is_some()) {
+    if all(|r| r.marker.is_some()) || data.by_board {
         columns.add("marker", |r| quoted(r.marker.as_deref()));
     }
     for (k, name) in WRENCH_NAMES.iter().enumerate() {
@@ -66,8 +67,18 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
     }
     let has_sigma =
         |k: &usize| data.rows.iter().all(|r| r.sigma.as_ref().is_some_and(|s| s[*k] > 0.0));
-    if is_bench && has_sigma(&0) {
-        columns.add("sigma[m]", |r| number(r.sigma.as_ref().map_or(0.0, |sigma| sigma[0])));
+    let own_sigma = |r: &Row| {
+        let view = r.aim.as_ref().map(|aim| aim.view);
+        let sigma = r.sigma.as_ref()?;
+        let own = match view {
+            Some(View::Camera { lens, .. }) => sigma[3] * lens.focus,
+            Some(View::Level(_)) => sigma[3],
+            _ => sigma[0],
+        };
+        Some(own).filter(|own| *own > 0.0)
+    };
+    if is_bench && data.rows.iter().any(|r| own_sigma(r).is_some()) {
+        columns.add("sigma", move |r| own_sigma(r).map_or_else(String::new, number));
     }
     for k in (0..6).filter(|k| measured[*k] && !is_bench).filter(has_sigma) {
         let unit = if k < 3 { "m" } else { "rad" };
@@ -115,11 +126,32 @@ fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
     if data.kind != Kind::Distance && any(&|aim| matches!(aim.seen, Seen::Distance | Seen::Plane)) {
         columns.add("distance[m]", move |r| reads(r, &[Seen::Distance, Seen::Plane]));
     }
+    let zero = |aim: &Aim| aim.seen == Seen::Direction && !aim.name.is_empty();
+    if any(&zero) {
+        columns.add("zero", move |r| name(r, Seen::Direction));
+    }
+    let angle = |r: &&Row, seen: Seen, k: usize| {
+        let aim = of(r, seen);
+        let unit = aim.map(|aim| if let View::Camera { lens, .. } = aim.view { lens.focus } else { 1.0 });
+        unit.map_or_else(String::new, |unit| number(r.measured[3 + k] * unit))
+    };
+    for (seen, names, unit) in [(Seen::Level, TILT_NAMES, "rad"), (Seen::Camera, PIXEL_NAMES, "px")] {
+        for (k, name) in names.into_iter().enumerate().filter(|_| any(&|aim| aim.seen == seen)) {
+            columns.add(format!("{name}[{unit}]"), move |r| angle(r, seen, k));
+        }
+    }
+    if any(&|aim| aim.seen == Seen::Camera) {
+        for (k, head) in ["camera", "board"].into_iter().enumerate() {
+            columns.add(head, move |r| {
+                r.camera.as_ref().map_or_else(String::new, |names| quoted(Some(&names[k])))
+            });
+        }
+    }
     if any(&|aim| aim.seen == Seen::Direction) {
         columns.add("along[m]", move |r| reads(r, &[Seen::Direction]));
         for (k, name) in NORMAL_NAMES.iter().enumerate() {
             let cell = move |r: &&Row| match r.aim.as_deref().map(|aim| aim.view) {
-                Some(View::Direction(along)) => number(along[k]),
+                Some(View::Direction { along, .. }) => number(along[k]),
                 _ => String::new(),
             };
             columns.add(*name, cell);

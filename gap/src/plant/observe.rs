@@ -10,7 +10,7 @@ use super::reading::direction;
 use super::reality::{Jump, Reality};
 use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
 use crate::measurement::{Kind, Row};
-use crate::observe::View;
+use crate::observe::{Lens, View};
 use crate::rng::{Rng, Stream};
 
 /// Frames that nobody knows.
@@ -75,6 +75,10 @@ impl Shown {
         let Some(aim) = row.aim.as_deref() else { return self };
         let p = self.position;
         let one = |reading| Vector3::new(reading, 0.0, 0.0);
+        let two = |first, second| Shown {
+            position: Vector3::zeros(),
+            rotation: rotation_of(&Vector3::new(first, second, 0.0)),
+        };
         let position = match &aim.view {
             View::Point(at) => p - at,
             View::Distance { from, offset } => {
@@ -85,7 +89,22 @@ impl Shown {
                 let n = plane.normal;
                 one(n.x * p.x + n.y * p.y + n.z * p.z - plane.offset())
             }
-            View::Direction(n) => one(n.x * p.x + n.y * p.y + n.z * p.z),
+            View::Direction { along: n, offset } => {
+                one(n.x * p.x + n.y * p.y + n.z * p.z + offset)
+            }
+            View::Level([x, y]) => {
+                // The last row has how much each axis rises.
+                let rises = |k: usize| self.rotation[(2, k)].clamp(-1.0, 1.0).asin();
+                return two(rises(0) + x, rises(1) + y);
+            }
+            View::Camera { lens, target } => {
+                let before = match target {
+                    None => p,
+                    Some(target) => self.rotation.transpose() * (target - p),
+                };
+                let [u, v] = shown_by(lens, [before.x, before.y, before.z]);
+                return two(u / lens.focus, v / lens.focus);
+            }
         };
         Shown { position, rotation: Matrix3::identity() }
     }
@@ -113,6 +132,18 @@ impl Shown {
             rotation: rotation_of(&(part * turn)) * self.rotation,
         }
     }
+}
+
+/// A place in a camera's axes in its picture, px, as OpenCV documents its model term by term.
+fn shown_by(lens: &Lens, [x, y, z]: [f64; 3]) -> [f64; 2] {
+    let [fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6] = core::array::from_fn(|k| lens.constant(k));
+    let (a, b) = (x / z, y / z);
+    let r = (a * a + b * b).sqrt();
+    let radial = (1.0 + k1 * r.powi(2) + k2 * r.powi(4) + k3 * r.powi(6))
+        / (1.0 + k4 * r.powi(2) + k5 * r.powi(4) + k6 * r.powi(6));
+    let across = a * radial + 2.0 * p1 * a * b + p2 * (r.powi(2) + 2.0 * a.powi(2));
+    let down = b * radial + p1 * (r.powi(2) + 2.0 * b.powi(2)) + 2.0 * p2 * a * b;
+    [fx * across + cx, fy * down + cy]
 }
 
 /// A row among the rows: what came before counts.

@@ -1,6 +1,6 @@
 //! What an instrument reads of the arm at rest.
 
-use nalgebra::{Isometry3, Matrix6xX, Point3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6xX, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Unstable;
 
 use super::actual::Actual;
@@ -10,9 +10,13 @@ use super::{rotation, translation};
 use crate::measurement::Kind;
 use crate::observe::View;
 
+/// Two angles that no instrument reads and no rotation vector exceeds, rad: what a camera would show of things far
+/// beside its picture is cut to it.
+const LARGEST_ANGLE: f64 = 3.0;
+
 /// What an instrument reads: of a pose its position and orientation, of a displacement the
 /// difference and the rotation from the unloaded to the loaded tool; axes of the measuring frame. A
-/// distance is the first number of a position, the others 0.
+/// distance is the first number of a position, two angles are the first of a rotation vector, the others 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// m.
@@ -22,6 +26,16 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// What an instrument that is no tracker reads of a frame.
+    fn of_view(view: &View, seen: &Isometry3<f64>) -> Reading {
+        let read = view.read(seen);
+        if !view.is_angle() {
+            return Reading { position: read, rotation: UnitQuaternion::identity() };
+        }
+        let cut = (LARGEST_ANGLE / read.norm()).min(1.0);
+        Reading { position: Vector3::zeros(), rotation: UnitQuaternion::from_scaled_axis(read * cut) }
+    }
+
     /// From position (or displacement) and rotation vector, m and rad.
     pub fn from_vector(vector: &Vector6<f64>) -> Reading {
         Reading {
@@ -60,9 +74,11 @@ impl Sim {
         Sim { view, ..self }
     }
 
-    /// The measured point under load, measuring frame, m.
-    pub fn seen_point(&self) -> Vector3<f64> {
-        (self.base * Point3::from(self.point(&self.loaded))).coords * self.metre
+    /// The measured frame under load, measuring frame, m as the instrument has them.
+    pub fn seen_frame(&self) -> Isometry3<f64> {
+        let mut seen = self.base * self.loaded.tool * self.measured;
+        seen.translation.vector *= self.metre;
+        seen
     }
 
     /// Brings the arm to rest as `actual` has it with the row's wrench (`true`) and, for a
@@ -110,14 +126,14 @@ impl Sim {
     /// What the instrument would read.
     pub fn reading(&self) -> Reading {
         if let Some(view) = &self.view {
-            let position = view.read(&self.seen_point());
-            return Reading { position, rotation: UnitQuaternion::identity() };
+            return Reading::of_view(view, &self.seen_frame());
         }
         let loaded = self.point(&self.loaded);
         let rotation = self.loaded.tool.rotation * self.measured.rotation;
         match &self.unloaded {
             None => {
-                Reading { position: self.seen_point(), rotation: self.base.rotation * rotation }
+                let position = self.seen_frame().translation.vector;
+                Reading { position, rotation: self.base.rotation * rotation }
             }
             Some(unloaded) => {
                 let turned = self.loaded.tool.rotation * unloaded.tool.rotation.inverse();
@@ -151,11 +167,12 @@ impl Sim {
             column.fixed_rows_mut::<3>(3).copy_from(&turn);
         }
         if let Some(view) = &self.view {
-            let by_point = view.by_point(&self.seen_point());
+            let by_frame = view.by_frame(&self.seen_frame());
+            let first = if view.is_angle() { 3 } else { 0 };
             for mut column in change.column_iter_mut() {
-                let read = by_point * column.fixed_rows::<3>(0);
+                let read = by_frame * &column;
                 column.fill(0.0);
-                column.fixed_rows_mut::<3>(0).copy_from(&read);
+                column.fixed_rows_mut::<3>(first).copy_from(&read);
             }
         }
         change

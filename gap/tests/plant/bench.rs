@@ -13,8 +13,8 @@ use crate::arms::{EXACT, loaded, plant, reading, rows, spatial, sprung};
 
 const NOISE: Noise = Noise { position: 2e-5, rotation: 0.0 };
 const TRUTH: &str = "joint_compliance@joint 2=4e-6";
-const SOCKETS: Kind = Kind::Bench { points: true };
-const PLATES: Kind = Kind::Bench { points: false };
+const SOCKETS: Kind = Kind::Bench { lengths: 3, angles: false };
+const PLATES: Kind = Kind::Bench { lengths: 1, angles: false };
 
 fn measured(arm: &Arm, kind: Kind, seed: u64) -> Measurements {
     let (shape, poses) = (Shape::Payload, 48);

@@ -36,8 +36,8 @@ impl Campaign<'_> {
             .collect();
         match (data, names.as_slice()) {
             (Kind::Distance, _) => "error of the distance".to_owned(),
-            (Kind::Bench { points: false }, _) => "error of the reading".to_owned(),
-            (Kind::Bench { points: true }, _) => "distance from the point".to_owned(),
+            (Kind::Bench { lengths: 1, .. }, _) => "error of the reading".to_owned(),
+            (Kind::Bench { .. }, _) => "distance from the point".to_owned(),
             (_, [_, _, _]) => "3-D distance".to_owned(),
             (_, [one]) => format!("along {one}"),
             (_, names) => format!("distance in {}", names.join(" and ")),

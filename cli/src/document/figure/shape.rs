@@ -123,9 +123,14 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
     let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
     let frame = experiment.placed.base.rotation;
     if let Some(aim) = &row.aim {
-        let point = experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row));
-        let read = aim.view.by_point(&point.coords) * (frame * moved);
-        return Vector6::new(read.x, read.y, read.z, 0.0, 0.0, 0.0);
+        let mut at = experiment.placed.pose(&row.q);
+        at.translation = (at * Point3::from(experiment.offset(row))).coords.into();
+        let (shift, turn) = (frame * moved, frame * turn);
+        let moved = aim.view.by_frame(&at) * Vector6::from_iterator(shift.iter().chain(&turn).copied());
+        let first = if aim.view.is_angle() { 3 } else { 0 };
+        let mut lever = Vector6::zeros();
+        lever.fixed_rows_mut::<3>(first).copy_from(&moved);
+        return lever;
     }
     let (from, part) =
         if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };

@@ -111,7 +111,7 @@ impl<'a> Problem<'a> {
         let (mut bench, mut bench_of) = (Vec::new(), Vec::with_capacity(data.rows.len()));
         for (row, session) in data.rows.iter().zip(&session_of) {
             let unknown = row.aim.as_deref().filter(|aim| !aim.free.is_empty());
-            let thing = unknown.map(|aim| Thing { aim: aim.clone(), session: *session });
+            let thing = unknown.map(|aim| Thing { aim: aim.instrument(), session: *session });
             bench_of.push(thing.map(|thing| number_of(&mut bench, thing)));
         }
         let pairs = pairs(data, &bench, &session_of);
@@ -170,9 +170,15 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             known,
-            nuisances: match data.by_camera {
-                true => Nuisance::ALL.to_vec(),
-                false => options.nuisances.clone(),
+            nuisances: {
+                let is_unknown = |frame: &Nuisance| {
+                    let by_data = match frame {
+                        Nuisance::BaseFrame => data.by_camera,
+                        Nuisance::ToolFrame => data.by_board,
+                    };
+                    by_data || options.nuisances.contains(frame)
+                };
+                Nuisance::ALL.into_iter().filter(is_unknown).collect()
             },
             along: options.along().filter(|e| e.excluded(data).is_none()),
             priors: options.priors.clone(),

@@ -1,15 +1,19 @@
 //! First guess of unknown frames, good enough for the exact fit to converge from: a tracker may
 //! stand anywhere.
 
-use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use std::collections::BTreeMap;
+
+use nalgebra::{
+    DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6,
+};
 use rayon::prelude::*;
 
 use super::model::Model;
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
-use crate::measurement::Kind;
-use crate::observe::View;
+use crate::measurement::{Kind, Row};
+use crate::observe::{View, pose};
 use crate::simulate::Reading;
 
 /// Most steps of a thing's least squares, which are nearly linear from where they begin.
@@ -21,8 +25,8 @@ const SETTLED: f64 = 1e-12;
 /// The nominal model with unknown frames where the measurements put them to a first guess.
 ///
 /// The base of each session by the rigid motion that brings the simulated points closest to the
-/// measured ones (Kabsch), a thing of the bench by what was read of the simulated points, the tool's
-/// orientation by the mean of what is then left of the rotations.
+/// measured ones (Kabsch), or to the lines of sight of a camera; a thing of the bench by what was read of the simulated
+/// points, the tool's orientation by the mean of what is then left of the rotations.
 pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     let mut model = Model::nominal(problem);
     let (base, tool) =
@@ -34,40 +38,92 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     // Of very many rows the states are more than memory holds.
     let seen = rows.clone().into_par_iter().map(|row| {
         let sim = model.sim(problem, row, None)?;
-        Ok((sim.reading(), sim.seen_point()))
+        Ok([sim.base * sim.loaded.tool, sim.seen_frame()])
     });
-    let seen: Vec<(Reading, Vector3<f64>)> = seen.collect::<Result<_, DiagnoseError>>()?;
+    let seen: Vec<[Isometry3<f64>; 2]> = seen.collect::<Result<_, DiagnoseError>>()?;
     for (number, (view, thing)) in model.bench.iter_mut().zip(&problem.bench).enumerate() {
         let of = rows.clone().filter(|row| problem.bench_of[*row] == Some(number));
-        let read = of.map(|row| (seen[row].1, problem.data.rows[row].measured[0]));
+        let read =
+            of.map(|row| (seen[row][1].translation.vector, problem.data.rows[row].measured[0]));
         *view = thing.aim.guess(&read.collect::<Vec<_>>());
     }
-    let Kind::Pose { orientation } = problem.data.kind else { return Ok(model) };
-    let readings: Vec<Reading> = seen.into_iter().map(|(reading, _)| reading).collect();
-    let measured: Vec<Reading> =
-        problem.data.rows.iter().map(|r| Reading::from_vector(&r.measured)).collect();
+    let (readings, measured): (Vec<Isometry3<f64>>, Vec<_>) = match problem.data.kind {
+        Kind::Pose { .. } => {
+            let frames = |row: usize| Some(frame_of(&problem.data.rows[row].measured));
+            (seen.iter().map(|[_, frame]| *frame).collect(), rows.clone().map(frames).collect())
+        }
+        Kind::Bench { angles: true, .. } => {
+            (seen.iter().map(|[tool, _]| *tool).collect(), boards(problem))
+        }
+        _ => return Ok(model),
+    };
+    let orientation = !matches!(problem.data.kind, Kind::Pose { orientation: false });
     let mut moved = vec![Isometry3::identity(); problem.sessions.len()];
     if base {
         for (session, moved) in moved.iter_mut().enumerate() {
-            let of: Vec<_> =
-                rows.clone().filter(|row| problem.session_of[*row] == session).collect();
-            let places = |of_rows: &[Reading]| -> Vec<_> {
-                of.iter().map(|row| of_rows[*row].position).collect()
-            };
-            *moved = rigid(&places(&readings), &places(&measured));
+            let of = rows.clone().filter(|row| problem.session_of[*row] == session);
+            let both = of.filter_map(|row| Some((readings[row], measured[row]?)));
+            let (from, to): (Vec<_>, Vec<_>) =
+                both.map(|(a, b)| (a.translation.vector, b.translation.vector)).unzip();
+            let found = if from.is_empty() { resected(problem, session, &seen) } else { Some(rigid(&from, &to)) };
+            *moved = found.unwrap_or_default();
             model.bases[session] = *moved * model.bases[session];
         }
     }
     if tool && orientation {
-        let left = rows.map(|row| {
+        let left = rows.filter_map(|row| {
             let turn = moved[problem.session_of[row]].rotation;
-            let left = (turn * readings[row].rotation).inverse() * measured[row].rotation;
-            *left.to_rotation_matrix().matrix()
+            let left = (turn * readings[row].rotation).inverse() * measured[row]?.rotation;
+            Some(*left.to_rotation_matrix().matrix())
         });
         let mean = nearest_rotation(&left.sum());
         model.arm.tool.rotation *= mean;
     }
     Ok(model)
+}
+
+fn frame_of(vector: &Vector6<f64>) -> Isometry3<f64> {
+    let Reading { position, rotation } = Reading::from_vector(vector);
+    Isometry3::from_parts(position.into(), rotation)
+}
+
+/// The tool's pose by what a camera shows of a board at each posture, at its first row: the board in the camera's axes,
+/// or the camera in the board's.
+fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
+    let mut postures: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    for (number, row) in problem.data.rows.iter().enumerate().filter(|(k, _)| problem.fits[*k]) {
+        postures.entry((problem.session_of[number], row.group)).or_default().push(number);
+    }
+    let mut poses = vec![None; problem.data.rows.len()];
+    for rows in postures.values().filter(|_| problem.data.by_board) {
+        let shown = rows.iter().filter_map(|row| {
+            let row = &problem.data.rows[*row];
+            let (target, direction) = direction(row)?;
+            Some((target.or_else(|| row.offset.map(Vector3::from))?, direction, target.is_some()))
+        });
+        let shown: Vec<_> = shown.collect();
+        let is_on_tool = shown.first().is_some_and(|(.., is_target)| *is_target);
+        let points: Vec<_> = shown.into_iter().map(|(point, direction, _)| (point, direction)).collect();
+        let board = pose(&points);
+        poses[rows[0]] = if is_on_tool { board.map(|board| board.inverse()) } else { board };
+    }
+    poses
+}
+
+/// Where a camera's axes have the measuring frame, by all points that it shows where the arm is thought to have them.
+fn resected(problem: &Problem<'_>, session: usize, seen: &[[Isometry3<f64>; 2]]) -> Option<Isometry3<f64>> {
+    let of = (0..seen.len()).filter(|row| problem.session_of[*row] == session && problem.fits[*row]);
+    let points = of.filter_map(|row| {
+        let (target, direction) = direction(&problem.data.rows[row])?;
+        target.is_none().then_some((seen[row][1].translation.vector, direction))
+    });
+    pose(&points.collect::<Vec<_>>())
+}
+
+/// What a camera is pointed at in a row, and the direction in which it shows it.
+fn direction(row: &Row) -> Option<(Option<Vector3<f64>>, Vector2<f64>)> {
+    let View::Camera { lens, target } = row.aim.as_ref()?.view else { return None };
+    Some((target, lens.direction(&row.measured.fixed_rows::<2>(3).into_owned())))
 }
 
 /// A thing of the bench by what was read of it, the rest of the model as it is: least squares, from a first
@@ -84,23 +140,26 @@ pub(crate) fn fitted_thing(
     let rows: Vec<usize> = rows.filter(|row| problem.fits[*row]).collect();
     let read: Vec<_> = (rows.into_par_iter())
         .map(|row| {
-            let point = model.sim(problem, row, None)?.seen_point();
-            Ok((point, problem.data.rows[row].measured.fixed_rows::<3>(0).into_owned()))
+            let (sim, row) = (model.sim(problem, row, None)?, &problem.data.rows[row]);
+            let first = if problem.bench[thing].aim.view.is_angle() { 3 } else { 0 };
+            let value = row.measured.fixed_rows::<3>(first).into_owned();
+            Ok((sim.seen_frame(), value, row.view(problem.data.kind)))
         })
         .collect::<Result<_, DiagnoseError>>()?;
     let aim = &problem.bench[thing].aim;
     if read.is_empty() {
         return Ok(aim.view);
     }
-    let mut view = aim.guess(&read.iter().map(|(p, value)| (*p, value[0])).collect::<Vec<_>>());
+    let points = read.iter().map(|(at, value, _)| (at.translation.vector, value[0]));
+    let mut view = aim.guess(&points.collect::<Vec<_>>());
     let count = aim.free.len();
     for _ in 0..MOST_STEPS {
         let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
-        for (point, value) in &read {
-            let shifts = view.as_shifts(point).select_columns(aim.free);
-            let block = view.by_point(point) * shifts;
+        for (at, value, of_row) in &read {
+            let here = of_row.map_or(view, |of_row| view.pointed(&of_row));
+            let block = here.by_frame(at) * here.as_twists(at).select_columns(aim.free);
             normal += block.tr_mul(&block);
-            right += block.tr_mul(&(value - view.read(point)));
+            right += block.tr_mul(&(value - here.read(at)));
         }
         let step = Basis::new(&normal).solve(&right);
         view = aim.moved(view, step.as_slice());

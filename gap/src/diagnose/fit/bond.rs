@@ -1,11 +1,11 @@
-//! What is known of the bench beside the rows: distances between its points, told to the fit as further
-//! measurements of its constants.
+//! What is known of the bench beside the rows: distances between its points and what a lens is near, told to the fit
+//! as further measurements of its constants.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::model::Model;
-use crate::diagnose::data::Problem;
-use crate::observe::Pair;
+use crate::diagnose::data::{Problem, Thing};
+use crate::observe::{Pair, View};
 
 /// A measurement of constants alone.
 pub(crate) struct Bond {
@@ -29,7 +29,18 @@ impl Bond {
             }
             Bond { columns, left }
         };
-        problem.pairs.iter().map(of_pair).collect()
+        let of_lens = |(number, (thing, view)): (usize, (&Thing, &View))| {
+            let free = thing.aim.free.iter().enumerate();
+            let of = free.filter_map(move |(k, constant)| {
+                let (left, by) = view.strayed(&thing.aim.view, *constant)?;
+                Some((k, left, by))
+            });
+            let begin = begins[number];
+            let bond = move |(k, left, by)| Bond { columns: vec![(begin + k, by)], left };
+            of.map(bond).collect::<Vec<_>>()
+        };
+        let things = problem.bench.iter().zip(&model.bench).enumerate();
+        problem.pairs.iter().map(of_pair).chain(things.flat_map(of_lens)).collect()
     }
 
     /// Adds it to normal equations whose first parameters are the model's.

@@ -133,8 +133,9 @@ impl Model {
         let at_rest = Sim::of(problem.data.kind, measured, near, |loaded| {
             self.actual(problem, row, loaded && load)
         });
-        let known = || problem.data.rows[row].view(problem.data.kind);
-        let view = problem.bench_of[row].map(|thing| self.bench[thing]).or_else(known);
+        let known = problem.data.rows[row].view(problem.data.kind);
+        let fitted = |view: View| problem.bench_of[row].map_or(view, |k| self.bench[k].pointed(&view));
+        let view = known.map(fitted);
         Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_by(view))
     }
 
@@ -274,16 +275,23 @@ impl Model {
             put(&shifts);
         }
         for (number, (thing, view)) in problem.bench.iter().zip(&self.bench).enumerate() {
-            let mut shifts = Matrix6xX::zeros(thing.aim.free.len());
+            let mut twists = Matrix6xX::zeros(thing.aim.free.len());
             if problem.bench_of[row] == Some(number) {
                 // The tool's way in base axes that reads as much as each constant.
+                let view = s.row.view(problem.data.kind).map_or(*view, |of| view.pointed(&of));
                 let back = s.base.rotation.inverse().to_rotation_matrix();
-                let seen = (s.base * Point3::from(s.point)).coords * s.actual.metre;
-                let all = back.matrix() * view.as_shifts(&seen) / s.actual.metre;
-                let free = all.select_columns(thing.aim.free);
-                shifts.fixed_rows_mut::<3>(0).copy_from(&free);
+                let turn = s.base.rotation * s.state.tool.rotation;
+                let at = (s.base * Point3::from(s.point)).coords * s.actual.metre;
+                let all = view.as_twists(&Isometry3::from_parts(at.into(), turn));
+                twists = all.select_columns(thing.aim.free);
+                for mut column in twists.column_iter_mut() {
+                    let shift = back * column.fixed_rows::<3>(0) / s.actual.metre;
+                    let turn = back * column.fixed_rows::<3>(3);
+                    column.fixed_rows_mut::<3>(0).copy_from(&shift);
+                    column.fixed_rows_mut::<3>(3).copy_from(&turn);
+                }
             }
-            put(&shifts);
+            put(&twists);
         }
         for found in &self.found {
             put(&found.effect.block(s, found.spot));

@@ -5,7 +5,7 @@ use crate::diagnose::data::Thing;
 use crate::diagnose::fit::Model;
 use crate::diagnose::report::{BenchReport, PairReport};
 use crate::diagnose::search::{Explained, Search};
-use crate::observe::View;
+use crate::observe::{MOST_CONSTANTS, View};
 use crate::report::Parameter;
 
 impl Search<'_, '_> {
@@ -15,7 +15,7 @@ impl Search<'_, '_> {
         let things = problem.bench.iter().zip(&model.bench);
         let mut all = Vec::new();
         for ((Thing { aim, session }, view), at) in things.zip(Model::begins_of_bench(problem)) {
-            let mut half = [0.0; 4];
+            let mut half = [0.0; MOST_CONSTANTS];
             aim.free.iter().zip(&certainty.half[at..]).for_each(|(free, own)| half[*free] = *own);
             let parameter =
                 |name: &'static str, value: f64, half: f64, unit: &'static str| Parameter {
@@ -35,14 +35,13 @@ impl Search<'_, '_> {
                     let offset = tilted(u.dot(&plane.at), v.dot(&plane.at)).hypot(half[2]);
                     normal.chain([parameter("offset", plane.offset(), offset, "m")]).collect()
                 }
-                View::Point(place) | View::Distance { from: place, .. } => {
-                    let offset =
-                        if let View::Distance { offset, .. } = view { *offset } else { 0.0 };
-                    let values = [place.x, place.y, place.z, offset];
-                    let name = |k: usize| aim.seen.constant(k);
-                    aim.free.iter().map(|&k| parameter(name(k), values[k], half[k], "m")).collect()
+                _ => {
+                    let value = |k: &usize| {
+                        let (value, unit) = view.constant(*k);
+                        parameter(aim.seen.constant(*k), value, half[*k] * unit, aim.seen.unit(*k))
+                    };
+                    aim.free.iter().map(value).collect()
                 }
-                View::Direction(_) => Vec::new(),
             };
             all.push(BenchReport {
                 kind: aim.seen.thing().to_owned(),

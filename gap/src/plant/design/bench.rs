@@ -1,6 +1,6 @@
 //! Postures at a bench: with the tool's point in sockets, or near plates.
 
-use nalgebra::{DMatrix, DVector, Unit, Vector3};
+use nalgebra::{DMatrix, DVector, Isometry3, Unit, Vector3};
 use stiffarm_kernels::generic::Arm;
 
 use super::super::reality::Reality;
@@ -90,7 +90,7 @@ pub fn placed(arm: &Arm, design: &Measurements) -> Measurements {
 /// A socket where the tool is, of a name that no other seed has, or a plate near it: a floor and two walls in turn,
 /// each a little tilted.
 fn aim(design: &Design, number: usize, at: Vector3<f64>) -> Aim {
-    if design.kind == (Kind::Bench { points: true }) {
+    if matches!(design.kind, Kind::Bench { lengths: 3, .. }) {
         let view = View::Point(at.map(|x| rounded(x, 1e6)));
         return Aim {
             seen: Seen::Point,
@@ -115,10 +115,11 @@ fn aim(design: &Design, number: usize, at: Vector3<f64>) -> Aim {
 fn bring(arm: &Arm, at: &dyn Fn(&[f64]) -> Vector3<f64>, q: &mut [f64], aim: &Aim) -> bool {
     const STEP: f64 = 1e-6;
     let near = if aim.seen == Seen::Plane { PROBED } else { THERE };
-    let count = aim.seen.components();
+    let count = aim.seen.components().iter().filter(|is| **is).count();
+    let read = |point: &Vector3<f64>| aim.view.read(&Isometry3::from(*point));
     for _ in 0..STEPS {
         let here = at(q);
-        let off = aim.view.read(&here).rows(0, count).into_owned();
+        let off = read(&here).rows(0, count).into_owned();
         if off.norm() < near {
             break;
         }
@@ -126,7 +127,7 @@ fn bring(arm: &Arm, at: &dyn Fn(&[f64]) -> Vector3<f64>, q: &mut [f64], aim: &Ai
         for joint in 0..q.len() {
             let mut moved = q.to_vec();
             moved[joint] += STEP;
-            let by = aim.view.read(&at(&moved)) - aim.view.read(&here);
+            let by = read(&at(&moved)) - read(&here);
             slope.set_column(joint, &(by.rows(0, count) / STEP));
         }
         let Ok(step) = slope.svd(true, true).solve(&-off, 1e-3) else { return false };
@@ -139,5 +140,5 @@ fn bring(arm: &Arm, at: &dyn Fn(&[f64]) -> Vector3<f64>, q: &mut [f64], aim: &Ai
         let [low, high] = poses::range(joint);
         (low..=high).contains(q)
     });
-    within && aim.view.read(&at(q)).norm() < near
+    within && read(&at(q)).norm() < near
 }

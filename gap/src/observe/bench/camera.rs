@@ -1,0 +1,195 @@
+//! What is known of cameras and boards, and what rows of theirs see.
+
+use nalgebra::{Isometry3, Vector3};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+use super::{Bench, Length};
+use crate::io::Fault;
+use crate::measurement::{Measurements, Row};
+use crate::observe::{Aim, Lens, Seen, View, lens};
+
+/// Numbers that a distortion may have: tangential and two or three radial ones, and three of a denominator.
+const DISTORTIONS: [usize; 4] = [0, 4, 5, 8];
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Camera {
+    pub(super) name: String,
+    #[serde(default)]
+    on: Mount,
+    matrix: Option<[[f64; 3]; 3]>,
+    #[serde(default)]
+    distortion: Vec<f64>,
+    #[serde(default)]
+    fit: Vec<Part>,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Board {
+    pub(super) name: String,
+    on: Option<Mount>,
+    #[serde(default)]
+    corners: BTreeMap<String, [Length; 3]>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Mount {
+    #[default]
+    Base,
+    Tool,
+}
+
+/// A part of a lens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Part {
+    Matrix,
+    Distortion,
+}
+
+impl Camera {
+    pub(super) fn check(&self) -> Result<(), Fault> {
+        let of = |what: String| format!("{what} of camera `{}`", self.name);
+        if let Some([[fx, skew, _], [under, fy, _], last]) = self.matrix {
+            let is_matrix = skew == 0.0 && under == 0.0 && last == [0.0, 0.0, 1.0];
+            if !is_matrix || !(fx > 0.0 && fy > 0.0) || self.matrix.iter().flatten().flatten().any(|x| !x.is_finite()) {
+                let found = of("a matrix that is none".to_owned());
+                let expected = "[[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with focal lengths above 0, px";
+                return Err(Fault::new(found, expected, "write it as OpenCV does"));
+            }
+        }
+        if !DISTORTIONS.contains(&self.distortion.len()) || self.distortion.iter().any(|x| !x.is_finite()) {
+            let found = of(format!("a distortion of {} numbers", self.distortion.len()));
+            let expected = "4, 5 or 8: k1, k2, p1, p2, k3, k4, k5, k6 in OpenCV's order";
+            return Err(Fault::new(found, expected, "leave those at the end out that are 0"));
+        }
+        Ok(())
+    }
+
+    fn lens(&self) -> Option<Lens> {
+        let [[fx, _, cx], [_, fy, cy], _] = self.matrix?;
+        Some(Lens::new([fx, fy, cx, cy], &self.distortion))
+    }
+
+    /// Its constants that are fitted; a distortion that is not told is one of five numbers.
+    fn free(&self) -> &'static [usize] {
+        let has = |part| self.fit.contains(&part);
+        let distorted = lens::OF_MATRIX + if self.distortion.is_empty() { 5 } else { self.distortion.len() };
+        match (has(Part::Matrix), has(Part::Distortion)) {
+            (false, false) => &[],
+            (true, false) => Aim::some(0, lens::OF_MATRIX),
+            (false, true) => Aim::some(lens::OF_MATRIX, distorted),
+            (true, true) => Aim::some(0, distorted),
+        }
+    }
+}
+
+impl Bench {
+    /// Whether a board has a corner of that name.
+    pub(crate) fn has_corner(&self, name: &str) -> bool {
+        self.board.iter().any(|board| board.corners.contains_key(name))
+    }
+
+    /// Puts what is known of cameras and boards into their rows.
+    ///
+    /// # Errors
+    /// [`Fault`]: two cameras or boards where there is one frame, or a row whose camera or corner nobody knows.
+    pub(super) fn look(&self, data: &mut Measurements) -> Result<(), Fault> {
+        one_of_each(data)?;
+        for row in &mut data.rows {
+            if row.aim.as_ref().is_some_and(|aim| aim.seen == Seen::Camera) {
+                data.by_board |= self.pixels(row)?;
+            } else {
+                self.carried(row);
+            }
+        }
+        Ok(())
+    }
+
+    fn camera(&self, row: &Row) -> Option<&Camera> {
+        let name = row.camera.as_ref().map_or("", |names| &names[0]);
+        match (name, &self.camera[..]) {
+            // A file without the column is of the one camera that there is.
+            ("", [only]) => Some(only),
+            _ => self.camera.iter().find(|camera| camera.name == name),
+        }
+    }
+
+    /// The pose of a camera on the tool in the board's axes, in place of the board's in the camera's.
+    fn carried(&self, row: &mut Row) {
+        if row.camera.is_none() || self.camera(row).is_none_or(|camera| camera.on != Mount::Tool) {
+            return;
+        }
+        let [x, y, z, u, v, w] = row.measured.into();
+        let board = Isometry3::new(Vector3::new(x, y, z), Vector3::new(u, v, w));
+        let camera = board.inverse();
+        row.measured.fixed_rows_mut::<3>(0).copy_from(&camera.translation.vector);
+        row.measured.fixed_rows_mut::<3>(3).copy_from(&camera.rotation.scaled_axis());
+    }
+
+    /// Points the camera of a row at what it shows, pixels in parts of the focal length; whether that is a board's
+    /// corner.
+    fn pixels(&self, row: &mut Row) -> Result<bool, Fault> {
+        let at = |found: String, expected: &str, help: &str| {
+            Err(Fault::new(format!("line {}: {found}", row.line), expected, help))
+        };
+        let name = row.camera.as_ref().map_or("", |names| &names[0]);
+        let Some((camera, lens)) = self.camera(row).and_then(|camera| Some((camera, camera.lens()?))) else {
+            let found = format!("`u` and `v` of camera `{name}`, whose matrix nobody knows");
+            let help = "write a [[camera]] with its name and matrix; `fit = [\"matrix\"]` where it is rough";
+            return at(found, "its matrix in the file of --bench", help);
+        };
+        let Some(marker) = row.marker.clone() else {
+            return at("`u` and `v` without a marker".to_owned(), "the name of what is shown", "fill `marker` in");
+        };
+        let board = row.camera.as_ref().map_or("", |names| &names[1]);
+        let named = |known: &&Board| board.is_empty() || known.name == board;
+        let corner = self.board.iter().filter(named).find_map(|b| Some((b, b.corners.get(&marker)?)));
+        let place = corner.map(|(_, corner)| Vector3::from(corner.map(|x| x.0)));
+        let board_on = corner.and_then(|(board, _)| board.on);
+        let (target, is_board) = match (camera.on, place, board_on) {
+            (Mount::Base, None, _) => (None, false),
+            (Mount::Base, Some(place), None | Some(Mount::Tool)) => {
+                row.offset = Some(place.into());
+                (None, true)
+            }
+            (Mount::Tool, Some(place), None | Some(Mount::Base)) => {
+                row.offset = Some([0.0; 3]);
+                (Some(place), true)
+            }
+            (Mount::Tool, None, _) => {
+                let found = format!("marker `{marker}`, seen by a camera on the tool");
+                let help = "name it among the `corners` of a [[board]]";
+                return at(found, "a place beside the arm", help);
+            }
+            (Mount::Base, Some(_), Some(Mount::Base)) | (Mount::Tool, Some(_), Some(Mount::Tool)) => {
+                let found = format!("camera `{}` and the board of `{marker}` on the same side of the arm", camera.name);
+                return at(found, "one on the tool and one on the base", "mend `on`");
+            }
+        };
+        for k in 3..5 {
+            row.measured[k] /= lens.focus;
+            row.sigma.iter_mut().for_each(|sigma| sigma[k] /= lens.focus);
+        }
+        let view = View::Camera { lens, target };
+        row.aim = Some(Box::new(Aim { seen: Seen::Camera, name: camera.name.clone(), view, free: camera.free() }));
+        Ok(is_board)
+    }
+}
+
+/// Of each camera and board the frames are others, and a sitting has one of either.
+fn one_of_each(data: &Measurements) -> Result<(), Fault> {
+    for rows in data.sessions() {
+        let mut named = rows.iter().filter_map(|row| row.camera.as_deref());
+        let Some(first) = named.next() else { continue };
+        let Some(other) = named.find(|other| *other != first) else { continue };
+        let told = |[camera, board]: &[String; 2]| format!("camera `{camera}` with board `{board}`");
+        let found = format!("{} and {}", told(first), told(other));
+        let help = "put each into a file or a `session` of its own";
+        return Err(Fault::new(found, "one camera and one board", help));
+    }
+    Ok(())
+}
