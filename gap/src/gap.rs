@@ -1,9 +1,12 @@
 //! The gap: measured minus simulated, row by row and component by component.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
-use crate::measurement::{Measurements, Row};
+use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::Reading;
 
 /// Measured minus predicted, m and rad; 0 where nothing is measured.
@@ -25,7 +28,7 @@ pub fn row_gap(data: &Measurements, row: &Row, predicted: &Reading) -> Vector6<f
 }
 
 /// Size of a gap over rows. Position is the norm over the measured translations of a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Root mean square over rows, m.
     pub position_rms: f64,
@@ -36,9 +39,46 @@ pub struct Statistics {
     /// Root mean square over rows of the norm over the measured rotations, rad; 0 if none is
     /// measured.
     pub rotation_rms: f64,
+    /// Of the readings of a bench the size by kind of instrument, each in its own unit.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub kinds: BTreeMap<String, OfKind>,
+}
+
+/// Size of a gap over the rows of one kind of instrument.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OfKind {
+    /// Root mean square over rows of the norm.
+    pub rms: f64,
+    /// `m`, `rad` or `px`.
+    pub unit: Cow<'static, str>,
 }
 
 impl Statistics {
+    /// Of rows with their gaps.
+    pub fn of_rows<'g>(
+        kind: Kind,
+        rows: impl IntoIterator<Item = (&'g Row, &'g Vector6<f64>)>,
+    ) -> Statistics {
+        let (rows, gaps): (Vec<&Row>, Vec<&Vector6<f64>>) = rows.into_iter().unzip();
+        let all = Statistics::of(gaps.iter().copied());
+        let Kind::Bench { .. } = kind else { return all };
+        let mut sizes: BTreeMap<String, (Vec<f64>, &'static str)> = BTreeMap::new();
+        for (aim, gap) in
+            rows.iter().zip(gaps).filter_map(|(row, gap)| Some((row.aim.as_ref()?, gap)))
+        {
+            let (part, unit) = aim.view.unit();
+            sizes
+                .entry(aim.seen.thing().to_owned())
+                .or_insert((Vec::new(), unit))
+                .0
+                .push(gap.norm() / part);
+        }
+        let of_kind = |(kind, (sizes, unit)): (String, (Vec<f64>, &'static str))| {
+            (kind, OfKind { rms: rms(&sizes), unit: unit.into() })
+        };
+        Statistics { kinds: sizes.into_iter().map(of_kind).collect(), ..all }
+    }
+
     /// Of one gap per row.
     pub fn of<'g>(gaps: impl IntoIterator<Item = &'g Vector6<f64>>) -> Statistics {
         let norm = |g: &Vector6<f64>, from: usize| g.fixed_rows::<3>(from).norm();
@@ -50,6 +90,7 @@ impl Statistics {
             position_p95: percentile(&positions, 0.95),
             position_max: positions.last().copied().unwrap_or(0.0),
             rotation_rms: rms(&rotations),
+            kinds: BTreeMap::new(),
         }
     }
 }
@@ -75,7 +116,6 @@ pub fn percentile(ascending: &[f64], p: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::fixture::{row, table};
-    use crate::measurement::Kind;
 
     #[test]
     fn statistics_of_known_gaps() {

@@ -34,9 +34,9 @@ impl Accepted {
             let text = "--accept: found no positions among what is measured, expected some";
             return Err(Failure::with_help(text, "a tolerance is a length"));
         }
-        let (of, judged): (&str, Option<Statistics>) = match check {
-            Some(check) => (&check.file, check.after),
-            None => ("held out", Some(found.gap.after)),
+        let (of, judged): (&str, Option<&Statistics>) = match check {
+            Some(check) => (&check.file, check.after.as_ref()),
+            None => ("held out", Some(&found.gap.after)),
         };
         let position_p95 = judged.map(|judged| judged.position_p95).ok_or_else(|| {
             Failure::with_help(

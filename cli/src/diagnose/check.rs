@@ -46,12 +46,13 @@ impl Check {
         }
         let inside = predicted.inside.iter().filter(|inside| **inside).count();
         let size = |gaps: &[nalgebra::Vector6<f64>]| {
-            let judged = gaps.iter().zip(&predicted.inside).filter(|(_, inside)| **inside);
-            let judged: Vec<_> = judged.map(|(gap, _)| *gap).collect();
-            (inside > 0).then(|| Statistics::of(&judged))
+            let rows = other.rows.iter().zip(gaps).zip(&predicted.inside);
+            let judged = rows.filter(|(_, inside)| **inside).map(|(row, _)| row);
+            (inside > 0).then(|| Statistics::of_rows(other.kind, judged))
         };
         let is_extrapolated = !fitted && inside < other.rows.len();
-        let all = [&predicted.before, &predicted.after].map(Statistics::of);
+        let all = [&predicted.before, &predicted.after]
+            .map(|gaps| Statistics::of_rows(other.kind, other.rows.iter().zip(gaps)));
         Ok(Check {
             file: other.file.clone(),
             rows: other.rows.len(),

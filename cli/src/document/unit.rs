@@ -1,6 +1,8 @@
 //! Numbers in the units that people use: inches and pounds where the data have them.
 
 use stiffarm_gap::Measurements;
+use stiffarm_gap::measurement::Row;
+use stiffarm_gap::observe::View;
 
 use crate::terminal::text::{decimals, fixed, short};
 
@@ -105,6 +107,8 @@ pub struct Units {
     pub pounds: bool,
     /// Whether positions are measured; else rotations are what is judged.
     pub positions: bool,
+    /// Pixels in a radian, where a camera's are all that is measured.
+    pub pixels: Option<f64>,
 }
 
 impl Units {
@@ -116,6 +120,7 @@ impl Units {
             inches: lengths.any(|unit| unit.name == "in"),
             pounds: all.any(|unit| unit.name == "lbf" || unit.name == "in"),
             positions: data.kind.components()[..3].contains(&true),
+            pixels: pixels(data),
         }
     }
 
@@ -129,7 +134,8 @@ impl Units {
     /// Angles between two sizes.
     pub fn angle(self, sizes: [f64; 2]) -> Unit<'static> {
         let [least, most] = ordered(sizes);
-        Unit::of("rad", most).down_to(least)
+        let unit = self.pixels.map(|pixels| Unit::new("px", 1.0 / pixels));
+        unit.unwrap_or(Unit::of("rad", most)).down_to(least)
     }
 
     /// What is judged, between two sizes: lengths, or angles where no position is measured.
@@ -144,6 +150,16 @@ impl Units {
             other => Unit::of(other, most),
         }
     }
+}
+
+/// Pixels in a radian of the one camera that has measured everything.
+fn pixels(data: &Measurements) -> Option<f64> {
+    let of_row = |row: &Row| match row.view(data.kind)? {
+        View::Camera { lens, .. } => Some(lens.focus),
+        _ => None,
+    };
+    let first = data.rows.first().and_then(of_row)?;
+    data.rows.iter().all(|row| of_row(row) == Some(first)).then_some(first)
 }
 
 fn ordered([a, b]: [f64; 2]) -> [f64; 2] {

@@ -183,11 +183,11 @@ fn diagnose_as_told(
     let (findings, after, unexplained) = (judged.findings, judged.after, judged.unexplained);
     let nested = |folds: &Folds| -> Result<Option<Statistics>, DiagnoseError> {
         let gaps = options.nested.then(|| search.nested(&model, folds)).transpose()?;
-        Ok(gaps.map(|gaps| Statistics::of(problem.kept(&gaps))))
+        Ok(gaps.map(|gaps| problem.statistics(&gaps)))
     };
     let in_time = Folds::fifths(data);
     let (nested, nested_in_time) = (nested(&folds)?, in_time.map_or(Ok(None), |f| nested(&f))?);
-    let [size, statistics] = [&before, &after].map(|gaps| Statistics::of(problem.kept(gaps)));
+    let [size, statistics] = [&before, &after].map(|gaps| problem.statistics(gaps));
     let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
     let compared = compared.iter().map(compare).collect();
     let diagnosis = Diagnosis {
@@ -199,7 +199,7 @@ fn diagnose_as_told(
             before: size,
             after: statistics,
             shrink: judged.shrink,
-            fitted: Statistics::of(problem.kept(&explained.fit.predicted.gaps)),
+            fitted: problem.statistics(&explained.fit.predicted.gaps),
             nested,
             nested_in_time,
             noise: explained.noise.report(),

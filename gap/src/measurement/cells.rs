@@ -170,7 +170,8 @@ fn fill(
                     "the instrument's standard deviation of the reading",
                 )),
             })?;
-            told.sigma_is = head.unit.filter(|_| head.unit_text.is_some()).map(|unit| unit.dimension);
+            told.sigma_is =
+                head.unit.filter(|_| head.unit_text.is_some()).map(|unit| unit.dimension);
             let all = row.sigma.get_or_insert_default();
             match of {
                 Some((_, k)) => all[k] = sd,

@@ -2,8 +2,8 @@
 
 use super::Kind;
 use super::role::{
-    BOARD_NAMES, BOARD_QUATERNION, FROM_NAMES, Family, Layout, NORMAL_NAMES, PIXEL_NAMES, POSE_NAMES, Role,
-    SIGMA_PREFIX, TILT_NAMES, nearest_name,
+    BOARD_NAMES, BOARD_QUATERNION, FROM_NAMES, Family, Layout, NORMAL_NAMES, PIXEL_NAMES,
+    POSE_NAMES, Role, SIGMA_PREFIX, TILT_NAMES, nearest_name,
 };
 use crate::io::columns::{Header, split};
 use crate::io::{Column, Dimension, Fault, Map, Mistakes, Unit};
@@ -293,7 +293,10 @@ fn bench(
     for (role, names, help) in twos {
         let both: Vec<_> = (0..2).map(|k| find(role(k))).collect();
         if let Some((head, missing)) = partial(&both, &names) {
-            wrong(head, without(head, &missing, &format!("both {} and {}", names[0], names[1]), help));
+            wrong(
+                head,
+                without(head, &missing, &format!("both {} and {}", names[0], names[1]), help),
+            );
         }
     }
     if let (Some(zero), None) = (find(Role::Zero), find(Role::Along)) {

@@ -28,8 +28,8 @@ use nalgebra::Vector6;
 
 pub use payload::{Body, Hung, Payloads};
 pub use role::{
-    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, PIXEL_NAMES, POSE_NAMES,
-    READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
+    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, PIXEL_NAMES,
+    POSE_NAMES, READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
 };
 
 use crate::io::table::{Records, Separator, commented};
@@ -158,7 +158,9 @@ impl Kind {
             Kind::Displacement { components } => components,
             Kind::Coordinates { components: [x, y, z] } => [x, y, z, false, false, false],
             Kind::Distance => [true, false, false, false, false, false],
-            Kind::Bench { lengths, angles: a } => [lengths > 0, lengths > 1, lengths > 1, a, a, false],
+            Kind::Bench { lengths, angles: a } => {
+                [lengths > 0, lengths > 1, lengths > 1, a, a, false]
+            }
         }
     }
 }
@@ -422,7 +424,9 @@ fn read_into(
     let measured = kind.components();
     let unused = |h: &&header::Head| match h.role {
         Some(Role::Sim(_, k) | Role::Sigma(Some((_, k)))) => !measured[k],
-        Some(Role::Sigma(None)) => measured[..3] == [false; 3] && !matches!(kind, Kind::Bench { .. }),
+        Some(Role::Sigma(None)) => {
+            measured[..3] == [false; 3] && !matches!(kind, Kind::Bench { .. })
+        }
         _ => false,
     };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
@@ -437,7 +441,9 @@ fn read_into(
         rows,
         kind,
         sim_given,
-        by_camera: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_) | Role::Pixel(_)))),
+        by_camera: heads
+            .iter()
+            .any(|h| matches!(h.role, Some(Role::BoardPose(_) | Role::Pixel(_)))),
         by_board: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
         pairs: Vec::new(),
         poses,

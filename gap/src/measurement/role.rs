@@ -270,7 +270,8 @@ pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
     let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
     let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
     let bench = ["point", "plane", "along", "zero", "camera", "board", SIGMA];
-    let fixed = fixed.into_iter().chain(FROM_NAMES).chain(bench).chain(TILT_NAMES).map(str::to_owned);
+    let fixed =
+        fixed.into_iter().chain(FROM_NAMES).chain(bench).chain(TILT_NAMES).map(str::to_owned);
     let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));
     let sim = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));

@@ -136,7 +136,10 @@ mod tests {
         let [a, b] = ["run/a.csv", "b.csv"].map(|name| file(name, position, 3));
         let c = file("c.csv", Kind::Bench { lengths: 1, angles: false }, 2);
         let both = a.and(b).expect("alike").and(c).expect("a bench");
-        assert_eq!((both.kind, both.rows.len(), both.poses), (Kind::Bench { lengths: 3, angles: false }, 8, 8));
+        assert_eq!(
+            (both.kind, both.rows.len(), both.poses),
+            (Kind::Bench { lengths: 3, angles: false }, 8, 8)
+        );
         let sessions: Vec<_> = both.sessions().map(|rows| rows[0].session.as_deref()).collect();
         assert_eq!(sessions, [Some("a.csv:"), Some("b.csv:"), Some("c.csv:")]);
         assert_eq!((both.rows[7].group, both.rows[0].components(both.kind)[2]), (7, true));

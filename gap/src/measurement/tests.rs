@@ -425,7 +425,7 @@ const MISTAKES: &[(&str, &str)] = &[
     (
         "q1,q2,q3,fx\n0,0,0,1\n",
         "line 1: found no measured column, expected any of `x y z` (a position), any of \
-         `dx dy dz drx dry drz` (a displacement), `distance`, `point`, `plane` or `along`: add what was measured",
+         `dx dy dz drx dry drz` (a displacement), `distance`, `point`, `plane`, `along`, `tilt_x tilt_y` or `u v`: add what was measured",
     ),
     (
         "q1,q2,q3,x,y,z,dz\n0,0,0,1,1,1,1\n",

@@ -86,9 +86,12 @@ impl Told {
             || self.plane.is_some()
             || self.along.is_some()
             || self.distance.is_some();
-        let is_open = planned && !is_other && matches!(kind, Some(Kind::Bench { angles: true, .. }));
+        let is_open =
+            planned && !is_other && matches!(kind, Some(Kind::Bench { angles: true, .. }));
         let angles = match (self.tilt, self.pixel) {
-            ([None, None], [None, None]) if is_open && row.marker.is_some() => Some((Seen::Camera, [0.0; 2])),
+            ([None, None], [None, None]) if is_open && row.marker.is_some() => {
+                Some((Seen::Camera, [0.0; 2]))
+            }
             ([None, None], [None, None]) if is_open => Some((Seen::Level, [0.0; 2])),
             ([None, None], [None, None]) => None,
             ([Some(x), Some(y)], [None, None]) => Some((Seen::Level, [x, y])),
@@ -152,7 +155,8 @@ impl Told {
                 (aim, along)
             }
             (None, None, None) => {
-                let expected = "one of `point`, `plane`, `distance`, `along`, `tilt_x tilt_y` and `u v`";
+                let expected =
+                    "one of `point`, `plane`, `distance`, `along`, `tilt_x tilt_y` and `u v`";
                 return Err(Fault::hole("no reading", expected, "fill it in, or remove the row"));
             }
             _ => return Err(Fault::new("more than one reading", ONE, "empty the other cells")),

@@ -46,7 +46,9 @@ impl Seen {
     pub fn components(self) -> [bool; 6] {
         match self {
             Seen::Point => [true, true, true, false, false, false],
-            Seen::Distance | Seen::Plane | Seen::Direction => [true, false, false, false, false, false],
+            Seen::Distance | Seen::Plane | Seen::Direction => {
+                [true, false, false, false, false, false]
+            }
             Seen::Level | Seen::Camera => [false, false, false, true, true, false],
         }
     }
@@ -80,7 +82,13 @@ impl Seen {
         match self {
             Seen::Level => "rad",
             Seen::Plane if number < 2 => "rad",
-            Seen::Camera => if number < lens::OF_MATRIX { "px" } else { "1" },
+            Seen::Camera => {
+                if number < lens::OF_MATRIX {
+                    "px"
+                } else {
+                    "1"
+                }
+            }
             _ => "m",
         }
     }

@@ -96,7 +96,8 @@ impl Lens {
         let mut found = Vector2::new((image.x - cx) / fx, (image.y - cy) / fy);
         for _ in 0..STEPS {
             let off = self.image(&found) - image;
-            let step = self.of_direction(&found).by_direction.try_inverse().map(|inverse| inverse * off);
+            let step =
+                self.of_direction(&found).by_direction.try_inverse().map(|inverse| inverse * off);
             let Some(step) = step.filter(|step| step.amax() > LAST) else { break };
             found -= step;
         }

@@ -18,7 +18,9 @@ mod pair;
 mod plane;
 mod resection;
 
-use nalgebra::{Isometry3, Matrix2x3, Matrix2xX, Matrix3, Matrix3x6, Matrix6xX, Point3, Vector2, Vector3};
+use nalgebra::{
+    Isometry3, Matrix2x3, Matrix2xX, Matrix3, Matrix3x6, Matrix6xX, Point3, Vector2, Vector3,
+};
 
 pub use aim::{Aim, Seen};
 pub use bench::Bench;
@@ -90,7 +92,8 @@ impl View {
     pub fn by_frame(&self, at: &Isometry3<f64>) -> Matrix3x6<f64> {
         let mut all = Matrix3x6::zeros();
         let point = &at.translation.vector;
-        let mut one = |row: Vector3<f64>| all.fixed_view_mut::<1, 3>(0, 0).copy_from(&row.transpose());
+        let mut one =
+            |row: Vector3<f64>| all.fixed_view_mut::<1, 3>(0, 0).copy_from(&row.transpose());
         match self {
             View::Point(_) => all.fixed_columns_mut::<3>(0).copy_from(&Matrix3::identity()),
             View::Distance { from, .. } => one(distance::line(from, point)),
@@ -128,11 +131,18 @@ impl View {
             View::Camera { lens, target } => {
                 let by_shift = self.by_frame(at).fixed_view::<2, 3>(0, 0).into_owned();
                 let (_, by_constants) = lens.slopes(&before_lens(at, target.as_ref()));
-                return least(&by_shift, &Matrix2xX::from_columns(&by_constants.column_iter().collect::<Vec<_>>()), 0);
+                return least(
+                    &by_shift,
+                    &Matrix2xX::from_columns(&by_constants.column_iter().collect::<Vec<_>>()),
+                    0,
+                );
             }
         };
         let mut twists = Matrix6xX::zeros(shifts.len());
-        shifts.iter().enumerate().for_each(|(k, shift)| twists.fixed_view_mut::<3, 1>(0, k).copy_from(shift));
+        shifts
+            .iter()
+            .enumerate()
+            .for_each(|(k, shift)| twists.fixed_view_mut::<3, 1>(0, k).copy_from(shift));
         twists
     }
 
@@ -157,8 +167,19 @@ impl View {
     /// How far a constant of a lens is from what it was told to be near, told minus fitted over the standard
     /// deviation, and the derivative of the fitted over the same; `None` of a constant of which nothing is told.
     pub(crate) fn strayed(&self, told: &View, constant: usize) -> Option<(f64, f64)> {
-        let (View::Camera { lens, .. }, View::Camera { lens: told, .. }) = (self, told) else { return None };
+        let (View::Camera { lens, .. }, View::Camera { lens: told, .. }) = (self, told) else {
+            return None;
+        };
         Some(lens.strayed(told, constant))
+    }
+
+    /// In what its readings are told, and what one of it is in m or rad.
+    pub fn unit(&self) -> (f64, &'static str) {
+        match self {
+            View::Camera { lens, .. } => (1.0 / lens.focus, "px"),
+            View::Level(_) => (1.0, "rad"),
+            _ => (1.0, "m"),
+        }
     }
 
     /// A constant as it is told, and its own unit in that in which it is; of a plane it is another's to tell.

@@ -1,7 +1,8 @@
 //! Where an object is by the directions in which a camera sees points of it.
 
 use nalgebra::{
-    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix6, Rotation3, Unit, UnitQuaternion, Vector2, Vector3, Vector6,
+    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix6, Rotation3, Unit, UnitQuaternion, Vector2,
+    Vector3, Vector6,
 };
 
 /// Directions that differ by less than this part of an object's size make it flat.
@@ -19,7 +20,8 @@ const LAST: f64 = 1e-13;
 /// and then by least squares. `None` of too few points, or of points on a line.
 pub(crate) fn pose(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
     let middle = seen.iter().map(|(p, _)| p).sum::<Vector3<f64>>() / seen.len().max(1) as f64;
-    let spread: Matrix3<f64> = seen.iter().map(|(p, _)| (p - middle) * (p - middle).transpose()).sum();
+    let spread: Matrix3<f64> =
+        seen.iter().map(|(p, _)| (p - middle) * (p - middle).transpose()).sum();
     let mut own = spread.symmetric_eigen();
     // The least spread last, so that a flat object lies in x and y.
     let mut order = [0, 1, 2];
@@ -116,7 +118,8 @@ fn refined(seen: &[(Vector3<f64>, Vector2<f64>)], start: Isometry3<f64>) -> (Iso
             let arm = pose.rotation * point;
             let place = arm + pose.translation.vector;
             let left = direction - place.xy() / place.z;
-            let slope = Matrix2x3::new(1.0, 0.0, -place.x / place.z, 0.0, 1.0, -place.y / place.z) / place.z;
+            let slope = Matrix2x3::new(1.0, 0.0, -place.x / place.z, 0.0, 1.0, -place.y / place.z)
+                / place.z;
             let mut block = nalgebra::Matrix2x6::zeros();
             block.fixed_columns_mut::<3>(0).copy_from(&slope);
             block.fixed_columns_mut::<3>(3).copy_from(&(slope * -arm.cross_matrix()));
@@ -133,7 +136,11 @@ fn refined(seen: &[(Vector3<f64>, Vector2<f64>)], start: Isometry3<f64>) -> (Iso
     }
     let left = |(point, direction): &(Vector3<f64>, Vector2<f64>)| {
         let place = pose.rotation * point + pose.translation.vector;
-        if place.z > 0.0 { (direction - place.xy() / place.z).norm_squared() } else { f64::INFINITY }
+        if place.z > 0.0 {
+            (direction - place.xy() / place.z).norm_squared()
+        } else {
+            f64::INFINITY
+        }
     };
     (pose, seen.iter().map(left).sum())
 }
@@ -152,13 +159,18 @@ mod tests {
 
     #[test]
     fn a_board_and_a_body_are_found_where_they_are() {
-        let board: Vec<_> =
-            (0..24).map(|k| Vector3::new(f64::from(k % 6) * 0.03, f64::from(k / 6) * 0.03, 0.0)).collect();
+        let board: Vec<_> = (0..24)
+            .map(|k| Vector3::new(f64::from(k % 6) * 0.03, f64::from(k / 6) * 0.03, 0.0))
+            .collect();
         let body: Vec<_> = (0..9)
             .map(f64::from)
             .map(|k| Vector3::new((1.3 * k).sin(), (2.1 * k).cos(), 0.2 * k))
             .collect();
-        for turn in [Vector3::new(0.3, -0.5, 1.0), Vector3::new(2.9, 0.2, 0.1), Vector3::new(-0.7, 0.0, 3.0)] {
+        for turn in [
+            Vector3::new(0.3, -0.5, 1.0),
+            Vector3::new(2.9, 0.2, 0.1),
+            Vector3::new(-0.7, 0.0, 3.0),
+        ] {
             for (points, far) in [(&board, 0.8), (&body, 6.0)] {
                 let pose = Isometry3::new(Vector3::new(0.1, -0.05, far), turn);
                 let found = super::pose(&seen(points, &pose)).expect("a pose");

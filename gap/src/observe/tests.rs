@@ -21,12 +21,19 @@ fn derivatives_are_those_of_what_is_read() {
     let moved = |by: &[f64]| {
         let shift = Translation3::new(by[0], by[1], by[2]);
         let turn = UnitQuaternion::from_scaled_axis(Vector3::new(by[3], by[4], by[5]));
-        Isometry3::from_parts(Translation3::from(at.translation.vector + shift.vector), turn * at.rotation)
+        Isometry3::from_parts(
+            Translation3::from(at.translation.vector + shift.vector),
+            turn * at.rotation,
+        )
     };
     for view in views {
         let (by_frame, twists) = (view.by_frame(&at), view.as_twists(&at));
         for k in 0..6 {
-            let read = |by: f64| view.read(&moved(&core::array::from_fn::<_, 6, _>(|c| if c == k { by } else { 0.0 })));
+            let read = |by: f64| {
+                view.read(&moved(&core::array::from_fn::<_, 6, _>(
+                    |c| if c == k { by } else { 0.0 },
+                )))
+            };
             let slope = (read(step) - read(-step)) / (2.0 * step);
             assert!((slope - by_frame.column(k)).norm() < 1e-9, "{view:?} {k}");
         }

@@ -5,8 +5,8 @@ use stiffarm_kernels::generic::Arm;
 
 use super::text::{Columns, number, quoted};
 use crate::measurement::{
-    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES,
-    WRENCH_NAMES,
+    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX,
+    TILT_NAMES, WRENCH_NAMES,
 };
 use crate::observe::{Aim, Seen, View};
 
@@ -132,10 +132,12 @@ fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
     }
     let angle = |r: &&Row, seen: Seen, k: usize| {
         let aim = of(r, seen);
-        let unit = aim.map(|aim| if let View::Camera { lens, .. } = aim.view { lens.focus } else { 1.0 });
+        let unit =
+            aim.map(|aim| if let View::Camera { lens, .. } = aim.view { lens.focus } else { 1.0 });
         unit.map_or_else(String::new, |unit| number(r.measured[3 + k] * unit))
     };
-    for (seen, names, unit) in [(Seen::Level, TILT_NAMES, "rad"), (Seen::Camera, PIXEL_NAMES, "px")] {
+    for (seen, names, unit) in [(Seen::Level, TILT_NAMES, "rad"), (Seen::Camera, PIXEL_NAMES, "px")]
+    {
         for (k, name) in names.into_iter().enumerate().filter(|_| any(&|aim| aim.seen == seen)) {
             columns.add(format!("{name}[{unit}]"), move |r| angle(r, seen, k));
         }

@@ -89,9 +89,7 @@ impl Shown {
                 let n = plane.normal;
                 one(n.x * p.x + n.y * p.y + n.z * p.z - plane.offset())
             }
-            View::Direction { along: n, offset } => {
-                one(n.x * p.x + n.y * p.y + n.z * p.z + offset)
-            }
+            View::Direction { along: n, offset } => one(n.x * p.x + n.y * p.y + n.z * p.z + offset),
             View::Level([x, y]) => {
                 // The last row has how much each axis rises.
                 let rises = |k: usize| self.rotation[(2, k)].clamp(-1.0, 1.0).asin();
@@ -136,7 +134,8 @@ impl Shown {
 
 /// A place in a camera's axes in its picture, px, as OpenCV documents its model term by term.
 fn shown_by(lens: &Lens, [x, y, z]: [f64; 3]) -> [f64; 2] {
-    let [fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6] = core::array::from_fn(|k| lens.constant(k));
+    let [fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6] =
+        core::array::from_fn(|k| lens.constant(k));
     let (a, b) = (x / z, y / z);
     let r = (a * a + b * b).sqrt();
     let radial = (1.0 + k1 * r.powi(2) + k2 * r.powi(4) + k3 * r.powi(6))

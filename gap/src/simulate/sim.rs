@@ -33,7 +33,10 @@ impl Reading {
             return Reading { position: read, rotation: UnitQuaternion::identity() };
         }
         let cut = (LARGEST_ANGLE / read.norm()).min(1.0);
-        Reading { position: Vector3::zeros(), rotation: UnitQuaternion::from_scaled_axis(read * cut) }
+        Reading {
+            position: Vector3::zeros(),
+            rotation: UnitQuaternion::from_scaled_axis(read * cut),
+        }
     }
 
     /// From position (or displacement) and rotation vector, m and rad.

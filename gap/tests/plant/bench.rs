@@ -1,8 +1,8 @@
 //! Instruments that are no trackers: sockets and plates, alone and together, against the plant's own formulas.
 
-use nalgebra::{Isometry3, Unit, Vector3, Vector6};
+use nalgebra::{Isometry3, Point3, Unit, Vector3, Vector6};
 use stiffarm_gap::measurement::{Kind, Layout, Row};
-use stiffarm_gap::observe::{Aim, Bench, Pair, Plane, Seen, View};
+use stiffarm_gap::observe::{Aim, Bench, Lens, Pair, Plane, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, csv};
 use stiffarm_gap::simulate::simulate;
@@ -38,20 +38,29 @@ fn is_found(d: &Diagnosis) {
 /// The plant and the simulator have formulas of their own for what is read.
 #[test]
 fn plant_and_model_read_the_same() {
-    let arm = sprung(Convention::Modified);
+    let mut arm = sprung(Convention::Modified);
+    // Before a camera that stands at the origin.
+    arm.base = Isometry3::translation(0.1, -0.2, 6.0);
     let normal = Unit::new_normalize(Vector3::new(0.3, -0.2, 0.9));
+    let lens = Lens::new([1210.0, 1190.0, 640.0, 355.0], &[-0.05, 0.02, 1e-3, -2e-3]);
+    let q = [0.4, -0.7, 0.2, 0.9, -0.3];
+    let target = (arm.pose(&q) * Point3::new(0.1, -0.2, 0.9)).coords;
     let views = [
         (Seen::Point, View::Point(Vector3::new(0.3, -0.2, 0.5))),
         (Seen::Plane, View::Plane(Plane::new(normal, 0.2))),
         (Seen::Distance, View::Distance { from: Vector3::new(0.3, -0.2, 0.5), offset: 0.1 }),
-        (Seen::Direction, View::Direction(*normal)),
+        (Seen::Direction, View::Direction { along: *normal, offset: 0.1 }),
+        (Seen::Level, View::Level([0.01, -0.02])),
+        (Seen::Camera, View::Camera { lens, target: None }),
+        (Seen::Camera, View::Camera { lens, target: Some(target) }),
     ];
     for (seen, view) in views {
-        let mut row = reading(&[0.4, -0.7, 0.2, 0.9, -0.3], [30.0, -20.0, -90.0, 1.0, 2.0, 3.0]);
+        let mut row = reading(&q, [30.0, -20.0, -90.0, 1.0, 2.0, 3.0]);
         row.offset = Some([0.0, 0.1, 0.02]);
         row.aim = Some(Box::new(Aim::known(seen, "", view)));
-        let model = simulate(&arm, &row, SOCKETS).expect("at rest").reading().vector();
-        let told = plant(&arm, &[]).measure(&rows(SOCKETS, vec![row]), EXACT, 0).expect("rows");
+        let kind = Kind::Bench { lengths: 3, angles: true };
+        let model = simulate(&arm, &row, kind).expect("at rest").reading().vector();
+        let told = plant(&arm, &[]).measure(&rows(kind, vec![row]), EXACT, 0).expect("rows");
         let apart = (told.rows[0].measured - model).amax();
         assert!(apart < 1e-11 && model.amax() > 1e-3, "{seen:?}: {apart:e}");
     }
@@ -136,7 +145,7 @@ fn a_board_seen_by_a_camera_gives_both_frames() {
         row.measured.fixed_rows_mut::<3>(0).copy_from(&board.translation.vector);
         row.measured.fixed_rows_mut::<3>(3).copy_from(&board.rotation.scaled_axis());
     }
-    data.by_camera = true;
+    (data.by_camera, data.by_board) = (true, true);
     let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
     let [base, tool] = &found.nuisances[..] else { panic!("{:?}", found.nuisances) };
     let was = [frames.base * arm.base, arm.tool * frames.tool];

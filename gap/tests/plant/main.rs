@@ -3,6 +3,7 @@
 
 mod arms;
 mod bench;
+mod camera;
 mod closed_forms;
 mod distances;
 mod kinematic;

@@ -55,7 +55,8 @@ impl Campaign<'_> {
             heads.extend(["95 %", "max"].map(str::to_owned));
         }
         if rotation {
-            heads.push(format!("rotation rms {}", turned.name));
+            let what = if self.units().pixels.is_some() { "" } else { "rotation " };
+            heads.push(format!("{what}rms {}", turned.name));
         }
         heads.extend(position.then(|| self.measured()));
         let [whole, _] = self.rms();

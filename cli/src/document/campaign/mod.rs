@@ -156,7 +156,11 @@ impl Campaign<'_> {
 
     /// What is judged.
     fn error(&self) -> &'static str {
-        if self.units().positions { "position error" } else { "rotation error" }
+        match self.units() {
+            Units { positions: true, .. } => "position error",
+            Units { pixels: Some(_), .. } => "error in the picture",
+            _ => "rotation error",
+        }
     }
 
     /// The one of two numbers, of positions and of rotations, that is judged.

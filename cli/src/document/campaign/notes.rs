@@ -115,14 +115,14 @@ impl Campaign<'_> {
         let Some(check) = self.check else { return String::new() };
         let of = format!("{} of the {} rows of {}", check.inside, check.rows, check.file);
         let within = "within the joint ranges, loads and leverage of these data";
-        let all = check.all.map(|[before, after]| {
-            format!("on all rows, extrapolated, {}", self.shrunk(&before, &after))
+        let all = check.all.as_ref().map(|[before, after]| {
+            format!("on all rows, extrapolated, {}", self.shrunk(before, after))
         });
-        let (Some(before), Some(after)) = (check.before, check.after) else {
+        let (Some(before), Some(after)) = (&check.before, &check.after) else {
             let none = format!("{of} lie {within}: none is judged");
             return [Some(none), all].into_iter().flatten().collect::<Vec<_>>().join("; ");
         };
-        let sizes = self.shrunk(&before, &after);
+        let sizes = self.shrunk(before, after);
         if check.fitted {
             let expected = self.main().with_unit(self.rms()[1]);
             return format!(

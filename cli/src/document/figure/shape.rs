@@ -126,7 +126,8 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
         let mut at = experiment.placed.pose(&row.q);
         at.translation = (at * Point3::from(experiment.offset(row))).coords.into();
         let (shift, turn) = (frame * moved, frame * turn);
-        let moved = aim.view.by_frame(&at) * Vector6::from_iterator(shift.iter().chain(&turn).copied());
+        let moved =
+            aim.view.by_frame(&at) * Vector6::from_iterator(shift.iter().chain(&turn).copied());
         let first = if aim.view.is_angle() { 3 } else { 0 };
         let mut lever = Vector6::zeros();
         lever.fixed_rows_mut::<3>(first).copy_from(&moved);

@@ -12,6 +12,7 @@ use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
+use crate::gap::Statistics;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::observe::{Aim, Pair, Seen};
 use crate::simulate::{Actual, Moments, Reading, Sim};
@@ -213,6 +214,11 @@ impl<'a> Problem<'a> {
     /// The rows that are counted.
     pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
         self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
+    }
+
+    /// The size of the gaps of all rows, of those that are counted.
+    pub(crate) fn statistics(&self, gaps: &[Vector6<f64>]) -> Statistics {
+        Statistics::of_rows(self.data.kind, self.kept_rows().zip(self.kept(gaps)))
     }
 
     /// What a row's gap is multiplied by, whitened by `weights` of its kinds.

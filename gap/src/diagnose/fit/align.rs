@@ -65,7 +65,11 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
             let both = of.filter_map(|row| Some((readings[row], measured[row]?)));
             let (from, to): (Vec<_>, Vec<_>) =
                 both.map(|(a, b)| (a.translation.vector, b.translation.vector)).unzip();
-            let found = if from.is_empty() { resected(problem, session, &seen) } else { Some(rigid(&from, &to)) };
+            let found = if from.is_empty() {
+                resected(problem, session, &seen)
+            } else {
+                Some(rigid(&from, &to))
+            };
             *moved = found.unwrap_or_default();
             model.bases[session] = *moved * model.bases[session];
         }
@@ -103,7 +107,8 @@ fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
         });
         let shown: Vec<_> = shown.collect();
         let is_on_tool = shown.first().is_some_and(|(.., is_target)| *is_target);
-        let points: Vec<_> = shown.into_iter().map(|(point, direction, _)| (point, direction)).collect();
+        let points: Vec<_> =
+            shown.into_iter().map(|(point, direction, _)| (point, direction)).collect();
         let board = pose(&points);
         poses[rows[0]] = if is_on_tool { board.map(|board| board.inverse()) } else { board };
     }
@@ -111,8 +116,13 @@ fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
 }
 
 /// Where a camera's axes have the measuring frame, by all points that it shows where the arm is thought to have them.
-fn resected(problem: &Problem<'_>, session: usize, seen: &[[Isometry3<f64>; 2]]) -> Option<Isometry3<f64>> {
-    let of = (0..seen.len()).filter(|row| problem.session_of[*row] == session && problem.fits[*row]);
+fn resected(
+    problem: &Problem<'_>,
+    session: usize,
+    seen: &[[Isometry3<f64>; 2]],
+) -> Option<Isometry3<f64>> {
+    let of =
+        (0..seen.len()).filter(|row| problem.session_of[*row] == session && problem.fits[*row]);
     let points = of.filter_map(|row| {
         let (target, direction) = direction(&problem.data.rows[row])?;
         target.is_none().then_some((seen[row][1].translation.vector, direction))

@@ -134,7 +134,8 @@ impl Model {
             self.actual(problem, row, loaded && load)
         });
         let known = problem.data.rows[row].view(problem.data.kind);
-        let fitted = |view: View| problem.bench_of[row].map_or(view, |k| self.bench[k].pointed(&view));
+        let fitted =
+            |view: View| problem.bench_of[row].map_or(view, |k| self.bench[k].pointed(&view));
         let view = known.map(fitted);
         Ok(at_rest.map_err(|_| problem.unstable(row))?.seen_by(view))
     }

@@ -124,17 +124,18 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
         |name: &str, at: &Vector3<f64>, session| frame(name, &Isometry3::from(*at), session);
     let markers = problem.markers.iter().zip(&model.markers);
     let markers = markers.map(|(name, at)| point(name, at, None));
-    let bench = problem.bench.iter().zip(&model.bench).filter_map(|(Thing { aim, session }, view)| {
-        let name = if aim.name.is_empty() { aim.seen.thing() } else { &aim.name };
-        match view {
-            View::Plane(plane) => {
-                let turn = UnitQuaternion::rotation_between(&Vector3::z(), &plane.normal);
-                let at = Isometry3::from_parts(plane.at.into(), turn.unwrap_or_default());
-                Some(frame(name, &at, of(*session)))
+    let bench =
+        problem.bench.iter().zip(&model.bench).filter_map(|(Thing { aim, session }, view)| {
+            let name = if aim.name.is_empty() { aim.seen.thing() } else { &aim.name };
+            match view {
+                View::Plane(plane) => {
+                    let turn = UnitQuaternion::rotation_between(&Vector3::z(), &plane.normal);
+                    let at = Isometry3::from_parts(plane.at.into(), turn.unwrap_or_default());
+                    Some(frame(name, &at, of(*session)))
+                }
+                _ => Some(point(name, &view.place()?, of(*session))),
             }
-            _ => Some(point(name, &view.place()?, of(*session))),
-        }
-    });
+        });
     frames.chain(markers).chain(bench).collect()
 }
 

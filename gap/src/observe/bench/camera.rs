@@ -55,13 +55,19 @@ impl Camera {
         let of = |what: String| format!("{what} of camera `{}`", self.name);
         if let Some([[fx, skew, _], [under, fy, _], last]) = self.matrix {
             let is_matrix = skew == 0.0 && under == 0.0 && last == [0.0, 0.0, 1.0];
-            if !is_matrix || !(fx > 0.0 && fy > 0.0) || self.matrix.iter().flatten().flatten().any(|x| !x.is_finite()) {
+            if !is_matrix
+                || !(fx > 0.0 && fy > 0.0)
+                || self.matrix.iter().flatten().flatten().any(|x| !x.is_finite())
+            {
                 let found = of("a matrix that is none".to_owned());
-                let expected = "[[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with focal lengths above 0, px";
+                let expected =
+                    "[[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with focal lengths above 0, px";
                 return Err(Fault::new(found, expected, "write it as OpenCV does"));
             }
         }
-        if !DISTORTIONS.contains(&self.distortion.len()) || self.distortion.iter().any(|x| !x.is_finite()) {
+        if !DISTORTIONS.contains(&self.distortion.len())
+            || self.distortion.iter().any(|x| !x.is_finite())
+        {
             let found = of(format!("a distortion of {} numbers", self.distortion.len()));
             let expected = "4, 5 or 8: k1, k2, p1, p2, k3, k4, k5, k6 in OpenCV's order";
             return Err(Fault::new(found, expected, "leave those at the end out that are 0"));
@@ -77,7 +83,8 @@ impl Camera {
     /// Its constants that are fitted; a distortion that is not told is one of five numbers.
     fn free(&self) -> &'static [usize] {
         let has = |part| self.fit.contains(&part);
-        let distorted = lens::OF_MATRIX + if self.distortion.is_empty() { 5 } else { self.distortion.len() };
+        let distorted =
+            lens::OF_MATRIX + if self.distortion.is_empty() { 5 } else { self.distortion.len() };
         match (has(Part::Matrix), has(Part::Distortion)) {
             (false, false) => &[],
             (true, false) => Aim::some(0, lens::OF_MATRIX),
@@ -137,17 +144,24 @@ impl Bench {
             Err(Fault::new(format!("line {}: {found}", row.line), expected, help))
         };
         let name = row.camera.as_ref().map_or("", |names| &names[0]);
-        let Some((camera, lens)) = self.camera(row).and_then(|camera| Some((camera, camera.lens()?))) else {
+        let Some((camera, lens)) =
+            self.camera(row).and_then(|camera| Some((camera, camera.lens()?)))
+        else {
             let found = format!("`u` and `v` of camera `{name}`, whose matrix nobody knows");
             let help = "write a [[camera]] with its name and matrix; `fit = [\"matrix\"]` where it is rough";
             return at(found, "its matrix in the file of --bench", help);
         };
         let Some(marker) = row.marker.clone() else {
-            return at("`u` and `v` without a marker".to_owned(), "the name of what is shown", "fill `marker` in");
+            return at(
+                "`u` and `v` without a marker".to_owned(),
+                "the name of what is shown",
+                "fill `marker` in",
+            );
         };
         let board = row.camera.as_ref().map_or("", |names| &names[1]);
         let named = |known: &&Board| board.is_empty() || known.name == board;
-        let corner = self.board.iter().filter(named).find_map(|b| Some((b, b.corners.get(&marker)?)));
+        let corner =
+            self.board.iter().filter(named).find_map(|b| Some((b, b.corners.get(&marker)?)));
         let place = corner.map(|(_, corner)| Vector3::from(corner.map(|x| x.0)));
         let board_on = corner.and_then(|(board, _)| board.on);
         let (target, is_board) = match (camera.on, place, board_on) {
@@ -165,8 +179,12 @@ impl Bench {
                 let help = "name it among the `corners` of a [[board]]";
                 return at(found, "a place beside the arm", help);
             }
-            (Mount::Base, Some(_), Some(Mount::Base)) | (Mount::Tool, Some(_), Some(Mount::Tool)) => {
-                let found = format!("camera `{}` and the board of `{marker}` on the same side of the arm", camera.name);
+            (Mount::Base, Some(_), Some(Mount::Base))
+            | (Mount::Tool, Some(_), Some(Mount::Tool)) => {
+                let found = format!(
+                    "camera `{}` and the board of `{marker}` on the same side of the arm",
+                    camera.name
+                );
                 return at(found, "one on the tool and one on the base", "mend `on`");
             }
         };
@@ -175,7 +193,12 @@ impl Bench {
             row.sigma.iter_mut().for_each(|sigma| sigma[k] /= lens.focus);
         }
         let view = View::Camera { lens, target };
-        row.aim = Some(Box::new(Aim { seen: Seen::Camera, name: camera.name.clone(), view, free: camera.free() }));
+        row.aim = Some(Box::new(Aim {
+            seen: Seen::Camera,
+            name: camera.name.clone(),
+            view,
+            free: camera.free(),
+        }));
         Ok(is_board)
     }
 }
@@ -186,7 +209,8 @@ fn one_of_each(data: &Measurements) -> Result<(), Fault> {
         let mut named = rows.iter().filter_map(|row| row.camera.as_deref());
         let Some(first) = named.next() else { continue };
         let Some(other) = named.find(|other| *other != first) else { continue };
-        let told = |[camera, board]: &[String; 2]| format!("camera `{camera}` with board `{board}`");
+        let told =
+            |[camera, board]: &[String; 2]| format!("camera `{camera}` with board `{board}`");
         let found = format!("{} and {}", told(first), told(other));
         let help = "put each into a file or a `session` of its own";
         return Err(Fault::new(found, "one camera and one board", help));
