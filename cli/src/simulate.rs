@@ -9,7 +9,8 @@ use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::{Dimension, Kind};
-use stiffarm_gap::plant::design::{Design, Shape, placed};
+use stiffarm_gap::observe::{Bench, View};
+use stiffarm_gap::plant::design::{Design, Shape, beside, placed};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
@@ -103,7 +104,7 @@ pub struct ExperimentArgs {
     /// Standard deviation of each measured coordinate
     #[arg(long, value_name = "LENGTH", default_value = "30um")]
     noise_position: String,
-    /// Standard deviation of each component of a measured rotation
+    /// Standard deviation of each component of a measured rotation, or of each coordinate in a picture (0.2px)
     #[arg(long, value_name = "ANGLE", default_value = "0.005deg")]
     noise_rotation: String,
     /// Decides poses, loads and noise; the same seed gives the same bytes
@@ -142,6 +143,8 @@ enum MeasureArg {
     Point,
     /// Height above one of six plates, in unknown places
     Plane,
+    /// Where the camera of --bench, beside the arm, shows each corner of its board on the tool
+    Camera,
 }
 
 /// Most rows that are drawn.
@@ -157,10 +160,10 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     if let Some(target) = &args.log {
         return log::run(args, &source, target);
     }
-    let arm = source.arm()?;
+    let arm = args.experiment.placed(source.arm()?);
     let truths = args.truths(&arm)?;
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
-    let noise = args.experiment.noise()?;
+    let noise = args.experiment.noise(&design)?;
     let seed = args.experiment.seed;
     let known: Vec<Known> =
         source.known.iter().filter(|known| known.is_there(&design)).cloned().collect();
@@ -247,18 +250,37 @@ impl ExperimentArgs {
                 data::doubted(arm, &design, &Nuisance::ALL, quiet);
                 Ok(placed(arm, &design))
             }
-            None => Ok(self.design()?.rows(arm)),
+            None => self.drawn(arm, &layout.bench, 0),
         }
+    }
+
+    /// Whether a camera measures.
+    pub fn is_by_camera(&self) -> bool {
+        self.measure == MeasureArg::Camera
+    }
+
+    /// The arm where what measures it has it.
+    pub fn placed(&self, arm: Arm) -> Arm {
+        if self.is_by_camera() { Arm { base: beside(&arm), ..arm } } else { arm }
+    }
+
+    fn drawn(&self, arm: &Arm, bench: &Bench, more: u64) -> Result<Measurements, Failure> {
+        let design = self.design()?;
+        let design = Design { seed: design.seed.wrapping_add(more), ..design };
+        if !self.is_by_camera() {
+            return Ok(design.rows(arm));
+        }
+        let refused = |fault| Failure::new(format!("--measure camera: {fault}"));
+        design.shown(arm, bench).map_err(refused)
     }
 
     /// Four sessions of the same design at other poses.
     ///
     /// # Errors
     /// [`Failure`]: numbers that make no design.
-    pub fn other_sessions(&self, arm: &Arm) -> Result<Vec<Measurements>, Failure> {
-        let design = self.design()?;
-        let other = |k| Design { seed: design.seed.wrapping_add(k), ..design }.rows(arm);
-        Ok((1..=4).map(other).collect())
+    pub fn other_sessions(&self, source: &Source, arm: &Arm) -> Result<Vec<Measurements>, Failure> {
+        let bench = self.bench.layout(source)?.bench;
+        (1..=4).map(|more| self.drawn(arm, &bench, more)).collect()
     }
 
     fn design(&self) -> Result<Design, Failure> {
@@ -298,16 +320,17 @@ impl ExperimentArgs {
                 MeasureArg::Distance => Kind::Distance,
                 MeasureArg::Point => Kind::Bench { lengths: 3, angles: false },
                 MeasureArg::Plane => Kind::Bench { lengths: 1, angles: false },
+                MeasureArg::Camera => Kind::Bench { lengths: 0, angles: true },
             },
             seed: self.seed,
         })
     }
 
-    /// The instrument's noise.
+    /// The noise of the instrument that measures a design.
     ///
     /// # Errors
     /// [`Failure`] for what is no length or angle, or below zero.
-    pub fn noise(&self) -> Result<Noise, Failure> {
+    pub fn noise(&self, design: &Measurements) -> Result<Noise, Failure> {
         let read = |option: &str, text: &str, dimension: Dimension| {
             let bare = quantity::read(text, None).is_some();
             let value = quantity::read(text, Some(dimension)).filter(|x| *x >= 0.0 && !bare);
@@ -319,10 +342,15 @@ impl ExperimentArgs {
                 ))
             })
         };
-        Ok(Noise {
-            position: read("--noise-position", &self.noise_position, Dimension::Length)?,
-            rotation: read("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
-        })
+        let camera = design.rows.first().and_then(|row| row.view(design.kind));
+        let rotation = match camera {
+            Some(View::Camera { lens, .. }) if self.noise_rotation.trim().ends_with("px") => {
+                read("--noise-rotation", &self.noise_rotation, Dimension::Pixels)? / lens.focus
+            }
+            _ => read("--noise-rotation", &self.noise_rotation, Dimension::Angle)?,
+        };
+        let position = read("--noise-position", &self.noise_position, Dimension::Length)?;
+        Ok(Noise { position, rotation })
     }
 }
 

@@ -6,7 +6,7 @@ mod motion;
 use std::path::PathBuf;
 
 use stiffarm_gap::Options;
-use stiffarm_gap::plant;
+use stiffarm_gap::plant::{self, Frames};
 use stiffarm_gap::study::withhold::{Campaign, Experiment, Plan, Report, with_findings, withhold};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
@@ -119,11 +119,11 @@ fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
     };
     let multiple = args.multiple([8.0, 20.0])?;
     let source = args.robot.load(quiet)?;
-    let arm = source.arm_at_its_base()?;
+    let arm = args.experiment.placed(source.arm_at_its_base()?);
     let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),
-        None => args.experiment.other_sessions(&arm)?,
+        None => args.experiment.other_sessions(&source, &arm)?,
     };
     let options = Options {
         known: source.known.clone(),
@@ -135,8 +135,9 @@ fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
         design: &design,
         fresh: &fresh,
         predict: Some(&predict),
-        noise: args.experiment.noise()?,
-        frames: None,
+        noise: args.experiment.noise(&design)?,
+        // Where a camera stands, and where its board sits, nobody knows.
+        frames: args.experiment.is_by_camera().then(Frames::default),
         effects: &effects,
         options: &options,
     };

@@ -1,10 +1,11 @@
-//! Sockets and plates in place of a tracker: every effect, blind, in unknown places of the bench.
+//! Sockets, plates and a camera in place of a tracker: every effect, blind, in unknown places of the bench.
 
 use stiffarm_gap::Options;
 use stiffarm_gap::effects::Effect;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, effects};
+use stiffarm_gap::observe::Bench;
+use stiffarm_gap::plant::design::{Design, Shape, beside};
+use stiffarm_gap::plant::{Frames, Noise, effects};
 use stiffarm_gap::study::withhold::{Campaign, Experiment, Report, with_findings};
 
 use crate::arms::arm;
@@ -18,14 +19,46 @@ struct Setting {
     stiffness: f64,
     /// kg.
     payload: f64,
-    /// Whether balls sit in sockets; else plates are probed.
-    points: bool,
+    instrument: Instrument,
 }
+
+#[derive(Clone, Copy, Debug)]
+enum Instrument {
+    /// Balls sit in sockets.
+    Sockets,
+    /// Plates are probed.
+    Plates,
+    /// A camera beside the arm shows a board of six corners on the tool.
+    Camera,
+}
+
+/// The lens of a machine's camera, and a printed board of a hand's breadth.
+const BENCH_FILE: &str = "
+[[camera]]
+name = \"left\"
+matrix = [[2400, 0, 640], [0, 2400, 512], [0, 0, 1]]
+distortion = [-0.1, 0.05, 0.001, -0.001]
+[[board]]
+name = \"charuco\"
+[board.corners]
+c0 = [0.00, 0.00, 0]
+c1 = [0.12, 0.00, 0]
+c2 = [0.24, 0.00, 0]
+c3 = [0.00, 0.18, 0]
+c4 = [0.12, 0.18, 0]
+c5 = [0.24, 0.18, 0]
+";
 
 fn settings() -> Vec<Setting> {
     let robots = [("kuka_kr240", 1e6, 240.0), ("iiwa14", 1.5e4, 14.0)];
     let of_robot = |(robot, stiffness, payload)| {
-        [true, false].map(|points| Setting { robot, stiffness, payload, points })
+        use Instrument::{Camera, Plates, Sockets};
+        [Sockets, Plates, Camera].map(|instrument| Setting {
+            robot,
+            stiffness,
+            payload,
+            instrument,
+        })
     };
     robots.into_iter().flat_map(of_robot).collect()
 }
@@ -33,14 +66,26 @@ fn settings() -> Vec<Setting> {
 /// What no socket sees whose place is unknown: an arm that is larger by a factor fits larger places.
 const UNSEEN: [&str; 1] = ["instrument_scale"];
 
-/// Ten postures at each of six sockets, twenty at each of six plates, which have one number a row; no, half and full
-/// payload.
+/// Ten postures at each of six sockets, twenty at each of six plates, which have one number a row, forty before the
+/// camera; no, half and full payload.
 fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
-    let Setting { payload, points, .. } = *setting;
-    let arm = arm(setting.robot, setting.stiffness);
-    let (kind, shape) = (Kind::Bench { points }, Shape::Payload);
-    let poses = if points { 60 } else { 120 };
-    let design = |seed| Design { shape, poses, repeats: 1, payload, kind, seed }.rows(&arm);
+    let Setting { payload, instrument, .. } = *setting;
+    let mut arm = arm(setting.robot, setting.stiffness);
+    let (kind, poses) = match instrument {
+        Instrument::Sockets => (Kind::Bench { lengths: 3, angles: false }, 60),
+        Instrument::Plates => (Kind::Bench { lengths: 1, angles: false }, 120),
+        Instrument::Camera => (Kind::Bench { lengths: 0, angles: true }, 40),
+    };
+    let by_camera = matches!(instrument, Instrument::Camera);
+    if by_camera {
+        arm.base = beside(&arm);
+    }
+    let bench = Bench::read("bench.toml", BENCH_FILE).expect("a bench");
+    let design = |seed| {
+        let design = Design { shape: Shape::Payload, poses, repeats: 1, payload, kind, seed };
+        let shown = || design.shown(&arm, &bench).expect("a camera and a board");
+        if by_camera { shown() } else { design.rows(&arm) }
+    };
     let seen = |effect: &&dyn Effect| !UNSEEN.contains(&effect.identifier());
     let effects: Vec<_> = effects().into_iter().filter(seen).collect();
     let fresh = [1000, 2000, 3000, 4000].map(|more| design(seed + more));
@@ -49,9 +94,9 @@ fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
         design: &design(seed),
         fresh: &fresh,
         predict: Some(&with_findings(&arm, &options.catalogue)),
-        // What a printed socket or a plate and a dial gauge are good for.
-        noise: Noise { position: 50e-6, rotation: 0.0 },
-        frames: None,
+        // What a printed socket or a plate and a dial gauge are good for; a tenth of a pixel.
+        noise: Noise { position: 50e-6, rotation: if by_camera { 0.1 / 2400.0 } else { 0.0 } },
+        frames: by_camera.then(Frames::default),
         effects: &effects,
         options: &options,
     });
@@ -62,8 +107,7 @@ fn judged(cases: usize, seed: u64) -> Goals {
     let reports: Vec<Report> = settings().iter().map(|s| run(s, cases, seed)).collect();
     for (setting, report) in settings().iter().zip(&reports) {
         let goals = Goals::of(core::slice::from_ref(report), BENCH);
-        let what = if setting.points { "sockets" } else { "plates" };
-        println!("{}, {what}\n{goals}{}", setting.robot, strays(report));
+        println!("{}, {:?}\n{goals}{}", setting.robot, setting.instrument, strays(report));
     }
     Goals::of(&reports, BENCH)
 }

@@ -258,7 +258,7 @@ fn again(
     let known = known.map_err(|errors| format!("{errors:?}"))?;
     let options = Options { known, effects, ..options() };
     let begins = diagnose_with(&arm, &drawn.data, &options, &|_| {})?.diagnosis.gap.before;
-    let all = [gap.after, predicted, begins];
+    let all = [gap.after.clone(), predicted, begins];
     Ok(all.map(|of| of.position_rms / gap.fitted.position_rms))
 }
 

@@ -55,8 +55,7 @@ impl Camera {
         let of = |what: String| format!("{what} of camera `{}`", self.name);
         if let Some([[fx, skew, _], [under, fy, _], last]) = self.matrix {
             let is_matrix = skew == 0.0 && under == 0.0 && last == [0.0, 0.0, 1.0];
-            if !is_matrix
-                || !(fx > 0.0 && fy > 0.0)
+            if !(is_matrix && fx > 0.0 && fy > 0.0)
                 || self.matrix.iter().flatten().flatten().any(|x| !x.is_finite())
             {
                 let found = of("a matrix that is none".to_owned());
@@ -95,6 +94,16 @@ impl Camera {
 }
 
 impl Bench {
+    /// The names of a camera beside the arm whose lens is known, of a board that may be on the tool, and of its
+    /// corners.
+    pub(crate) fn shows(&self) -> Option<(String, String, Vec<String>)> {
+        let camera = self.camera.iter().find(|c| c.on == Mount::Base && c.matrix.is_some())?;
+        let is_on_tool =
+            |board: &&Board| board.on != Some(Mount::Base) && !board.corners.is_empty();
+        let board = self.board.iter().find(is_on_tool)?;
+        Some((camera.name.clone(), board.name.clone(), board.corners.keys().cloned().collect()))
+    }
+
     /// Whether a board has a corner of that name.
     pub(crate) fn has_corner(&self, name: &str) -> bool {
         self.board.iter().any(|board| board.corners.contains_key(name))
@@ -216,4 +225,73 @@ fn one_of_each(data: &Measurements) -> Result<(), Fault> {
         return Err(Fault::new(found, "one camera and one board", help));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measurement::Layout;
+    use stiffarm_kernels::Motion;
+
+    const MATRIX: &str = "matrix = [[900, 0, 640], [0, 900, 360], [0, 0, 1]]";
+    const BOARD: &str =
+        "[[board]]\nname = \"plate\"\ncorners = { c0 = [0, 0, 0], c1 = [\"30 mm\", 0, 0] }";
+
+    fn told(bench: &str, header: &str, row: &str) -> String {
+        let bench = match Bench::read("b.toml", bench) {
+            Ok(bench) => bench,
+            Err(error) => return error.to_string(),
+        };
+        let motions = vec![Motion::Revolute];
+        let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench };
+        let text = format!("{header}\n{row}\n{row}\n");
+        Measurements::from_bytes("run.csv", text.as_bytes(), &layout)
+            .map_or_else(|error| error.to_string(), |data| data.subject())
+    }
+
+    #[test]
+    fn mistakes_of_cameras_are_told() {
+        let camera = |more: &str| format!("[[camera]]\nname = \"left\"\n{more}\n{BOARD}");
+        let (header, row) = ("q1,marker,u[px],v[px]", "0.1,c0,600,300");
+        assert_eq!(told(&camera(MATRIX), header, row), "cameras");
+        for (bench, header, row, part) in [
+            (
+                camera("matrix = [[900, 1, 640], [0, 900, 360], [0, 0, 1]]"),
+                header,
+                row,
+                "a matrix that is none",
+            ),
+            (
+                camera(&format!("{MATRIX}\ndistortion = [0.1]")),
+                header,
+                row,
+                "a distortion of 1 numbers",
+            ),
+            (
+                camera(""),
+                header,
+                row,
+                "line 2: found `u` and `v` of camera ``, whose matrix nobody knows",
+            ),
+            (camera(&format!("{MATRIX}\non = \"tool\"")), "q1,u,v", "0.1,1,2", "without a marker"),
+            (camera(MATRIX), header, "0.1,c7,600,300", "unknown marker `c7`"),
+            (camera(MATRIX), "q1,marker,u[px]", "0.1,c0,600", "`u` without v"),
+            (
+                camera(MATRIX),
+                "q1,marker,u,v,sigma[mm]",
+                "0.1,c0,6,3,1",
+                "a standard deviation that is a length",
+            ),
+            (
+                format!("{}\non = \"base\"", camera(MATRIX)),
+                header,
+                row,
+                "camera `left` and the board of `c0` on the same side of the arm",
+            ),
+            (format!("{0}\n{0}", camera(MATRIX)), header, row, "[[board]] `plate` twice"),
+        ] {
+            let error = told(&bench, header, row);
+            assert!(error.contains(part), "{error}\n{part}");
+        }
+    }
 }

@@ -7,6 +7,7 @@
 
 mod approach;
 mod bench;
+mod camera;
 mod climate;
 mod loads;
 mod poses;
@@ -14,6 +15,7 @@ mod poses;
 use stiffarm_kernels::generic::Arm;
 
 pub use bench::placed;
+pub use camera::beside;
 
 use crate::measurement::{Kind, Measurements, Row};
 use crate::observe::{Aim, Seen, View};
@@ -68,11 +70,26 @@ impl Design {
     ///
     /// Readings are whole microradians (micrometres), loads whole thousandths of SI.
     pub fn rows(&self, arm: &Arm) -> Measurements {
-        let mut rows = Vec::new();
         let mut poses = poses::draw(arm, self);
         let is_bench = matches!(self.kind, Kind::Bench { .. });
         let aims = if is_bench { bench::reach(arm, self, &mut poses) } else { Vec::new() };
-        let loads = loads::draw(arm, self, &poses);
+        let mut design = self.at(arm, &poses);
+        for row in design.rows.iter_mut().filter(|_| is_bench) {
+            row.aim = Some(Box::new(aims[row.group].clone()));
+        }
+        if self.kind == Kind::Distance {
+            let middle = poses::middle(arm, &poses);
+            let view = View::Distance { from: middle.into(), offset: 0.0 };
+            let aim = Aim::known(Seen::Distance, "", view);
+            design.rows.iter_mut().for_each(|row| row.aim = Some(Box::new(aim.clone())));
+        }
+        design
+    }
+
+    /// The rows at these postures, of which nothing is known but loads and moments.
+    fn at(&self, arm: &Arm, poses: &[Vec<f64>]) -> Measurements {
+        let mut rows = Vec::new();
+        let loads = loads::draw(arm, self, poses);
         for _ in 0..self.repeats {
             for (group, (q, loads)) in poses.iter().zip(&loads).enumerate() {
                 for wrench in loads {
@@ -81,18 +98,8 @@ impl Design {
                 }
             }
         }
-        if is_bench {
-            rows.iter_mut()
-                .for_each(|row: &mut Row| row.aim = Some(Box::new(aims[row.group].clone())));
-        }
         approach::fill(self, &mut rows);
         climate::fill(self.seed, &mut rows);
-        if self.kind == Kind::Distance {
-            let middle = poses::middle(arm, &poses);
-            let view = View::Distance { from: middle.into(), offset: 0.0 };
-            let aim = Aim::known(Seen::Distance, "", view);
-            rows.iter_mut().for_each(|row| row.aim = Some(Box::new(aim.clone())));
-        }
         Measurements::new(&format!("the {} design", self.shape.name()), self.kind, rows)
     }
 }

@@ -1,0 +1,92 @@
+//! Postures before a camera: beside the arm it stands, and sees a board on the tool.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use stiffarm_kernels::generic::Arm;
+
+use super::super::reality::Reality;
+use super::super::transform::{origin, rotation};
+use super::{Design, Shape, poses, rounded};
+use crate::io::Fault;
+use crate::measurement::{Kind, Measurements, Row};
+use crate::observe::{Aim, Bench, Seen};
+
+/// Postures by which the reach of an arm is told.
+const REACH: usize = 200;
+
+/// The camera's distance from the middle of them, in parts of the reach about it: all is within 25° of the line of
+/// sight.
+const FAR: f64 = 2.2;
+
+/// From where it looks, in the arm's axes.
+const FROM: [f64; 3] = [2.0, 1.0, 0.7];
+
+/// A board that is turned away by more than 60° shows no corners.
+const FACING: f64 = 0.5;
+
+/// Pools of as many postures as are wanted that are drawn at most.
+const POOLS: u64 = 50;
+
+/// Where an arm's base stands in the axes of a camera that has all of its reach in view.
+pub fn beside(arm: &Arm) -> Isometry3<f64> {
+    let nominal = Reality::nominal(arm);
+    let all = Design {
+        shape: Shape::Payload,
+        poses: REACH,
+        repeats: 1,
+        payload: 0.0,
+        kind: Kind::Pose { orientation: true },
+        seed: 0,
+    };
+    let places: Vec<_> =
+        poses::draw(arm, &all).iter().map(|q| origin(&nominal.tool_at(q))).collect();
+    let middle = places.iter().sum::<Vector3<f64>>() / places.len() as f64;
+    let reach = places.iter().map(|p| (p - middle).norm()).fold(0.0, f64::max);
+    let eye = middle + FAR * reach * Vector3::from(FROM).normalize();
+    let sight = (middle - eye).normalize();
+    let right = sight.cross(&Vector3::z()).normalize();
+    let axes = Matrix3::from_columns(&[right, sight.cross(&right), sight]);
+    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    Isometry3::from_parts(eye.map(|x| rounded(x, 1e6)).into(), turn).inverse()
+}
+
+impl Design {
+    /// The rows as [`Design::rows`] has them, at postures in which a board on the tool faces the bench's camera, each
+    /// once for every corner; `arm` stands before the camera ([`beside`]).
+    ///
+    /// # Errors
+    /// [`Fault`]: a bench without a camera on the base that has a matrix, or without a board that has corners.
+    pub fn shown(&self, arm: &Arm, bench: &Bench) -> Result<Measurements, Fault> {
+        let Some((camera, board, corners)) = bench.shows() else {
+            let found = "no camera and board";
+            let expected = "a bench with a [[camera]] on the base that has a matrix, and a [[board]] with corners";
+            return Err(Fault::new(found, expected, "write both, and name the file with --bench"));
+        };
+        let nominal = Reality::nominal(arm);
+        let faces = |q: &[f64]| {
+            let tool = arm.base.to_homogeneous() * nominal.tool_at(q);
+            let sight = origin(&tool).normalize();
+            (rotation(&tool).column(2).dot(&sight)).abs() > FACING
+        };
+        let pools = (0..POOLS).flat_map(|k| {
+            let seed = self.seed.wrapping_add(k.wrapping_mul(0x9e37_79b9));
+            poses::draw(arm, &Design { seed, ..*self })
+        });
+        let mut postures: Vec<_> = pools.filter(|q| faces(q)).take(self.poses).collect();
+        let others = poses::draw(arm, self).into_iter();
+        postures.extend(others.take(self.poses - postures.len()));
+        let design = self.at(arm, &postures);
+        let of = |row: &Row| -> Vec<Row> {
+            let shown = |corner: &String| Row {
+                marker: Some(corner.clone()),
+                camera: Some(Box::new([camera.clone(), board.clone()])),
+                aim: Some(Box::new(Aim::at(Seen::Camera, camera.clone()))),
+                ..row.clone()
+            };
+            corners.iter().map(shown).collect()
+        };
+        let rows = design.rows.iter().flat_map(of).collect();
+        let mut data = Measurements { rows, by_camera: true, by_board: true, ..design };
+        bench.set_up(&mut data)?;
+        Ok(data)
+    }
+}
