@@ -10,12 +10,14 @@ use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_gap::observe::Aim;
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
+use crate::input::data::BenchArgs;
 use crate::input::quantity;
-use crate::input::source::RobotArgs;
+use crate::input::source::{RobotArgs, Source};
 use crate::input::wrench::wrench;
 use crate::motion::MotionArgs;
 use crate::terminal::failure::Failure;
@@ -27,6 +29,7 @@ Examples:
   stiffarm poses arm.toml --count 20 --load 0,0,-50kgf,0,0,0 --csv plan.csv
   stiffarm poses kuka_kr240 --count 15 --load 0,0,-2kN,0,0,0 --load 2kN,0,0,0,0,0 --csv plan.csv
   stiffarm poses arm.toml --count 30 --for diagnose --load 0,0,-100,0,0,0 --csv plan.csv
+  stiffarm poses arm.toml --count 30 --for diagnose --bench sockets.toml --csv plan.csv
   stiffarm poses arm.toml --count 10 --for separate 'joint_compliance@joint 2' \\
       'link_compliance@link 2' --load 0,0,-2kN,0,0,0 --load 0,1kN,0,0,0,0 --csv plan.csv
 
@@ -35,7 +38,9 @@ Examples:
 Postures are drawn within the joint limits; those that are not dexterous are left out, and those in
 which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
 are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
-loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. For `separate`
+loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. With --bench the
+tool is in a [[point]] or on a [[plane]] at every posture, and no joint is below a plane; what says where
+they are need only be rough. For `separate`
 those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
 `stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
 
@@ -70,6 +75,8 @@ pub struct Args {
     /// and N·m, or with a unit [default: pulls of 100 N along ±x, ±y and −z]
     #[arg(long = "load", value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
     loads: Vec<String>,
+    #[command(flatten)]
+    bench: BenchArgs,
     /// Rotations will be measured too
     #[arg(long)]
     rotations: bool,
@@ -116,7 +123,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     }
     let arm = source.arm_at_its_base()?;
     let whole = Whole { arm: &arm, known: &source.known };
-    let plan = args.plan(&arm)?;
+    let plan = Plan { bench: args.places(&source)?, ..args.plan(&arm)? };
     let progress = Progress::new(&source.given, PARTS, quiet);
     let found = design(whole, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
@@ -129,6 +136,20 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
 }
 
 impl Args {
+    /// The things of the bench at which postures are planned.
+    fn places(&self, source: &Source) -> Result<Vec<Aim>, Failure> {
+        let places = self.bench.layout(source)?.bench.places();
+        if self.bench.is_given() && places.is_empty() {
+            let help =
+                "give each [[point]] its `at`, each [[plane]] its `normal` and `offset`, roughly";
+            return Err(Failure::with_help("--bench: found nothing whose place is known", help));
+        }
+        if self.bench.is_given() && self.purpose != For::Diagnose {
+            return Err(Failure::new("--bench is for --for diagnose"));
+        }
+        Ok(places)
+    }
+
     fn plan(&self, arm: &Arm) -> Result<Plan, Failure> {
         let given = self.loads.iter().map(|text| wrench("--load", text));
         let mut loads: Vec<Vector6<f64>> = given.collect::<Result<_, _>>()?;
@@ -151,6 +172,7 @@ impl Args {
             purpose: self.purpose(arm)?,
             along: self.along(arm)?,
             loads,
+            bench: Vec::new(),
             noise_position: quantity::with_unit("--noise-position", &self.noise_position, length)?,
             noise_rotation: self.rotations.then_some(turned),
             seed: self.seed,

@@ -28,6 +28,11 @@ pub struct BenchArgs {
 }
 
 impl BenchArgs {
+    /// Whether a file is given.
+    pub fn is_given(&self) -> bool {
+        self.bench.is_some()
+    }
+
     /// What the reader of a file must know of the robot and the bench.
     ///
     /// # Errors

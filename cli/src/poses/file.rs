@@ -4,6 +4,7 @@ use nalgebra::Vector6;
 use stiffarm_codegen::robot::Frame;
 use stiffarm_gap::dexterity::design::{Design, Plan, Planned};
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENCH_NAMES};
+use stiffarm_gap::observe::{Aim, Seen};
 
 use crate::input::source::Source;
 
@@ -26,8 +27,17 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
     if directed {
         heads.extend((1..=revolute.len()).map(|j| format!("s{j}")));
     }
+    let aims: Vec<&Aim> = plan.bench.iter().collect();
+    let seen = [Seen::Point, Seen::Plane];
+    let things: Vec<Seen> =
+        seen.into_iter().filter(|seen| aims.iter().any(|aim| aim.seen == *seen)).collect();
+    heads.extend(things.iter().map(|seen| seen.thing().to_owned()));
     let names = if found.displacements { DISPLACEMENT_NAMES } else { POSE_NAMES };
-    let measured = if plan.noise_rotation.is_some() { 6 } else { 3 };
+    let measured = match (aims.is_empty(), plan.noise_rotation) {
+        (false, _) => 0,
+        (true, None) => 3,
+        (true, Some(_)) => 6,
+    };
     heads.extend((0..measured).map(|k| {
         let unit = match (k < 3, found.displacements) {
             (true, _) => "mm",
@@ -48,13 +58,15 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
         true => "# s1 … say from which side each joint comes to rest: 1 with rising readings.\n",
         false => "",
     };
-    let mut text = format!(
-        "# {}: fill in {} to {}, {what}, {axes}.\n{sides}{}\n",
-        source.robot.name.replace(char::is_control, " "),
-        names[0],
-        names[measured - 1],
-        heads.join(",")
-    );
+    let task = match measured {
+        0 => {
+            "bring the tool there, before and under the load, and put in what the joints then read"
+                .to_owned()
+        }
+        _ => format!("fill in {} to {}, {what}, {axes}", names[0], names[measured - 1]),
+    };
+    let robot = source.robot.name.replace(char::is_control, " ");
+    let mut text = format!("# {robot}: {task}.\n{sides}{}\n", heads.join(","));
     for (k, test) in found.tests.iter().enumerate() {
         let zero = Vector6::zeros();
         let wrenches: &[&Vector6<f64>] = match found.displacements {
@@ -66,12 +78,22 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
             cells.extend(readings(test, &revolute));
             cells.extend(loaded.iter().map(|&k| plain(load[k], 6)));
             cells.extend(test.direction.iter().flatten().map(i8::to_string));
+            let thing = test.thing.map(|thing| aims[thing]);
+            let name =
+                |seen: &Seen| thing.filter(|aim| aim.seen == *seen).map(|aim| quoted(&aim.name));
+            cells.extend(things.iter().map(|seen| name(seen).unwrap_or_default()));
             cells.extend((0..measured).map(|_| String::new()));
             text.push_str(&cells.join(","));
             text.push('\n');
         }
     }
     text
+}
+
+/// A name as a cell.
+fn quoted(name: &str) -> String {
+    let is_plain = !name.contains([',', '"', '\n', '#']);
+    if is_plain { name.to_owned() } else { format!("\"{}\"", name.replace('"', "\"\"")) }
 }
 
 /// To a thousandth of a degree or millimetre: finer than a controller is told.

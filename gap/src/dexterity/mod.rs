@@ -64,6 +64,14 @@ pub enum DexterityError {
         /// Smallest singular value of J over the largest.
         ratio: f64,
     },
+    /// A thing of a bench to which no posture goes.
+    #[error(
+        "no posture within the joints' ranges brings the tool to {thing} with the arm above every plane: move it"
+    )]
+    OutOfReach {
+        /// As reports call it.
+        thing: String,
+    },
     /// A prismatic joint without limits cannot be searched.
     #[error("joint {joint} is prismatic and has no limits: give it limits to search between")]
     Unlimited {

@@ -139,6 +139,20 @@ impl Bench {
         board: Vec::new(),
     };
 
+    /// The points and planes of which it is known where they are, at least roughly: their constants are unknown.
+    pub fn places(&self) -> Vec<Aim> {
+        let points = self.point.iter().filter_map(|one| {
+            let at = View::Point(Vector3::from(one.at?.map(|x| x.0)));
+            Some(Aim { view: at, ..Aim::at(Seen::Point, one.name.clone()) })
+        });
+        let planes = self.plane.iter().filter_map(|one| {
+            let normal = Unit::new_normalize(Vector3::from(one.normal?));
+            let view = View::Plane(Plane::new(normal, one.offset?.0));
+            Some(Aim { view, ..Aim::at(Seen::Plane, one.name.clone()) })
+        });
+        points.chain(planes).collect()
+    }
+
     /// Reads what is known; `file` is what messages call it.
     ///
     /// # Errors

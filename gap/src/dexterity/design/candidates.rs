@@ -1,10 +1,10 @@
 //! The postures and loads that tests are chosen from, and what each would say of springs.
 
-use nalgebra::{DMatrix, Vector6};
+use nalgebra::{DMatrix, Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Unstable};
 
-use super::Plan;
+use super::{Plan, bench};
 use crate::dexterity::{
     DexterityError, Search, block, characteristic_length, influence, inverse_condition,
 };
@@ -17,6 +17,9 @@ const PER_TEST: usize = 40;
 const FEWEST: usize = 240;
 const MOST: usize = 1000;
 
+/// Postures that are tried at a thing of the bench for each that is wanted.
+const TRIES: usize = 20;
+
 /// Of the postures drawn the part that is dexterous enough, and of these the part in which K_C is
 /// small enough.
 const DEXTEROUS: f64 = 0.5;
@@ -28,6 +31,8 @@ const STARTS: usize = 6;
 /// A posture that may be tested.
 pub(super) struct Posture {
     pub(super) q: Vec<f64>,
+    /// Of the plan's bench, what is read.
+    pub(super) thing: Option<usize>,
     pub(super) inverse_condition: f64,
     pub(super) nu_p: f64,
 }
@@ -54,15 +59,19 @@ pub(super) fn draw(whole: Whole<'_>, plan: &Plan) -> Result<Pool, DexterityError
     let mut rng = Rng::new(plan.seed, Stream::Starts);
     let drawn: Vec<Vec<f64>> = (0..count).map(|_| rng.point(&bounds)).collect();
     let length = length(whole.arm, &drawn, plan.seed)?;
+    let drawn: Vec<(Vec<f64>, Option<usize>)> = match plan.bench.len() {
+        0 => drawn.into_iter().map(|q| (q, None)).collect(),
+        things => at_bench(whole.arm, plan, things, &bounds, count, &mut rng)?,
+    };
     let mut postures = Vec::new();
     let mut unstable = None;
-    for q in drawn {
+    for (q, thing) in drawn {
         let inverse_condition = inverse_condition(whole, &q, length)?;
         let nu_p = plan.loads.iter().map(|load| influence(whole, &q, load).map(|i| i.nu_p));
         match nu_p.collect::<Result<Vec<f64>, _>>() {
             Ok(each) => {
                 let nu_p = each.into_iter().fold(0.0, f64::max);
-                postures.push(Posture { q, inverse_condition, nu_p });
+                postures.push(Posture { q, thing, inverse_condition, nu_p });
             }
             Err(error) => unstable = Some(error),
         }
@@ -74,6 +83,32 @@ pub(super) fn draw(whole: Whole<'_>, plan: &Plan) -> Result<Pool, DexterityError
     keep(&mut postures, DEXTEROUS, plan.count, |p| -p.inverse_condition);
     keep(&mut postures, SMALL_K_C, plan.count, |p| p.nu_p);
     Ok(Pool { postures, length })
+}
+
+/// Postures at each thing of the bench in turn.
+fn at_bench(
+    arm: &Arm,
+    plan: &Plan,
+    things: usize,
+    bounds: &[[f64; 2]],
+    count: usize,
+    rng: &mut Rng,
+) -> Result<Vec<(Vec<f64>, Option<usize>)>, DexterityError> {
+    let mut all = Vec::new();
+    for thing in 0..things {
+        let wanted = count.div_ceil(things);
+        let tried = (0..TRIES * wanted).filter_map(|_| {
+            let mut q = rng.point(bounds);
+            bench::reaches(arm, &plan.bench, &plan.bench[thing], &mut q, bounds)
+                .then_some((q, Some(thing)))
+        });
+        let before = all.len();
+        all.extend(tried.take(wanted));
+        if all.len() == before {
+            return Err(DexterityError::OutOfReach { thing: plan.bench[thing].full_name() });
+        }
+    }
+    Ok(all)
 }
 
 /// Each posture with each load, by their numbers.
@@ -93,7 +128,7 @@ pub(super) fn blocks(
     zeros: bool,
 ) -> Result<Vec<Block>, Unstable> {
     let each = pairs(postures, plan).map(|(posture, load)| {
-        let rows = rows(whole, &postures[posture].q, &plan.loads[load], plan, zeros)?;
+        let rows = rows(whole, &postures[posture], &plan.loads[load], plan, zeros)?;
         Ok(Block { posture, load, direction: None, rows })
     });
     each.collect()
@@ -128,15 +163,19 @@ fn length(arm: &Arm, drawn: &[Vec<f64>], seed: u64) -> Result<f64, DexterityErro
 /// What a test measures per unit of each unknown, in units of the noise.
 fn rows(
     whole: Whole<'_>,
-    q: &[f64],
+    posture: &Posture,
     load: &Vector6<f64>,
     plan: &Plan,
     zeros: bool,
 ) -> Result<DMatrix<f64>, Unstable> {
-    let n = whole.arm.dof();
+    let (n, q) = (whole.arm.dof(), &posture.q[..]);
     let noise = plan.noises();
     let measured = noise.len();
     let springs = block(whole, Output::ComplianceRegressor, q, load)?;
+    if let Some(thing) = posture.thing {
+        let zeros = block(whole, Output::Jacobian, q, load)?;
+        return Ok(bench_rows(whole.arm, plan, posture, thing, [springs, zeros]));
+    }
     // A displacement is the difference of two readings, each with its noise.
     if !zeros {
         return Ok(DMatrix::from_fn(measured, n, |r, c| {
@@ -154,4 +193,31 @@ fn rows(
         };
         value / noise[row]
     }))
+}
+
+/// The same of a thing of the bench, without the load below and with it above: springs, zeros, and the constants of
+/// all things.
+fn bench_rows(
+    arm: &Arm,
+    plan: &Plan,
+    posture: &Posture,
+    thing: usize,
+    [springs, zeros]: [Matrix6xX<f64>; 2],
+) -> DMatrix<f64> {
+    let (n, at) = (arm.dof(), arm.pose(&posture.q));
+    let view = &plan.bench[thing].view;
+    let (by_frame, constants) = (bench::rows(view, &at), bench::constants(view, &at));
+    let (springs, zeros) = (&by_frame * springs, &by_frame * zeros);
+    let read = by_frame.nrows();
+    let own = plan.constants(thing);
+    let mut rows = DMatrix::zeros(2 * read, 2 * n + plan.constants(plan.bench.len()).start);
+    for loaded in [true, false] {
+        let first = if loaded { 0 } else { read };
+        if loaded {
+            rows.view_mut((first, 0), (read, n)).copy_from(&springs);
+        }
+        rows.view_mut((first, n), (read, n)).copy_from(&zeros);
+        rows.view_mut((first, 2 * n + own.start), (read, own.len())).copy_from(&constants);
+    }
+    rows / plan.noise_position
 }

@@ -8,6 +8,7 @@
 //! then exchanging as long as that helps (Fedorov). Two effects are told apart by T-optimality
 //! (`separate`).
 
+mod bench;
 mod candidates;
 mod exchange;
 mod separate;
@@ -23,6 +24,7 @@ use nalgebra::Vector6;
 
 use super::DexterityError;
 use crate::effects::Known;
+use crate::observe;
 use crate::whole::Whole;
 use candidates::{Block, Pool};
 use exchange::{Aim, Choices};
@@ -55,6 +57,9 @@ pub struct Plan {
     /// Standard deviation of a component of a measured rotation, rad; none if rotations are not
     /// measured.
     pub noise_rotation: Option<f64>,
+    /// Things of a bench that are read in place of a position, each where it is roughly; none without a bench. Their
+    /// constants are co-estimated.
+    pub bench: Vec<observe::Aim>,
     /// Of the postures drawn.
     pub seed: u64,
 }
@@ -68,6 +73,8 @@ pub struct Planned {
     pub wrench: Vector6<f64>,
     /// From which side each joint is to come to rest, −1 or 1, if that matters.
     pub direction: Option<Vec<i8>>,
+    /// The number of the thing of the plan's bench that is read.
+    pub thing: Option<usize>,
     /// `1/κ_F(J_N)`.
     pub inverse_condition: f64,
     /// ν_p, the largest under any of the loads.
@@ -129,14 +136,17 @@ pub fn design<'a>(
     let zeros = plan.purpose == Purpose::Diagnose;
     let blocks = candidates::blocks(whole, plan, &pool.postures, zeros)?;
     let n = arm.dof();
-    let kinds: Vec<usize> = (0..if zeros { 2 * n } else { n }).map(|c| c / n).collect();
+    let unknowns = if zeros { 2 * n } else { n };
+    let places = plan.constants(plan.bench.len()).start;
+    let mut kinds: Vec<usize> = (0..unknowns).map(|c| c / n).collect();
+    kinds.extend((0..places).map(|_| 2));
     let choices = Choices::new(&blocks, &kinds, &Aim::All);
     let chosen = choices.choose(plan.count, done);
     let deviations = choices.deviations(&chosen);
     let expected = (0..n).map(|j| Expected {
         joint: j + 1,
         compliance: deviations[j],
-        zero: deviations.get(n + j).copied().flatten(),
+        zero: if zeros { deviations[n + j] } else { None },
     });
     Ok(Design {
         tests: tests(plan, &pool, &blocks, &chosen),
@@ -183,6 +193,7 @@ fn tests(plan: &Plan, pool: &Pool, blocks: &[Block], chosen: &[usize]) -> Vec<Pl
             q: posture.q.clone(),
             wrench: plan.loads[block.load],
             direction: block.direction.clone(),
+            thing: posture.thing,
             inverse_condition: posture.inverse_condition,
             nu_p: posture.nu_p,
         }
@@ -191,6 +202,13 @@ fn tests(plan: &Plan, pool: &Pool, blocks: &[Block], chosen: &[usize]) -> Vec<Pl
 }
 
 impl Plan {
+    /// Among the constants of all things of the bench those of one; of one beyond them, where they end.
+    fn constants(&self, thing: usize) -> core::ops::Range<usize> {
+        let count = |aim: &observe::Aim| aim.view.constants();
+        let first = self.bench[..thing].iter().map(count).sum();
+        first..first + self.bench.get(thing).map_or(0, count)
+    }
+
     /// Standard deviation of each number of a reading.
     fn noises(&self) -> Vec<f64> {
         let mut noises = vec![self.noise_position; 3];
@@ -201,6 +219,13 @@ impl Plan {
 
 fn check(plan: &Plan) -> Result<(), DexterityError> {
     let setting = |what, found, expected| Err(DexterityError::Setting { what, found, expected });
+    if !plan.bench.is_empty() && plan.purpose != Purpose::Diagnose {
+        return setting(
+            "the number of things of a bench",
+            plan.bench.len() as f64,
+            "none but for a diagnosis",
+        );
+    }
     if !(1..=1000).contains(&plan.count) {
         return setting("the number of tests", plan.count as f64, "1 to 1000");
     }

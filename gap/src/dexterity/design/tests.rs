@@ -20,6 +20,7 @@ fn design<'a>(whole: impl Into<Whole<'a>>, plan: &Plan) -> Result<Design, Dexter
 fn plan(purpose: Purpose) -> Plan {
     let pull = |x: f64, y: f64, z: f64| Vector6::new(x, y, z, 0.0, 0.0, 0.0);
     Plan {
+        bench: Vec::new(),
         count: 8,
         purpose,
         along: vec![],
@@ -296,4 +297,24 @@ fn plans_that_cannot_be_made_are_refused() {
     arm.joints[1].motion = stiffarm_kernels::Motion::Prismatic;
     arm.joints[1].limits = None;
     assert_eq!(design(&arm, &good).unwrap_err(), DexterityError::Unlimited { joint: 2 });
+}
+
+/// Sockets and a plate: every posture is there and above the plate, and the plan says as much as its own covariance.
+#[test]
+fn postures_at_a_bench_are_where_it_is() {
+    let arm = crate::fixture::springy();
+    let text = "[[point]]\nname = \"a\"\nat = [0.4, 0.1, 0.3]\n[[point]]\nname = \"b\"\nat = [0.1, 0.4, 0.2]\n\
+                [[plane]]\nname = \"floor\"\nnormal = [0, 0, 1]\noffset = \"-0.6 m\"";
+    let bench = crate::observe::Bench::read("b.toml", text).unwrap().places();
+    let plan = Plan { count: 9, bench: bench.clone(), ..plan(Purpose::Diagnose) };
+    let found = design(&arm, &plan).unwrap();
+    assert_eq!(found.tests.len(), 9);
+    for test in &found.tests {
+        let view = &bench[test.thing.unwrap()].view;
+        assert!(view.read(&arm.pose(&test.q)).norm() < 1e-5, "{test:?}");
+        assert!(arm.frames(&test.q)[1..arm.dof()].iter().all(|at| at.translation.z > -0.6));
+    }
+    assert!(found.expected.iter().any(|e| e.compliance.is_some()));
+    let refused = design(&arm, &Plan { purpose: Purpose::Identify, ..plan }).unwrap_err();
+    assert!(refused.to_string().contains("bench"), "{refused}");
 }
