@@ -34,7 +34,10 @@ pub fn facts(report: &Campaign<'_>) -> Vec<(&'static str, String)> {
         let from = found.gap.noise.rotation_from.as_deref().map_or("", noise_from);
         sizes.push(format!("{} {from}", report.angle().with_unit(found.gap.noise.rotation_rms)));
     }
-    let nuisances: Vec<&str> = options.nuisances.iter().map(|n| Nuisance::identifier(*n)).collect();
+    // A camera makes its frames unknown, whatever was asked for.
+    let is_fitted = |frame: &Nuisance| found.nuisances.iter().any(|n| n.name == frame.identifier());
+    let nuisances: Vec<&str> =
+        Nuisance::ALL.into_iter().filter(is_fitted).map(Nuisance::identifier).collect();
     let named = |names: &[String], none: &str| match names {
         [] => none.to_owned(),
         names => names.join(", "),

@@ -1,6 +1,6 @@
 //! Where the error lies, what was co-estimated, what remains, what these data cannot show, what was not read.
 
-use stiffarm_gap::diagnose::{LeftOut, NuisanceReport, PairReport, Share};
+use stiffarm_gap::diagnose::{BenchReport, LeftOut, NuisanceReport, PairReport, Share};
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::io::Unit;
 use stiffarm_gap::measurement::ExtraColumn;
@@ -68,8 +68,25 @@ impl Campaign<'_> {
         };
         let geometry = "geometry: lengths, twists and zeros of the table";
         let geometry = self.found.geometry_along.then(|| geometry.to_owned());
-        let all: Vec<String> = self.found.nuisances.iter().map(frame).chain(geometry).collect();
-        listed(&all, MOST)
+        // What has a place is among the frames.
+        let is_placed =
+            |thing: &&BenchReport| ["point", "centre", "plane"].contains(&thing.kind.as_str());
+        let thing = |thing: &BenchReport| {
+            let each = thing.constants.iter().map(|constant| {
+                let (name, value) = (&constant.name, constant.value);
+                match constant.unit.as_ref() {
+                    "m" => format!("{name} {} mm", short(1e3 * value)),
+                    "rad" => format!("{name} {} mrad", short(1e3 * value)),
+                    "1" => format!("{name} {}", short(value)),
+                    unit => format!("{name} {} {unit}", short(value)),
+                }
+            });
+            let each: Vec<String> = each.collect();
+            format!("{}: {}", format!("{} {}", thing.kind, thing.name).trim_end(), each.join(", "))
+        };
+        let others = self.found.bench.iter().filter(|one| !is_placed(one)).map(thing);
+        let frames = self.found.nuisances.iter().map(frame);
+        listed(&frames.chain(geometry).chain(others).collect::<Vec<_>>(), MOST)
     }
 
     /// Points of the bench whose distance is known, and what it came out as.

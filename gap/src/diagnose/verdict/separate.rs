@@ -55,10 +55,10 @@ impl Search<'_, '_> {
         let Some((white, index, wrench, plain)) = best.filter(|b| b.0 > 1.0) else {
             return format!("no load at a pose of these data distinguishes {here} from {there}");
         };
-        let size = if self.problem.measures_position() {
-            format!("{:.3} mm", plain * 1e3)
-        } else {
-            format!("{:.3} mrad", plain * 1e3)
+        let size = match rows[index].view(self.problem.data.kind).map(|view| view.unit()) {
+            Some((part, "px")) => format!("{:.2} px", plain / part),
+            _ if self.problem.measures_position() => format!("{:.3} mm", plain * 1e3),
+            _ => format!("{:.3} mrad", plain * 1e3),
         };
         let pose = match &rows[index].pose {
             Some(id) => format!("pose {id}"),
