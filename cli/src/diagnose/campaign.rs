@@ -212,7 +212,8 @@ impl Campaign {
     pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data).map_err(plain)?;
-        let fitted = Fitted { placed: explanation.arm(), gaps: &gaps };
+        let placed = explanation.placed();
+        let fitted = Fitted { placed: &placed, gaps: &gaps };
         let reported = self.reported(Some(fitted));
         Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
     }

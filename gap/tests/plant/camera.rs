@@ -102,10 +102,16 @@ fn is_found(d: &Diagnosis) {
 /// Beside the arm: the arm's frame in the camera's axes, all of its reach before the lens.
 fn beside() -> Frames {
     let base = Isometry3::new(Vector3::new(0.1, 0.3, 6.0), Vector3::new(0.4, -1.1, 0.7));
-    Frames {
-        base,
-        tool: Isometry3::new(Vector3::new(0.05, -0.02, 0.1), Vector3::new(0.2, -0.3, 0.5)),
+    Frames { base, tool: Isometry3::identity() }
+}
+
+/// Corners that are placed on the tool by a board, which nobody knows.
+fn mounted(data: &Measurements, board: &Isometry3<f64>) -> Measurements {
+    let mut there = data.clone();
+    for offset in there.rows.iter_mut().filter_map(|row| row.offset.as_mut()) {
+        *offset = (board * Point3::from(*offset)).coords.into();
     }
+    there
 }
 
 #[test]
@@ -113,12 +119,17 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     let (arm, corners) = (loaded(Convention::Standard), corners(true));
     let frames = beside();
     let design = shown(&arm, Shape::Payload, &frames, false, &corners);
+    // Loads act at the tool, and not at the board.
+    let board = Isometry3::new(Vector3::new(0.15, -0.12, 0.1), Vector3::new(0.2, -0.3, 0.5));
     let plant = plant(&arm, &[TRUTH]).with_frames(frames);
-    let data = plant.measure(&design, NOISE, 1).expect("rows");
+    let data = plant.measure(&mounted(&design, &board), NOISE, 1).expect("rows");
     let known = read(&arm, &data, &bench("base", &lens(MATRIX, &DISTORTION, ""), &corners));
     let found = diagnose(&arm, &known, &Options::default()).expect("a diagnosis");
     is_found(&found);
     assert!(found.bench.is_empty());
+    let tool = found.nuisances.iter().find(|frame| frame.name == "tool_frame").expect("a frame");
+    let off = Vector3::from(tool.translation) - (arm.tool * board).translation.vector;
+    assert!(off.norm() < 1e-3, "{off}");
     // A lens that is known roughly is found with everything else.
     let rough = [1150.0, 1150.0, 660.0, 340.0];
     let rough = lens(rough, &[0.0; 4], "fit = [\"matrix\", \"distortion\"]");

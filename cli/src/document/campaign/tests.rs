@@ -107,7 +107,8 @@ impl Bench {
     fn html(&self) -> String {
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data).expect("the same data");
-        let fitted = Fitted { placed: explanation.arm(), gaps: &gaps };
+        let placed = explanation.placed();
+        let fitted = Fitted { placed: &placed, gaps: &gaps };
         let campaign = self.campaign(Some(fitted));
         let embedded = campaign.embedded(&fitted, &self.diagnosed.diagnosis).expect("numbers");
         campaign.document().html(&embedded).expect("a page")

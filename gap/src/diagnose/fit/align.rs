@@ -81,7 +81,8 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
             Some(*left.to_rotation_matrix().matrix())
         });
         let mean = nearest_rotation(&left.sum());
-        model.arm.tool.rotation *= mean;
+        let tool = if problem.data.by_board { &mut model.mount } else { &mut model.arm.tool };
+        tool.rotation *= mean;
     }
     Ok(model)
 }

@@ -40,6 +40,9 @@ pub(crate) struct Model {
     /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
     /// loads act.
     pub(crate) arm: Arm,
+    /// Where the board or the camera that is on the tool sits in the tool frame, at which loads act all the same; the
+    /// tool frame itself where neither is.
+    pub(crate) mount: Isometry3<f64>,
     /// Where the base stands in the measuring frame of each session.
     pub(crate) bases: Vec<Isometry3<f64>>,
     /// Whose axes loads and gravity are told in.
@@ -75,6 +78,7 @@ impl Model {
         });
         Self {
             arm: problem.arm.clone(),
+            mount: Isometry3::identity(),
             bases: vec![problem.arm.base; problem.sessions.len()],
             axes: Axes::Arm,
             markers: vec![Vector3::zeros(); problem.markers.len()],
@@ -103,12 +107,12 @@ impl Model {
     }
 
     /// The measured frame of a row in the tool frame.
-    fn measured(&self, problem: &Problem<'_>, row: usize) -> Isometry3<f64> {
+    pub(crate) fn measured(&self, problem: &Problem<'_>, row: usize) -> Isometry3<f64> {
         let offset = match problem.marker_of[row] {
             Some(marker) => self.markers[marker],
             None => problem.data.rows[row].offset.unwrap_or_default().into(),
         };
-        Isometry3::translation(offset.x, offset.y, offset.z)
+        self.mount * Isometry3::translation(offset.x, offset.y, offset.z)
     }
 
     /// Brings one row to rest; `near` is where to begin.
@@ -264,6 +268,7 @@ impl Model {
             put(&match frame {
                 Nuisance::BaseFrame if problem.session_of[row] != session => Matrix6xX::zeros(6),
                 Nuisance::BaseFrame => s.state.base_moved(),
+                Nuisance::ToolFrame if problem.data.by_board => self.mount_moved(s.state),
                 Nuisance::ToolFrame => s.carried(Site::Tool, &units),
             });
         }
@@ -298,6 +303,25 @@ impl Model {
             put(&found.effect.block(s, found.spot));
         }
         block
+    }
+
+    /// Where what is on the tool sits, as reports have it: in the last frame.
+    pub(crate) fn tool(&self) -> Isometry3<f64> {
+        self.arm.tool * self.mount
+    }
+
+    /// Twists of the tool that move what is on it as displacements in its own axes do.
+    fn mount_moved(&self, state: &State) -> Matrix6xX<f64> {
+        let turn = state.tool.rotation * self.mount.rotation;
+        let arm = state.tool.rotation * self.mount.translation.vector;
+        let mut twists = Matrix6xX::zeros(6);
+        for k in 0..3 {
+            let axis = turn * Vector3::ith(k, 1.0);
+            twists.fixed_view_mut::<3, 1>(0, k).copy_from(&axis);
+            twists.fixed_view_mut::<3, 1>(0, 3 + k).copy_from(&arm.cross(&axis));
+            twists.fixed_view_mut::<3, 1>(3, 3 + k).copy_from(&axis);
+        }
+        twists
     }
 
     /// Inverse of the standard deviation to which each parameter is held; 0 where any value is as
@@ -345,6 +369,7 @@ impl Model {
             let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
             match frame {
                 Nuisance::BaseFrame => model.bases[session] *= by,
+                Nuisance::ToolFrame if problem.data.by_board => model.mount *= by,
                 Nuisance::ToolFrame => model.arm.tool *= by,
             }
         }

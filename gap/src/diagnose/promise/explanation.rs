@@ -111,6 +111,11 @@ impl Explanation {
         &self.arm
     }
 
+    /// The same with its tool where what is measured sits: a board or a camera that is on the tool.
+    pub fn placed(&self) -> Arm {
+        Arm { tool: self.after.tool(), ..self.arm.clone() }
+    }
+
     /// What is known of other rows.
     pub(super) fn options(&self) -> Options {
         let (nuisances, known) = (self.nuisances.clone(), self.known.clone());

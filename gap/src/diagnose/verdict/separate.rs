@@ -1,12 +1,14 @@
 //! The measurement that would tell a finding from its nearest rival: out of a pool of the poses of
 //! this data under loads along each axis, the one at which the two predict readings furthest apart.
 
-use nalgebra::{DVector, Vector6};
+use nalgebra::{DVector, Matrix6xX, Vector6};
 
 use super::outcome::Group;
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::sums::Candidate;
 use crate::measurement::Row;
+use crate::observe::View;
+use crate::simulate::Sim;
 
 /// A load to try where the data has none, N.
 const USUAL: f64 = 100.0;
@@ -119,7 +121,18 @@ impl Search<'_, '_> {
         if size(&finding) > far || size(&other) > far {
             return None;
         }
-        let apart = finding - other;
+        let view =
+            |of: View| self.problem.bench_of[row].map_or(of, |k| model.bench[k].pointed(&of));
+        let sim = Sim {
+            loaded: state.clone(),
+            unloaded: None,
+            measured: model.measured(self.problem, row),
+            base: without.base,
+            metre: without.metre,
+            view: moved.view(self.problem.data.kind).map(view),
+        };
+        let apart = Matrix6xX::from_columns(&[finding - other]);
+        let apart: Vector6<f64> = sim.change(|_, _| apart.clone()).column(0).into_owned();
         apart.iter().all(|x| x.is_finite()).then(|| apart.component_mul(&self.problem.mask))
     }
 }

@@ -118,7 +118,7 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
     };
     let frames = problem.frames().map(|(nuisance, session)| match nuisance {
         Nuisance::BaseFrame => frame(nuisance.identifier(), &model.bases[session], of(session)),
-        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.arm.tool, None),
+        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.tool(), None),
     });
     let point =
         |name: &str, at: &Vector3<f64>, session| frame(name, &Isometry3::from(*at), session);
