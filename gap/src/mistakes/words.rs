@@ -55,7 +55,7 @@ impl Mistake {
     /// What is wrong; `family` are the names of the other robots.
     pub(super) fn sentence(self, family: &[&str]) -> String {
         match self {
-            Mistake::Other(k) => format!("the robot is a {}", family[k]),
+            Mistake::Other(k) => format!("the robot is the built-in {}", family[k]),
             Mistake::Convention => {
                 "the table is of the other convention (standard for modified, or modified for standard)"
                     .to_owned()
