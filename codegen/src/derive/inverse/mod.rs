@@ -11,17 +11,19 @@
 mod layout;
 mod parallel;
 mod position;
+mod steps;
 mod subproblem;
 mod wrist;
 
 use layout::Layout;
+pub use steps::{AsItIs, steps};
 use subproblem::Pair;
 
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
 use crate::expr::Expr;
-use crate::robot::{ClosedForm, Family, INVERSE_KINEMATICS, Robot};
+use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Robot};
 
 /// Solutions of six revolute joints: of shoulder, elbow and wrist two each.
 pub(crate) const BRANCHES: usize = 8;
@@ -35,9 +37,11 @@ struct Branch {
 }
 
 /// The branches of the inverse kinematics, in an order that is stable along a path: shoulder, elbow, wrist as the bits of
-/// their number, from the highest. `form` is the arm's [closed form](Robot::closed_form).
+/// their number, from the highest. `form` is the arm's [closed form](Robot::closed_form), or that of the
+/// [nearest table](Robot::nearest_closed_form): it is then only where the arm's own inverse begins, and called so.
 pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
-    let mut arm = Layout::new(robot, form.reversed);
+    let exact = robot.is_its_closed_form();
+    let mut arm = Layout::new(&robot.nearest(form), form.reversed);
     let branches = match form.family {
         Family::SphericalWrist(position) => {
             let positions = position::positions(&mut arm, position);
@@ -103,10 +107,11 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
         dof: robot.dof(),
         readings: Readings::of(robot),
         own: Some(Own {
-            name: INVERSE_KINEMATICS.to_owned(),
+            name: if exact { INVERSE_KINEMATICS } else { CLOSED_FORM }.to_owned(),
             sentence: format!(
-                "Every branch of the inverse kinematics: {}. Where the target leaves a joint free, it stays at `q`; where \
+                "Every branch of the inverse kinematics{}: {}. Where the target leaves a joint free, it stays at `q`; where \
                  a branch does not reach the target, it is stretched or folded towards it",
+                if exact { "" } else { " of the nearest table that has a closed form" },
                 form.sentence()
             ),
             inputs: vec![OwnInput {

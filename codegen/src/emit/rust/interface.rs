@@ -1,15 +1,15 @@
 //! A generated robot as a value: `Kernels`, behind a pointer, and `Arm`, for what is written against an arm.
 
-use stiffarm_kernels::{Input, Output, Side};
+use stiffarm_kernels::{Input, Output, Side, Steps};
 
 use super::function::parameter;
 use super::posture::INLINE;
 use super::shapes::{flat, ty};
 use super::table::numeric;
-use crate::derive::{BRANCHES, Held};
+use crate::derive::{BRANCHES, Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::INVERSE_KINEMATICS;
+use crate::robot::{CLOSED_FORM, ClosedForm, INVERSE_KINEMATICS};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -28,8 +28,8 @@ pub(super) fn interface(
         numeric(&mut out, robot, (generic, target));
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
-    if place.is_none() && robot.inverse_kinematics.is_some() {
-        inverse(&mut out, target, module);
+    if let Some(form) = robot.inverse_kinematics.filter(|_| place.is_none()) {
+        inverse(&mut out, target, module, form);
     }
     out.finish()
 }
@@ -200,29 +200,44 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.code("}");
 }
 
-/// The inverse kinematics by the trait's name; an arm that has one has neither sides nor warming.
-fn inverse(out: &mut Lines, target: &str, module: &Module) {
-    let symbolic = module.is_symbolic();
+/// The inverse kinematics by the trait's names.
+fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
+    let exact = module.robot.is_its_closed_form();
     out.blank();
     out.code(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"));
     out.indent();
-    out.code(&format!(
-        "fn {INVERSE_KINEMATICS}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
-    ));
+    let Steps { unloaded, loaded } = steps(module.robot, form);
+    out.code(&format!("const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded} }};"));
+    let head = |name: &str| {
+        format!(
+            "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
+        )
+    };
+    out.code(&head(CLOSED_FORM));
     out.indent();
-    let constants = if symbolic { "&self.constants, " } else { "" };
+    let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
+    let given = own(&module.readings.extras);
+    let (name, structure) = match exact {
+        true => (INVERSE_KINEMATICS, "InverseKinematics"),
+        false => (CLOSED_FORM, "ClosedForm"),
+    };
     out.code("let columns = pose.columns();");
     out.code(
         "let [target] = columns.as_flattened().as_chunks().0 else { ::core::unreachable!() };",
     );
     out.code(&format!(
-        "let {INVERSE_KINEMATICS}::InverseKinematics {{ q, distance, tilt }} = {INVERSE_KINEMATICS}({constants}near, target);"
+        "let {name}::{structure} {{ q, distance, tilt }} = {name}({constants}near{given}, target);"
     ));
     out.code("Solutions { q, distance, tilt }");
-    for _ in 0..2 {
-        out.dedent();
-        out.code("}");
-    }
+    out.dedent();
+    out.code("}");
+    let whole = match exact {
+        true => "self.closed_form(pose, near)",
+        false => "without_load(self, pose, near)",
+    };
+    method(out, &head(INVERSE_KINEMATICS), whole);
+    out.dedent();
+    out.code("}");
 }
 
 fn method(out: &mut Lines, signature: &str, body: &str) {

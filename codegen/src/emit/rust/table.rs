@@ -47,9 +47,11 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
         used("Row", numeric),
         Some("Scalar"),
         used("Solutions", inverse),
+        used("Steps", inverse),
         used("Unstable", outputs.iter().any(|o| o.is_fallible())),
         Some("fill"),
         Some("has"),
+        used("without_load", inverse && !robot.is_its_closed_form()),
     ];
     let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
     out.code(&format!("use {}::{{{imports}}};", options.kernels));

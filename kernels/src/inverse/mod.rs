@@ -1,8 +1,12 @@
-//! What the closed form of an inverse kinematics returns, and which of its branches a controller takes.
+//! What an inverse kinematics returns, and which of its branches a controller takes.
+
+mod steps;
 
 use core::f64::consts::TAU;
 
-use crate::{Arm, Pose, Scalar};
+use crate::{Arm, Pose, Scalar, Unstable};
+
+pub use steps::{SetPoints, Steps, without_load};
 
 /// An arm of N joints whose inverse kinematics has been generated, in K branches.
 #[diagnostic::on_unimplemented(
@@ -10,7 +14,16 @@ use crate::{Arm, Pose, Scalar};
     note = "ask for it by its name, among the `outputs` of its table, its robot file or on the command line"
 )]
 pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: Arm<N, S> {
-    /// Every branch at a pose of the tool, base axes. A joint that the pose leaves free stays where `near` has it.
+    /// How many steps follow the closed form.
+    const STEPS: Steps;
+
+    /// Every branch of the closed form at a pose of the tool, base axes: of the arm's table, or of the nearest table that
+    /// has one. A joint that the pose leaves free stays where `near` has it.
+    fn closed_form(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
+
+    /// Every branch of the rigid arm at a pose of the tool, base axes: the readings at which the arm's own pose, with
+    /// all that moves its joints, is this one. It is the closed form, and behind that of another table
+    /// [the steps](Inverse::STEPS) from there to the arm's own.
     fn inverse_kinematics(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
 }
 
@@ -23,6 +36,7 @@ pub struct Solutions<S, const N: usize, const K: usize> {
     /// How far the tool's origin is from the pose's, m: rounding where the branch reaches it.
     pub distance: [S; K],
     /// How far the last axis is from the pose's, as the length between unit vectors: rounding where the branch reaches it.
+    /// Behind [`Steps`] it is how far the axes are turned from the pose's, twice the sine of half the angle.
     pub tilt: [S; K],
 }
 
@@ -35,8 +49,27 @@ pub struct Solution<S, const N: usize> {
     pub q: [S; N],
     /// How far the tool's origin is from the pose's, m.
     pub distance: S,
-    /// How far the last axis is from the pose's, as the length between unit vectors.
+    /// How far the axes are turned from the pose's, as in [`Solutions::tilt`].
     pub tilt: S,
+}
+
+impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
+    /// Every branch by [`Steps::follow`]. One at which the arm does not bear its load stays as it is, and misses the pose
+    /// by an infinite distance.
+    pub fn followed(
+        mut self,
+        pose: &Pose<S>,
+        steps: usize,
+        at: impl Fn(&[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable>,
+    ) -> Self {
+        for branch in 0..K {
+            let followed = Steps::follow(self.q[branch], pose, steps, &at);
+            let infinite = S::lit(f64::INFINITY);
+            let (q, missed) = followed.unwrap_or((self.q[branch], [infinite; 2]));
+            (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
+        }
+        self
+    }
 }
 
 impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutions<S, N, K> {

@@ -1,0 +1,109 @@
+//! The nearest table that has a closed form, of an arm as it was measured: its axes miss each other by micrometres, its
+//! parallel axes are parallel to a part in a thousand.
+
+use super::closed_form::{ClosedForm, Family, Position};
+use super::frames::Refused;
+use super::model::{Angle, Motion, Robot, Value};
+use crate::number::Number;
+
+/// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
+/// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
+const OFF: f64 = 1e-2;
+
+/// The first three axes of a spherical wrist's arm, the most usual first.
+const POSITIONS: [Position; 4] = [
+    Position::SecondParallelThird,
+    Position::FirstMeetsSecond,
+    Position::SecondMeetsThird,
+    Position::FirstParallelSecond,
+];
+
+impl Robot {
+    /// The closed form of its table, or else, where that has numbers alone, of the nearest table which has one.
+    ///
+    /// # Errors
+    /// [`Refused`] where no table with a closed form is near: what stands in the way of its own.
+    pub fn nearest_closed_form(&self) -> Result<ClosedForm, Refused> {
+        let refused = match self.closed_form() {
+            Ok(form) => return Ok(form),
+            Err(refused) => refused,
+        };
+        let turns = self.joints.iter().all(|joint| joint.motion == Motion::Revolute);
+        if self.dof() != 6 || !turns || !self.symbols().is_empty() {
+            return Err(refused);
+        }
+        let families = POSITIONS.map(Family::SphericalWrist).into_iter();
+        let families = families.chain([Family::ThreeParallel]);
+        let forms = families
+            .flat_map(|family| [false, true].map(|reversed| ClosedForm { reversed, family }));
+        let near = forms.filter_map(|form| {
+            let table = self.nearest(form);
+            (table.closed_form() == Ok(form)).then(|| (self.off(&table), form))
+        });
+        let nearest = near.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        nearest.filter(|(off, _)| *off < OFF).map(|(_, form)| form).ok_or(refused)
+    }
+
+    /// Whether the pose of the arm is that of its table, and the table has the closed form itself.
+    pub fn is_its_closed_form(&self) -> bool {
+        self.beyond.moves.is_empty() && self.closed_form().is_ok()
+    }
+
+    /// The nearest table with a closed form: the table itself, but for the entries that are zero in it, or parallel.
+    pub(crate) fn nearest(&self, form: ClosedForm) -> Robot {
+        let mut table = self.clone();
+        let first = self.first_link();
+        // Links and offsets as the form counts them, from its own base.
+        let link = |k: usize| first + if form.reversed { 5 - k } else { k - 1 };
+        let offset = |k: usize| if form.reversed { 6 - k } else { k - 1 };
+        table.joints.iter_mut().for_each(|joint| joint.beta = Angle::ZERO);
+        let (meeting, parallel): (&[usize], &[usize]) = match form.family {
+            Family::ThreeParallel => (&[5], &[2, 3]),
+            Family::SphericalWrist(position) => match position {
+                Position::SecondParallelThird => (&[4, 5], &[2]),
+                Position::FirstParallelSecond => (&[4, 5], &[1]),
+                Position::FirstMeetsSecond => (&[1, 4, 5], &[]),
+                Position::SecondMeetsThird => (&[2, 4, 5], &[]),
+            },
+        };
+        meeting.iter().for_each(|k| table.joints[link(*k)].a = Value::ZERO);
+        if matches!(form.family, Family::SphericalWrist(_)) {
+            table.joints[offset(5)].d = Value::ZERO;
+        }
+        for joint in parallel.iter().map(|k| link(*k)) {
+            let alpha = &mut table.joints[joint].alpha;
+            if let Some(radians) = alpha.radians() {
+                let turns = (radians / core::f64::consts::PI).round();
+                *alpha = Angle::Pi((turns as i64).into());
+            }
+        }
+        table
+    }
+
+    /// The largest difference of an entry from that of another table: of a length as a part of the arm's size, of an angle
+    /// in rad.
+    fn off(&self, other: &Robot) -> f64 {
+        let size = self.size();
+        let rows = self.joints.iter().zip(&other.joints);
+        let each = rows.flat_map(|(a, b)| {
+            let lengths = [(&a.a, &b.a), (&a.d, &b.d)];
+            let angles = [(&a.alpha, &b.alpha), (&a.beta, &b.beta)];
+            let lengths = lengths.map(|(a, b)| (metres(a) - metres(b)) / size);
+            let angles = angles.map(|(a, b)| {
+                a.radians().unwrap_or_default() - b.radians().unwrap_or_default()
+            });
+            lengths.into_iter().chain(angles)
+        });
+        each.fold(0.0, |most, off| most.max(off.abs()))
+    }
+
+    /// The sum of the table's lengths, m; parameters count as none.
+    pub(crate) fn size(&self) -> f64 {
+        let lengths = self.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
+        lengths.map(|length| metres(length).abs()).sum()
+    }
+}
+
+fn metres(value: &Value) -> f64 {
+    value.number().map_or(0.0, Number::to_f64)
+}
