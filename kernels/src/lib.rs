@@ -32,8 +32,10 @@ pub use arm::{Arm, Numeric, Row};
 #[cfg(feature = "simba")]
 pub use interop::simba;
 #[doc(hidden)]
-pub use inverse::without_load;
-pub use inverse::{Inverse, SetPoints, Solution, Solutions, Steps};
+pub use inverse::unloaded;
+pub use inverse::{
+    AtRest, Elastic, Gives, Inverse, JointValues, SetPoints, Solution, Solutions, Steps,
+};
 #[doc(hidden)]
 pub use kernel::fill;
 pub use kernel::{Convention, DhRow, Error, Kernels, Motion, Ops, Pose};

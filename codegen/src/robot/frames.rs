@@ -13,6 +13,9 @@ pub(crate) const INVERSE_KINEMATICS: &str = "inverse_kinematics";
 /// The name of the closed form's function where it is that of another table.
 pub(crate) const CLOSED_FORM: &str = "closed_form";
 
+/// The name of the function of what gives in an arm at rest.
+pub(crate) const GIVES: &str = "gives";
+
 /// An output that is asked for: `jacobian`, or `jacobian at elbow`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asked {

@@ -356,7 +356,8 @@ impl Robot {
     /// some link more than its mass. The steps behind the closed form of another table take pose and Jacobian.
     pub fn generated(&self) -> Vec<Output> {
         let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
-        let steps = self.inverse_kinematics.is_some() && !self.is_its_closed_form();
+        let exact = self.is_as_its_table() && self.closed_form().is_ok();
+        let steps = self.inverse_kinematics.is_some() && !exact;
         let stepped = |output: &Output| steps && [Output::Pose, Output::Jacobian].contains(output);
         let asked = |output: &Output| match self.outputs.as_slice() {
             [] => !output.is_on_request() && (moves || !output.is_of_motion()),

@@ -3,7 +3,7 @@
 
 use super::closed_form::{ClosedForm, Family, Position};
 use super::frames::Refused;
-use super::model::{Angle, Motion, Robot, Value};
+use super::model::{Angle, Motion, Output, Robot, Value};
 use crate::number::Number;
 
 /// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
@@ -44,9 +44,20 @@ impl Robot {
         nearest.filter(|(off, _)| *off < OFF).map(|(_, form)| form).ok_or(refused)
     }
 
-    /// Whether the pose of the arm is that of its table, and the table has the closed form itself.
-    pub fn is_its_closed_form(&self) -> bool {
-        self.beyond.moves.is_empty() && self.closed_form().is_ok()
+    /// Whether its readings are its joint values, and its lengths those of its table.
+    pub fn is_as_its_table(&self) -> bool {
+        self.beyond.moves.is_empty()
+    }
+
+    /// Whether the closed form tells its joint values without a step behind.
+    pub(crate) fn has_closed_form(&self) -> bool {
+        !self.beyond.grows() && self.closed_form().is_ok()
+    }
+
+    /// Whether set-points under a load are generated: where the inverse kinematics is, and the deflection under weights.
+    pub(crate) fn has_set_points(&self) -> bool {
+        let deflects = || self.generated().contains(&Output::DeflectionWithGravity);
+        self.inverse_kinematics.is_some() && deflects()
     }
 
     /// The nearest table with a closed form: the table itself, but for the entries that are zero in it, or parallel.

@@ -1,29 +1,48 @@
 //! What an inverse kinematics returns, and which of its branches a controller takes.
 
+mod set_points;
 mod steps;
 
 use core::f64::consts::TAU;
 
 use crate::{Arm, Pose, Scalar, Unstable};
 
-pub use steps::{SetPoints, Steps, without_load};
+#[doc(hidden)]
+pub use set_points::unloaded;
+pub use set_points::{Elastic, Gives, SetPoints};
+pub use steps::{AtRest, Steps};
+
+/// An arm's readings and the joint values that they mean, which are the same but where an `[[effect]]` moves joints.
+pub trait JointValues<const N: usize, S: Scalar = f64>: Arm<N, S> {
+    /// The joint values that readings mean, rad.
+    #[inline(always)]
+    fn joints(&self, readings: &[S; N]) -> [S; N] {
+        *readings
+    }
+
+    /// The posture at joint values, not at readings.
+    #[inline(always)]
+    fn at_joints(&self, joints: &[S; N]) -> Self::Posture {
+        self.posture(joints)
+    }
+}
 
 /// An arm of N joints whose inverse kinematics has been generated, in K branches.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has not been generated with its inverse kinematics, or not for these joints and branches",
     note = "ask for it by its name, among the `outputs` of its table, its robot file or on the command line"
 )]
-pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: Arm<N, S> {
+pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: JointValues<N, S> {
     /// How many steps follow the closed form.
     const STEPS: Steps;
 
-    /// Every branch of the closed form at a pose of the tool, base axes: of the arm's table, or of the nearest table that
-    /// has one. A joint that the pose leaves free stays where `near` has it.
+    /// Every branch of the closed form at a pose of the tool, base axes: joint values by the arm's table, or by the nearest
+    /// table that has a closed form. A joint that the pose leaves free stays where `near`, readings, has it.
     fn closed_form(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
 
-    /// Every branch of the rigid arm at a pose of the tool, base axes: the readings at which the arm's own pose, with
-    /// all that moves its joints, is this one. It is the closed form, and behind that of another table
-    /// [the steps](Inverse::STEPS) from there to the arm's own.
+    /// Every branch of the rigid arm at a pose of the tool, base axes: the readings at which its tool stands there. It is
+    /// the closed form, with [steps](Inverse::STEPS) behind where that is another table's, or tells other values
+    /// than readings.
     fn inverse_kinematics(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
 }
 
@@ -54,18 +73,15 @@ pub struct Solution<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
-    /// Every branch by [`Steps::follow`]. One at which the arm does not bear its load stays as it is, and misses the pose
-    /// by an infinite distance.
-    pub fn followed(
+    /// Each branch's joint values replaced by readings, and by what they miss the pose ([`AtRest::follow`]). A branch at
+    /// which the arm does not bear its load stays as it is, and misses the pose by an infinite distance.
+    pub fn each(
         mut self,
-        pose: &Pose<S>,
-        steps: usize,
-        at: impl Fn(&[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable>,
+        follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>,
     ) -> Self {
         for branch in 0..K {
-            let followed = Steps::follow(self.q[branch], pose, steps, &at);
-            let infinite = S::lit(f64::INFINITY);
-            let (q, missed) = followed.unwrap_or((self.q[branch], [infinite; 2]));
+            let infinite = [S::lit(f64::INFINITY); 2];
+            let (q, missed) = follow(self.q[branch]).unwrap_or((self.q[branch], infinite));
             (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
         }
         self
@@ -116,6 +132,34 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
             }
         }
         best.map(|(_, solution)| solution)
+    }
+
+    /// The first, in the order of [`Solutions::nearest`], whose readings by `follow` are within the limits and miss the
+    /// pose by no more than this (m, rad).
+    pub fn first(
+        mut self,
+        near: &[S; N],
+        limits: &[Option<[f64; 2]>; N],
+        (distance, tilt): (f64, f64),
+        follow: impl Fn([S; N]) -> Option<([S; N], [S; 2])>,
+    ) -> Option<Solution<S, N>> {
+        let within = |q: &[S; N]| {
+            q.iter().zip(limits).all(|(q, limits)| {
+                limits.is_none_or(|[low, high]| (low..=high).contains(&(*q).into()))
+            })
+        };
+        for _ in 0..K {
+            let Solution { branch, q, .. } = self.nearest(near, limits, (f64::MAX, f64::MAX))?;
+            if let Some((q, [d, t])) = follow(q)
+                && within(&q)
+                && d.into() <= distance
+                && t.into() <= tilt
+            {
+                return Some(Solution { branch, q, distance: d, tilt: t });
+            }
+            self.distance[branch] = S::lit(f64::INFINITY);
+        }
+        None
     }
 }
 

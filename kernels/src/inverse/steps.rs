@@ -1,49 +1,94 @@
-//! From the closed form of a table to the arm as it is: steps on what its pose misses.
+//! From the closed form of a table to the arm as it is: steps on what its pose misses, then what its springs give and what
+//! its readings are.
 //!
-//! A step is `q + (JᵀJ + λ)⁻¹ Jᵀ e`, the error e from the arm's pose to the one that is asked for. Its Jacobian is that of
-//! the rigid arm by joint values: of what the arm gives under its load, and of what makes a reading another than the
-//! joint's value, no step knows how they change. What is left of an error is therefore its square, and of it as much as
-//! those change with a radian: a part in a thousand of arms as they are built. The damping λ is the error's square
-//! and what rounding leaves of JᵀJ: nothing is divided by zero where the Jacobian is singular, and the steps lose
-//! none of their order elsewhere (Fan & Yuan 2005).
+//! A step is `θ + (JᵀJ + λ)⁻¹ Jᵀ e`, the error e from the arm's pose to the one that is asked for, J the Jacobian of the rigid
+//! arm: of an arm whose links do not bend, each error is about the square of that before. The damping λ is the error's
+//! square and what rounding leaves of JᵀJ: nothing is divided by zero where the Jacobian is singular, and the steps lose none
+//! of their order elsewhere (Fan & Yuan 2005).
 
-use super::{Inverse, Solution, Solutions};
 use crate::solve::solve;
-use crate::{Pose, Scalar, Unstable, has};
+use crate::{Pose, Scalar, Unstable};
 
-/// How many steps follow a closed form: of so many the generator has found, by the arm's own numbers, that they leave less
-/// than 1e-10 m and rad at 19 of 20 postures drawn at random; the others are near singular ones. What they
+/// How many steps follow a closed form, as the generator has found by the arm's own numbers.
+///
+/// They leave less than 1e-10 m and rad at 19 of 20 postures drawn at random; the others are near singular ones. What they
 /// leave is told with each branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Steps {
     /// Of the rigid arm: none where the closed form is that of its own table.
     pub unloaded: usize,
-    /// Of the arm under its weights and a load that moves its tool by a thousandth of the arm's size.
+    /// Of the arm under its weights and a load that moves its tool by a thousandth of the arm's size: as many, and more
+    /// where more gives than joints.
     pub loaded: usize,
+    /// From joint values to readings: of so many the arm's ratios, couplings and waves leave rounding.
+    pub readings: usize,
 }
 
 impl Steps {
     /// The most that the generator asks for.
     pub const MOST: usize = 8;
+}
 
-    /// So many steps from `q` towards a pose of the tool, by pose and Jacobian `at` readings: the readings, and what
-    /// they miss the pose by, as [`Solutions`] tells it.
+/// An arm at rest, as the steps see it. Joint values are those of the links: a spring stands between them and what the
+/// readings mean.
+pub trait AtRest<S, const N: usize> {
+    /// Where the tool stands at joint values, base axes, and how the rigid arm's moves.
     ///
     /// # Errors
-    /// [`Unstable`] from `at`, or where the numbers are not finite.
+    /// [`Unstable`] where the arm does not bear its load.
+    fn stands(&self, joints: &[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable>;
+
+    /// What the joints give at these values: the links stand so far from what the readings mean.
+    ///
+    /// # Errors
+    /// [`Unstable`] where the arm does not bear its load.
+    fn gives(&self, joints: &[S; N]) -> Result<[S; N], Unstable>;
+
+    /// The joint values that readings mean, of an arm that does not give.
+    fn joints(&self, readings: &[S; N]) -> [S; N];
+
+    /// The joint values nearer to those at which the tool stands at a pose.
+    ///
+    /// # Errors
+    /// [`Unstable`] where the arm does not bear its load, or the numbers are not finite.
+    #[inline(always)]
+    fn step(&self, joints: &[S; N], pose: &Pose<S>) -> Result<[S; N], Unstable>
+    where
+        S: Scalar,
+    {
+        let (stands, jacobian) = self.stands(joints)?;
+        let by = step(&jacobian, &error(&stands, pose))?;
+        Ok(core::array::from_fn(|joint| joints[joint] + by[joint]))
+    }
+
+    /// The readings at which the tool stands at a pose, by so many steps from joint values and so many to readings, and
+    /// by how much it misses the pose then: distance and turn, as [`Solutions`](super::Solutions) tells them.
+    ///
+    /// # Errors
+    /// As from [`AtRest::step`].
     #[inline]
-    pub fn follow<S: Scalar, const N: usize>(
-        mut q: [S; N],
+    fn follow(
+        &self,
+        mut joints: [S; N],
         pose: &Pose<S>,
-        steps: usize,
-        at: impl Fn(&[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable>,
-    ) -> Result<([S; N], [S; 2]), Unstable> {
+        (steps, readings): (usize, usize),
+    ) -> Result<([S; N], [S; 2]), Unstable>
+    where
+        S: Scalar,
+    {
         for _ in 0..steps {
-            let (stands, jacobian) = at(&q)?;
-            let by = step(&jacobian, &error(&stands, pose))?;
-            q = core::array::from_fn(|joint| q[joint] + by[joint]);
+            joints = self.step(&joints, pose)?;
         }
-        Ok((q, missed(&at(&q)?.0, pose)))
+        let gives = self.gives(&joints)?;
+        let meant = core::array::from_fn(|joint| joints[joint] - gives[joint]);
+        let mut q: [S; N] = meant;
+        for _ in 0..readings {
+            let at = self.joints(&q);
+            q = core::array::from_fn(|joint| q[joint] + (meant[joint] - at[joint]));
+        }
+        let at = self.joints(&q);
+        let (stands, _) = self.stands(&core::array::from_fn(|joint| at[joint] + gives[joint]))?;
+        Ok((q, missed(&stands, pose)))
     }
 }
 
@@ -96,86 +141,4 @@ fn missed<S: Scalar>(a: &Pose<S>, b: &Pose<S>) -> [S; 2] {
 #[inline(always)]
 fn dot<S: Scalar>(a: &[S; 6], b: &[S; 6]) -> S {
     a.iter().zip(b).fold(S::lit(0.0), |sum, (a, b)| sum + *a * *b)
-}
-
-/// [`Inverse::inverse_kinematics`] of an arm whose closed form is that of another table.
-#[doc(hidden)]
-#[inline]
-pub fn without_load<S: Scalar, const N: usize, const K: usize, A>(
-    arm: &A,
-    pose: &Pose<S>,
-    near: &[S; N],
-) -> Solutions<S, N, K>
-where
-    A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S>,
-{
-    arm.closed_form(pose, near).followed(pose, A::STEPS.unloaded, |q| {
-        let posture = arm.posture(q);
-        Ok((arm.pose(&posture), arm.jacobian(&posture)))
-    })
-}
-
-/// The set-points of an arm that gives under its load and its weights: what is commanded for the tool to stand at a pose. Of
-/// every arm that has been generated with `pose`, `jacobian`, `deflection_with_gravity` and `inverse_kinematics`.
-///
-/// The tool of the loaded arm stands at its `pose`, [displaced](Pose::displaced) by its `deflection_with_gravity`.
-pub trait SetPoints<const N: usize, const K: usize, S: Scalar>:
-    Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S> + has::DeflectionWithGravity<N, S>
-{
-    /// Where the loaded tool stands, base axes, and how the rigid arm's moves.
-    ///
-    /// # Errors
-    /// [`Unstable`] where the arm does not bear the load.
-    #[inline]
-    fn stands(&self, q: &[S; N], wrench: &[S; 6]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable> {
-        let posture = self.posture(q);
-        let by = self.deflection_with_gravity(&posture, wrench)?;
-        Ok((self.pose(&posture).displaced(&by), self.jacobian(&posture)))
-    }
-
-    /// Every branch at a pose of the loaded tool, base axes, under a wrench on it; a joint that the pose leaves free
-    /// stays near where `near` has it. A branch in which the arm does not bear its load misses the pose by an infinite
-    /// distance.
-    #[inline]
-    fn set_points(&self, pose: &Pose<S>, near: &[S; N], wrench: &[S; 6]) -> Solutions<S, N, K> {
-        let at = |q: &[S; N]| self.stands(q, wrench);
-        self.closed_form(pose, near).followed(pose, Self::STEPS.loaded, at)
-    }
-
-    /// Of the branches that miss the pose by no more than this (m, rad) that with the least change of the joints from
-    /// `near`, whole turns and limits as in [`Solutions::nearest`]. The steps are those of one branch, as long as
-    /// that next to `near` is one of them; where it is not, the next one is tried.
-    #[inline]
-    fn set_point(
-        &self,
-        pose: &Pose<S>,
-        near: &[S; N],
-        wrench: &[S; 6],
-        (distance, tilt): (f64, f64),
-    ) -> Option<Solution<S, N>>
-    where
-        S: PartialOrd + Into<f64>,
-    {
-        let any = (f64::MAX, f64::MAX);
-        let mut left = self.closed_form(pose, near);
-        for _ in 0..K {
-            let Solution { branch, q, .. } = left.nearest(near, &Self::LIMITS, any)?;
-            let at = |q: &[S; N]| self.stands(q, wrench);
-            if let Ok((q, [d, t])) = Steps::follow(q, pose, Self::STEPS.loaded, at) {
-                let within = q.iter().zip(&Self::LIMITS).all(|(q, limits)| {
-                    limits.is_none_or(|[low, high]| (low..=high).contains(&(*q).into()))
-                });
-                if within && d.into() <= distance && t.into() <= tilt {
-                    return Some(Solution { branch, q, distance: d, tilt: t });
-                }
-            }
-            left.distance[branch] = S::lit(f64::INFINITY);
-        }
-        None
-    }
-}
-
-impl<const N: usize, const K: usize, S: Scalar, A> SetPoints<N, K, S> for A where
-    A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S> + has::DeflectionWithGravity<N, S>
-{
 }

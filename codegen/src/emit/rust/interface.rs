@@ -9,7 +9,7 @@ use super::table::numeric;
 use crate::derive::{BRANCHES, Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::{CLOSED_FORM, ClosedForm, INVERSE_KINEMATICS};
+use crate::robot::{CLOSED_FORM, ClosedForm, GIVES, INVERSE_KINEMATICS};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -200,14 +200,18 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.code("}");
 }
 
-/// The inverse kinematics by the trait's names.
+/// The inverse kinematics by the traits' names.
 fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
-    let exact = module.robot.is_its_closed_form();
+    let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
+    let given = own(&module.readings.extras);
+    joint_values(out, target, module);
     out.blank();
     out.code(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"));
     out.indent();
-    let Steps { unloaded, loaded } = steps(module.robot, form);
-    out.code(&format!("const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded} }};"));
+    let Steps { unloaded, loaded, readings } = steps(module.robot, form);
+    out.code(&format!(
+        "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, readings: {readings} }};"
+    ));
     let head = |name: &str| {
         format!(
             "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
@@ -215,8 +219,7 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     };
     out.code(&head(CLOSED_FORM));
     out.indent();
-    let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
-    let given = own(&module.readings.extras);
+    let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
     let (name, structure) = match exact {
         true => (INVERSE_KINEMATICS, "InverseKinematics"),
         false => (CLOSED_FORM, "ClosedForm"),
@@ -233,11 +236,68 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     out.code("}");
     let whole = match exact {
         true => "self.closed_form(pose, near)",
-        false => "without_load(self, pose, near)",
+        false => "unloaded(self, pose, near)",
     };
     method(out, &head(INVERSE_KINEMATICS), whole);
     out.dedent();
     out.code("}");
+    if module.robot.has_set_points() {
+        elastic(out, target, (module, constants));
+    }
+}
+
+/// Readings and joint values, where these are others.
+fn joint_values(out: &mut Lines, target: &str, module: &Module) {
+    out.blank();
+    if !module.readings.moves {
+        return out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{}}"));
+    }
+    let given = own(&module.readings.extras);
+    out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{"));
+    out.indent();
+    out.code(INLINE);
+    method(
+        out,
+        "fn joints(&self, readings: &[S; N]) -> [S; N] {",
+        &format!("joints(readings{given})"),
+    );
+    out.code(INLINE);
+    method(
+        out,
+        "fn at_joints(&self, joints: &[S; N]) -> Posture<S> {",
+        &format!("Posture::at_joints(joints{given})"),
+    );
+    out.dedent();
+    out.code("}");
+}
+
+/// What gives in the arm at rest.
+fn elastic(out: &mut Lines, target: &str, (module, constants): (&Module, &str)) {
+    let links = module.functions().any(|function| {
+        let tool = function.blocks().iter().find(|block| block.held.name() == "tool");
+        function.name() == GIVES && tool.is_some_and(|b| b.entries.iter().any(|e| !e.is_zero()))
+    });
+    out.blank();
+    out.code(&format!("impl<S: Scalar> Elastic<N, S> for {target} {{"));
+    out.indent();
+    out.code(&format!("const LINKS: bool = {links};"));
+    out.code(INLINE);
+    out.code("fn gives(&self, posture: &Posture<S>, wrench: &[S; 6]) -> Gives<S, N> {");
+    out.indent();
+    let taken = module.functions().find(|function| function.name() == GIVES);
+    let loaded = taken.is_some_and(|function| !function.arguments.is_empty());
+    let wrench = if loaded { ", wrench" } else { "" };
+    if !loaded {
+        out.code("let _ = wrench;");
+    }
+    out.code(&format!(
+        "let {GIVES}::Gives {{ joints, tool }} = {GIVES}::given({constants}posture{wrench});"
+    ));
+    out.code("Gives { joints, tool }");
+    for _ in 0..2 {
+        out.dedent();
+        out.code("}");
+    }
 }
 
 fn method(out: &mut Lines, signature: &str, body: &str) {
