@@ -1,6 +1,8 @@
 //! The inverse kinematics through the macro: its branches against the arm's own forward kinematics, in both precisions,
 //! and what a controller takes of them.
 
+mod as_it_is;
+
 use stiffarm::kernels::{Arm, Inverse, Pose, Scalar, Solutions, has};
 use stiffarm::robot;
 use stiffarm_draws::Draws;

@@ -1,6 +1,8 @@
 //! The nearest table that has a closed form, of an arm as it was measured: its axes miss each other by micrometres, its
 //! parallel axes are parallel to a part in a thousand.
 
+use num_rational::Ratio;
+
 use super::closed_form::{ClosedForm, Family, Position};
 use super::frames::Refused;
 use super::model::{Angle, Motion, Output, Robot, Value};
@@ -9,6 +11,10 @@ use crate::number::Number;
 /// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
 /// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
 const OFF: f64 = 1e-2;
+
+/// Angles between axes that are so near to quarter turns, rad, count as such in the nearest table: its closed form is then half
+/// as long. It is a few times what makers build to; an angle that is meant is left alone.
+const SQUARE: f64 = 2e-3;
 
 /// The first three axes of a spherical wrist's arm, the most usual first.
 const POSITIONS: [Position; 4] = [
@@ -60,14 +66,21 @@ impl Robot {
         self.inverse_kinematics.is_some() && deflects()
     }
 
-    /// The nearest table with a closed form: the table itself, but for the entries that are zero in it, or parallel.
+    /// The nearest table with a closed form: the table itself where it has it, else but for the entries that are zero in it,
+    /// parallel or at right angles.
     pub(crate) fn nearest(&self, form: ClosedForm) -> Robot {
         let mut table = self.clone();
+        if self.closed_form() == Ok(form) {
+            return table;
+        }
         let first = self.first_link();
         // Links and offsets as the form counts them, from its own base.
         let link = |k: usize| first + if form.reversed { 5 - k } else { k - 1 };
         let offset = |k: usize| if form.reversed { 6 - k } else { k - 1 };
-        table.joints.iter_mut().for_each(|joint| joint.beta = Angle::ZERO);
+        for joint in &mut table.joints {
+            joint.beta = Angle::ZERO;
+            snap(&mut joint.alpha, SQUARE);
+        }
         let (meeting, parallel): (&[usize], &[usize]) = match form.family {
             Family::ThreeParallel => (&[5], &[2, 3]),
             Family::SphericalWrist(position) => match position {
@@ -81,13 +94,7 @@ impl Robot {
         if matches!(form.family, Family::SphericalWrist(_)) {
             table.joints[offset(5)].d = Value::ZERO;
         }
-        for joint in parallel.iter().map(|k| link(*k)) {
-            let alpha = &mut table.joints[joint].alpha;
-            if let Some(radians) = alpha.radians() {
-                let turns = (radians / core::f64::consts::PI).round();
-                *alpha = Angle::Pi((turns as i64).into());
-            }
-        }
+        parallel.iter().for_each(|k| snap(&mut table.joints[link(*k)].alpha, OFF));
         table
     }
 
@@ -112,6 +119,15 @@ impl Robot {
     pub(crate) fn size(&self) -> f64 {
         let lengths = self.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
         lengths.map(|length| metres(length).abs()).sum()
+    }
+}
+
+/// Makes an angle within so much of a multiple of a quarter turn that multiple.
+fn snap(angle: &mut Angle, within: f64) {
+    let Some(radians) = angle.radians() else { return };
+    let quarters = (radians / core::f64::consts::FRAC_PI_2).round();
+    if (radians - quarters * core::f64::consts::FRAC_PI_2).abs() < within {
+        *angle = Angle::Pi(Ratio::new(quarters as i64, 2));
     }
 }
 

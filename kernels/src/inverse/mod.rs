@@ -165,10 +165,17 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
 
 /// The angle that is so by whole turns, within the limits, nearest to another.
 fn unwound(q: f64, near: f64, limits: Option<[f64; 2]>) -> Option<f64> {
-    let turns = libm::rint((near - q) / TAU);
-    let Some([low, high]) = limits else { return Some(q + turns * TAU) };
-    let (least, most) = (libm::ceil((low - q) / TAU), libm::floor((high - q) / TAU));
-    (least <= most).then(|| q + turns.max(least).min(most) * TAU)
+    // The spacing of numbers of this size is 1: what is added and taken off again is rounded.
+    const WHOLE: f64 = 1.5 / f64::EPSILON;
+    let turns = ((near - q) / TAU + WHOLE) - WHOLE;
+    let nearest = q + turns * TAU;
+    match limits {
+        Some([low, high]) if !(low <= nearest && nearest <= high) => {
+            let (least, most) = (libm::ceil((low - q) / TAU), libm::floor((high - q) / TAU));
+            (least <= most).then(|| q + turns.max(least).min(most) * TAU)
+        }
+        _ => Some(nearest),
+    }
 }
 
 #[cfg(test)]
