@@ -34,8 +34,8 @@ pub use crate::schema::Symbol;
 pub use closed_form::{ClosedForm, Family, Position};
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub(crate) use frames::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS};
 pub use frames::{Asked, Refused, Wanted};
+pub(crate) use frames::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS};
 pub use model::{
     Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
     Output, Payload, Quantity, Robot, Section, Spot, Value,

@@ -107,9 +107,8 @@ impl Robot {
             let lengths = [(&a.a, &b.a), (&a.d, &b.d)];
             let angles = [(&a.alpha, &b.alpha), (&a.beta, &b.beta)];
             let lengths = lengths.map(|(a, b)| (metres(a) - metres(b)) / size);
-            let angles = angles.map(|(a, b)| {
-                a.radians().unwrap_or_default() - b.radians().unwrap_or_default()
-            });
+            let angles = angles
+                .map(|(a, b)| a.radians().unwrap_or_default() - b.radians().unwrap_or_default());
             lengths.into_iter().chain(angles)
         });
         each.fold(0.0, |most, off| most.max(off.abs()))

@@ -3,6 +3,7 @@
 
 mod arms;
 mod newton;
+mod steps;
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -87,7 +88,7 @@ fn an_arm_without_a_closed_form_is_refused() {
         assert!(told.contains(why), "{told}");
     };
     refused(file(&row("a = 1")), "the arm has 1 joints");
-    let beta = "a = 0.5, beta = 1e-5";
+    let beta = "a = 0.5, beta = 0.1";
     refused(with([plain[0], beta, plain[2]]), "the row of `joint 2` has a beta");
     let skew = "a = 0.5, alpha = 0.3";
     refused(with(["a = 0.2, alpha = \"pi/2\"", skew, plain[2]]), "none is parallel to the next");

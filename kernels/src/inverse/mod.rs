@@ -75,10 +75,7 @@ pub struct Solution<S, const N: usize> {
 impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
     /// Each branch's joint values replaced by readings, and by what they miss the pose ([`AtRest::follow`]). A branch at
     /// which the arm does not bear its load stays as it is, and misses the pose by an infinite distance.
-    pub fn each(
-        mut self,
-        follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>,
-    ) -> Self {
+    pub fn each(mut self, follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>) -> Self {
         for branch in 0..K {
             let infinite = [S::lit(f64::INFINITY); 2];
             let (q, missed) = follow(self.q[branch]).unwrap_or((self.q[branch], infinite));

@@ -19,7 +19,8 @@ pub fn gives(robot: &Robot) -> Program {
         quantity(
             "joints",
             "rad",
-            "What each joint's spring gives, with its hardening and what friction winds up".to_owned(),
+            "What each joint's spring gives, with its hardening and what friction winds up"
+                .to_owned(),
             Size::Vector(robot.dof()),
         ),
         joints,

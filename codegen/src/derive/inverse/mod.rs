@@ -112,7 +112,11 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
             sentence: format!(
                 "Every branch of the inverse kinematics{}: {}. Where the target leaves a joint free, it stays at `q`; where \
                  a branch does not reach the target, it is stretched or folded towards it",
-                if exact { "" } else { ", as joint values by the nearest table that has a closed form" },
+                if exact {
+                    ""
+                } else {
+                    ", as joint values by the nearest table that has a closed form"
+                },
                 form.sentence()
             ),
             inputs: vec![OwnInput {

@@ -213,9 +213,7 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
         "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, readings: {readings} }};"
     ));
     let head = |name: &str| {
-        format!(
-            "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
-        )
+        format!("fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{")
     };
     out.code(&head(CLOSED_FORM));
     out.indent();
