@@ -14,6 +14,7 @@ mod generate;
 mod generate_c;
 mod identify;
 mod import;
+mod inverse;
 mod log;
 mod map;
 mod measurements;

@@ -111,21 +111,14 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
         (distance, tilt): (f64, f64),
     ) -> Option<Solution<S, N>> {
         let mut best: Option<(f64, Solution<S, N>)> = None;
-        for mut solution in self.reached(distance, tilt) {
-            let mut change = 0.0;
-            let mut within = true;
-            for ((q, near), limits) in solution.q.iter_mut().zip(near).zip(limits) {
-                let (at, near): (f64, f64) = ((*q).into(), (*near).into());
-                match unwound(at, near, *limits) {
-                    Some(turned) => {
-                        *q = S::lit(turned);
-                        change += (turned - near) * (turned - near);
-                    }
-                    None => within = false,
-                }
-            }
-            if within && best.is_none_or(|(least, _)| change < least) {
-                best = Some((change, solution));
+        for solution in self.reached(distance, tilt) {
+            let Some(turned) = solution.turned(near, limits) else { continue };
+            let change = turned.q.iter().zip(near).fold(0.0, |sum, (q, near)| {
+                let by: f64 = (*q - *near).into();
+                sum + by * by
+            });
+            if best.is_none_or(|(least, _)| change < least) {
+                best = Some((change, turned));
             }
         }
         best.map(|(_, solution)| solution)
@@ -157,6 +150,17 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
             self.distance[branch] = S::lit(f64::INFINITY);
         }
         None
+    }
+}
+
+impl<S: Scalar + Into<f64>, const N: usize> Solution<S, N> {
+    /// Each joint by whole turns as near to `near` as its limits allow; `None` where no turn is within them.
+    pub fn turned(&self, near: &[S; N], limits: &[Option<[f64; 2]>; N]) -> Option<Self> {
+        let mut turned = *self;
+        for ((q, near), limits) in turned.q.iter_mut().zip(near).zip(limits) {
+            *q = S::lit(unwound((*q).into(), (*near).into(), *limits)?);
+        }
+        Some(turned)
     }
 }
 

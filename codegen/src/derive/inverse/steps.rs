@@ -1,5 +1,7 @@
 //! How many steps lead from the closed form to the arm as it is, found by trying: its graphs are evaluated.
 
+use std::sync::Arc;
+
 use stiffarm_kernels::{AtRest, Output, Pose, Solutions, Steps, Unstable};
 
 use super::{BRANCHES, gives, inverse};
@@ -23,13 +25,18 @@ const MOVED: f64 = 1e-3;
 /// symbols.
 #[derive(Clone, Debug)]
 pub struct AsItIs {
+    programs: Arc<Programs>,
+    given: Given,
+    links: bool,
+    readings: usize,
+}
+
+#[derive(Debug)]
+struct Programs {
     closed: Program,
     rigid: Program,
     gives: Program,
     sag: Program,
-    given: Given,
-    links: bool,
-    readings: usize,
 }
 
 /// The same under a wrench and its weights; `None` is the rigid arm.
@@ -39,28 +46,37 @@ impl AsItIs {
     /// An arm whose closed form, or that of the nearest table, is `form`.
     pub fn new(robot: &Robot, form: ClosedForm, given: Given) -> AsItIs {
         let links = robot.joints.iter().any(|joint| joint.beam.is_some());
-        AsItIs {
+        let programs = Programs {
             closed: inverse(robot, form),
             rigid: derive(robot, &[Output::Pose, Output::Jacobian]),
             gives: gives(robot),
             sag: derive(robot, &[Output::DeflectionWithGravity]),
+        };
+        AsItIs {
+            programs: Arc::new(programs),
             given,
             links: links || !robot.beyond.springs.is_empty(),
             readings: readings(robot),
         }
     }
 
+    /// The same of joints that come from other sides, of an arm that is warmer.
+    pub fn with(&self, given: &Given) -> AsItIs {
+        AsItIs { given: given.clone(), ..self.clone() }
+    }
+
     /// Every branch of the closed form, as joint values.
     pub fn closed_form(&self, pose: &Pose<f64>, near: &[f64; 6]) -> Solutions<f64, 6, BRANCHES> {
         let columns = pose.columns();
         let target = columns.as_flattened();
-        let (joints, _) = self.closed.readings.evaluate(near, &self.given);
+        let (joints, _) = self.programs.closed.readings.evaluate(near, &self.given);
         let value = |symbol: &Symbol| match symbol {
             Symbol::Own { entry, .. } => target[*entry],
             Symbol::Joint(joint) => joints[*joint],
             _ => f64::NAN,
         };
-        let block = |k: usize| self.closed.graph.evaluate(&self.closed.blocks[k].entries, value);
+        let closed = &self.programs.closed;
+        let block = |k: usize| closed.graph.evaluate(&closed.blocks[k].entries, value);
         let (q, [distance, tilt]) = (block(0), [block(1), block(2)].map(|values| array(&values)));
         let q = core::array::from_fn(|branch| array(&q[6 * branch..]));
         Solutions { q, distance, tilt }
@@ -90,6 +106,16 @@ impl AsItIs {
         Ok(found)
     }
 
+    /// Every branch's readings, from those near some readings.
+    pub fn solutions(
+        &self,
+        pose: &Pose<f64>,
+        near: &[f64; 6],
+        wrench: Option<&[f64; 6]>,
+    ) -> Solutions<f64, 6, BRANCHES> {
+        self.closed_form(pose, near).each(|joints| self.follow(joints, pose, wrench))
+    }
+
     fn blocks(
         &self,
         program: &Program,
@@ -104,13 +130,13 @@ impl AsItIs {
 
 impl AtRest<f64, 6> for Under<'_> {
     fn stands(&self, joints: &[f64; 6]) -> Result<(Pose<f64>, [[f64; 6]; 6]), Unstable> {
-        let blocks = self.0.blocks(&self.0.rigid, joints, &[0.0; 6])?;
+        let blocks = self.0.blocks(&self.0.programs.rigid, joints, &[0.0; 6])?;
         let axis = |k: usize| array(&blocks[0][3 * k..]);
         let pose = Pose { rotation: [axis(0), axis(1), axis(2)], position: axis(3) };
         let jacobian = core::array::from_fn(|joint| array(&blocks[1][6 * joint..]));
         Ok(match self.1.filter(|_| self.0.links) {
             Some(wrench) => {
-                let gives = self.0.blocks(&self.0.gives, joints, wrench)?;
+                let gives = self.0.blocks(&self.0.programs.gives, joints, wrench)?;
                 (pose.displaced(&array(&gives[1])), jacobian)
             }
             None => (pose, jacobian),
@@ -119,12 +145,12 @@ impl AtRest<f64, 6> for Under<'_> {
 
     fn gives(&self, joints: &[f64; 6]) -> Result<[f64; 6], Unstable> {
         let Some(wrench) = self.1 else { return Ok([0.0; 6]) };
-        self.0.blocks(&self.0.sag, joints, wrench)?;
-        Ok(array(&self.0.blocks(&self.0.gives, joints, wrench)?[0]))
+        self.0.blocks(&self.0.programs.sag, joints, wrench)?;
+        Ok(array(&self.0.blocks(&self.0.programs.gives, joints, wrench)?[0]))
     }
 
     fn joints(&self, readings: &[f64; 6]) -> [f64; 6] {
-        array(&self.0.rigid.readings.evaluate(readings, &self.0.given).0)
+        array(&self.0.programs.rigid.readings.evaluate(readings, &self.0.given).0)
     }
 }
 
@@ -153,7 +179,7 @@ pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
     let size = robot.size();
     let loaded = needed(|q, [x, y, z]| {
         let newton = [x, y, z, 0.0, 0.0, 0.0];
-        let [own, with] = [[0.0; 6], newton].map(|w| arm.blocks(&arm.sag, q, &w));
+        let [own, with] = [[0.0; 6], newton].map(|w| arm.blocks(&arm.programs.sag, q, &w));
         let (own, with) = (own?, with?);
         let moved: f64 = own[0].iter().zip(&with[0]).take(3).map(|(a, b)| (a - b) * (a - b)).sum();
         let by = if moved > 0.0 { MOVED * size / libm::sqrt(moved) } else { 0.0 };
