@@ -188,8 +188,8 @@ pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
     Steps { unloaded, loaded, readings }
 }
 
-/// From joint values to readings each step leaves as much of an error as the largest slope of what moves the joints; 1e-13 of
-/// it is rounding.
+/// From joint values to readings each step leaves as much of an error as the largest slope of what moves the joints; 1e-10 of
+/// the milliradians that it moves them by is rounding.
 fn readings(robot: &Robot) -> usize {
     let mut slopes = vec![0.0; robot.dof()];
     for each in &robot.beyond.moves {
@@ -210,7 +210,7 @@ fn readings(robot: &Robot) -> usize {
         // A shift is taken off at once.
         (false, false) => 1,
         (false, true) => {
-            let count = 1.0 + libm::ceil(libm::log(1e-13) / libm::log(slope.min(0.9)));
+            let count = libm::ceil(libm::log(1e-10) / libm::log(slope.min(0.9)));
             (count as usize).min(40)
         }
     }
