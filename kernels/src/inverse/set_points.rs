@@ -2,6 +2,7 @@
 
 use super::steps::AtRest;
 use super::{Inverse, JointValues, Solution, Solutions};
+use crate::solve::margin;
 use crate::{Pose, Scalar, Unstable, has};
 
 /// What gives in an arm at rest under a wrench and its weights.
@@ -21,6 +22,10 @@ pub struct Gives<S, const N: usize> {
 pub trait Elastic<const N: usize, S: Scalar = f64>: has::DeflectionWithGravity<N, S> {
     /// Whether more gives than joints.
     const LINKS: bool;
+
+    /// Force and moment, N and N·m, within whose ellipsoid the arm bears every load in every posture, where its table says
+    /// them.
+    const BEARS: Option<[f64; 2]>;
 
     /// What gives at the posture in which the loaded arm is at rest.
     fn gives(&self, posture: &Self::Posture, wrench: &[S; 6]) -> Gives<S, N>;
@@ -73,7 +78,10 @@ where
         let Loaded(arm, wrench) = self;
         let posture = arm.at_joints(joints);
         // Where the arm is at rest is where it has to bear the load.
-        arm.deflection_with_gravity(&posture, wrench)?;
+        let surely = |most: [f64; 2]| margin(wrench, most.map(S::lit)).is_positive();
+        if !A::BEARS.is_some_and(surely) {
+            arm.deflection_with_gravity(&posture, wrench)?;
+        }
         Ok(arm.gives(&posture, wrench).joints)
     }
 

@@ -279,6 +279,12 @@ fn elastic(out: &mut Lines, target: &str, (module, constants): (&Module, &str)) 
     out.code(&format!("impl<S: Scalar> Elastic<N, S> for {target} {{"));
     out.indent();
     out.code(&format!("const LINKS: bool = {links};"));
+    let deflection = module.functions().find(|function| {
+        function.place.is_none() && function.name() == Output::DeflectionWithGravity.name()
+    });
+    let margin = deflection.and_then(|function| function.solves().find_map(|solve| solve.margin));
+    let bears = margin.map(|margin| margin.map(|most| most.to_f64()));
+    out.code(&format!("const BEARS: Option<[f64; 2]> = {bears:?};"));
     out.code(INLINE);
     out.code("fn gives(&self, posture: &Posture<S>, wrench: &[S; 6]) -> Gives<S, N> {");
     out.indent();
