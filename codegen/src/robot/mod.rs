@@ -41,5 +41,6 @@ pub use model::{
     Output, Payload, Quantity, Robot, Section, Spot, Value,
 };
 pub(crate) use names::is_keyword;
+pub(crate) use nearest::{DEFLECTION, STEPPED};
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

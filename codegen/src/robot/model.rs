@@ -7,6 +7,7 @@ pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use super::beyond::Beyond;
 use super::closed_form::ClosedForm;
+use super::nearest::STEPPED;
 use crate::number::Number;
 
 /// A serial arm as its Denavit-Hartenberg table describes it.
@@ -358,7 +359,7 @@ impl Robot {
         let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
         let exact = self.is_as_its_table() && self.closed_form().is_ok();
         let steps = self.inverse_kinematics.is_some() && !exact;
-        let stepped = |output: &Output| steps && [Output::Pose, Output::Jacobian].contains(output);
+        let stepped = |output: &Output| steps && STEPPED.contains(output);
         let asked = |output: &Output| match self.outputs.as_slice() {
             [] => !output.is_on_request() && (moves || !output.is_of_motion()),
             asked => asked.contains(output) || stepped(output),

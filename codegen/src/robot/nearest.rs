@@ -16,6 +16,12 @@ const OFF: f64 = 1e-2;
 /// as long. It is a few times what makers build to; an angle that is meant is left alone.
 const SQUARE: f64 = 2e-3;
 
+/// What the steps behind a closed form take.
+pub(crate) const STEPPED: [Output; 2] = [Output::Pose, Output::Jacobian];
+
+/// What set-points take besides.
+pub(crate) const DEFLECTION: Output = Output::DeflectionWithGravity;
+
 /// The first three axes of a spherical wrist's arm, the most usual first.
 const POSITIONS: [Position; 4] = [
     Position::SecondParallelThird,
@@ -62,7 +68,7 @@ impl Robot {
 
     /// Whether set-points under a load are generated: where the inverse kinematics is, and the deflection under weights.
     pub(crate) fn has_set_points(&self) -> bool {
-        let deflects = || self.generated().contains(&Output::DeflectionWithGravity);
+        let deflects = || self.generated().contains(&DEFLECTION);
         self.inverse_kinematics.is_some() && deflects()
     }
 

@@ -1,18 +1,16 @@
 //! What gives in an arm at rest: the set-point of a joint is where its link stands, less what its spring gives there.
 
-use stiffarm_kernels::Output;
-
 use super::quantity;
 use crate::derive::own::{Held, Own, Size};
 use crate::derive::program::{Block, Program};
 use crate::derive::readings::Readings;
 use crate::derive::{outputs, ways};
-use crate::robot::{GIVES, Robot};
+use crate::robot::{DEFLECTION, GIVES, Robot};
 
 /// What the joints give, and what of the tool's place everything else does, at the posture in which the arm is at rest under
 /// a wrench and its weights.
 pub fn gives(robot: &Robot) -> Program {
-    let way = ways::best(robot, Output::DeflectionFirstOrder);
+    let way = ways::best(robot, DEFLECTION);
     let mut chain = way.lay_out(robot);
     let [joints, tool] = outputs::gives(&mut chain);
     let joints = (

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use stiffarm_kernels::{AtRest, Output, Pose, Solutions, Steps, Unstable};
+use stiffarm_kernels::{AtRest, Pose, Solutions, Steps, Unstable};
 
 use super::{BRANCHES, gives, inverse};
 use crate::derive::{Given, Program, derive};
 use crate::expr::Symbol;
 use crate::robot::beyond::{Law, Move};
-use crate::robot::{ClosedForm, Robot};
+use crate::robot::{ClosedForm, DEFLECTION, Robot, STEPPED};
 
 /// What the steps leave at most, m and rad: a tenth of a nanometre, with which a nanometre has a margin of ten.
 const LEFT: f64 = 1e-10;
@@ -48,9 +48,9 @@ impl AsItIs {
         let links = robot.joints.iter().any(|joint| joint.beam.is_some());
         let programs = Programs {
             closed: inverse(robot, form),
-            rigid: derive(robot, &[Output::Pose, Output::Jacobian]),
+            rigid: derive(robot, &STEPPED),
             gives: gives(robot),
-            sag: derive(robot, &[Output::DeflectionWithGravity]),
+            sag: derive(robot, &[DEFLECTION]),
         };
         AsItIs {
             programs: Arc::new(programs),

@@ -9,7 +9,7 @@ use super::table::numeric;
 use crate::derive::{BRANCHES, Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::{CLOSED_FORM, ClosedForm, GIVES, INVERSE_KINEMATICS};
+use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -279,9 +279,9 @@ fn elastic(out: &mut Lines, target: &str, (module, constants): (&Module, &str)) 
     out.code(&format!("impl<S: Scalar> Elastic<N, S> for {target} {{"));
     out.indent();
     out.code(&format!("const LINKS: bool = {links};"));
-    let deflection = module.functions().find(|function| {
-        function.place.is_none() && function.name() == Output::DeflectionWithGravity.name()
-    });
+    let deflection = module
+        .functions()
+        .find(|function| function.place.is_none() && function.name() == DEFLECTION.name());
     let margin = deflection.and_then(|function| function.solves().find_map(|solve| solve.margin));
     let bears = margin.map(|margin| margin.map(|most| most.to_f64()));
     out.code(&format!("const BEARS: Option<[f64; 2]> = {bears:?};"));
