@@ -1,6 +1,6 @@
 //! The inverse kinematics in C: the bits of the Rust kernels, of tables with a closed form and of one near it.
 
-use stiffarm::kernels::{Inverse, JointValues, Pose, has};
+use stiffarm::kernels::{Inverse, Pose, SetPoints, Solutions, has};
 use stiffarm::robot;
 use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_codegen::robot::{Robot, Wanted};
@@ -11,6 +11,7 @@ use crate::program::SIDES;
 
 with_each_compiler! {
     branches_are_the_rust_kernels_bits
+    set_points_are_the_rust_kernels_bits
 }
 
 robot! { mod kr240 from "robots/arms/kuka_kr240.toml"; outputs: pose, inverse_kinematics; }
@@ -19,10 +20,29 @@ robot! { mod puma560 from "robots/arms/puma560.toml"; outputs: pose, inverse_kin
 robot! { mod ur10 from "robots/arms/ur10.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod calibrated from "tests/data/calibrated_ur10.toml"; outputs: pose, inverse_kinematics; }
 
-const OUTPUTS: [&str; 2] = ["pose", "inverse_kinematics"];
+/// Arms under a load: one of whose links bend, one that bears any load, and what a tracker found.
+mod loaded {
+    use super::robot;
 
-/// Reads joint values and a pose as bits, prints all branches as bits.
+    robot! {
+        pub mod lin from "robots/arms/lin_elbow.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    }
+    robot! {
+        pub mod kr240 from "robots/arms/kuka_kr240.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    }
+    robot! {
+        pub mod calibrated from "tests/data/calibrated_kuka.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    }
+}
+
+const OUTPUTS: [&str; 4] = ["pose", "inverse_kinematics", "jacobian", "deflection_with_gravity"];
+
+/// Reads joint values, a pose and a wrench as bits, prints all branches as bits.
 fn program(function: &str, given: &str) -> String {
+    let load = if function == "set_points" { ", &x[18]" } else { "" };
     format!(
         "#include <inttypes.h>
 #include <stdio.h>
@@ -43,7 +63,7 @@ static void put(const double *x, unsigned int size)
 
 int main(void)
 {{
-    double x[18];
+    double x[24];
     static const double sides[6] = {{{}}};
     arm_{function}_t out;
     unsigned int k = 0U;
@@ -54,10 +74,10 @@ int main(void)
     {{
         (void)memcpy(&x[k], &bits, sizeof bits);
         k++;
-        if (k == 18U)
+        if (k == 24U)
         {{
             k = 0U;
-            arm_{function}(x{given}, &x[6], &out);
+            arm_{function}(x{given}, &x[6]{load}, &out);
             put(out.q, 48U);
             put(out.distance, 8U);
             put(out.tilt, 8U);
@@ -75,25 +95,41 @@ fn sides() -> [f64; 6] {
     core::array::from_fn(|k| SIDES[k % SIDES.len()])
 }
 
-/// Postures' own poses, singular ones, poses out of reach, and numbers that are none.
-fn check<A: Inverse<6, 8> + JointValues<6> + has::Pose<6>>(compiler: &str, arm: &A, id: &str) {
+/// Compiles an arm's C and the program around one function of it.
+fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
     let text = std::fs::read_to_string(format!("{}/{id}", env!("CARGO_MANIFEST_DIR")));
     let (mut robot, _) = Robot::from_toml(&text.expect("the file"), "arm.toml").expect("valid");
     robot = robot.with_effects().expect("effects of kernels");
-    for output in OUTPUTS {
+    for output in outputs {
         robot.want(&Wanted::read(output).expect("an output")).expect("it has one");
     }
     let near = !robot.is_as_its_table() || robot.closed_form().is_err();
-    let function = if near { "closed_form" } else { "inverse_kinematics" };
+    let function = match outputs.len() {
+        2 if near => "closed_form",
+        2 => "inverse_kinematics",
+        _ => "set_points",
+    };
     let given = if robot.beyond.takes_sides() { ", sides" } else { "" };
-    let options =
-        COptions { name: "arm".to_owned(), precision: Precision::F64, sines: Sines::Polynomial };
-    let files = c(&robot, &options).expect("numbers only");
-    let folder = Folder::new(&format!("inverse-{compiler}-{}", id.replace('/', "-")));
-    folder.write("arm.h", &files.header);
-    folder.write("arm.c", &files.source);
+    let folder = Folder::new(&format!("{function}-{compiler}-{}", id.replace('/', "-")));
+    for precision in [Precision::F32, Precision::F64] {
+        let options = COptions { name: "arm".to_owned(), precision, sines: Sines::Polynomial };
+        let files = c(&robot, &options).expect("numbers only");
+        folder.write("arm.h", &files.header);
+        folder.write("arm.c", &files.source);
+        compile(compiler, &folder, &["-O2", "-c", "arm.c"]);
+    }
     folder.write("main.c", &program(function, given));
     compile(compiler, &folder, &["-O2", "arm.c", "main.c", "-o", "branches", "-lm"]);
+    folder
+}
+
+/// Postures' own poses, singular ones, poses out of reach, and numbers that are none.
+fn check<A: Inverse<6, 8> + has::Pose<6>>(
+    compiler: &str,
+    (arm, id, outputs): (&A, &str, &[&str]),
+    branches: impl Fn(&Pose<f64>, &[f64; 6], &[f64; 6]) -> Solutions<f64, 6, 8>,
+) {
+    let folder = compiled(compiler, id, outputs);
     let mut draws = Draws::new(5);
     let (mut input, mut expected) = (String::new(), Vec::new());
     for k in 0..300 {
@@ -108,11 +144,13 @@ fn check<A: Inverse<6, 8> + JointValues<6> + has::Pose<6>>(compiler: &str, arm: 
             _ => {}
         }
         let (pose, near) = (Pose { rotation, position }, draws.array(-3.1, 3.1));
+        let wrench = draws.load().map(|x| if k % 11 == 3 { 1e9 * x } else { x });
         let columns = pose.columns();
-        let bits = near.iter().chain(columns.as_flattened()).map(|x| x.to_bits());
+        let numbers = near.iter().chain(columns.as_flattened()).chain(&wrench);
+        let bits = numbers.map(|x| x.to_bits());
         input.extend(bits.map(|bits| format!("{bits:x} ")));
         input.push('\n');
-        let found = arm.closed_form(&pose, &near);
+        let found = branches(&pose, &near, &wrench);
         let all = found.q.as_flattened().iter().chain(&found.distance).chain(&found.tilt);
         expected.push(all.copied().collect::<Vec<f64>>());
     }
@@ -129,10 +167,31 @@ fn check<A: Inverse<6, 8> + JointValues<6> + has::Pose<6>>(compiler: &str, arm: 
 }
 
 fn branches_are_the_rust_kernels_bits(compiler: &str) {
-    check(compiler, &kr240::Robot, "robots/arms/kuka_kr240.toml");
-    check(compiler, &irb120::Robot, "robots/arms/irb120.toml");
-    check(compiler, &puma560::Robot, "robots/arms/puma560.toml");
-    check(compiler, &ur10::Robot, "robots/arms/ur10.toml");
     let calibrated = calibrated::Robot { sides: sides() };
-    check(compiler, &calibrated, "tests/data/calibrated_ur10.toml");
+    macro_rules! check {
+        ($arm:expr, $id:literal) => {
+            check(compiler, (&$arm, $id, &OUTPUTS[..2]), |pose, near, _| {
+                $arm.closed_form(pose, near)
+            })
+        };
+    }
+    check!(kr240::Robot, "robots/arms/kuka_kr240.toml");
+    check!(irb120::Robot, "robots/arms/irb120.toml");
+    check!(puma560::Robot, "robots/arms/puma560.toml");
+    check!(ur10::Robot, "robots/arms/ur10.toml");
+    check!(calibrated, "tests/data/calibrated_ur10.toml");
+}
+
+fn set_points_are_the_rust_kernels_bits(compiler: &str) {
+    let calibrated = loaded::calibrated::Robot { sides: sides() };
+    macro_rules! check {
+        ($arm:expr, $id:literal) => {
+            check(compiler, (&$arm, $id, &OUTPUTS), |pose, near, wrench| {
+                $arm.set_points(pose, near, wrench)
+            })
+        };
+    }
+    check!(loaded::lin::Robot, "robots/arms/lin_elbow.toml");
+    check!(loaded::kr240::Robot, "robots/arms/kuka_kr240.toml");
+    check!(calibrated, "tests/data/calibrated_kuka.toml");
 }

@@ -209,7 +209,7 @@ fn set_points_of_calibrated_arms_stand_at_a_thousand_poses() {
 }
 
 robot! { mod kuka from "tests/data/calibrated_kuka.toml"; outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics; }
-robot! { mod ur10 from "tests/data/calibrated_ur10.toml"; outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics; }
+robot! { pub mod ur10 from "tests/data/calibrated_ur10.toml"; outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics; }
 
 /// A compiled arm by its fixed steps, beside the diagnosis' of the same file.
 fn compiled<S: Scalar + PartialOrd + Into<f64>>(
@@ -256,7 +256,7 @@ fn compiled<S: Scalar + PartialOrd + Into<f64>>(
     assert!(one > poses * 9 / 10 && all > poses / 2, "{one} {all}");
 }
 
-const SIDES: [i8; 6] = [1, -1, 1, 1, -1, 1];
+pub const SIDES: [i8; 6] = [1, -1, 1, 1, -1, 1];
 
 /// Steps that the table's numbers ask for are no more than three, with a load as well: the springs of joints take none.
 #[test]
