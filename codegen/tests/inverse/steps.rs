@@ -4,7 +4,7 @@ use stiffarm_codegen::derive::{AsItIs, Given, steps};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Angle, Robot, Value};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::Pose;
+use stiffarm_kernels::{Pose, Steps};
 
 use super::arms::{Arm, FAMILIES, random, reference};
 
@@ -46,7 +46,8 @@ fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
                 let any = (f64::MAX, f64::MAX);
                 let begin = arm.closed_form(&pose, &q).nearest(&q, &[None; 6], any);
                 let begin = begin.expect("a branch").q;
-                let (found, [distance, tilt]) = arm.follow(begin, &pose, None).expect("numbers");
+                let (found, [distance, tilt]) =
+                    arm.follow(begin, &pose, (None, Steps::MOST)).expect("numbers");
                 let reached = forward.pose(&found);
                 let apart = (reached.translation.vector - at.translation.vector).norm();
                 assert!((apart - distance).abs() < 1e-12, "{apart:e} {distance:e}");

@@ -83,7 +83,7 @@ impl AsItIs {
     }
 
     /// The readings of a branch under a wrench and the weights, or of the rigid arm, from its closed form's joint values, and
-    /// what they miss the pose by ([`AtRest::follow`]).
+    /// what they miss the pose by ([`AtRest::follow`]): by so many steps at most, until nothing is left.
     ///
     /// # Errors
     /// [`Unstable`] where the arm does not bear its load.
@@ -91,12 +91,12 @@ impl AsItIs {
         &self,
         joints: [f64; 6],
         pose: &Pose<f64>,
-        wrench: Option<&[f64; 6]>,
+        (wrench, most): (Option<&[f64; 6]>, usize),
     ) -> Result<([f64; 6], [f64; 2]), Unstable> {
         let mut joints = joints;
         let arm = Under(self, wrench);
         let mut found = arm.follow(joints, pose, (0, self.readings))?;
-        for _ in 0..Steps::MOST {
+        for _ in 0..most {
             if found.1.iter().all(|missed| *missed <= LEFT) {
                 break;
             }
@@ -113,7 +113,7 @@ impl AsItIs {
         near: &[f64; 6],
         wrench: Option<&[f64; 6]>,
     ) -> Solutions<f64, 6, BRANCHES> {
-        self.closed_form(pose, near).each(|joints| self.follow(joints, pose, wrench))
+        self.closed_form(pose, near).each(|joints| self.follow(joints, pose, (wrench, Steps::MOST)))
     }
 
     fn blocks(
