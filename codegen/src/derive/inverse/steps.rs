@@ -21,6 +21,9 @@ const POSTURES: [usize; 2] = [160, 144];
 /// How far a load moves the tool, as a part of the arm's size: about what a maker's rated load does.
 const MOVED: f64 = 1e-3;
 
+/// How much warmer the arm is than its table, K: about what a day's work and a hall in summer do.
+const WARMED: f64 = 30.0;
+
 /// An arm whose inverse kinematics is evaluated from its graphs, with every `[[effect]]` that kernels have. It has no
 /// symbols.
 #[derive(Clone, Debug)]
@@ -168,7 +171,8 @@ pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
         let loaded = if links { Steps::MOST / 2 } else { 0 };
         return Steps { unloaded: 0, loaded, readings };
     }
-    let arm = AsItIs::new(robot, form, Given::default());
+    let given = Given { warming: WARMED, ..Given::default() };
+    let arm = AsItIs::new(robot, form, given);
     let unloaded = match robot.has_closed_form() {
         true => 0,
         false => needed(|q, _| taken(&arm, q, None)),
