@@ -4,7 +4,9 @@
 //! effect's own law, and shares no code with the generator.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm::kernels::{Inverse, Pose, Scalar, SetPoints, Steps, generic};
+use stiffarm::kernels::{
+    Arm as _, Inverse, Pose, Scalar, SetPoints, Steps, generic, has::Pose as _,
+};
 use stiffarm::robot;
 use stiffarm_codegen::derive::{AsItIs, Given};
 use stiffarm_codegen::number::Number;
@@ -281,3 +283,16 @@ fn compiled_set_points_stand_at_their_poses() {
 }
 
 const STEPS: Steps = Steps { unloaded: 3, loaded: 3, readings: 4 };
+
+/// A load that no arm bears leaves the closed form, an infinite distance and no set-point.
+#[test]
+fn a_load_that_is_not_borne_is_told() {
+    let arm = ur10::Robot { sides: SIDES.map(f64::from) };
+    let q = [0.3, -1.0, 1.4, 0.2, 0.6, -0.5];
+    let (target, wrench) = (arm.pose(&arm.posture(&q)), [0.0, 0.0, -1e9, 0.0, 0.0, 0.0]);
+    let points = arm.set_points(&target, &q, &wrench);
+    assert!(points.q.as_flattened().iter().all(|q| q.is_finite()));
+    assert_eq!(points.distance, [f64::INFINITY; 8]);
+    assert_eq!(arm.set_point(&target, &q, &wrench, (1e-3, 1e-3)), None);
+    assert!(arm.set_point(&target, &q, &[0.0; 6], (1e-9, 1e-9)).is_some());
+}
