@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
-use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach};
+use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach_by_branches};
 use stiffarm_gap::doubts;
 use stiffarm_gap::io::ReadError;
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
@@ -13,6 +13,7 @@ use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Joint;
 
 use super::Verdict;
+use crate::input::branches::Branches;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::wrench::wrench;
 use crate::input::{data, quantity};
@@ -31,7 +32,8 @@ Examples:
 TARGETS is a file like a measurement file: x y z and perhaps rx ry rz, where the tool should be in
 the base frame; perhaps q1 … qn, from where to start; perhaps fx … mz, a load for each row in place
 of --wrench. Without q1 … qn each row starts where the row before ended; the first, and any that
-does not come to its target so, from many postures, of which the one that gives way least is taken.
+does not come to its target so, from the branches of the inverse kinematics where the arm has a closed
+form or is near one that has, else from many postures; the one that gives way least is taken.
 
 OUT has the set-points of every row, what the loaded arm misses there (error) and what it would miss
 without compensation (before), and a status: reached, nearest (at limit: the joints named) or
@@ -85,6 +87,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
     let whole = Whole { arm: &arm, known: &source.known };
+    let inverse = Branches::of(&source);
     let (targets, starts) = targets(&args.targets, &source)?;
     doubts::units(&arm, &targets).iter().for_each(|doubt| note(doubt, quiet));
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
@@ -107,7 +110,10 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         source.refuse_undecided("compensate", &whole, &at)?;
         let before = found.last().filter(|end| end.ended == Ended::Reached);
         let from = if starts { Some(&row.q) } else { before.map(|end| &end.q) };
-        let end = reach(whole, &goal(row, targets.kind), &at, from.map(Vec::as_slice), &search);
+        let goal = goal(row, targets.kind);
+        let branches = || inverse.as_ref().map_or_else(Vec::new, |arm| arm.set_points(&goal, &at));
+        let start = (from.map(Vec::as_slice), &branches as &dyn Fn() -> _);
+        let end = reach_by_branches(whole, &goal, &at, start, &search);
         found.push(end.map_err(|error| {
             Failure::new(format!("{}: line {}: {error}", targets.file, row.line))
         })?);

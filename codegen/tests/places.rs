@@ -47,10 +47,14 @@ fn names(text: &str, word: &str) -> bool {
 #[test]
 fn an_output_stands_in_three_places() {
     let sources = sources();
-    // The flexible chain gives a pose, too; a URDF's table is compared with the URDF by its pose.
+    // The flexible chain gives a pose, too; a URDF's table is compared with the URDF by its pose; the inverse of an arm takes
+    // three outputs of it.
     let apart = [
         ("codegen/src/derive/flexible.rs", Output::Pose),
         ("codegen/src/frontends/urdf/invoked.rs", Output::Pose),
+        ("codegen/src/robot/nearest.rs", Output::Pose),
+        ("codegen/src/robot/nearest.rs", Output::Jacobian),
+        ("codegen/src/robot/nearest.rs", Output::DeflectionWithGravity),
     ];
     for output in Output::EACH {
         let identifier = format!("Output::{output:?}");

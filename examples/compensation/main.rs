@@ -9,23 +9,20 @@
 //! loop does not see it: joint 3 is softer than the file says, the gear of joint 2 errs, joint 6 turns with joint 5,
 //! joint 1 has play.
 
-mod step;
-
 use nalgebra::{Vector3, Vector6};
-use step::step;
-use stiffarm::kernels::{Pose, Unstable, has};
+use stiffarm::kernels::{Pose, SetPoints, Unstable};
 use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::whole::{Situation, Whole};
 
 stiffarm::robot! {
     /// As its maker has it.
     pub mod nominal from "docs/workbench/arm.toml";
-    outputs: pose, jacobian, deflection_with_gravity;
+    outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
 }
 stiffarm::robot! {
     /// As a tracker has seen it: what `diagnose --write-robot` wrote.
     pub mod better from "examples/compensation/better.toml";
-    outputs: pose, jacobian, deflection_with_gravity;
+    outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
 }
 
 /// What the arm does, told to nobody.
@@ -56,12 +53,9 @@ const LOAD: [f64; 6] = [0.0, 0.0, -1471.0, 0.0, 0.0, 0.0];
 /// Every joint comes from below.
 const SIDES: [i8; 6] = [1; 6];
 
-/// Set-points for a target: a few steps from where the path is.
-fn commanded<A>(arm: &A, from: &[f64; 6], target: &Pose<f64>) -> Result<[f64; 6], Unstable>
-where
-    A: has::Pose<6> + has::Jacobian<6> + has::DeflectionWithGravity<6>,
-{
-    (0..4).try_fold(*from, |q, _| step(arm, &q, target, &LOAD))
+/// The set-point for a target, of those near where the path is: one call of the arm.
+fn commanded<A: SetPoints<6, 8, f64>>(arm: &A, near: &[f64; 6], target: &Pose<f64>) -> [f64; 6] {
+    arm.set_point(target, near, &LOAD, (1e-9, 1e-9)).expect("the path is in reach").q
 }
 
 fn main() -> Result<(), Unstable> {
@@ -91,8 +85,8 @@ fn main() -> Result<(), Unstable> {
             let (state, _) = real.at(&q, &at)?;
             Ok((state.tool.translation.vector - goal).norm())
         };
-        before = before.max(miss(commanded(&nominal::Robot, &on_path, &target)?)?);
-        after = after.max(miss(commanded(&better, &on_path, &target)?)?);
+        before = before.max(miss(commanded(&nominal::Robot, &on_path, &target))?);
+        after = after.max(miss(commanded(&better, &on_path, &target))?);
     }
     println!(
         "{}, 24 targets, at most {:.3} mm off by its maker's file, {:.3} mm by the corrected one",

@@ -23,6 +23,30 @@ impl<S: Copy> Pose<S> {
     }
 }
 
+impl<S: Scalar> Pose<S> {
+    /// The pose displaced by a small translation, m, and a rotation vector, rad, base axes, as a deflection tells them. Of a
+    /// turn of 0.1 rad the series is off by 3e-14.
+    pub fn displaced(self, by: &[S; 6]) -> Self {
+        let [dx, dy, dz, u, v, w] = *by;
+        let t = u * u + v * v + w * w;
+        let series = |terms: [f64; 4]| {
+            let [last, rest @ ..] = terms;
+            rest.into_iter().fold(S::lit(last), |sum, term| S::lit(term) - t * sum)
+        };
+        // sin φ / φ and (1 − cos φ) / φ².
+        let first = series([1.0 / 5040.0, 1.0 / 120.0, 1.0 / 6.0, 1.0]);
+        let second = series([1.0 / 40320.0, 1.0 / 720.0, 1.0 / 24.0, 0.5]);
+        let cross = |[x, y, z]: [S; 3]| [v * z - w * y, w * x - u * z, u * y - v * x];
+        let turned = |axis: [S; 3]| {
+            let once = cross(axis);
+            let twice = cross(once);
+            core::array::from_fn(|k| axis[k] + first * once[k] + second * twice[k])
+        };
+        let [x, y, z] = self.position;
+        Pose { rotation: self.rotation.map(turned), position: [x + dx, y + dy, z + dz] }
+    }
+}
+
 /// Copies `values` into `out`.
 ///
 /// # Errors

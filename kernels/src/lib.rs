@@ -31,7 +31,11 @@ mod solve;
 pub use arm::{Arm, Numeric, Row};
 #[cfg(feature = "simba")]
 pub use interop::simba;
-pub use inverse::{Inverse, Solution, Solutions};
+#[doc(hidden)]
+pub use inverse::unloaded;
+pub use inverse::{
+    AtRest, Elastic, Gives, Inverse, JointValues, SetPoints, Solution, Solutions, Steps,
+};
 #[doc(hidden)]
 pub use kernel::fill;
 pub use kernel::{Convention, DhRow, Error, Kernels, Motion, Ops, Pose};

@@ -5,6 +5,7 @@
 mod arms;
 mod bits;
 mod compiler;
+mod inverse;
 mod program;
 mod text;
 mod warnings;

@@ -1,6 +1,9 @@
 //! The inverse kinematics through the macro: its branches against the arm's own forward kinematics, in both precisions,
 //! and what a controller takes of them.
 
+mod as_it_is;
+
+use stiffarm::kernels::lanes::f64x4;
 use stiffarm::kernels::{Arm, Inverse, Pose, Scalar, Solutions, has};
 use stiffarm::robot;
 use stiffarm_draws::Draws;
@@ -109,4 +112,43 @@ fn out_of_reach_is_told() {
         let off = pose.position.iter().zip(&reached.position).map(|(a, b)| (a - b) * (a - b));
         assert!((off.sum::<f64>().sqrt() - solution.distance).abs() < 1e-12);
     }
+}
+
+/// Four poses at once have the bits of one after the other.
+fn in_lanes<A>(one: &A, lanes: &impl Both<f64x4>, draws: &mut Draws)
+where
+    A: Both<f64>,
+{
+    for _ in 0..100 {
+        let near: [[f64; 6]; 4] = core::array::from_fn(|_| draws.array(-3.1, 3.1));
+        let packed = |values: &dyn Fn(usize) -> f64| f64x4::from(core::array::from_fn(values));
+        let poses: [Pose<f64>; 4] = near.map(|q| at(one, &q));
+        let pose = Pose {
+            rotation: core::array::from_fn(|k| {
+                core::array::from_fn(|row| packed(&|lane| poses[lane].rotation[k][row]))
+            }),
+            position: core::array::from_fn(|row| packed(&|lane| poses[lane].position[row])),
+        };
+        let q: [f64x4; 6] = core::array::from_fn(|joint| packed(&|lane| near[lane][joint]));
+        let together = lanes.inverse_kinematics(&pose, &q);
+        for lane in 0..4 {
+            let alone = one.inverse_kinematics(&poses[lane], &near[lane]);
+            let numbers = alone.q.as_flattened().iter().chain(&alone.distance).chain(&alone.tilt);
+            let of_lane = together.q.as_flattened().iter().chain(&together.distance);
+            for (a, b) in numbers.zip(of_lane.chain(&together.tilt)) {
+                assert_eq!(a.to_bits(), b.to_array()[lane].to_bits(), "{a} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn lanes_have_the_bits_of_one_pose() {
+    let mut draws = Draws::new(8);
+    in_lanes(&kr240::Robot, &kr240::Robot, &mut draws);
+    in_lanes(&irb120::Robot, &irb120::Robot, &mut draws);
+    in_lanes(&ur10::Robot, &ur10::Robot, &mut draws);
+    let sides = as_it_is::SIDES.map(f64::from);
+    let lanes = sides.map(f64x4::lit);
+    in_lanes(&as_it_is::ur10::Robot { sides }, &as_it_is::ur10::Robot { sides: lanes }, &mut draws);
 }

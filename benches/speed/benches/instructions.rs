@@ -17,6 +17,7 @@ use std::process::{Command, ExitCode};
 use stiffarm_bench::arms;
 use stiffarm_bench::lanes::by_four;
 use stiffarm_draws::Draws;
+use stiffarm_kernels::{Inverse as _, Pose, SetPoints};
 
 const SNAPSHOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.txt");
 /// Calls that are counted, and four poses in each call of lanes.
@@ -116,10 +117,54 @@ macro_rules! works {
     )+};
 }
 
+/// The inverse: every branch, and one set-point under a load, at poses of the arm's own.
+macro_rules! inverses {
+    ($works:ident $($arm:ident $robot:expr),+) => {$(
+        $works.push((
+            concat!(stringify!($arm), " inverse_kinematics"),
+            inverse($robot, |arm, pose, near, _| {
+                black_box(arm.inverse_kinematics(pose, near));
+            }),
+        ));
+        $works.push((
+            concat!(stringify!($arm), " set_point"),
+            inverse($robot, |arm, pose, near, wrench| {
+                black_box(arm.set_point(pose, near, wrench, (1e-6, 1e-6)));
+            }),
+        ));
+    )+};
+}
+
+fn inverse<A: SetPoints<6, 8, f64> + 'static>(
+    arm: A,
+    work: fn(&A, &Pose<f64>, &[f64; 6], &[f64; 6]),
+) -> Box<dyn Fn(usize)> {
+    Box::new(move |calls| {
+        let mut draws = Draws::new(1);
+        let (wrenches, postures) = (draws.loads(CALLS), draws.postures(CALLS));
+        let poses = postures.iter().map(|q| arm.pose(&arm.posture(q)));
+        let poses: Vec<Pose<f64>> = poses.collect();
+        for ((pose, near), wrench) in poses.iter().zip(&postures).zip(&wrenches).take(calls) {
+            work(&arm, pose, near, wrench);
+        }
+    })
+}
+
 fn works() -> Vec<Work> {
     let mut works: Vec<Work> = Vec::new();
     works!(works planar_2r, ur10, kuka_kr240, iiwa14);
     motions!(works ur10, panda);
+    {
+        use arms::SIDES as sides;
+        use arms::inverse::{calibrated_kuka, calibrated_ur10, irb120, kuka_kr240, ur10};
+        inverses!(works
+            ur10 ur10::Robot,
+            kuka_kr240 kuka_kr240::Robot,
+            irb120 irb120::Robot,
+            calibrated_ur10 calibrated_ur10::Robot { sides },
+            calibrated_kuka calibrated_kuka::Robot { sides }
+        );
+    }
     works
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo bench -p stiffarm-bench --bench speed
+//! cargo bench -p stiffarm-bench --bench speed -- inverse       # the inverse alone
 //! RUSTFLAGS="-C target-cpu=native" cargo bench -p stiffarm-bench --bench speed --features fma
 //! cargo bench -p stiffarm-bench --bench speed --features dispatch
 //! ```
@@ -19,14 +20,22 @@ use stiffarm_bench::lanes::{by_eight, by_four};
 use stiffarm_bench::timing::{Candidate, print};
 use stiffarm_draws::Draws;
 use stiffarm_kernels::batch::{Layout, Wrenches, evaluate, evaluate_parallel};
-use stiffarm_kernels::generic::Arm;
-use stiffarm_kernels::{Kernels, Output};
+use stiffarm_kernels::generic;
+use stiffarm_kernels::{
+    Arm as _, Inverse as _, Kernels, Output, Pose, SetPoints as _, has::Pose as _,
+};
 
 const POSES: usize = 2048;
 const ROUNDS: usize = 41;
 
 /// Refuses to time what is not right.
-fn compare(kernels: &dyn Kernels<f64>, arm: &Arm, output: Output, q: &[f64], w: &[f64; 6]) {
+fn compare(
+    kernels: &dyn Kernels<f64>,
+    arm: &generic::Arm,
+    output: Output,
+    q: &[f64],
+    w: &[f64; 6],
+) {
     let expected = arm.evaluate(output, q, w).expect("the arm is stable");
     let mut got = vec![0.0; expected.len()];
     kernels.evaluate(output, q, w, &mut got).expect("the arm is stable");
@@ -267,7 +276,45 @@ fn latency() {
     print("complementary_stiffness", &mut candidates, ROUNDS);
 }
 
+/// Every branch at a pose of the arm's own, the closed form alone and with the steps behind it; four poses at once; and one
+/// set-point under a load.
+macro_rules! inverse {
+    ($arm:ident $robot:expr) => {{
+        let arm = $robot;
+        let mut draws = Draws::new(1);
+        let (wrenches, postures) = (draws.loads(POSES), draws.postures::<6>(POSES));
+        let stands = |q: &[f64; 6]| -> (Pose<f64>, [f64; 6]) { (arm.pose(&arm.posture(q)), *q) };
+        let poses: Vec<_> = postures.iter().map(stands).collect();
+        let input = (&poses[..], &wrenches[..]);
+        let mut candidates = [
+            Candidate::new("closed form", 1, input, |(pose, q), _| arm.closed_form(pose, q)),
+            Candidate::new("all branches", 1, input, |(pose, q), _| {
+                arm.inverse_kinematics(pose, q)
+            }),
+            Candidate::new("set-points", 1, input, |(pose, q), w| arm.set_points(pose, q, w)),
+            Candidate::new("set-point", 1, input, |(pose, q), w| {
+                arm.set_point(pose, q, w, (1e-6, 1e-6))
+            }),
+        ];
+        print(stringify!($arm), &mut candidates, ROUNDS);
+    }};
+}
+
+fn inverses() {
+    use arms::SIDES as sides;
+    use arms::inverse::{calibrated_kuka, calibrated_ur10, irb120, kuka_kr240, ur10};
+    println!("the inverse: ns per pose (ratio to the closed form)");
+    inverse!(kuka_kr240 kuka_kr240::Robot);
+    inverse!(ur10 ur10::Robot);
+    inverse!(irb120 irb120::Robot);
+    inverse!(calibrated_kuka calibrated_kuka::Robot { sides });
+    inverse!(calibrated_ur10 calibrated_ur10::Robot { sides });
+}
+
 fn main() {
+    if std::env::args().any(|argument| argument == "inverse") {
+        return inverses();
+    }
     arm!(kuka_kr240 ideal);
     together();
     latency();
@@ -275,4 +322,5 @@ fn main() {
     arm!(ur10);
     arm!(iiwa14);
     arm!(planar_2r);
+    inverses();
 }

@@ -28,6 +28,23 @@ arm!(kuka_kr240);
 arm!(iiwa14);
 arm!(panda);
 
+macro_rules! inverse {
+    ($($name:ident)+) => {
+        /// Arms with the inverse of their kinematics, and set-points under a load.
+        #[allow(missing_docs, clippy::all)]
+        pub mod inverse {
+            $(pub mod $name {
+                include!(concat!(env!("OUT_DIR"), "/", stringify!($name), "_inverse.rs"));
+            })+
+        }
+    };
+}
+
+inverse!(ur10 kuka_kr240 irb120 calibrated_ur10 calibrated_kuka);
+
+/// From which sides the joints of the calibrated arms come.
+pub const SIDES: [f64; 6] = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+
 /// The robot files, in the order of the benches.
 pub const FILES: [(&str, &str); 5] = [
     ("planar_2r", include_str!("../planar_2r.toml")),

@@ -15,6 +15,7 @@ mod generate;
 mod generate_c;
 mod identify;
 mod import;
+mod inverse;
 mod log;
 mod map;
 mod measurements;

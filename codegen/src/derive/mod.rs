@@ -20,7 +20,7 @@ pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
 pub(crate) use inverse::BRANCHES;
-pub use inverse::inverse;
+pub use inverse::{AsItIs, gives, inverse, steps};
 pub(crate) use outputs::derived;
 pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;

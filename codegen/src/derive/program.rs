@@ -148,7 +148,19 @@ impl Program {
         parameter: impl Fn(&str) -> T,
         given: &Given,
     ) -> Result<Vec<Vec<T>>, Unstable> {
-        let (q, growth) = self.readings.evaluate(state, given);
+        let joints = self.readings.evaluate(state, given);
+        self.evaluate_joints(&joints, state, wrench, parameter, given)
+    }
+
+    /// The same at joint values, and with all lengths so much larger.
+    pub(super) fn evaluate_joints<T: Float>(
+        &self,
+        (q, growth): &(Vec<T>, T),
+        state: &[T],
+        wrench: &[T; 6],
+        parameter: impl Fn(&str) -> T,
+        given: &Given,
+    ) -> Result<Vec<Vec<T>>, Unstable> {
         let mut solved: Vec<(Expr, T)> = Vec::new();
         let taken: Vec<Input> = self.inputs().collect();
         let joints = |input: Input| {
@@ -162,7 +174,7 @@ impl Program {
             Symbol::Torque(k) => joints(Input::Torques)[*k],
             Symbol::Wrench(component) => wrench[*component],
             Symbol::Parameter(name) => parameter(name),
-            Symbol::Growth => growth,
+            Symbol::Growth => *growth,
             Symbol::Side(_) | Symbol::Warming => given.value(symbol),
             // An undisplaced chain; no output of a table has displacements or inputs of one's own.
             Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),

@@ -25,6 +25,11 @@ pub fn derive_with(robot: &Robot, outputs: &[Output], passes: Passes) -> Program
     derive_by(robot, outputs, way)
 }
 
+/// The way in which an output costs least.
+pub(super) fn best(robot: &Robot, output: Output) -> Way {
+    best_ways(robot, &[&[output]], Passes::ALL)[0]
+}
+
 /// Derives each of several sets of outputs in the way in which it costs least.
 pub fn derive_each(robot: &Robot, sets: &[Vec<Output>]) -> Vec<Program> {
     let slices: Vec<&[Output]> = sets.iter().map(Vec::as_slice).collect();

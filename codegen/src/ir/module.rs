@@ -6,7 +6,7 @@ use super::constants::Constants;
 use super::function::Function;
 use super::posture::{Plain, Posture};
 use super::readings::Readings;
-use crate::derive::{Program, derive_at, derive_each, inverse};
+use crate::derive::{Program, derive_at, derive_each, gives, inverse};
 use crate::robot::Robot;
 
 /// The functions of a robot and what they share.
@@ -36,8 +36,9 @@ impl<'r> Module<'r> {
         let outputs = robot.generated();
         let programs = derive_each(robot, &sets(&outputs)).into_iter();
         let inverse = robot.inverse_kinematics.map(|form| inverse(robot, form));
+        let gives = robot.has_set_points().then(|| gives(robot));
         let own = own.iter().map(|program| (*program).clone());
-        let programs = programs.chain(inverse).chain(own).collect();
+        let programs = programs.chain(inverse).chain(gives).chain(own).collect();
         let tool: (_, _, Vec<Program>) = (None, outputs, programs);
         let places = robot.places().into_iter().map(|(place, outputs)| {
             let at = |output: &Output| derive_at(robot, place, *output);

@@ -11,7 +11,7 @@ use crate::emit::{
     rust_with,
 };
 use crate::out_dir::{BuildError, write_to_out_dir};
-use crate::robot::{INVERSE_KINEMATICS, Output, Robot};
+use crate::robot::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS, Output, Robot};
 
 /// An arm's module with functions of one's own.
 pub struct Module<'r> {
@@ -36,7 +36,7 @@ impl<'r> Module<'r> {
         formulas: impl Fn(&Formulas<'_>),
     ) -> Result<Self, Refused> {
         let known = Output::EACH.iter().any(|output| output.name() == name)
-            || name == INVERSE_KINEMATICS
+            || [INVERSE_KINEMATICS, CLOSED_FORM, GIVES].contains(&name)
             || self.functions.iter().any(|function| function.name() == name);
         if known {
             let text = "found the name of another function of the module, expected a new one";

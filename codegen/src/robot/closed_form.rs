@@ -1,6 +1,7 @@
 //! Which closed form the inverse kinematics of an arm has, read off its table.
 //!
-//! Only what is exactly zero counts: an axis that misses another by a micrometre does not meet it.
+//! Only what is exactly zero counts: an axis that misses another by a micrometre does not meet it. Such an arm has the closed
+//! form of the [nearest](super::nearest) table, and steps behind it.
 
 use super::frames::Refused;
 use super::model::{Angle, Convention, Motion, Robot, Value};
@@ -79,7 +80,7 @@ impl Between<'_> {
 }
 
 impl Robot {
-    /// The closed form of its inverse kinematics.
+    /// The closed form of its table's inverse kinematics.
     ///
     /// # Errors
     /// [`Refused`] where it has none that is known: what stands in the way.
@@ -102,15 +103,7 @@ impl Robot {
                 return Err(no(format!("the row of `{}` has a beta", joint.name)));
             }
         }
-        if let Some(effect) = self.effects.first() {
-            let (id, place) = (&effect.id.value, &effect.place.value);
-            return Err(no(format!("the effect `{id}` at {place} moves the arm off its table")));
-        }
-        let first = match self.convention {
-            Convention::Standard => 0,
-            Convention::Modified => 1,
-        };
-        let rows = &self.joints[first..first + 5];
+        let rows = &self.joints[self.first_link()..][..5];
         let mut links: Vec<Between> =
             rows.iter().map(|row| Between { a: &row.a, alpha: &row.alpha }).collect();
         let mut offsets: Vec<&Value> = self.joints.iter().map(|joint| &joint.d).collect();
@@ -121,6 +114,14 @@ impl Robot {
             (Ok(family), _) => Ok(ClosedForm { reversed: false, family }),
             (_, Ok(family)) => Ok(ClosedForm { reversed: true, family }),
             (Err(what), _) => Err(no(what.to_owned())),
+        }
+    }
+
+    /// The row, from 0, that holds the link from axis 1 to axis 2.
+    pub(super) fn first_link(&self) -> usize {
+        match self.convention {
+            Convention::Standard => 0,
+            Convention::Modified => 1,
         }
     }
 }

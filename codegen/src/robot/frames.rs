@@ -7,8 +7,14 @@ use super::names::no_module;
 use super::problem::{Place, Problem, Report};
 use super::suggest::advice;
 
-/// The name of the closed form's function, in generated code and among outputs.
+/// The name of the inverse kinematics among outputs, and of its function where that is a closed form.
 pub(crate) const INVERSE_KINEMATICS: &str = "inverse_kinematics";
+
+/// The name of the closed form's function where it is that of another table.
+pub(crate) const CLOSED_FORM: &str = "closed_form";
+
+/// The name of the function of what gives in an arm at rest.
+pub(crate) const GIVES: &str = "gives";
 
 /// An output that is asked for: `jacobian`, or `jacobian at elbow`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,7 +30,7 @@ pub struct Asked {
 pub enum Wanted {
     /// An output.
     Output(Asked),
-    /// The closed form of the inverse kinematics.
+    /// The inverse kinematics.
     InverseKinematics,
 }
 
@@ -78,12 +84,12 @@ impl Robot {
     /// Has generated what is wanted.
     ///
     /// # Errors
-    /// [`Refused`] as from [`Robot::ask`] and [`Robot::closed_form`].
+    /// [`Refused`] as from [`Robot::ask`] and [`Robot::nearest_closed_form`].
     pub fn want(&mut self, wanted: &Wanted) -> Result<(), Refused> {
         match wanted {
             Wanted::Output(asked) => self.ask(asked),
             Wanted::InverseKinematics => {
-                self.inverse_kinematics = Some(self.closed_form()?);
+                self.inverse_kinematics = Some(self.nearest_closed_form()?);
                 Ok(())
             }
         }

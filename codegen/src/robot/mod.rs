@@ -14,6 +14,7 @@ pub(crate) mod inertia;
 pub(crate) mod lexeme;
 mod model;
 pub(crate) mod names;
+mod nearest;
 mod payload;
 pub(crate) mod pi;
 pub(crate) mod problem;
@@ -33,12 +34,13 @@ pub use crate::schema::Symbol;
 pub use closed_form::{ClosedForm, Family, Position};
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
-pub(crate) use frames::INVERSE_KINEMATICS;
 pub use frames::{Asked, Refused, Wanted};
+pub(crate) use frames::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS};
 pub use model::{
     Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
     Output, Payload, Quantity, Robot, Section, Spot, Value,
 };
 pub(crate) use names::is_keyword;
+pub(crate) use nearest::{DEFLECTION, STEPPED};
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

@@ -7,6 +7,7 @@ pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use super::beyond::Beyond;
 use super::closed_form::ClosedForm;
+use super::nearest::STEPPED;
 use crate::number::Number;
 
 /// A serial arm as its Denavit-Hartenberg table describes it.
@@ -42,7 +43,7 @@ pub struct Robot {
     pub outputs: Vec<Output>,
     /// The outputs that are generated of named frames and markers.
     pub at: Vec<At>,
-    /// The closed form of its inverse kinematics, where that is generated.
+    /// The closed form of its inverse kinematics, where that is generated: its table's or the nearest table's.
     pub inverse_kinematics: Option<ClosedForm>,
 }
 
@@ -353,12 +354,15 @@ impl Robot {
 
     /// What is generated, each output once, in the order of [`Output::EACH`]: what is asked for, or else
     /// every output but those that are [on request](Output::is_on_request), those of dynamics where the file says of
-    /// some link more than its mass.
+    /// some link more than its mass. The steps behind the closed form of another table take pose and Jacobian.
     pub fn generated(&self) -> Vec<Output> {
         let moves = self.joints.iter().any(|joint| joint.inertia.is_some());
+        let exact = self.is_as_its_table() && self.closed_form().is_ok();
+        let steps = self.inverse_kinematics.is_some() && !exact;
+        let stepped = |output: &Output| steps && STEPPED.contains(output);
         let asked = |output: &Output| match self.outputs.as_slice() {
             [] => !output.is_on_request() && (moves || !output.is_of_motion()),
-            asked => asked.contains(output),
+            asked => asked.contains(output) || stepped(output),
         };
         Output::EACH.into_iter().filter(asked).collect()
     }

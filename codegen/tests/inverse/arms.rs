@@ -10,6 +10,7 @@ use stiffarm_kernels::generic;
 /// An arm, its closed form as a graph, and the reference implementation of its forward kinematics.
 pub struct Arm {
     pub name: String,
+    pub robot: Robot,
     program: Program,
     pub reference: generic::Arm,
 }
@@ -25,7 +26,8 @@ impl Arm {
     pub fn new(robot: &Robot) -> Arm {
         let form = robot.closed_form().unwrap_or_else(|no| panic!("{}: {no:?}", robot.name));
         let program = inverse(robot, form);
-        Arm { name: robot.name.clone(), program, reference: reference(robot) }
+        let (name, robot) = (robot.name.clone(), robot.clone());
+        Arm { name, program, reference: reference(&robot), robot }
     }
 
     pub fn pose(&self, q: &[f64]) -> Isometry3<f64> {
@@ -70,14 +72,14 @@ fn isometry(frame: &Frame) -> Isometry3<f64> {
     )
 }
 
-fn reference(robot: &Robot) -> generic::Arm {
+pub fn reference(robot: &Robot) -> generic::Arm {
     let joints = robot.joints.iter().map(|row| generic::Joint {
         motion: row.motion,
         theta: row.theta.radians().expect("a number"),
         d: number(&row.d),
         a: number(&row.a),
         alpha: row.alpha.radians().expect("a number"),
-        beta: 0.0,
+        beta: row.beta.radians().expect("a number"),
         compliance: 0.0,
         mass: 0.0,
         com: Vector3::zeros(),

@@ -90,6 +90,24 @@ pub fn reach<'a>(
     start: Option<&[f64]>,
     search: &Search,
 ) -> Result<Reached, CompensateError> {
+    reach_by_branches(arm, target, at, (start, &Vec::new), search)
+}
+
+/// What tells the branches of an inverse kinematics, each as joint values.
+pub type Branches<'b> = &'b dyn Fn() -> Vec<Vec<f64>>;
+
+/// The same where the branches of an inverse kinematics are known. They are asked for where `start` leads nowhere; if some
+/// lead to the target, no start is random.
+///
+/// # Errors
+/// As from [`reach()`].
+pub fn reach_by_branches<'a>(
+    arm: impl Into<Whole<'a>>,
+    target: &Target,
+    at: &Situation,
+    (start, branches): (Option<&[f64]>, Branches),
+    search: &Search,
+) -> Result<Reached, CompensateError> {
     let whole = arm.into();
     let arm = whole.arm;
     check(arm, target, &at.load, start, search)?;
@@ -117,8 +135,13 @@ pub fn reach<'a>(
     };
     let mut rng = Rng::new(search.seed, Stream::Starts);
     let mut reached: Option<(f64, steps::Point)> = None;
-    for _ in 0..search.starts {
-        let from = rng.point(&bounds);
+    let branches: Vec<Vec<f64>> = branches().iter().map(|q| within(arm, q)).collect();
+    let random = branches.len();
+    let starts = (0..search.starts).map(|_| rng.point(&bounds));
+    for (k, from) in branches.into_iter().chain(starts).enumerate() {
+        if k == random && reached.is_some() {
+            break;
+        }
         let Some(end) = task.settle(&from) else { continue };
         let end = task.turned_back(end);
         if task.reached(&end) {

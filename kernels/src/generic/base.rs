@@ -113,7 +113,7 @@ impl Arm {
 }
 
 /// Between −1 and 1 (SplitMix64).
-fn drawn(seed: &mut u64) -> f64 {
+pub(super) fn drawn(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut x = (*seed ^ (*seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -47,6 +47,7 @@ mod deflection;
 mod dynamics;
 mod dynamics_by;
 mod evaluate;
+mod inverse;
 mod jacobian;
 mod kinematics;
 mod links;

@@ -4,7 +4,10 @@
 //!
 //! ```text
 //! crates-peer DIRECTORY
+//! crates-peer              # the inverse kinematics alone
 //! ```
+
+mod inverse;
 
 use std::fmt::Write as _;
 
@@ -112,6 +115,13 @@ fn processor_time() -> f64 {
     1e9 * now.tv_sec as f64 + now.tv_nsec as f64
 }
 
+/// The least, the median and the most.
+fn spread(times: &[f64]) -> (f64, f64, f64) {
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    (sorted[0], sorted[sorted.len() / 2], sorted[sorted.len() - 1])
+}
+
 /// Compares every way with the textbook's results, the last to single precision, and times all by turns.
 fn compete(directory: &str, arm: &str, output: &str, n: usize, mut ways: [(&str, Call<'_>); 3]) {
     let states = read(&format!("{directory}/{arm}.states"));
@@ -145,16 +155,11 @@ fn compete(directory: &str, arm: &str, output: &str, n: usize, mut ways: [(&str,
             }
         }
     }
-    let median = |times: &[f64]| {
-        let mut sorted = times.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        (sorted[0], sorted[sorted.len() / 2], sorted[sorted.len() - 1])
-    };
-    print!("{arm} {output}: stiffarm-rust {:.1}", median(&times[0]).1);
+    print!("{arm} {output}: stiffarm-rust {:.1}", spread(&times[0]).1);
     for ((peer, _), of_peer) in ways.iter().zip(&times).skip(1) {
         let ratios: Vec<f64> = of_peer.iter().zip(&times[0]).map(|(a, b)| a / b).collect();
-        let (least, middle, most) = median(&ratios);
-        print!(", {peer} {:.1} ({least:.2} {middle:.2} {most:.2})", median(of_peer).1);
+        let (least, middle, most) = spread(&ratios);
+        print!(", {peer} {:.1} ({least:.2} {middle:.2} {most:.2})", spread(of_peer).1);
     }
     println!();
 }
@@ -256,8 +261,9 @@ macro_rules! arm {
 }
 
 fn main() {
-    let directory = std::env::args().nth(1).expect("usage: crates-peer DIRECTORY");
+    let Some(directory) = std::env::args().nth(1) else { return inverse::compete() };
     let directory = directory.as_str();
     arm!(directory ur10 6);
     arm!(directory panda 7);
+    inverse::compete();
 }

@@ -8,20 +8,24 @@
 //! Each later angle is worked out from the values that the earlier ones have, roundings and all: an angle that the pose
 //! barely determines is wrong alone, and the pose that the angles give is not.
 
+mod gives;
 mod layout;
 mod parallel;
 mod position;
+mod steps;
 mod subproblem;
 mod wrist;
 
+pub use gives::gives;
 use layout::Layout;
+pub use steps::{AsItIs, steps};
 use subproblem::Pair;
 
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
 use crate::expr::Expr;
-use crate::robot::{ClosedForm, Family, INVERSE_KINEMATICS, Robot};
+use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Robot};
 
 /// Solutions of six revolute joints: of shoulder, elbow and wrist two each.
 pub(crate) const BRANCHES: usize = 8;
@@ -34,10 +38,17 @@ struct Branch {
     tilt: Expr,
 }
 
+/// A result of a function of the inverse.
+fn quantity(name: &str, unit: &str, sentence: String, size: Size) -> Quantity {
+    Quantity { name: name.to_owned(), unit: unit.to_owned(), sentence, size }
+}
+
 /// The branches of the inverse kinematics, in an order that is stable along a path: shoulder, elbow, wrist as the bits of
-/// their number, from the highest. `form` is the arm's [closed form](Robot::closed_form).
+/// their number, from the highest. `form` is the arm's [closed form](Robot::closed_form), or that of the
+/// [nearest table](Robot::nearest_closed_form): it is then only where the arm's own inverse begins, and called so.
 pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
-    let mut arm = Layout::new(robot, form.reversed);
+    let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
+    let mut arm = Layout::new(&robot.nearest(form), form.reversed);
     let branches = match form.family {
         Family::SphericalWrist(position) => {
             let positions = position::positions(&mut arm, position);
@@ -49,12 +60,6 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
     for branch in &branches {
         q.extend(arm.joint_values(branch.angles));
     }
-    let quantity = |name: &str, unit: &str, sentence: String, size| Quantity {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        sentence,
-        size,
-    };
     let each = Size::Vector(BRANCHES);
     let distances = branches.iter().map(|branch| branch.distance).collect();
     let tilts = branches.iter().map(|branch| branch.tilt).collect();
@@ -103,10 +108,15 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
         dof: robot.dof(),
         readings: Readings::of(robot),
         own: Some(Own {
-            name: INVERSE_KINEMATICS.to_owned(),
+            name: if exact { INVERSE_KINEMATICS } else { CLOSED_FORM }.to_owned(),
             sentence: format!(
-                "Every branch of the inverse kinematics: {}. Where the target leaves a joint free, it stays at `q`; where \
+                "Every branch of the inverse kinematics{}: {}. Where the target leaves a joint free, it stays at `q`; where \
                  a branch does not reach the target, it is stretched or folded towards it",
+                if exact {
+                    ""
+                } else {
+                    ", as joint values by the nearest table that has a closed form"
+                },
                 form.sentence()
             ),
             inputs: vec![OwnInput {

@@ -8,6 +8,7 @@ use super::{Derivation, Derived, margin, springs, weight};
 use crate::derive::chain::{Chain, Levers, flatten, power, twists, wrench};
 use crate::derive::program::Solve;
 use crate::expr::{Expr, Symbol, Twist, Vec3};
+use crate::number::Number;
 
 /// The outputs of this file.
 pub(super) const DERIVED: &[(Output, Derivation)] = &[
@@ -31,7 +32,7 @@ fn first_order(chain: &mut Chain) -> Derived {
         }
     }
     links(chain, &mut sum, false);
-    friction(chain, &mut sum, w, None);
+    sum.turn(chain, friction, None);
     sum.in_base(chain).into()
 }
 
@@ -72,8 +73,8 @@ pub(super) fn deflection(chain: &mut Chain, output: Output) -> Derived {
         sum.add(chain, twists[j], unknown);
     }
     links(chain, &mut sum, weights);
-    friction(chain, &mut sum, w, weight.as_ref());
-    hardening(chain, &mut sum, w, weight.as_ref());
+    sum.turn(chain, friction, weight.as_ref());
+    sum.turn(chain, hardening, weight.as_ref());
     let margin = margin::margin(chain.robot, weights);
     let solve = Solve { output, matrix: system, right: torques, unknowns, margin };
     Derived { entries: sum.in_base(chain), solve: (!compliant.is_empty()).then_some(solve) }
@@ -89,31 +90,56 @@ fn torque(chain: &mut Chain, j: usize, w: (Vec3, Vec3), weight: Option<&Load>) -
     torque
 }
 
-/// Adds what friction keeps wound up: by the torque's size, behind the approach.
-fn friction(chain: &mut Chain, sum: &mut Sum, w: (Vec3, Vec3), weight: Option<&Load>) {
-    for (j, windup) in &chain.robot.beyond.windup {
+/// What gives at the posture in which the arm is at rest under the wrench and its weights: each joint, by its spring, its
+/// friction and its hardening, and the tool's displacement by all else.
+pub(crate) fn gives(chain: &mut Chain) -> [Vec<Expr>; 2] {
+    let w = wrench(chain);
+    let weight = weight::load(chain);
+    let mut joints = vec![Expr::ZERO; chain.dof()];
+    for (j, compliance) in joint_compliances(chain).into_iter().enumerate() {
+        if let Some(compliance) = compliance {
+            let torque = torque(chain, j, w, Some(&weight));
+            joints[j] = chain.g.mul(compliance, torque);
+        }
+    }
+    for law in [friction, hardening] {
+        for (j, by) in law(chain, Some(&weight)) {
+            joints[j] = chain.g.add(joints[j], by);
+        }
+    }
+    let mut sum = Sum::default();
+    links(chain, &mut sum, true);
+    [joints, sum.in_base(chain)]
+}
+
+/// By how much some joints turn under the wrench, and the weights where they count.
+type Law = fn(&mut Chain, Option<&Load>) -> Vec<(usize, Expr)>;
+
+/// What friction keeps wound up: by the torque's size, behind the approach.
+fn friction(chain: &mut Chain, weight: Option<&Load>) -> Vec<(usize, Expr)> {
+    let (w, windup) = (wrench(chain), &chain.robot.beyond.windup);
+    let wound = |(j, windup): &(usize, Number)| {
         let torque = torque(chain, *j, w, weight);
         let square = chain.g.mul(torque, torque);
         let size = chain.g.sqrt(square);
         let (windup, side) = (chain.g.number(*windup), chain.g.symbol(Symbol::Side(*j)));
         let by = chain.g.mul(side, size);
-        let by = chain.g.mul(windup, by);
-        let twist = twists(chain)[*j];
-        sum.add(chain, twist, -by);
-    }
+        (*j, -chain.g.mul(windup, by))
+    };
+    windup.iter().map(wound).collect()
 }
 
-/// Adds what joints give by the cube of their torque.
-fn hardening(chain: &mut Chain, sum: &mut Sum, w: (Vec3, Vec3), weight: Option<&Load>) {
-    for (j, cubic) in &chain.robot.beyond.hardening {
+/// What joints give by the cube of their torque.
+fn hardening(chain: &mut Chain, weight: Option<&Load>) -> Vec<(usize, Expr)> {
+    let (w, hardening) = (wrench(chain), &chain.robot.beyond.hardening);
+    let cubic = |(j, cubic): &(usize, Number)| {
         let torque = torque(chain, *j, w, weight);
         let square = chain.g.mul(torque, torque);
         let cube = chain.g.mul(square, torque);
         let cubic = chain.g.number(*cubic);
-        let by = chain.g.mul(cubic, cube);
-        let twist = twists(chain)[*j];
-        sum.add(chain, twist, by);
-    }
+        (*j, chain.g.mul(cubic, cube))
+    };
+    hardening.iter().map(cubic).collect()
 }
 
 /// Adds what else gives: each spring by its compliance times the load on it.
@@ -172,6 +198,14 @@ impl Sum {
         let (v, w) = twist_times(chain, twist, by);
         self.0 = chain.g.add3(self.0, v);
         self.1 = chain.g.add3(self.1, w);
+    }
+
+    /// Adds the turns of joints.
+    fn turn(&mut self, chain: &mut Chain, law: Law, weight: Option<&Load>) {
+        for (j, by) in law(chain, weight) {
+            let twist = twists(chain)[j];
+            self.add(chain, twist, by);
+        }
     }
 
     fn in_base(self, chain: &mut Chain) -> Vec<Expr> {

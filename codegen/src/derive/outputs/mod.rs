@@ -15,6 +15,7 @@ mod stiffness;
 mod torque;
 mod weight;
 
+pub(super) use deflection::gives;
 use stiffarm_kernels::Output;
 
 use super::chain::Chain;

@@ -6,6 +6,7 @@ use super::super::hash::{Table, fnv1a};
 use super::comment::{harmless, plain};
 use super::function::Function;
 use super::posture::declaration;
+use super::set_points;
 use super::{Module, Precision, Sines};
 use crate::derive::Block;
 use crate::emit::docs::{ALL_ZERO, docs, inputs};
@@ -33,6 +34,7 @@ pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
     for function in module.functions() {
         declarations(module, &function, &mut out);
     }
+    set_points::declared(module, &mut out);
     out.blank();
     out.code("#ifdef __cplusplus");
     out.code("}");

@@ -10,6 +10,7 @@ mod function;
 pub(super) mod header;
 mod name;
 mod posture;
+mod set_points;
 mod solve;
 pub(super) mod source;
 pub(super) mod style;

@@ -46,11 +46,16 @@ impl Module<'_> {
         if self.ir.readings.moves { "readings" } else { "q" }
     }
 
-    /// Statements that make every field of a posture.
+    /// Statements that make every field of a posture, of readings.
     pub fn make_posture(&self, out: &mut Lines, posture: &Posture) {
+        self.fields(out, posture, true);
+    }
+
+    /// The same of readings, or of the joint values that these mean.
+    pub fn fields(&self, out: &mut Lines, posture: &Posture, of_readings: bool) {
         let readings = &self.ir.readings;
         let mut unread: Vec<Extra> = readings.extras.clone();
-        if readings.moves && posture.reads_joints() {
+        if of_readings && readings.moves && posture.reads_joints() {
             let extras: String =
                 unread.drain(..).map(|extra| format!(", {}", extra.name())).collect();
             let (real, upper) = (self.language.real(), self.name().to_uppercase());

@@ -4,6 +4,7 @@ use super::super::hash::Table;
 use super::super::legend::legend;
 use super::arctangent::direction;
 use super::comment::plain;
+use super::set_points;
 use super::solve::{definite, margin, solve};
 use super::trigonometry::sin_cos;
 use super::{Module, Sines};
@@ -29,6 +30,9 @@ pub(super) fn source(module: &Module, table: &Table) -> String {
     out.code(&format!("#include \"{name}.h\""));
     if math {
         out.code("#include <math.h>");
+    }
+    if body.contains("memcpy(") {
+        out.code("#include <string.h>");
     }
     out.blank();
     out.code(&format!("#if {} != 0x{:016x}ULL", module.constant("TABLE_HASH"), table.hash));
@@ -89,6 +93,7 @@ fn functions(module: &Module, out: &mut Lines) {
             module.joints(out);
         }
     }
+    set_points::written(module, out);
 }
 
 fn sparsity(module: &Module, out: &mut Lines) {

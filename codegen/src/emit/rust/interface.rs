@@ -1,15 +1,15 @@
 //! A generated robot as a value: `Kernels`, behind a pointer, and `Arm`, for what is written against an arm.
 
-use stiffarm_kernels::{Input, Output, Side};
+use stiffarm_kernels::{Input, Output, Side, Steps};
 
 use super::function::parameter;
 use super::posture::INLINE;
 use super::shapes::{flat, ty};
 use super::table::numeric;
-use crate::derive::{BRANCHES, Held};
+use crate::derive::{BRANCHES, Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::INVERSE_KINEMATICS;
+use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -28,8 +28,8 @@ pub(super) fn interface(
         numeric(&mut out, robot, (generic, target));
     }
     outputs.iter().for_each(|output| has(&mut out, target, (*output, robot.dof()), symbolic));
-    if place.is_none() && robot.inverse_kinematics.is_some() {
-        inverse(&mut out, target, module);
+    if let Some(form) = robot.inverse_kinematics.filter(|_| place.is_none()) {
+        inverse(&mut out, target, module, form);
     }
     out.finish()
 }
@@ -200,25 +200,104 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
     out.code("}");
 }
 
-/// The inverse kinematics by the trait's name; an arm that has one has neither sides nor warming.
-fn inverse(out: &mut Lines, target: &str, module: &Module) {
-    let symbolic = module.is_symbolic();
+/// The inverse kinematics by the traits' names.
+fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
+    let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
+    let given = own(&module.readings.extras);
+    joint_values(out, target, module);
     out.blank();
     out.code(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"));
     out.indent();
+    let Steps { unloaded, loaded, readings } = steps(module.robot, form);
     out.code(&format!(
-        "fn {INVERSE_KINEMATICS}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
+        "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, readings: {readings} }};"
     ));
+    let head = |name: &str| {
+        format!("fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{")
+    };
+    out.code(&head(CLOSED_FORM));
     out.indent();
-    let constants = if symbolic { "&self.constants, " } else { "" };
+    let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
+    let (name, structure) = match exact {
+        true => (INVERSE_KINEMATICS, "InverseKinematics"),
+        false => (CLOSED_FORM, "ClosedForm"),
+    };
     out.code("let columns = pose.columns();");
     out.code(
         "let [target] = columns.as_flattened().as_chunks().0 else { ::core::unreachable!() };",
     );
     out.code(&format!(
-        "let {INVERSE_KINEMATICS}::InverseKinematics {{ q, distance, tilt }} = {INVERSE_KINEMATICS}({constants}near, target);"
+        "let {name}::{structure} {{ q, distance, tilt }} = {name}({constants}near{given}, target);"
     ));
     out.code("Solutions { q, distance, tilt }");
+    out.dedent();
+    out.code("}");
+    let whole = match exact {
+        true => "self.closed_form(pose, near)",
+        false => "unloaded(self, pose, near)",
+    };
+    method(out, &head(INVERSE_KINEMATICS), whole);
+    out.dedent();
+    out.code("}");
+    if module.robot.has_set_points() {
+        elastic(out, target, (module, constants));
+    }
+}
+
+/// Readings and joint values, where these are others.
+fn joint_values(out: &mut Lines, target: &str, module: &Module) {
+    out.blank();
+    if !module.readings.moves {
+        return out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{}}"));
+    }
+    let given = own(&module.readings.extras);
+    out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{"));
+    out.indent();
+    out.code(INLINE);
+    method(
+        out,
+        "fn joints(&self, readings: &[S; N]) -> [S; N] {",
+        &format!("joints(readings{given})"),
+    );
+    out.code(INLINE);
+    method(
+        out,
+        "fn at_joints(&self, joints: &[S; N]) -> Posture<S> {",
+        &format!("Posture::at_joints(joints{given})"),
+    );
+    out.dedent();
+    out.code("}");
+}
+
+/// What gives in the arm at rest.
+fn elastic(out: &mut Lines, target: &str, (module, constants): (&Module, &str)) {
+    let links = module.functions().any(|function| {
+        let tool = function.blocks().iter().find(|block| block.held.name() == "tool");
+        function.name() == GIVES && tool.is_some_and(|b| b.entries.iter().any(|e| !e.is_zero()))
+    });
+    out.blank();
+    out.code(&format!("impl<S: Scalar> Elastic<N, S> for {target} {{"));
+    out.indent();
+    out.code(&format!("const LINKS: bool = {links};"));
+    let deflection = module
+        .functions()
+        .find(|function| function.place.is_none() && function.name() == DEFLECTION.name());
+    let margin = deflection.and_then(|function| function.solves().find_map(|solve| solve.margin));
+    let bears = margin.map(|margin| margin.map(|most| most.to_f64()));
+    out.code(&format!("const BEARS: Option<[f64; 2]> = {bears:?};"));
+    out.code(INLINE);
+    out.code("fn gives(&self, posture: &Posture<S>, wrench: &[S; 6]) -> Gives<S, N> {");
+    out.indent();
+    let taken = module.functions().find(|function| function.name() == GIVES);
+    let loaded = taken.is_some_and(|function| !function.arguments.is_empty());
+    let wrench = if loaded { ", wrench" } else { "" };
+    if !loaded {
+        out.code("let _ = wrench;");
+    }
+    out.code(&format!(
+        "let {GIVES}::Gives {{ joints, tool }} = {GIVES}::given({constants}posture{wrench});"
+    ));
+    out.code("Gives { joints, tool }");
     for _ in 0..2 {
         out.dedent();
         out.code("}");

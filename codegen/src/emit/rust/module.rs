@@ -54,7 +54,7 @@ impl Function<'_> {
             out.code(INLINE);
             out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
             out.indent();
-            values(out, needed, (&self.module.readings, self.style));
+            values(out, needed, (&self.module.readings, self.style), true);
             let fields = needed.fields().into_iter().chain(["..Posture::unused()".into()]);
             out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
             out.dedent();

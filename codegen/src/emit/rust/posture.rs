@@ -44,7 +44,21 @@ pub(super) fn module(module: &Module, style: &Rust) -> String {
     let extras = parameters(stage, n).concat();
     out.code(&format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{"));
     out.indent();
-    values(&mut out, posture, (stage, style));
+    let apart = stage.moves && robot.inverse_kinematics.is_some();
+    if apart {
+        let extras: String = stage.extras.iter().map(|e| format!(", {}", e.name())).collect();
+        out.code(&format!("Self::at_joints(&joints(q{extras}){extras})"));
+        out.dedent();
+        out.code("}");
+        out.blank();
+        out.doc("The same at joint values, not at readings.");
+        out.code("#[allow(unused_variables)]");
+        out.code(INLINE);
+        let extras = parameters(stage, n).concat();
+        out.code(&format!("pub fn at_joints(q: &[S; {n}]{extras}) -> Self {{"));
+        out.indent();
+    }
+    values(&mut out, posture, (stage, style), !apart);
     out.code(&format!("Posture {{ {} }}", posture.fields().join(", ")));
     out.dedent();
     out.code("}");
@@ -124,9 +138,14 @@ pub(super) fn readings(stage: &Readings) -> String {
     format!("`{}`: {readings}{}", Input::Joints.name(), extras.collect::<String>())
 }
 
-/// The fields as locals.
-pub(super) fn values(out: &mut Lines, posture: &Posture, (stage, style): (&Readings, &Rust)) {
-    if stage.moves && posture.reads_joints() {
+/// The fields as locals, of readings or of the joint values that these mean.
+pub(super) fn values(
+    out: &mut Lines,
+    posture: &Posture,
+    (stage, style): (&Readings, &Rust),
+    of_readings: bool,
+) {
+    if of_readings && stage.moves && posture.reads_joints() {
         let extras = stage.extras.iter().map(|e| format!(", {}", e.name()));
         out.code(&format!("let q = joints(q{});", extras.collect::<String>()));
     }

@@ -11,7 +11,7 @@ use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::ir::{Constants, Module};
 use crate::number::Number;
-use crate::robot::{Angle, Convention, Entry, Joint, Motion, Quantity, Robot, Value};
+use crate::robot::{Angle, CLOSED_FORM, Convention, Entry, Joint, Motion, Quantity, Robot, Value};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> String {
@@ -33,12 +33,17 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
     let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
     let numeric = robot.symbols().is_empty();
     let inverse = robot.inverse_kinematics.is_some();
+    let stepped = module.functions().any(|function| function.name() == CLOSED_FORM);
+    let set_points = robot.has_set_points();
     let imports = [
         Some("Arm"),
         used("Convention", numeric),
         Some("DhRow"),
+        used("Elastic", set_points),
         Some("Error"),
+        used("Gives", set_points),
         used("Inverse", inverse),
+        used("JointValues", inverse),
         Some("Kernels"),
         Some("Motion"),
         used("Numeric", numeric),
@@ -47,9 +52,11 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
         used("Row", numeric),
         Some("Scalar"),
         used("Solutions", inverse),
+        used("Steps", inverse),
         used("Unstable", outputs.iter().any(|o| o.is_fallible())),
         Some("fill"),
         Some("has"),
+        used("unloaded", inverse && stepped),
     ];
     let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
     out.code(&format!("use {}::{{{imports}}};", options.kernels));

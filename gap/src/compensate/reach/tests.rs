@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Ended, Reached, Search, Target, reach};
+use super::{Ended, Reached, Search, Target, reach, reach_by_branches};
 use crate::compensate::CompensateError;
 use crate::effects::Known;
 use crate::measurement::Kind;
@@ -73,6 +73,23 @@ fn random_starts_find_the_target_too() {
     let far = [3.0, 0.1, -4.0, -3.0, -1.0, 3.0];
     let found = reach(&arm, &target, &Situation::under(load), Some(&far), &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
+}
+
+/// Branches that are known are where it begins; those that lead nowhere leave it to random starts.
+#[test]
+fn known_branches_come_before_random_starts() {
+    let (arm, load) = (kr240(), Vector6::from(LOAD));
+    let q = [0.4, 1.2, -1.9, 0.5, 0.8, -0.3];
+    let (target, search) = (target(&arm, &q, &load), Search { starts: 0, ..Search::default() });
+    let at = Situation::under(load);
+    let near = || vec![vec![0.1; 6], q.map(|q| q + 0.01).to_vec()];
+    let found = reach_by_branches(&arm, &target, &at, (None, &near), &search).unwrap();
+    assert_eq!(found.ended, Ended::Reached);
+    assert!(found.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-4), "{found:?}");
+    let none = reach_by_branches(&arm, &target, &at, (None, &Vec::new), &search).unwrap();
+    assert_eq!(none.ended, Ended::Unstable);
+    let random = reach_by_branches(&arm, &target, &at, (None, &Vec::new), &Search::default());
+    assert_eq!(random.unwrap().ended, Ended::Reached);
 }
 
 /// What the load does without compensation is the deflection at a rigid arm's set-points.

@@ -7,6 +7,7 @@ mod dumas2011;
 mod dynamics;
 mod equilibrium;
 mod evaluate;
+mod inverse;
 mod lin1991;
 mod support;
 mod virtual_work;

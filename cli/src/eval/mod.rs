@@ -1,4 +1,6 @@
-//! `stiffarm eval`: everything elastostatic at one posture under one load.
+//! `stiffarm eval`: everything elastostatic at one posture under one load, or the postures of one pose.
+
+mod pose;
 
 use nalgebra::Vector6;
 use serde::Serialize;
@@ -23,7 +25,12 @@ Examples:
   stiffarm eval ur5 --q 0,-90deg,90deg,0,90deg,0 --wrench 0,0,-100,0,0,0
   stiffarm eval kuka_kr240 --q 0.1,-0.8,0.6,0,0.4,0 --wrench 0,0,-500,0,0,0 --json state.json
   stiffarm eval better.toml --q 0,0.5,0,0,0,0 --sides 1,-1,1,1,1,-1 --warming 8
-  stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection";
+  stiffarm eval kuka_kr240 --pose 1.6,0.2,1.1,0,90deg,0 --wrench 0,0,-2000,0,0,0
+  stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection
+
+--pose asks for the inverse: every branch of the arm's closed form, or of the nearest table's with the steps from
+there to the arm of the file, its effects and (with --wrench or --gravity) what it gives included; what a
+branch misses the pose by; and which are within the limits.";
 
 /// Pose, Jacobian, stiffness and deflection at one posture under one load
 #[derive(clap::Args)]
@@ -33,7 +40,12 @@ pub struct Args {
     robot: RobotArgs,
     /// Joint values, base to tip: rad (m if prismatic), or with a unit: 30deg, 50mm
     #[arg(long, value_name = "q1,q2,…", allow_hyphen_values = true)]
-    q: String,
+    #[arg(required_unless_present = "pose")]
+    q: Option<String>,
+    /// Pose of the tool in the base frame, in place of joint values: coordinates and rotation vector; every branch
+    /// of the inverse kinematics is told, by whole turns near --q
+    #[arg(long, value_name = "x,y,z,rx,ry,rz", allow_hyphen_values = true)]
+    pose: Option<String>,
     /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit: 50lbf
     #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
     wrench: Option<String>,
@@ -82,9 +94,20 @@ const OUTPUTS: [Output; 8] = [
 pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let source = args.robot.load(quiet)?;
     let arm = source.arm()?;
-    let q = quantity::list("--q", &args.q, &source.readings(), &joints(&source))?;
+    let q = args.q.as_ref().map(|q| quantity::list("--q", q, &source.readings(), &joints(&source)));
+    let q = q.transpose()?.unwrap_or_default();
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
     let given = given.unwrap_or_default();
+    if let Some(at) = &args.pose {
+        let beside = given_beside(args, &source, &arm)?;
+        let at = pose::read(at)?;
+        let result = pose::inverse(&source, args, (&at, &q), (&given, &beside))?;
+        match &args.json {
+            Some(target) => target.write(&json::text(&result)?)?,
+            None => print(&pose::screen(&source, &result))?,
+        }
+        return Ok(Verdict::Good);
+    }
     // The kernels know the axes of the world in which the base stands, and no others.
     let base = arm.base.rotation;
     let (force, moment) = (base * given.fixed_rows::<3>(0), base * given.fixed_rows::<3>(3));

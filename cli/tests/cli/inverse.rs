@@ -1,0 +1,84 @@
+//! `stiffarm eval --pose`.
+
+use crate::support::stiffarm;
+
+/// Position and rotation of the tool at joint values.
+fn pose(robot: &str, q: &str, more: &[&str]) -> Vec<f64> {
+    let arguments = [&["eval", robot, "--q", q, "--json", "-"], more].concat();
+    let at: serde_json::Value = serde_json::from_str(&stiffarm(&arguments).good()).expect("JSON");
+    let rows = at["rotation"].as_array().expect("rows").iter();
+    let all = rows.chain([&at["position"]]).flat_map(|row| row.as_array().expect("a row"));
+    all.map(|x| x.as_f64().expect("a number")).collect()
+}
+
+fn solutions(robot: &str, at: &str, more: &[&str]) -> Vec<serde_json::Value> {
+    let arguments = [&["eval", robot, "--pose", at, "--json", "-"], more].concat();
+    let found: serde_json::Value =
+        serde_json::from_str(&stiffarm(&arguments).good()).expect("JSON");
+    found["solutions"].as_array().expect("branches").clone()
+}
+
+/// Every branch of a table with a closed form and of one that is near it stands at the pose; they differ.
+#[test]
+fn every_branch_stands_at_the_pose() {
+    let calibrated = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/calibrated_ur10.toml");
+    let sides = ["--sides", "1,1,-1,1,1,1"];
+    for (robot, at, more) in [
+        ("kuka_kr240", "1.6,0.2,1.1,0,90deg,0", &[][..]),
+        (calibrated, "0.6,0.2,0.4,0,90deg,0", &sides),
+    ] {
+        let found = solutions(robot, at, more);
+        assert_eq!(found.len(), 8);
+        let (mut first, mut seen) = (None, Vec::new());
+        for branch in found.iter().filter(|branch| branch["reached"] == true) {
+            let q: Vec<String> =
+                branch["q"].as_array().expect("joints").iter().map(ToString::to_string).collect();
+            let q = q.join(",");
+            let stands = pose(robot, &q, more);
+            let expected = first.get_or_insert_with(|| stands.clone());
+            let off = stands.iter().zip(expected).map(|(a, b)| (a - *b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-9, "{robot} {branch} {off:e}");
+            let number = |key: &str| branch[key].as_u64().expect("a number");
+            assert_eq!(
+                number("branch"),
+                4 * number("shoulder") + 2 * number("elbow") + number("wrist")
+            );
+            seen.push(q);
+        }
+        seen.sort();
+        seen.dedup();
+        assert_eq!(seen.len(), 8, "{seen:?}");
+        let x: f64 = at.split(',').next().and_then(|x| x.parse().ok()).expect("a number");
+        assert!((first.expect("a branch")[9] - x).abs() < 1e-9);
+    }
+}
+
+/// Limits and whole turns; a load moves set-points; what is out of reach says by how much.
+#[test]
+fn limits_turns_and_reach_are_told() {
+    let found = solutions("kuka_kr240", "1.6,0.2,1.1,0,90deg,0", &[]);
+    let within = |branch: &&serde_json::Value| branch["within_limits"] == true;
+    assert_eq!(found.iter().filter(within).count(), 6);
+    let wrist = found.iter().find(within).expect("a branch")["turns"][3].clone();
+    assert_eq!(wrist.as_array().map(Vec::len), Some(2), "{wrist}");
+    let loaded = solutions("kuka_kr240", "1.6,0.2,1.1,0,90deg,0", &["--wrench", "0,0,-2000,0,0,0"]);
+    let by =
+        |k: usize| (loaded[k]["q"][1].as_f64().unwrap() - found[k]["q"][1].as_f64().unwrap()).abs();
+    assert!((0..8).any(|k| by(k) > 1e-4));
+    let screen = stiffarm(&["eval", "ur5", "--pose", "3,0,0.3,0,90deg,0"]).good();
+    assert!(
+        screen.contains("0 of 8 branches reach the pose") && screen.contains(" mm, "),
+        "{screen}"
+    );
+    let crushed =
+        ["eval", "kuka_kr240", "--pose", "1.6,0.2,1.1,0,90deg,0", "--wrench", "0,0,-1e12,0,0,0"];
+    assert!(stiffarm(&crushed).refused().contains("not stable under this load"));
+    for (arguments, why) in [
+        (["panda", "0.4,0.2,0.3,0,90deg,0"], "the arm has 7 joints"),
+        (["ur5", "0.4,0.2,0.3"], "--pose: found 3 values, expected 6"),
+    ] {
+        let err = stiffarm(&["eval", arguments[0], "--pose", arguments[1]]).refused();
+        assert!(err.contains(why), "{err}");
+    }
+    assert!(stiffarm(&["eval", "ur5"]).refused().contains("--q"));
+}

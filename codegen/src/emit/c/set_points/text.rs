@@ -1,0 +1,319 @@
+//! The functions themselves, each as the Rust kernels have it.
+
+use stiffarm_kernels::Steps;
+
+use super::Text;
+use crate::derive::BRANCHES;
+
+/// A step.
+pub(super) fn step(text: &Text) -> String {
+    let (real, zero, half, one) = (text.real, text.lit(0.0), text.lit(0.5), text.lit(1.0));
+    // Eight units of rounding.
+    let rounding = match text.suffix {
+        "" => text.lit(8.0 * f64::EPSILON),
+        _ => text.lit(8.0 * f64::from(f32::EPSILON)),
+    };
+    format!(
+        "
+static {real} dot_6(const {real} a[6], const {real} b[6])
+{{
+    {real} sum = {zero};
+    unsigned int k;
+
+    for (k = 0U; k < 6U; k++)
+    {{
+        sum = sum + a[k] * b[k];
+    }}
+    return sum;
+}}
+
+/* Adds (J'J + damping)^-1 J'e to joint values, e from where the tool stands to the target; 0 where a number is none. */
+static int step(const {real} stands[12], const {real} jacobian[36], const {real} target[12], {real} joints[6])
+{{
+    {real} error[6] = {{{zero}}};
+    {real} a[36];
+    {real} by[6];
+    {real} inverse[6];
+    {real} trace = {zero};
+    {real} damping;
+    int definite = 1;
+    unsigned int k;
+    unsigned int row;
+    unsigned int column;
+
+    for (k = 0U; k < 3U; k++)
+    {{
+        const {real} *const from = &stands[3U * k];
+        const {real} *const to = &target[3U * k];
+
+        error[k] = target[9U + k] - stands[9U + k];
+        error[3] = error[3] + {half} * (from[1] * to[2] - from[2] * to[1]);
+        error[4] = error[4] + {half} * (from[2] * to[0] - from[0] * to[2]);
+        error[5] = error[5] + {half} * (from[0] * to[1] - from[1] * to[0]);
+    }}
+    for (row = 0U; row < 6U; row++)
+    {{
+        for (column = 0U; column <= row; column++)
+        {{
+            a[(row * 6U) + column] = dot_6(&jacobian[6U * row], &jacobian[6U * column]);
+        }}
+        trace = trace + a[(row * 6U) + row];
+        by[row] = dot_6(&jacobian[6U * row], error);
+    }}
+    damping = dot_6(error, error) + {rounding} * trace;
+    for (k = 0U; k < 6U; k++)
+    {{
+        const {real} pivot = a[(k * 6U) + k] + damping;
+
+        if (!(pivot > {zero}))
+        {{
+            definite = 0;
+        }}
+        inverse[k] = {one} / pivot;
+        for (row = k + 1U; row < 6U; row++)
+        {{
+            const {real} factor = a[(row * 6U) + k] * inverse[k];
+
+            for (column = k + 1U; column <= row; column++)
+            {{
+                a[(row * 6U) + column] = a[(row * 6U) + column] - factor * a[(column * 6U) + k];
+            }}
+            by[row] = by[row] - factor * by[k];
+        }}
+    }}
+    for (k = 6U; k > 0U; k--)
+    {{
+        const unsigned int last = k - 1U;
+
+        for (row = k; row < 6U; row++)
+        {{
+            by[last] = by[last] - a[(row * 6U) + last] * by[row];
+        }}
+        by[last] = by[last] * inverse[last];
+        joints[last] = joints[last] + by[last];
+    }}
+    return definite;
+}}
+"
+    )
+}
+
+/// What a pose is missed by.
+pub(super) fn missed(text: &Text) -> String {
+    let (real, zero, half) = (text.real, text.lit(0.0), text.lit(0.5));
+    let root = format!("sqrt{}", text.suffix);
+    format!(
+        "
+/* Distance of two poses, and twice the sine of half the angle between their axes. */
+static void missed(const {real} a[12], const {real} b[12], {real} *distance, {real} *tilt)
+{{
+    {real} turned = {zero};
+    {real} apart = {zero};
+    unsigned int axis;
+    unsigned int k;
+
+    for (axis = 0U; axis < 4U; axis++)
+    {{
+        {real} square = {zero};
+
+        for (k = 3U * axis; k < 3U * axis + 3U; k++)
+        {{
+            square = square + (a[k] - b[k]) * (a[k] - b[k]);
+        }}
+        if (axis < 3U)
+        {{
+            turned = turned + square;
+        }}
+        else
+        {{
+            apart = square;
+        }}
+    }}
+    *distance = {root}(apart);
+    *tilt = {root}({half} * turned);
+}}
+"
+    )
+}
+
+/// A pose displaced by what links, bearings and the base give.
+pub(super) fn displaced(text: &Text) -> String {
+    let real = text.real;
+    let series = |terms: [f64; 4]| {
+        let [last, rest @ ..] = terms.map(|term| text.lit(term));
+        rest.iter().fold(last, |sum, term| format!("({term} - t * {sum})"))
+    };
+    let first = series([1.0 / 5040.0, 1.0 / 120.0, 1.0 / 6.0, 1.0]);
+    let second = series([1.0 / 40320.0, 1.0 / 720.0, 1.0 / 24.0, 0.5]);
+    format!(
+        "
+/* Moves a pose by a small translation and a rotation vector. */
+static void displace({real} pose[12], const {real} by[6])
+{{
+    const {real} u = by[3];
+    const {real} v = by[4];
+    const {real} w = by[5];
+    const {real} t = u * u + v * v + w * w;
+    const {real} first = {first};
+    const {real} second = {second};
+    unsigned int k;
+
+    for (k = 0U; k < 3U; k++)
+    {{
+        {real} *const axis = &pose[3U * k];
+        const {real} x = v * axis[2] - w * axis[1];
+        const {real} y = w * axis[0] - u * axis[2];
+        const {real} z = u * axis[1] - v * axis[0];
+
+        axis[0] = axis[0] + first * x + second * (v * z - w * y);
+        axis[1] = axis[1] + first * y + second * (w * x - u * z);
+        axis[2] = axis[2] + first * z + second * (u * y - v * x);
+        pose[9U + k] = pose[9U + k] + by[k];
+    }}
+}}
+"
+    )
+}
+
+/// Where the tool stands, and one branch.
+pub(super) fn at_rest(text: &Text) -> String {
+    let Text { name, upper, real, given: [parameters, given], moves, steps, .. } = text;
+    let Steps { loaded, readings, .. } = steps;
+    let stepped = match loaded {
+        0 => String::new(),
+        _ => format!(
+            "
+    for (count = 0U; count < {loaded}U; count++)
+    {{
+        {real} jacobian[36];
+
+        posture_at(joints{given}, &posture);
+        stands_at(&posture, wrench, pose);
+        {name}_given_jacobian(&posture, jacobian);
+        if (step(pose, jacobian, target, joints) == 0)
+        {{
+            definite = 0;
+        }}
+    }}"
+        ),
+    };
+    let gives = match text.links {
+        true => format!(
+            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture, wrench, &gives);\n    \
+             {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
+        ),
+        false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
+    };
+    let bears = match text.margin {
+        Some([force, moment]) => {
+            let [force, moment] = [text.lit(force), text.lit(moment)];
+            let zero = text.lit(0.0);
+            format!(
+                "    if (!(load_margin(wrench, {force}, {moment}) > {zero}))\n    {{\n        \
+                 status = {name}_given_deflection_with_gravity(&posture, wrench, sag);\n    }}\n"
+            )
+        }
+        None => {
+            format!("    status = {name}_given_deflection_with_gravity(&posture, wrench, sag);\n")
+        }
+    };
+    let joints = |to: &str| match moves {
+        true => format!("{name}_joints(q{given}, {to});"),
+        false => format!("(void)memcpy({to}, q, sizeof {to});"),
+    };
+    let again = joints("at");
+    let read = match readings {
+        0 => String::new(),
+        _ => format!(
+            "    for (count = 0U; count < {readings}U; count++)
+    {{
+        {again}
+        for (k = 0U; k < 6U; k++)
+        {{
+            q[k] = q[k] + (meant[k] - at[k]);
+        }}
+    }}
+"
+        ),
+    };
+    format!(
+        "
+/* Where the loaded tool stands in a posture at rest. */
+static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {real} pose[12])
+{{{gives}
+}}
+
+/* The readings of one branch from its joint values, and what they miss the target by. */
+static {name}_status_t follow(const {real} begin[6]{parameters}, const {real} target[12], const {real} wrench[6],
+    {real} q[6], {real} *distance, {real} *tilt)
+{{
+    {name}_status_t status = {upper}_OK;
+    {name}_posture_t posture = {{0}};
+    {name}_gives_t give;
+    {real} joints[6];
+    {real} meant[6];
+    {real} at[6];
+    {real} pose[12];
+    {real} sag[6];
+    int definite = 1;
+    unsigned int k;
+    unsigned int count = 0U;
+
+    (void)count;
+    (void)memcpy(joints, begin, sizeof joints);{stepped}
+    posture_at(joints{given}, &posture);
+{bears}    {name}_given_gives(&posture, wrench, &give);
+    for (k = 0U; k < 6U; k++)
+    {{
+        meant[k] = joints[k] - give.joints[k];
+        q[k] = meant[k];
+    }}
+{read}    {again}
+    for (k = 0U; k < 6U; k++)
+    {{
+        at[k] = at[k] + give.joints[k];
+    }}
+    posture_at(at{given}, &posture);
+    stands_at(&posture, wrench, pose);
+    missed(pose, target, distance, tilt);
+    (void)sag;
+    return (definite == 1) ? status : {upper}_UNSTABLE;
+}}
+"
+    )
+}
+
+/// All branches.
+pub(super) fn whole(text: &Text) -> String {
+    let Text { name, upper, real, given: [_, given], closed, .. } = text;
+    let most = match text.suffix {
+        "" => text.lit(f64::MAX),
+        _ => text.lit(f64::from(f32::MAX)),
+    };
+    let head = text.head();
+    format!(
+        "
+{head}
+{{
+    const {real} most = {most};
+    {name}_{closed}_t begin;
+    unsigned int branch;
+
+    {name}_{closed}(q{given}, target, &begin);
+    for (branch = 0U; branch < {BRANCHES}U; branch++)
+    {{
+        const {real} *const joints = &begin.q[6U * branch];
+        const {name}_status_t status = follow(joints{given}, target, wrench,
+            &out->q[6U * branch], &out->distance[branch], &out->tilt[branch]);
+
+        if (status != {upper}_OK)
+        {{
+            (void)memcpy(&out->q[6U * branch], joints, 6U * sizeof joints[0]);
+            out->distance[branch] = most + most;
+            out->tilt[branch] = most + most;
+        }}
+    }}
+}}
+"
+    )
+}

@@ -1,0 +1,141 @@
+//! The nearest table that has a closed form, of an arm as it was measured: its axes miss each other by micrometres, its
+//! parallel axes are parallel to a part in a thousand.
+
+use num_rational::Ratio;
+
+use super::closed_form::{ClosedForm, Family, Position};
+use super::frames::Refused;
+use super::model::{Angle, Motion, Output, Robot, Value};
+use crate::number::Number;
+
+/// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
+/// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
+const OFF: f64 = 1e-2;
+
+/// Angles between axes that are so near to quarter turns, rad, count as such in the nearest table: its closed form is then half
+/// as long. It is a few times what makers build to; an angle that is meant is left alone.
+const SQUARE: f64 = 2e-3;
+
+/// What the steps behind a closed form take.
+pub(crate) const STEPPED: [Output; 2] = [Output::Pose, Output::Jacobian];
+
+/// What set-points take besides.
+pub(crate) const DEFLECTION: Output = Output::DeflectionWithGravity;
+
+/// The first three axes of a spherical wrist's arm, the most usual first.
+const POSITIONS: [Position; 4] = [
+    Position::SecondParallelThird,
+    Position::FirstMeetsSecond,
+    Position::SecondMeetsThird,
+    Position::FirstParallelSecond,
+];
+
+impl Robot {
+    /// The closed form of its table, or else, where that has numbers alone, of the nearest table which has one.
+    ///
+    /// # Errors
+    /// [`Refused`] where no table with a closed form is near: what stands in the way of its own.
+    pub fn nearest_closed_form(&self) -> Result<ClosedForm, Refused> {
+        let refused = match self.closed_form() {
+            Ok(form) => return Ok(form),
+            Err(refused) => refused,
+        };
+        let turns = self.joints.iter().all(|joint| joint.motion == Motion::Revolute);
+        if self.dof() != 6 || !turns || !self.symbols().is_empty() {
+            return Err(refused);
+        }
+        let families = POSITIONS.map(Family::SphericalWrist).into_iter();
+        let families = families.chain([Family::ThreeParallel]);
+        let forms = families
+            .flat_map(|family| [false, true].map(|reversed| ClosedForm { reversed, family }));
+        let near = forms.filter_map(|form| {
+            let table = self.nearest(form);
+            (table.closed_form() == Ok(form)).then(|| (self.off(&table), form))
+        });
+        let nearest = near.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        nearest.filter(|(off, _)| *off < OFF).map(|(_, form)| form).ok_or(refused)
+    }
+
+    /// Whether its readings are its joint values, and its lengths those of its table.
+    pub fn is_as_its_table(&self) -> bool {
+        self.beyond.moves.is_empty()
+    }
+
+    /// Whether the closed form tells its joint values without a step behind.
+    pub(crate) fn has_closed_form(&self) -> bool {
+        !self.beyond.grows() && self.closed_form().is_ok()
+    }
+
+    /// Whether set-points under a load are generated: where the inverse kinematics is, and the deflection under weights.
+    pub(crate) fn has_set_points(&self) -> bool {
+        let deflects = || self.generated().contains(&DEFLECTION);
+        self.inverse_kinematics.is_some() && deflects()
+    }
+
+    /// The nearest table with a closed form: the table itself where it has it, else but for the entries that are zero in it,
+    /// parallel or at right angles.
+    pub(crate) fn nearest(&self, form: ClosedForm) -> Robot {
+        let mut table = self.clone();
+        if self.closed_form() == Ok(form) {
+            return table;
+        }
+        let first = self.first_link();
+        // Links and offsets as the form counts them, from its own base.
+        let link = |k: usize| first + if form.reversed { 5 - k } else { k - 1 };
+        let offset = |k: usize| if form.reversed { 6 - k } else { k - 1 };
+        for joint in &mut table.joints {
+            joint.beta = Angle::ZERO;
+            snap(&mut joint.alpha, SQUARE);
+        }
+        let (meeting, parallel): (&[usize], &[usize]) = match form.family {
+            Family::ThreeParallel => (&[5], &[2, 3]),
+            Family::SphericalWrist(position) => match position {
+                Position::SecondParallelThird => (&[4, 5], &[2]),
+                Position::FirstParallelSecond => (&[4, 5], &[1]),
+                Position::FirstMeetsSecond => (&[1, 4, 5], &[]),
+                Position::SecondMeetsThird => (&[2, 4, 5], &[]),
+            },
+        };
+        meeting.iter().for_each(|k| table.joints[link(*k)].a = Value::ZERO);
+        if matches!(form.family, Family::SphericalWrist(_)) {
+            table.joints[offset(5)].d = Value::ZERO;
+        }
+        parallel.iter().for_each(|k| snap(&mut table.joints[link(*k)].alpha, OFF));
+        table
+    }
+
+    /// The largest difference of an entry from that of another table: of a length as a part of the arm's size, of an angle
+    /// in rad.
+    fn off(&self, other: &Robot) -> f64 {
+        let size = self.size();
+        let rows = self.joints.iter().zip(&other.joints);
+        let each = rows.flat_map(|(a, b)| {
+            let lengths = [(&a.a, &b.a), (&a.d, &b.d)];
+            let angles = [(&a.alpha, &b.alpha), (&a.beta, &b.beta)];
+            let lengths = lengths.map(|(a, b)| (metres(a) - metres(b)) / size);
+            let angles = angles
+                .map(|(a, b)| a.radians().unwrap_or_default() - b.radians().unwrap_or_default());
+            lengths.into_iter().chain(angles)
+        });
+        each.fold(0.0, |most, off| most.max(off.abs()))
+    }
+
+    /// The sum of the table's lengths, m; parameters count as none.
+    pub(crate) fn size(&self) -> f64 {
+        let lengths = self.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
+        lengths.map(|length| metres(length).abs()).sum()
+    }
+}
+
+/// Makes an angle within so much of a multiple of a quarter turn that multiple.
+fn snap(angle: &mut Angle, within: f64) {
+    let Some(radians) = angle.radians() else { return };
+    let quarters = (radians / core::f64::consts::FRAC_PI_2).round();
+    if (radians - quarters * core::f64::consts::FRAC_PI_2).abs() < within {
+        *angle = Angle::Pi(Ratio::new(quarters as i64, 2));
+    }
+}
+
+fn metres(value: &Value) -> f64 {
+    value.number().map_or(0.0, Number::to_f64)
+}

@@ -1,0 +1,216 @@
+//! What an inverse kinematics returns, and which of its branches a controller takes.
+
+mod set_points;
+mod steps;
+
+use core::f64::consts::TAU;
+
+use crate::{Arm, Pose, Scalar, Unstable};
+
+#[doc(hidden)]
+pub use set_points::unloaded;
+pub use set_points::{Elastic, Gives, SetPoints};
+pub use steps::{AtRest, Steps};
+
+/// An arm's readings and the joint values that they mean, which are the same but where an `[[effect]]` moves joints.
+pub trait JointValues<const N: usize, S: Scalar = f64>: Arm<N, S> {
+    /// The joint values that readings mean, rad.
+    #[inline(always)]
+    fn joints(&self, readings: &[S; N]) -> [S; N] {
+        *readings
+    }
+
+    /// The posture at joint values, not at readings.
+    #[inline(always)]
+    fn at_joints(&self, joints: &[S; N]) -> Self::Posture {
+        self.posture(joints)
+    }
+}
+
+/// An arm of N joints whose inverse kinematics has been generated, in K branches.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has not been generated with its inverse kinematics, or not for these joints and branches",
+    note = "ask for it by its name, among the `outputs` of its table, its robot file or on the command line"
+)]
+pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: JointValues<N, S> {
+    /// How many steps follow the closed form.
+    const STEPS: Steps;
+
+    /// Every branch of the closed form at a pose of the tool, base axes: joint values by the arm's table, or by the nearest
+    /// table that has a closed form. A joint that the pose leaves free stays where `near`, readings, has it.
+    fn closed_form(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
+
+    /// Every branch of the rigid arm at a pose of the tool, base axes: the readings at which its tool stands there. It is
+    /// the closed form, with [steps](Inverse::STEPS) behind where that is another table's, or tells other values
+    /// than readings.
+    fn inverse_kinematics(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
+}
+
+/// Every branch of an inverse kinematics, whether it reaches the pose or not, in an order that is stable along a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solutions<S, const N: usize, const K: usize> {
+    /// Joint values of each branch, rad, from −π to π. Of eight branches shoulder, elbow and wrist are the bits of the
+    /// number, from the highest.
+    pub q: [[S; N]; K],
+    /// How far the tool's origin is from the pose's, m: rounding where the branch reaches it.
+    pub distance: [S; K],
+    /// How far the last axis is from the pose's, as the length between unit vectors: rounding where the branch reaches it.
+    /// Behind [`Steps`] it is how far the axes are turned from the pose's, twice the sine of half the angle.
+    pub tilt: [S; K],
+}
+
+/// One branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<S, const N: usize> {
+    /// Its number.
+    pub branch: usize,
+    /// Its joint values, rad.
+    pub q: [S; N],
+    /// How far the tool's origin is from the pose's, m.
+    pub distance: S,
+    /// How far the axes are turned from the pose's, as in [`Solutions::tilt`].
+    pub tilt: S,
+}
+
+impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
+    /// Each branch's joint values replaced by readings, and by what they miss the pose ([`AtRest::follow`]). A branch at
+    /// which the arm does not bear its load stays as it is, and misses the pose by an infinite distance.
+    pub fn each(mut self, follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>) -> Self {
+        for branch in 0..K {
+            let infinite = [S::lit(f64::INFINITY); 2];
+            let (q, missed) = follow(self.q[branch]).unwrap_or((self.q[branch], infinite));
+            (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
+        }
+        self
+    }
+}
+
+impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutions<S, N, K> {
+    /// Every branch.
+    pub fn iter(&self) -> impl Iterator<Item = Solution<S, N>> + '_ {
+        (0..K).map(|branch| Solution {
+            branch,
+            q: self.q[branch],
+            distance: self.distance[branch],
+            tilt: self.tilt[branch],
+        })
+    }
+
+    /// The branches that miss the pose by no more than this: m, and rad.
+    pub fn reached(&self, distance: f64, tilt: f64) -> impl Iterator<Item = Solution<S, N>> + '_ {
+        self.iter().filter(move |s| s.distance.into() <= distance && s.tilt.into() <= tilt)
+    }
+
+    /// Of the branches that miss the pose by no more than this (m, rad) that with the least change of the joints from
+    /// `near`, by the sum of squares; each joint by whole turns as near as its limits allow. `None` where no branch is within
+    /// the limits.
+    pub fn nearest(
+        &self,
+        near: &[S; N],
+        limits: &[Option<[f64; 2]>; N],
+        (distance, tilt): (f64, f64),
+    ) -> Option<Solution<S, N>> {
+        let mut best: Option<(f64, Solution<S, N>)> = None;
+        for solution in self.reached(distance, tilt) {
+            let Some(turned) = solution.turned(near, limits) else { continue };
+            let change = turned.q.iter().zip(near).fold(0.0, |sum, (q, near)| {
+                let by: f64 = (*q - *near).into();
+                sum + by * by
+            });
+            if best.is_none_or(|(least, _)| change < least) {
+                best = Some((change, turned));
+            }
+        }
+        best.map(|(_, solution)| solution)
+    }
+
+    /// The first, in the order of [`Solutions::nearest`], whose readings by `follow` are within the limits and miss the
+    /// pose by no more than this (m, rad).
+    pub fn first(
+        mut self,
+        near: &[S; N],
+        limits: &[Option<[f64; 2]>; N],
+        (distance, tilt): (f64, f64),
+        follow: impl Fn([S; N]) -> Option<([S; N], [S; 2])>,
+    ) -> Option<Solution<S, N>> {
+        let within = |q: &[S; N]| {
+            q.iter().zip(limits).all(|(q, limits)| {
+                limits.is_none_or(|[low, high]| (low..=high).contains(&(*q).into()))
+            })
+        };
+        for _ in 0..K {
+            let Solution { branch, q, .. } = self.nearest(near, limits, (f64::MAX, f64::MAX))?;
+            if let Some((q, [d, t])) = follow(q)
+                && within(&q)
+                && d.into() <= distance
+                && t.into() <= tilt
+            {
+                return Some(Solution { branch, q, distance: d, tilt: t });
+            }
+            self.distance[branch] = S::lit(f64::INFINITY);
+        }
+        None
+    }
+}
+
+impl<S: Scalar + Into<f64>, const N: usize> Solution<S, N> {
+    /// Each joint by whole turns as near to `near` as its limits allow; `None` where no turn is within them.
+    pub fn turned(&self, near: &[S; N], limits: &[Option<[f64; 2]>; N]) -> Option<Self> {
+        let mut turned = *self;
+        for ((q, near), limits) in turned.q.iter_mut().zip(near).zip(limits) {
+            *q = S::lit(unwound((*q).into(), (*near).into(), *limits)?);
+        }
+        Some(turned)
+    }
+}
+
+/// The angle that is so by whole turns, within the limits, nearest to another.
+fn unwound(q: f64, near: f64, limits: Option<[f64; 2]>) -> Option<f64> {
+    // The spacing of numbers of this size is 1: what is added and taken off again is rounded.
+    const WHOLE: f64 = 1.5 / f64::EPSILON;
+    let turns = ((near - q) / TAU + WHOLE) - WHOLE;
+    let nearest = q + turns * TAU;
+    match limits {
+        Some([low, high]) if !(low <= nearest && nearest <= high) => {
+            let (least, most) = (libm::ceil((low - q) / TAU), libm::floor((high - q) / TAU));
+            (least <= most).then(|| q + turns.max(least).min(most) * TAU)
+        }
+        _ => Some(nearest),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOLUTIONS: Solutions<f64, 2, 3> = Solutions {
+        q: [[0.1, 3.0], [-3.1, 0.2], [0.0, 0.0]],
+        distance: [0.0, 1e-12, 0.3],
+        tilt: [0.0, 0.0, 0.0],
+    };
+
+    #[test]
+    fn the_nearest_is_within_the_limits_by_whole_turns() {
+        let nearest = |near, limits| SOLUTIONS.nearest(&near, &limits, (1e-9, 1e-9));
+        let branch = |near| nearest(near, [None; 2]).map(|s| (s.branch, s.q));
+        assert_eq!(branch([0.0, 2.9]), Some((0, [0.1, 3.0])));
+        // Across the half turn.
+        assert_eq!(branch([3.1, 0.2]), Some((1, [-3.1 + TAU, 0.2])));
+        assert_eq!(branch([0.1, 3.0 - 4.0 * TAU]), Some((0, [0.1, 3.0 - 4.0 * TAU])));
+        let limits = [Some([-4.0, 3.0]), Some([-1.0, 1.0])];
+        assert_eq!(nearest([3.1, 0.2], limits).map(|s| s.q), Some([-3.1, 0.2]));
+        assert_eq!(nearest([0.0; 2], [Some([1.0, 2.0]), None]), None);
+    }
+
+    #[test]
+    fn what_is_not_reached_is_left_out() {
+        let branches = |distance| SOLUTIONS.reached(distance, 0.0).map(|s| s.branch);
+        assert!(branches(1e-9).eq([0, 1]) && branches(0.0).eq([0]) && branches(1.0).eq([0, 1, 2]));
+    }
+
+    #[test]
+    fn no_number_is_no_solution() {
+        let unreal = Solutions { distance: [f64::NAN; 3], ..SOLUTIONS };
+        assert_eq!(unreal.nearest(&[0.0; 2], &[None; 2], (1.0, 1.0)), None);
+    }
+}
