@@ -82,7 +82,7 @@ fn known_branches_come_before_random_starts() {
     let q = [0.4, 1.2, -1.9, 0.5, 0.8, -0.3];
     let (target, search) = (target(&arm, &q, &load), Search { starts: 0, ..Search::default() });
     let at = Situation::under(load);
-    let near = || vec![vec![0.1; 6], q.map(|q| q + 0.01).to_vec()];
+    let near = || vec![q.map(|q| q + 0.01).to_vec()];
     let found = reach_by_branches(&arm, &target, &at, (None, &near), &search).unwrap();
     assert_eq!(found.ended, Ended::Reached);
     assert!(found.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-4), "{found:?}");
