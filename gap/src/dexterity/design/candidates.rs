@@ -47,6 +47,9 @@ pub(super) struct Block {
     pub(super) rows: DMatrix<f64>,
 }
 
+/// Joint values that were drawn, and of the plan's bench what is read there.
+type Drawn = (Vec<f64>, Option<usize>);
+
 /// The postures that may be tested.
 pub(super) struct Pool {
     pub(super) postures: Vec<Posture>,
@@ -59,7 +62,7 @@ pub(super) fn draw(whole: Whole<'_>, plan: &Plan) -> Result<Pool, DexterityError
     let mut rng = Rng::new(plan.seed, Stream::Starts);
     let drawn: Vec<Vec<f64>> = (0..count).map(|_| rng.point(&bounds)).collect();
     let length = length(whole.arm, &drawn, plan.seed)?;
-    let drawn: Vec<(Vec<f64>, Option<usize>)> = match plan.bench.len() {
+    let drawn: Vec<Drawn> = match plan.bench.len() {
         0 => drawn.into_iter().map(|q| (q, None)).collect(),
         things => at_bench(whole.arm, plan, things, &bounds, count, &mut rng)?,
     };
@@ -93,7 +96,7 @@ fn at_bench(
     bounds: &[[f64; 2]],
     count: usize,
     rng: &mut Rng,
-) -> Result<Vec<(Vec<f64>, Option<usize>)>, DexterityError> {
+) -> Result<Vec<Drawn>, DexterityError> {
     let mut all = Vec::new();
     for thing in 0..things {
         let wanted = count.div_ceil(things);
