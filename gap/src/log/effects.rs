@@ -2,7 +2,7 @@
 
 use crate::effects::{
     CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, ServoDroop,
-    TorqueOffset, ViscousFriction,
+    TorqueLatency, TorqueOffset, TorqueShift, ViscousFriction,
 };
 
 // alias: old path
@@ -15,6 +15,10 @@ pub type Catalogue = Laws<dyn InMotion>;
 pub(super) const COULOMB: &dyn InMotion = &CoulombFriction;
 pub(super) const VISCOUS: &dyn InMotion = &ViscousFriction;
 pub(super) const OFFSET: &dyn InMotion = &TorqueOffset;
+
+/// Torques that are told late: as a finding, and as a scan over delays asks for them.
+pub(super) const LATE: &dyn InMotion = &TorqueLatency;
+pub(super) const SHIFT: &dyn InMotion = &TorqueShift;
 
 /// What the simple model of servos has.
 pub(super) const LATENCY: &dyn InMotion = &CommandLatency;

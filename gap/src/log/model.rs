@@ -2,7 +2,7 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::effects::{LogEffect, Spot};
+use super::effects::{LATE, LogEffect, Spot};
 use super::options::Refused;
 use super::read::{Log, Signal, TorqueSide};
 use super::report::JointGap;
@@ -40,6 +40,16 @@ impl Acting {
         };
         Column { parts: columns.into_iter().zip(&self.values).flat_map(scaled).collect() }
     }
+}
+
+/// How late torques are told, s, as the robot file knows it, and what else it knows: the torques are brought beside the
+/// motion that they belong to, and a delay that is found is beyond that one.
+pub(super) fn late(known: &[Acting], rows: Domain) -> (f64, Vec<Acting>) {
+    let is_late = |known: &&Acting| {
+        rows == Domain::Torque && known.effect.identifier() == LATE.identifier()
+    };
+    let late = known.iter().filter(is_late).map(|known| known.values[0]).sum();
+    (late, known.iter().filter(|known| !is_late(known)).cloned().collect())
 }
 
 /// Rigid links and findings, with their numbers.
@@ -165,6 +175,8 @@ impl Model {
             return Err(Refused::Band { found: self.band, limit });
         }
         let mut signals = Signals::of(log, self.drive, Some(self.band));
+        let (late, known) = late(&self.known, self.rows);
+        signals.align(late);
         signals.mark_ways(&self.still);
         let base = (self.rows == Domain::Torque).then(|| Base::of(arm));
         let payloads: Vec<Option<String>> = log.runs.iter().map(|r| r.payload.clone()).collect();
@@ -176,8 +188,9 @@ impl Model {
             still: &self.still,
             base: base.as_ref(),
             payloads: &payloads,
-            known: &self.known,
+            known: &known,
             loaded: &loaded(arm, &payloads, &self.payloads, current),
+            late: late.abs() + self.simple.delay.abs(),
         };
         let mut joints: Vec<JointRows> = case
             .counts()
@@ -193,7 +206,7 @@ impl Model {
             })
             .collect();
         for span in &signals.spans {
-            let (part, _) = signals.stretch(span, &span.kept);
+            let (part, _) = signals.stretch(span, &span.kept, case.late);
             self.add(&case, &part, span.run, &mut joints);
         }
         let run = signals.spans.iter().flat_map(|s| core::iter::repeat_n(s.run, s.kept.len()));

@@ -8,7 +8,7 @@ use stiffarm_kernels::generic::Arm;
 use super::effects::{LogEffect, Spot};
 use super::instrument;
 use super::known;
-use super::model::{Acting, Model};
+use super::model::{Acting, Model, late};
 use super::options::{LogOptions, Refused};
 use super::read::{Log, TorqueSide};
 use super::rigid::{Base, body, moved};
@@ -90,8 +90,10 @@ pub fn diagnosed_with(
     let payloads: Vec<Option<String>> = log.runs.iter().map(|run| run.payload.clone()).collect();
     let current = side == Some(TorqueSide::Current);
     let loaded = loaded(arm, &payloads, &options.payloads, current);
-    let known = known::terms(&options.known, arm.dof(), domain)
+    let all_known = known::terms(&options.known, arm.dof(), domain)
         .map_err(|wrong| Refused::Known { message: wrong.in_full() })?;
+    let (known_delay, known) = late(&all_known, domain);
+    signals.align(known_delay);
     let case = Case {
         arm,
         signals: &signals,
@@ -101,11 +103,16 @@ pub fn diagnosed_with(
         payloads: &payloads,
         known: &known,
         loaded: &loaded,
+        late: known_delay.abs(),
     };
     if let Some(joint) = case.counts().iter().position(|c| !c.contains(&true)) {
         return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
     }
     let simple = Simple::of(&case, options.seed);
+    let case = match domain {
+        Domain::Torque => Case { late: case.late + simple.delay.abs(), ..case },
+        Domain::Position => case,
+    };
     let mut wanted = search::wanted(&case, &simple, &options.catalogue, options.effects.as_deref());
     let links = links(&case, options);
     if links == Links::Free {
@@ -117,6 +124,13 @@ pub fn diagnosed_with(
     let told = Told { arm, kind: case.kind, current, sizes: sizes(&dict) };
     let history = RefCell::new(History::default());
     let mut terms: Vec<Term> = Vec::new();
+    if let Some(late) = dict.late().filter(|_| simple.delay != 0.0) {
+        let sizes = dict.sizes(&[dict.left(&links, &[])], &[1.0]);
+        let offers: Vec<usize> = (0..dict.offers.len()).collect();
+        let none = Round::of(&dict, &[], &links, &sizes, &offers, options.seed);
+        history.borrow_mut().note(&dict, &told, &none);
+        terms.push(late);
+    }
     let mut again = 0;
     let verdict = loop {
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
@@ -160,7 +174,7 @@ pub fn diagnosed_with(
         band: signals.band,
         still: still.clone(),
         payloads: options.payloads.clone(),
-        known: known.clone(),
+        known: all_known,
         terms: verdict.findings.iter().map(|judged| acting(&judged.term)).collect(),
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),

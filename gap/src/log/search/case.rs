@@ -2,11 +2,10 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::dictionary::{Dictionary, Mixed};
-use super::fit::{Fitted, Links};
+use super::dictionary::Mixed;
+use super::delay;
 use super::ripples;
-use crate::effects::Place;
-use crate::log::effects::{COULOMB, LATENCY, LogEffect, OFFSET, Spot, VISCOUS};
+use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
 use crate::log::read::TorqueSide;
 use crate::log::rigid::Base;
@@ -35,9 +34,11 @@ pub struct Case<'a> {
     pub known: &'a [Acting],
     /// Of each run the numbers of the load that is known to be on the last link, in its frame.
     pub loaded: &'a [Option<[f64; 10]>],
+    /// How late torques are told at most, s: at so far an end of a span they have no motion.
+    pub late: f64,
 }
 
-/// A simple model of the drives, or of how late servos follow.
+/// A simple model of the drives, and of how late they are told or servos follow.
 #[derive(Clone, Debug, Default)]
 pub struct Simple {
     /// Of the rigid links' columns.
@@ -46,8 +47,8 @@ pub struct Simple {
     friction: Vec<[f64; 2]>,
     /// Ripples of each joint that stand out, in periods per radian or metre.
     pub ripples: Vec<Vec<f64>>,
-    /// Between the commands and the servos, s.
-    delay: f64,
+    /// Between the commands and the servos, or the motion and its torques where that is long, s.
+    pub delay: f64,
 }
 
 /// An effect at a place, and values about which it is asked for.
@@ -65,18 +66,12 @@ impl Simple {
             delay: 0.0,
         };
         let thinned = case.signals.t.len().div_ceil(ENOUGH);
-        let sizes = vec![1.0; joints];
         if case.kind.0 == Domain::Position {
-            return Simple { delay: delay(case, &nothing, thinned), ..nothing };
+            return Simple { delay: delay::of_servos(case, &nothing, thinned), ..nothing };
         }
-        let effects = [COULOMB, VISCOUS, OFFSET];
-        let spots = (0..joints).map(Spot::of_joint);
-        let wanted: Vec<Wanted> =
-            spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]]))).collect();
-        let dict = Dictionary::of(case, &nothing, &wanted, thinned);
-        let terms = (0..dict.offers.len()).map(|offer| dict.term(offer, 0)).collect::<Vec<_>>();
-        let rough = Fitted::of(&dict, &terms, &Links::Free, &sizes);
-        let fit = Fitted::of(&dict, &terms, &Links::Free, &rough.sizes(&dict));
+        let late = delay::of_torques(case, &nothing, thinned);
+        let case = &Case { late: case.late + late.abs(), ..*case };
+        let (dict, fit) = delay::fitted_at(case, &nothing, thinned, late);
         let values = |effect: usize| fit.terms.iter().skip(effect).step_by(3).map(|t| t.values[0]);
         Simple {
             friction: values(0)
@@ -85,25 +80,9 @@ impl Simple {
                 .collect(),
             ripples: ripples::found(&dict, &fit.sampled(&dict), seed),
             values: fit.values[..dict.base].to_vec(),
-            delay: 0.0,
+            delay: late,
         }
     }
-}
-
-/// How late all servos follow, the whole of it, known or not.
-fn delay(case: &Case<'_>, nothing: &Simple, thinned: usize) -> f64 {
-    let case = Case { known: &[], ..*case };
-    let loads = Loads::default();
-    let probes =
-        LATENCY.probes(&case.scene(nothing, case.signals, &loads), Spot::at(Place::Interface));
-    let dict =
-        Dictionary::of(&case, nothing, &[(LATENCY, Spot::at(Place::Interface), probes)], thinned);
-    let sizes = dict.sizes(&[dict.left(&Links::Free, &[])], &[1.0]);
-    let fits = (0..dict.offers[0].entries.len()).map(|entry| {
-        let fit = Fitted::of(&dict, &[dict.term(0, entry)], &Links::Free, &sizes);
-        (fit.sizes(&dict).iter().map(|size| size.ln()).sum::<f64>(), fit.terms[0].values[0])
-    });
-    fits.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, delay)| delay.max(0.0))
 }
 
 impl Case<'_> {
@@ -112,7 +91,7 @@ impl Case<'_> {
     pub fn counts(&self) -> Vec<Vec<bool>> {
         let signals = self.signals;
         let touches = signals.kept(&signals.contact);
-        let free = signals.settled().into_iter().zip(touches).map(|(s, touch)| s && !touch);
+        let free = signals.settled(self.late).into_iter().zip(touches).map(|(s, touch)| s && !touch);
         let free: Vec<bool> = free.collect();
         let counts = |joint: usize| {
             let speeds = signals.kept(&signals.qd[joint]);

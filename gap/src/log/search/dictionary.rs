@@ -14,9 +14,11 @@ use rayon::prelude::*;
 use super::blocks::{Block, Blocks};
 use super::case::{Case, Simple, Wanted};
 use super::segments::{Segment, segments};
+use super::fit::Term;
 use super::sums::Sums;
 use crate::infer::correlation_time;
-use crate::log::effects::{LogEffect, Spot};
+use crate::log::effects::{LATE, LogEffect, Spot};
+use crate::log::scene::Domain;
 use crate::log::signal::Signals;
 
 /// Rows that are kept, about.
@@ -158,6 +160,16 @@ impl<'a> Dictionary<'a> {
         };
         dict.whole = dict.sums(&Blocks::whole(&dict.segments));
         dict
+    }
+
+    /// Torques that are told late, about the longest delay that is asked for.
+    pub fn late(&self) -> Option<Term> {
+        let is_late = |offer: &Offer| {
+            offer.effect.domain() == Domain::Torque
+                && offer.effect.identifier() == LATE.identifier()
+        };
+        let offer = self.offers.iter().position(is_late)?;
+        Some(self.term(offer, self.offers[offer].entries.len() - 1))
     }
 
     /// The same without the rows of a fold, nor those behind them that the filter still reaches from there.
@@ -368,7 +380,7 @@ fn bring(
         if rows.is_empty() {
             continue;
         }
-        let (part, before) = signals.stretch(span, &rows);
+        let (part, before) = signals.stretch(span, &rows, case.late);
         let columns = case.columns(simple, wanted, &part, span.run);
         for joint in 0..joints {
             let parts = columns.iter().enumerate().flat_map(|(id, column)| {

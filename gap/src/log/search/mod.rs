@@ -10,6 +10,7 @@ pub mod blocks;
 pub mod candidates;
 pub mod case;
 pub mod converge;
+pub mod delay;
 pub mod dictionary;
 mod exchange;
 pub mod fit;
@@ -62,7 +63,7 @@ pub fn wanted(
     catalogue: &Catalogue,
     only: Option<&[String]>,
 ) -> Vec<Wanted> {
-    let loads = Loads::default();
+    let loads = Loads { delay: simple.delay, ..Loads::default() };
     let scene = case.scene(simple, case.signals, &loads);
     let named = |e: &&dyn LogEffect| {
         only.is_none_or(|names| names.iter().any(|name| name == e.identifier()))

@@ -208,10 +208,36 @@ impl Signals {
         Some(Signals { q, qd, qdd, ..self.clone() })
     }
 
-    /// A part of a span by itself, with so much room at both its ends that no end is felt in its `rows`;
-    /// and how many of its rows are that room, before them.
-    pub fn stretch(&self, span: &Span, rows: &Range<usize>) -> (Signals, usize) {
-        let room = (ROOM * self.reach() / self.step()).ceil() as usize;
+    /// Torques of a joint at the fine samples, through the filter: of now, and of `delay` s later. By cubics through four
+    /// samples: [`FINE`] of them are there for each period of the band's edge. Beyond an end it is the last.
+    pub fn drive_and_later(&self, joint: usize, delay: f64) -> (Vec<f64>, Vec<f64>) {
+        let (mut now, mut later) = (Vec::new(), Vec::new());
+        for span in &self.spans {
+            let smooth = self.smoothed(&self.drive[joint][span.fine.clone()]);
+            later.extend(filter::later(&smooth, delay / self.period));
+            now.extend(smooth);
+        }
+        (now, later)
+    }
+
+    /// Brings torques that are told `delay` s late beside the motion that they belong to.
+    pub fn align(&mut self, delay: f64) {
+        if delay == 0.0 {
+            return;
+        }
+        let by = delay / self.period;
+        for joint in &mut self.drive {
+            for span in &self.spans {
+                let moved = filter::later(&joint[span.fine.clone()], by);
+                joint[span.fine.clone()].copy_from_slice(&moved);
+            }
+        }
+    }
+
+    /// A part of a span by itself, with so much room at both its ends, and `late` s more, that no end is felt in its
+    /// `rows`; and how many of its rows are that room, before them.
+    pub fn stretch(&self, span: &Span, rows: &Range<usize>, late: f64) -> (Signals, usize) {
+        let room = ((ROOM * self.reach() + late) / self.step()).ceil() as usize;
         let from = rows.start.saturating_sub(room).max(span.kept.start);
         let to = (rows.end + room).min(span.kept.end);
         let at = |row: usize| span.fine.start + (row - span.kept.start) * self.every;
@@ -258,9 +284,10 @@ impl Signals {
     }
 
     /// Of the samples that are kept, those that no end of a span reaches through the filters: the band's, the
-    /// one of the joint values and that of the thinning, whose reaches are 1, 1/2 and at most 1/4.
-    pub fn settled(&self) -> Vec<bool> {
-        let edge = (2.0 * self.reach() / self.step()).ceil() as usize;
+    /// one of the joint values and that of the thinning, whose reaches are 1, 1/2 and at most 1/4; nor by torques
+    /// that are told `late` s late.
+    pub fn settled(&self, late: f64) -> Vec<bool> {
+        let edge = ((2.0 * self.reach() + late) / self.step()).ceil() as usize;
         let of = |span: &Span| {
             let count = span.kept.len();
             (0..count).map(move |k| k >= edge && k + edge < count)
