@@ -102,7 +102,8 @@ impl Asked<'_> {
     ) -> Equations {
         let (part, before) = self.case.signals.stretch(span, rows, self.case.late);
         let (mut columns, left) = self.columns(&part, span.run);
-        let (instruments, _) = self.columns(&commanded.stretch(span, rows, self.case.late).0, span.run);
+        let (instruments, _) =
+            self.columns(&commanded.stretch(span, rows, self.case.late).0, span.run);
         let count = columns.len();
         columns.push(left);
         let mut sum = Equations {

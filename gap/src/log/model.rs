@@ -45,9 +45,8 @@ impl Acting {
 /// How late torques are told, s, as the robot file knows it, and what else it knows: the torques are brought beside the
 /// motion that they belong to, and a delay that is found is beyond that one.
 pub(super) fn late(known: &[Acting], rows: Domain) -> (f64, Vec<Acting>) {
-    let is_late = |known: &&Acting| {
-        rows == Domain::Torque && known.effect.identifier() == LATE.identifier()
-    };
+    let is_late =
+        |known: &&Acting| rows == Domain::Torque && known.effect.identifier() == LATE.identifier();
     let late = known.iter().filter(is_late).map(|known| known.values[0]).sum();
     (late, known.iter().filter(|known| !is_late(known)).cloned().collect())
 }

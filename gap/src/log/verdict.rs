@@ -121,7 +121,7 @@ pub fn diagnosed_with(
         });
     }
     let mut dict = Dictionary::of(&case, &simple, &wanted, 1);
-    let told = Told { arm, kind: case.kind, current, sizes: sizes(&dict) };
+    let told = Told { case: &case, arm, kind: case.kind, current, sizes: sizes(&dict) };
     let history = RefCell::new(History::default());
     let mut terms: Vec<Term> = Vec::new();
     if let Some(late) = dict.late().filter(|_| simple.delay != 0.0) {
@@ -165,8 +165,11 @@ pub fn diagnosed_with(
         Links::Known(values) => values.clone(),
         Links::Free => fitted[..dict.base].to_vec(),
     };
-    let acting =
-        |term: &Term| Acting { effect: term.effect, spot: term.spot, values: term.values.clone() };
+    let acting = |term: &Term| Acting {
+        effect: term.effect,
+        spot: term.spot,
+        values: case.at_least_none(term),
+    };
     let model = Model {
         rows: domain,
         drive,
@@ -328,6 +331,7 @@ impl History {
 
 /// How numbers are told.
 struct Told<'a> {
+    case: &'a Case<'a>,
     arm: &'a Arm,
     kind: (Domain, Option<TorqueSide>),
     current: bool,
@@ -406,7 +410,8 @@ impl Told<'_> {
             let name = (term.effect.identifier(), term.spot);
             // The first round that had it, and the one before.
             let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
-            let numbers = term.effect.parameters().iter().zip(&term.values).zip(&mut widths);
+            let numbers =
+                term.effect.parameters().iter().zip(self.case.at_least_none(term)).zip(&mut widths);
             let held_out = HeldOutGap::InMotion {
                 held_out_before: left[with - 1].1,
                 held_out_after: left[with].1,
@@ -417,7 +422,7 @@ impl Told<'_> {
                 parameters: numbers
                     .map(|((parameter, value), width)| Parameter {
                         name: parameter.key.into(),
-                        value: *value,
+                        value,
                         unit: self.unit(parameter.quantity.unit(), term.spot).into(),
                         ci95: [value - width, value + width],
                         by_command: told_by_command.next(),

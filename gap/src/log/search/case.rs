@@ -2,8 +2,9 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::dictionary::Mixed;
 use super::delay;
+use super::dictionary::Mixed;
+use super::fit::Term;
 use super::ripples;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
@@ -15,6 +16,10 @@ use crate::log::signal::Signals;
 
 /// Fine samples are enough for the simple model.
 const ENOUGH: usize = 60_000;
+
+/// Of the robot file's value, the part that an estimate of zero may be below it: with a finding's p value of 0.05 its
+/// standard deviation is half of it at most, and a tenth where the finding is plain.
+const NONE: f64 = 0.1;
 
 /// What is to be explained, and by what in any case.
 pub struct Case<'a> {
@@ -91,7 +96,8 @@ impl Case<'_> {
     pub fn counts(&self) -> Vec<Vec<bool>> {
         let signals = self.signals;
         let touches = signals.kept(&signals.contact);
-        let free = signals.settled(self.late).into_iter().zip(touches).map(|(s, touch)| s && !touch);
+        let free =
+            signals.settled(self.late).into_iter().zip(touches).map(|(s, touch)| s && !touch);
         let free: Vec<bool> = free.collect();
         let counts = |joint: usize| {
             let speeds = signals.kept(&signals.qd[joint]);
@@ -203,6 +209,41 @@ impl Case<'_> {
         loads.friction = simple.friction.iter().enumerate().map(friction).collect();
         loads.numbers = base.numbers(&values);
         loads
+    }
+}
+
+impl Case<'_> {
+    /// What the robot file has of a proportional effect's parameters at a spot, in its table and in its `[[effect]]`s.
+    fn of_file(&self, effect: &dyn LogEffect, spot: Spot) -> Vec<f64> {
+        let mut of = vec![0.0; effect.parameters().len()];
+        if effect.bends() || of.is_empty() {
+            return of;
+        }
+        of[0] = effect.from_file(self.arm, self.kind.1, spot);
+        let is_it = |k: &&Acting| k.effect.identifier() == effect.identifier() && k.spot == spot;
+        for known in self.known.iter().filter(is_it) {
+            of.iter_mut().zip(&known.values).for_each(|(of, value)| *of += value);
+        }
+        of
+    }
+
+    /// Whether an effect may have such values beyond the robot file's. Where in truth there is none of it the sum comes
+    /// out on either side of zero: a little below is none.
+    pub fn may_be(&self, term: &Term) -> bool {
+        let of = self.of_file(term.effect, term.spot);
+        let sum = of.iter().zip(&term.values).map(|(of, value)| match of + value {
+            sum if sum < 0.0 && sum >= -NONE * of => 0.0,
+            sum => sum,
+        });
+        term.effect.may_be(&sum.collect::<Vec<f64>>())
+    }
+
+    /// The same values, none of them below what takes away all that the robot file has.
+    pub fn at_least_none(&self, term: &Term) -> Vec<f64> {
+        let of = self.of_file(term.effect, term.spot);
+        let each = of.iter().zip(&term.values).zip(term.effect.parameters());
+        each.map(|((of, value), p)| if *of > 0.0 { value.max(p.least - of) } else { *value })
+            .collect()
     }
 }
 

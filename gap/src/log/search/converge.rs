@@ -26,7 +26,7 @@ pub fn converged(
     loop {
         let round = Round::of(dict, &verdict.fit.terms, links, &verdict.sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best() else { return verdict };
+        let Some(best) = round.best(dict.case) else { return verdict };
         let terms = exchange::added(dict, &round, &best.term, offers, seed);
         let terms = along::with_along(dict, terms, offers);
         let fit = Fitted::of(dict, &terms, links, &round.sizes);

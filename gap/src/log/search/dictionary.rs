@@ -13,8 +13,8 @@ use rayon::prelude::*;
 
 use super::blocks::{Block, Blocks};
 use super::case::{Case, Simple, Wanted};
-use super::segments::{Segment, segments};
 use super::fit::Term;
+use super::segments::{Segment, segments};
 use super::sums::Sums;
 use crate::infer::correlation_time;
 use crate::log::effects::{LATE, LogEffect, Spot};

@@ -34,7 +34,7 @@ pub fn added(
     let asked = Asked::lacking(dict, &lacks, sizes, divided, &here, seed);
     let told = asked.candidates.iter().zip(&asked.p_values).filter(|(_, p)| **p <= SIGNIFICANT);
     let left = told
-        .filter(|(candidate, _)| candidate.term.effect.may_be(&candidate.term.values))
+        .filter(|(candidate, _)| dict.case.may_be(&candidate.term))
         .map(|(candidate, _)| (candidate.squares.iter().sum::<f64>(), &candidate.term));
     match left.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| *left <= whole) {
         Some((_, one)) => {

@@ -83,7 +83,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             let asked: Vec<usize> = offers.iter().filter(near).copied().collect();
             let lacks = Fitted::of(dict, &others, &fit.links, &sizes);
             let mut judged =
-                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(term);
+                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(dict, term);
             if fit.links != Links::Free
                 && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
             {
@@ -94,7 +94,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             judged
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
-        let wrong = |j: &Judged| !j.term.effect.may_be(&j.term.values);
+        let wrong = |j: &Judged| !dict.case.may_be(&j.term);
         let doubted =
             |j: &Judged| wrong(j) || (j.chance > SIGNIFICANT && !is_along(&j.term, &fit.terms));
         let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
@@ -128,7 +128,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
 
 impl Asked {
     /// The finding that the model lacks.
-    fn judge(self, term: Term) -> Judged {
+    fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
         let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
             return Judged { term, chance: 1.0, squares: self.squares, rivals: Vec::new() };
@@ -140,7 +140,7 @@ impl Asked {
                 let rival = &self.candidates[*k];
                 *k != own
                     && self.p_values[*k] <= RIVAL
-                    && rival.term.effect.may_be(&rival.term.values)
+                    && dict.case.may_be(&rival.term)
                     && !is_worse(&rival.squares, best)
             })
             .collect();

@@ -111,8 +111,8 @@ impl Round {
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
         // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
         // what takes less, and would be taken for it bit by bit.
-        let best = round.best().map_or(0.0, Candidate::takes);
-        let most = round.asked.most(best);
+        let best = round.best(dict.case).map_or(0.0, Candidate::takes);
+        let most = round.asked.most(dict.case, best);
         let looks = most.len() as f64;
         for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
@@ -129,7 +129,7 @@ impl Round {
             }
             let (fit, sizes) = (fit.clone(), sizes.clone());
             let again = Round { correlation, blocks, asked, fit, sizes };
-            if again.best().is_some() {
+            if again.best(dict.case).is_some() {
                 return again;
             }
         }
@@ -138,14 +138,14 @@ impl Round {
 
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
     /// does not explain.
-    pub fn best(&self) -> Option<&Candidate> {
+    pub fn best(&self, case: &Case<'_>) -> Option<&Candidate> {
         let Asked { squares, candidates, p_values } = &self.asked;
         let whole: f64 = squares.iter().sum();
         let left = |c: &Candidate| c.squares.iter().sum::<f64>();
         let gain = |c: &Candidate| (whole - left(c)) / c.things();
         let told =
             candidates.iter().zip(p_values).filter(|(_, p)| **p <= SIGNIFICANT).map(|(c, _)| c);
-        let told = told.filter(|c| left(c) < whole && c.term.effect.may_be(&c.term.values));
+        let told = told.filter(|c| left(c) < whole && case.may_be(&c.term));
         told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
     }
 }
@@ -153,10 +153,10 @@ impl Round {
 impl Asked {
     /// The candidates that chance may explain and that take most by each of their numbers, more than so much; that
     /// which does first.
-    fn most(&self, least: f64) -> Vec<&Candidate> {
+    fn most(&self, case: &Case<'_>, least: f64) -> Vec<&Candidate> {
         let open =
             self.candidates.iter().zip(&self.p_values).filter(|(_, chance)| **chance > SIGNIFICANT);
-        let may = open.map(|(c, _)| c).filter(|c| c.term.effect.may_be(&c.term.values));
+        let may = open.map(|(c, _)| c).filter(|c| case.may_be(&c.term));
         let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
         most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
         most.truncate(AGAIN);
@@ -211,7 +211,7 @@ pub fn search(
     loop {
         let round = Round::of(dict, &terms, links, &sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best().filter(|_| rounds < MOST) else { return round };
+        let Some(best) = round.best(dict.case).filter(|_| rounds < MOST) else { return round };
         rounds += 1;
         terms = exchange::added(dict, &round, &best.term, offers, seed);
         terms = along::with_along(dict, terms, offers);
