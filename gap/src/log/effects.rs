@@ -2,7 +2,7 @@
 
 use crate::effects::{
     CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, ServoDroop,
-    TorqueLatency, TorqueOffset, TorqueShift, ViscousFriction,
+    TorqueLatency, TorqueOffset, TorqueScale, TorqueShift, ViscousFriction,
 };
 
 // alias: old path
@@ -15,6 +15,9 @@ pub type Catalogue = Laws<dyn InMotion>;
 pub(super) const COULOMB: &dyn InMotion = &CoulombFriction;
 pub(super) const VISCOUS: &dyn InMotion = &ViscousFriction;
 pub(super) const OFFSET: &dyn InMotion = &TorqueOffset;
+
+/// A torque that is told too large or too small.
+pub(super) const SCALE: &dyn InMotion = &TorqueScale;
 
 /// Torques that are told late: as a finding, and as a scan over delays asks for them.
 pub(super) const LATE: &dyn InMotion = &TorqueLatency;

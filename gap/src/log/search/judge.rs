@@ -7,7 +7,7 @@ use super::blocks::Blocks;
 use super::candidates::Asked;
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
-use super::{Round, is_worse};
+use super::{Round, friction, is_worse};
 use crate::effects::Place;
 use crate::infer::constants::SIGNIFICANT;
 use crate::log::effects::{LINKS, Spot};
@@ -84,6 +84,12 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             let lacks = Fitted::of(dict, &others, &fit.links, &sizes);
             let mut judged =
                 Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(dict, term);
+            let own = judged.squares.iter().sum::<f64>();
+            let instead =
+                friction::instead(dict, &fit, &judged.term, &sizes, divided, &judged.squares, seed);
+            judged.rivals.extend(
+                instead.into_iter().map(|(t, s)| (t, (s.iter().sum::<f64>() / own).sqrt())),
+            );
             if fit.links != Links::Free
                 && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
             {

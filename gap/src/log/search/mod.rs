@@ -14,6 +14,7 @@ pub mod delay;
 pub mod dictionary;
 mod exchange;
 pub mod fit;
+mod friction;
 pub mod judge;
 pub mod nested;
 pub mod residual;
@@ -211,10 +212,10 @@ pub fn search(
     loop {
         let round = Round::of(dict, &terms, links, &sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best(dict.case).filter(|_| rounds < MOST) else { return round };
+        let more = friction::next(dict, &round, offers, seed);
+        let Some(more) = more.filter(|_| rounds < MOST) else { return round };
         rounds += 1;
-        terms = exchange::added(dict, &round, &best.term, offers, seed);
-        terms = along::with_along(dict, terms, offers);
+        terms = along::with_along(dict, more, offers);
         sizes = round.sizes;
     }
 }
