@@ -144,7 +144,7 @@ impl Asked<'_> {
         for term in self.terms {
             if let Some(mixed) = self.case.carried(term.effect, term.spot) {
                 let here = mixed.iter().map(|mixed| {
-                    let is_here = mixed.run.is_none_or(|of| of == run);
+                    let is_here = mixed.run.is_none_or(|of| of == self.case.held_as(run));
                     let parts = mixed.of.iter().filter(|_| is_here);
                     parts.fold(Column::default(), |sum, (k, x)| sum.plus(*x, &rigid[*k]))
                 });

@@ -245,7 +245,8 @@ impl Model {
                 let does = match case.carried(term.effect, term.spot) {
                     Some(mixed) => {
                         let mine = mixed.iter().zip(&term.values);
-                        let mine = mine.filter(|(m, _)| m.run.is_none_or(|of| of == run));
+                        let mine =
+                            mine.filter(|(m, _)| m.run.is_none_or(|of| of == case.held_as(run)));
                         let each = mine.flat_map(|(m, value)| {
                             m.of.iter().map(move |(column, x)| (&rigid[*column], x * value))
                         });

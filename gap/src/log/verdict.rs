@@ -26,6 +26,7 @@ use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
 use super::sight::hidden;
 use super::signal::Signals;
+use crate::effects::Place;
 use crate::infer::interval;
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
@@ -340,6 +341,20 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
+    /// A place; of what is held all runs that name it.
+    fn place(&self, spot: Spot) -> String {
+        let Place::Held(first) = spot.place else { return spot.to_string() };
+        let case = self.case;
+        let runs = (0..case.payloads.len()).filter(|run| case.held_as(*run) == first - 1);
+        let runs: Vec<String> = runs.map(|run| (run + 1).to_string()).collect();
+        match runs.as_slice() {
+            [before @ .., last] if !before.is_empty() => {
+                format!("the tool in runs {} and {last}", before.join(", "))
+            }
+            _ => spot.to_string(),
+        }
+    }
+
     /// What a joint's gap is measured in.
     fn gap_unit(&self, joint: usize) -> &'static str {
         match (self.kind.0, self.arm.joints[joint].motion) {
@@ -393,6 +408,14 @@ impl Told<'_> {
         parts.sum::<f64>() / left.len() as f64
     }
 
+    fn alternative(&self, (term, leaves): &(Term, f64)) -> Alternative {
+        Alternative {
+            effect: term.effect.identifier().into(),
+            place: self.place(term.spot),
+            left: Left::InMotion { leaves: *leaves },
+        }
+    }
+
     /// In the order in which they were added.
     fn findings(
         &self,
@@ -418,7 +441,7 @@ impl Told<'_> {
             };
             Finding {
                 effect: name.0.into(),
-                place: term.spot.to_string(),
+                place: self.place(term.spot),
                 parameters: numbers
                     .map(|((parameter, value), width)| Parameter {
                         name: parameter.key.into(),
@@ -432,19 +455,11 @@ impl Told<'_> {
                 held_out,
                 p_value: judged.chance,
                 stability: None,
-                alternatives: judged.rivals.iter().map(alternative).collect(),
+                alternatives: judged.rivals.iter().map(|rival| self.alternative(rival)).collect(),
                 to_separate: (!judged.rivals.is_empty())
                     .then(|| Some(term.effect.facts().separated_by.to_owned())),
             }
         };
         verdict.findings.iter().map(&mut tell).collect()
-    }
-}
-
-fn alternative((term, leaves): &(Term, f64)) -> Alternative {
-    Alternative {
-        effect: term.effect.identifier().into(),
-        place: term.spot.to_string(),
-        left: Left::InMotion { leaves: *leaves },
     }
 }

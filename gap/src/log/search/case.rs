@@ -91,6 +91,21 @@ impl Simple {
 }
 
 impl Case<'_> {
+    /// Of a run the first that carries the same by its name, itself where it names nothing: what is held is one body in all
+    /// of them.
+    pub fn held_as(&self, run: usize) -> usize {
+        let name = self.payloads.get(run).and_then(Option::as_ref);
+        let first = || self.payloads.iter().position(|other| other.as_ref() == name);
+        name.and_then(|_| first()).unwrap_or(run)
+    }
+
+    /// Whether something that is named is carried in one run alone: with that run held out nothing tells of it.
+    pub fn is_held_once(&self) -> bool {
+        let named = self.payloads.iter().flatten();
+        let times = |name: &String| self.payloads.iter().flatten().filter(|n| *n == name).count();
+        named.into_iter().any(|name| times(name) == 1)
+    }
+
     /// Which rows count, of each joint: away from the ends of the filters, no contact, and for torques
     /// no standstill, where friction takes any value up to Coulomb's.
     pub fn counts(&self) -> Vec<Vec<bool>> {

@@ -32,7 +32,7 @@ const STRETCH: usize = 16_384;
 pub struct Mixed {
     /// A stored column, and how often.
     pub of: Vec<(usize, f64)>,
-    /// The one run that it is of; zero in all others.
+    /// The one run that it is of, and those that carry the same; zero in all others.
     pub run: Option<usize>,
 }
 
@@ -200,6 +200,12 @@ impl<'a> Dictionary<'a> {
         dict
     }
 
+    /// The time divided for a residual of this correlation time, s.
+    pub fn blocks(&self, correlation: f64) -> Blocks {
+        let by_run = !self.case.is_held_once();
+        Blocks::of(&self.segments, self.case.signals, correlation, by_run)
+    }
+
     /// Products of all columns of each joint over whole runs.
     pub fn whole(&self) -> &Sums {
         &self.whole
@@ -225,7 +231,7 @@ impl<'a> Dictionary<'a> {
             blocks.all.iter().map(block).collect()
         };
         Sums {
-            runs: blocks.all.iter().map(|block| block.run).collect(),
+            runs: blocks.all.iter().map(|block| self.case.held_as(block.run)).collect(),
             at: self.joints.iter().map(|own| own.at.clone()).collect(),
             joints: self.joints.iter().map(joint).collect(),
         }
@@ -282,7 +288,7 @@ impl<'a> Dictionary<'a> {
     }
 
     fn run_of(&self, row: usize) -> usize {
-        self.segments[self.segment_of(row)].run
+        self.case.held_as(self.segments[self.segment_of(row)].run)
     }
 
     /// The block that a row is in; `None` of one between two blocks.

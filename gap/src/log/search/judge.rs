@@ -73,7 +73,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
         // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
         let correlation = fit.correlation(dict);
         let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(&dict.segments, dict.case.signals, longest);
+        let blocks = dict.blocks(longest);
         let sums = dict.sums(&blocks);
         let divided = (&blocks, &sums);
         let without = |k: usize| -> Judged {

@@ -96,7 +96,7 @@ impl Round {
         let correlation = fit.correlation(dict);
         let divided = |correlation: &[f64]| {
             let longest = correlation.iter().copied().fold(0.0, f64::max);
-            Blocks::of(&dict.segments, dict.case.signals, longest)
+            dict.blocks(longest)
         };
         let ask = |blocks: &Blocks| {
             let sums = dict.sums(blocks);

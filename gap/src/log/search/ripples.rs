@@ -10,7 +10,6 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
-use super::blocks::Blocks;
 use super::dictionary::Dictionary;
 use crate::infer::constants::SIGNIFICANT;
 use crate::infer::{Signs, unit};
@@ -31,7 +30,7 @@ pub fn found(dict: &Dictionary<'_>, left: &[Vec<Option<f64>>], seed: u64) -> Vec
 fn of_joint(dict: &Dictionary<'_>, joint: usize, left: &[Option<f64>], seed: u64) -> Vec<f64> {
     let signals = dict.case.signals;
     let (q, speeds) = (signals.kept(&signals.q[joint]), signals.kept(&signals.qd[joint]));
-    let blocks = Blocks::of(&dict.segments, signals, dict.correlation(left));
+    let blocks = dict.blocks(dict.correlation(left));
     let count = blocks.all.len();
     // Cosine and sine of each order, of each block.
     let mut sums = vec![DMatrix::<f64>::zeros(2, count); ORDERS.count()];
