@@ -99,6 +99,7 @@ fn put_bodies(
     found: &LogDiagnosis,
     model: &Model,
 ) -> Result<f64, Unwritable> {
+    let log = &*model.readings.mended(log);
     let signals = Signals::of(log, model.drive, Some(model.band));
     let n = arm.dof();
     let count = signals.t.len();

@@ -1,8 +1,8 @@
 //! The laws in motion with which models of a log begin.
 
 use crate::effects::{
-    CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, ServoDroop,
-    TorqueLatency, TorqueOffset, TorqueScale, TorqueShift, ViscousFriction,
+    CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, Payload,
+    ServoDroop, TorqueLatency, TorqueOffset, TorqueScale, TorqueShift, ViscousFriction,
 };
 
 // alias: old path
@@ -29,6 +29,9 @@ pub(super) const LATENCY: &dyn InMotion = &CommandLatency;
 /// What a log has a joint's spring as: in rows of commands, and of torques.
 pub(super) const DROOP: &dyn InMotion = &ServoDroop;
 pub(super) const ELASTICITY: &dyn InMotion = &JointElasticity;
+
+/// What is held in runs.
+pub(super) const PAYLOAD: &dyn InMotion = &Payload;
 
 /// What the robot file tells of its links.
 pub(super) const LINKS: &dyn InMotion = &LinkInertia;

@@ -5,6 +5,7 @@ use stiffarm_kernels::generic::Arm;
 use super::effects::{LATE, LogEffect, Spot};
 use super::options::Refused;
 use super::read::{Log, Signal, TorqueSide};
+use super::readings::Readings;
 use super::report::JointGap;
 use super::rigid::Base;
 use super::scene::{Column, Domain, Scene};
@@ -76,6 +77,8 @@ pub struct Model {
     pub alone: Vec<f64>,
     /// The simple model that says how the drives are loaded.
     pub simple: Simple,
+    /// What is wrong with the log's readings, and with others of its recorder.
+    pub readings: Readings,
     /// What the log tells of the joints' springs.
     pub springs: Springs,
 }
@@ -173,6 +176,7 @@ impl Model {
         if self.band >= limit {
             return Err(Refused::Band { found: self.band, limit });
         }
+        let log = &*self.readings.mended(log);
         let mut signals = Signals::of(log, self.drive, Some(self.band));
         let (late, known) = late(&self.known, self.rows);
         signals.align(late);
@@ -190,6 +194,7 @@ impl Model {
             known: &known,
             loaded: &loaded(arm, &payloads, &self.payloads, current),
             late: late.abs() + self.simple.delay.abs(),
+            left_out: &self.readings.left_out(arm.dof()),
         };
         let mut joints: Vec<JointRows> = case
             .counts()

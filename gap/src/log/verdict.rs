@@ -10,7 +10,8 @@ use super::instrument;
 use super::known;
 use super::model::{Acting, Model, late};
 use super::options::{LogOptions, Refused};
-use super::read::{Log, TorqueSide};
+use super::read::{Log, Signal, TorqueSide};
+use super::readings::{Readings, placeholder};
 use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
@@ -39,6 +40,9 @@ const STILL: f64 = 0.005;
 /// Times that a log is gone through again where effects bend: each makes the error of their values about
 /// its square.
 const AGAIN: usize = 3;
+
+/// Times that a simple model is asked for mistakes of the readings: each takes out what it finds.
+const ASKED: usize = 3;
 
 /// Values that change by less than this part are found.
 const FOUND: f64 = 1e-3;
@@ -76,25 +80,51 @@ pub fn diagnosed_with(
 ) -> Result<(LogDiagnosis, Model), Refused> {
     each(0);
     let (domain, drive, side) = options.rows_of(log)?;
-    options.checked(log.period())?;
-    let mut signals = Signals::of(log, drive, options.band);
-    let (found, expected) =
-        (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
-    if found < expected {
-        return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
-    }
-    let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
-    let still: Vec<f64> = signals.qd.iter().map(still).collect();
-    signals.mark_ways(&still);
     let base = (domain == Domain::Torque).then(|| Base::of(arm));
-    let payloads: Vec<Option<String>> = log.runs.iter().map(|run| run.payload.clone()).collect();
     let current = side == Some(TorqueSide::Current);
-    let loaded = loaded(arm, &payloads, &options.payloads, current);
     let all_known = known::terms(&options.known, arm.dof(), domain)
         .map_err(|wrong| Refused::Known { message: wrong.in_full() })?;
     let (known_delay, known) = late(&all_known, domain);
-    signals.align(known_delay);
+    let told_log = log;
+    let mut readings = Readings::of_channels(arm, log, drive);
+    let left_out = readings.left_out(arm.dof());
+    if !left_out.contains(&false) {
+        return Err(Refused::Silent { file: log.files.join(", ") });
+    }
+    let mut asked = 0;
+    let (log, signals, still, payloads, loaded) = loop {
+        let log = readings.mended(told_log);
+        let (mut signals, still) = prepared(&log, drive, options)?;
+        signals.align(known_delay);
+        let payloads: Vec<Option<String>> =
+            log.runs.iter().map(|run| run.payload.clone()).collect();
+        let loaded = loaded(arm, &payloads, &options.payloads, current);
+        let (kind, base, late) = ((domain, side), base.as_ref(), known_delay.abs());
+        let case = Case {
+            arm,
+            signals: &signals,
+            kind,
+            still: &still,
+            base,
+            payloads: &payloads,
+            known: &known,
+            loaded: &loaded,
+            late,
+            left_out: &left_out,
+        };
+        let counts = case.counts().into_iter().zip(&left_out);
+        let stands = |(counts, out): (Vec<bool>, &bool)| !out && !counts.contains(&true);
+        if let Some(joint) = counts.map(stands).position(|stands| stands) {
+            return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
+        }
+        let more = drive.filter(|_| asked < ASKED).map(|drive| Readings::of_model(&case, drive));
+        asked += 1;
+        match more.unwrap_or_default() {
+            none if none.is_empty() => break (log, signals, still, payloads, loaded),
+            more => readings.all.extend(more),
+        }
+    };
+    let log = &*log;
     let case = Case {
         arm,
         signals: &signals,
@@ -105,10 +135,8 @@ pub fn diagnosed_with(
         known: &known,
         loaded: &loaded,
         late: known_delay.abs(),
+        left_out: &left_out,
     };
-    if let Some(joint) = case.counts().iter().position(|c| !c.contains(&true)) {
-        return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
-    }
     let simple = Simple::of(&case, options.seed);
     let case = match domain {
         Domain::Torque => Case { late: case.late + simple.delay.abs(), ..case },
@@ -183,6 +211,7 @@ pub fn diagnosed_with(
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
+        readings,
         springs: Springs::of(&dict, &verdict),
     };
     let asked = instrument::Asked {
@@ -232,9 +261,38 @@ pub fn diagnosed_with(
             log.period(),
         ),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
-        remarks: [log.remarks(), log.doubts(arm)].concat(),
+        remarks: [
+            model.readings.sentences(arm, told_log),
+            log.remarks(),
+            log.doubts(arm),
+            placeholder(arm, side).into_iter().collect(),
+        ]
+        .concat(),
     };
     Ok((diagnosis, model))
+}
+
+/// A log at even steps, and the speeds below which its joints count as standing.
+///
+/// # Errors
+/// [`Refused`]: a band or a speed that is none, or less motion than can be divided.
+fn prepared(
+    log: &Log,
+    drive: Option<Signal>,
+    options: &LogOptions,
+) -> Result<(Signals, Vec<f64>), Refused> {
+    options.checked(log.period())?;
+    let mut signals = Signals::of(log, drive, options.band);
+    let (found, expected) =
+        (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
+    if found < expected {
+        return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
+    }
+    let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
+    let still: Vec<f64> = signals.qd.iter().map(still).collect();
+    signals.mark_ways(&still);
+    Ok((signals, still))
 }
 
 /// Of each run the numbers of the load that is known to be on the last link, in its frame.
@@ -404,8 +462,10 @@ impl Told<'_> {
 
     /// Mean over the joints of what is left, as a part of their sizes.
     fn mean(&self, left: &[f64]) -> f64 {
-        let parts = left.iter().zip(&self.sizes).map(|(left, whole)| left / whole);
-        parts.sum::<f64>() / left.len() as f64
+        let own = left.iter().zip(&self.sizes).zip(self.case.left_out);
+        let parts: Vec<f64> =
+            own.filter(|(_, out)| !**out).map(|((left, whole), _)| left / whole).collect();
+        parts.iter().sum::<f64>() / parts.len().max(1) as f64
     }
 
     fn alternative(&self, (term, leaves): &(Term, f64)) -> Alternative {

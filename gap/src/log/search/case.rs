@@ -41,6 +41,8 @@ pub struct Case<'a> {
     pub loaded: &'a [Option<[f64; 10]>],
     /// How late torques are told at most, s: at so far an end of a span they have no motion.
     pub late: f64,
+    /// Joints that do not move, or whose channel is silent: no row of theirs counts.
+    pub left_out: &'a [bool],
 }
 
 /// A simple model of the drives, and of how late they are told or servos follow.
@@ -60,16 +62,21 @@ pub struct Simple {
 pub type Wanted = (&'static dyn LogEffect, Spot, Vec<Vec<f64>>);
 
 impl Simple {
-    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows a
-    /// delay.
-    pub fn of(case: &Case<'_>, seed: u64) -> Simple {
+    /// Nothing, of so many joints.
+    pub fn nothing(case: &Case<'_>) -> Simple {
         let joints = case.signals.joints();
-        let nothing = Simple {
+        Simple {
             values: vec![0.0; case.base.map_or(0, |base| base.columns.len())],
             friction: vec![[0.0; 2]; joints],
             ripples: vec![Vec::new(); joints],
             delay: 0.0,
-        };
+        }
+    }
+
+    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows a
+    /// delay.
+    pub fn of(case: &Case<'_>, seed: u64) -> Simple {
+        let nothing = Simple::nothing(case);
         let thinned = case.signals.t.len().div_ceil(ENOUGH);
         if case.kind.0 == Domain::Position {
             return Simple { delay: delay::of_servos(case, &nothing, thinned), ..nothing };
@@ -115,6 +122,9 @@ impl Case<'_> {
             signals.settled(self.late).into_iter().zip(touches).map(|(s, touch)| s && !touch);
         let free: Vec<bool> = free.collect();
         let counts = |joint: usize| {
+            if self.left_out.get(joint).is_some_and(|out| *out) {
+                return vec![false; signals.rows()];
+            }
             let speeds = signals.kept(&signals.qd[joint]);
             let moves = |speed: f64| speed.abs() > self.still[joint];
             let pairs = speeds.into_iter().zip(&free);

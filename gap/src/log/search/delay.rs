@@ -48,7 +48,8 @@ struct Best {
 fn scan(case: &Case<'_>, nothing: &Simple, thinned: usize, delays: &[f64]) -> Option<Best> {
     let late = delays.iter().fold(0.0_f64, |most, delay| most.max(delay.abs()));
     let case = Case { late: case.late + late, ..*case };
-    if case.counts().iter().any(|counts| !counts.contains(&true)) {
+    let moves: Vec<bool> = case.counts().iter().map(|counts| counts.contains(&true)).collect();
+    if moves.iter().zip(case.left_out).any(|(moves, out)| !moves && !out) {
         return None;
     }
     let probes: Vec<Vec<f64>> = delays.iter().map(|delay| vec![*delay]).collect();
@@ -61,7 +62,8 @@ fn scan(case: &Case<'_>, nothing: &Simple, thinned: usize, delays: &[f64]) -> Op
     let all: Vec<Vec<f64>> = (0..delays.len()).map(left).collect();
     let best = (0..all.len()).min_by(|a, b| sum(&all[*a]).total_cmp(&sum(&all[*b])))?;
     let none = delays.iter().position(|delay| delay.abs() < 1e-3 * STEP)?;
-    let shrinks = (sum(&all[none]) - sum(&all[best])) / case.signals.joints() as f64;
+    let count = moves.iter().filter(|moves| **moves).count() as f64;
+    let shrinks = (sum(&all[none]) - sum(&all[best])) / count.max(1.0);
     // Between three neighbours a parabola has its vertex.
     let around = |k: usize| (k > 0 && k + 1 < all.len()).then(|| [k - 1, k, k + 1]);
     let by = around(best).map_or(0.0, |near| {

@@ -236,5 +236,6 @@ pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
 
 /// Independent numbers that the rows of the joints hold.
 pub fn effective(used: &[f64], correlation: &[f64], signals: &Signals) -> f64 {
-    used.iter().zip(correlation).map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
+    let all = used.iter().zip(correlation).filter(|(rows, _)| **rows > 0.0);
+    all.map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
 }
