@@ -262,7 +262,7 @@ pub fn diagnosed_with(
         ),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
         remarks: [
-            model.readings.sentences(arm, told_log),
+            model.readings.sentences(told_log),
             log.remarks(),
             log.doubts(arm),
             placeholder(arm, side).into_iter().collect(),

@@ -11,7 +11,6 @@ mod retold;
 use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector};
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::effects::{COULOMB, OFFSET, Spot, VISCOUS};
@@ -94,8 +93,8 @@ impl Readings {
     }
 
     /// A sentence for each.
-    pub fn sentences(&self, arm: &Arm, log: &Log) -> Vec<String> {
-        self.all.iter().map(|misread| misread.sentence(arm, log)).collect()
+    pub fn sentences(&self, log: &Log) -> Vec<String> {
+        self.all.iter().map(|misread| misread.sentence(log)).collect()
     }
 }
 
@@ -171,13 +170,9 @@ impl Misread {
     }
 
     /// What is wrong, what is done, and how to mend it.
-    fn sentence(&self, arm: &Arm, log: &Log) -> String {
+    fn sentence(&self, log: &Log) -> String {
         let file = log.files.join(", ");
         let named = |signal: &Signal, joint: usize| format!("{}{}", signal.name(), joint + 1);
-        let unit = |joint: usize| match arm.joints[joint].motion {
-            Motion::Revolute => ["rad", "deg"],
-            Motion::Prismatic => ["m", "mm"],
-        };
         let what = match self {
             Misread::Time { factor } if *factor < 1.0 => format!(
                 "t steps by {} s: it is read as milliseconds; write t[ms]",
@@ -222,17 +217,18 @@ impl Misread {
             Misread::Parked { joint } => {
                 format!("joint {} does not move: it is left out", joint + 1)
             }
-            Misread::Clipped { signal, joint, samples, limits } => format!(
-                "{} stands at its limits of {} and {} in {samples} samples: these are left out",
-                named(signal, *joint),
-                shown(limits[0]),
-                shown(limits[1])
-            ),
+            Misread::Clipped { signal, joint, samples, limits } => {
+                let limits = limits.iter().filter(|limit| limit.is_finite());
+                let limits: Vec<String> = limits.map(|limit| shown(*limit)).collect();
+                let limits = limits.join(" and ");
+                format!(
+                    "{} stands at its limit of {limits} in {samples} samples: these are left out",
+                    named(signal, *joint)
+                )
+            }
             Misread::Sign { signal, joint } => format!(
-                "{name} has the wrong sign for joint {}: it is read as −{name}; write a map with factor = -1, or \
-                 turn the joint's axis in the robot file ({})",
+                "{name} has the wrong sign for joint {}: it is read as −{name}; give it factor = -1 in a map",
                 joint + 1,
-                unit(*joint)[0],
                 name = named(signal, *joint),
             ),
             Misread::Swapped { signal, joints: [a, b] } => format!(
