@@ -22,7 +22,7 @@ pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
     }
     let spots = (1..runs).map(|run| Spot::at(Place::Held(run + 1)));
     let wanted: Vec<Wanted> = spots.map(|spot| (PAYLOAD, spot, vec![vec![0.0; 10]])).collect();
-    let plain = Plain::of(case, wanted);
+    let plain = Plain::of(case, wanted, usize::MAX);
     let left = plain.dict.left(&Links::Free, &[]);
     let bodies = &plain.dict.offers[plain.dict.offers.len() + 1 - runs..];
     let more: Vec<_> = bodies.iter().flat_map(|body| body.entries[0].columns.clone()).collect();

@@ -305,14 +305,14 @@ struct Plain<'a> {
 }
 
 impl<'a> Plain<'a> {
-    /// Of a log, with what else is wanted behind three offers for each joint.
-    fn of(case: &'a Case<'a>, more: Vec<Wanted>) -> Plain<'a> {
+    /// Of a log, with what else is wanted behind three offers for each joint; of about so many fine samples of it.
+    fn of(case: &'a Case<'a>, more: Vec<Wanted>, enough: usize) -> Plain<'a> {
         let effects = [COULOMB, VISCOUS, OFFSET];
         let spots = (0..case.signals.joints()).map(Spot::of_joint);
         let own = spots.flat_map(|spot| effects.map(|e| (e, spot, vec![vec![0.0]])));
         let wanted: Vec<Wanted> = own.chain(more).collect();
         let nothing = super::search::case::Simple::nothing(case);
-        let thinned = case.signals.t.len().div_ceil(ENOUGH);
+        let thinned = case.signals.t.len().div_ceil(enough);
         let dict = Dictionary::of(case, &nothing, &wanted, thinned);
         let count = 3 * case.signals.joints();
         let mut columns: Vec<Mixed> = (0..dict.base).map(Mixed::one).collect();

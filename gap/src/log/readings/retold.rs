@@ -4,7 +4,7 @@
 //! one column turned round, or two exchanged. Gravity and inertia ask for torques of several joints by the same masses, and
 //! friction never drives: a wrong column leaves most of its torque.
 
-use super::{Misread, Plain};
+use super::{ENOUGH, Misread, Plain};
 use crate::effects::{Facts, InMotion, Law, Place, Spot};
 use crate::log::read::Signal;
 use crate::log::scene::{Column, Scene};
@@ -80,7 +80,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| a <= b).collect();
     let probes = pairs.iter().map(|pair| pair.map(|j| j as f64).to_vec()).collect();
     let wanted: Vec<Wanted> = vec![(&Retold, Spot::at(Place::Interface), probes)];
-    let plain = Plain::of(case, wanted);
+    let plain = Plain::of(case, wanted, ENOUGH);
     let dict = &plain.dict;
     let (is, _) = plain.left(&[], &dict.left(&Links::Free, &[]));
     let spread = spreads(case, &joints);
@@ -101,7 +101,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
         let mut signals = case.signals.clone();
         turn(&mut signals, &misread);
         let turned = Case { signals: &signals, ..*case };
-        let plain = Plain::of(&turned, Vec::new());
+        let plain = Plain::of(&turned, Vec::new(), ENOUGH);
         let (left, _) = plain.left(&[], &plain.dict.left(&Links::Free, &[]));
         tried.push((misread, vec![*joint], left));
     }
