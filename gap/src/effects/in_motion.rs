@@ -69,6 +69,11 @@ pub trait InMotion: Law {
         self.parameters().iter().zip(values).all(|(parameter, value)| *value >= parameter.least)
     }
 
+    /// Whether its columns are made of what rigid links ask: with better links they are others.
+    fn is_of_loads(&self) -> bool {
+        false
+    }
+
     /// The effect that must stand at the same place before: what this one adds to.
     fn beside(&self) -> Option<&'static str> {
         self.facts().beside

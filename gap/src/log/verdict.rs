@@ -15,7 +15,7 @@ use super::readings::{Readings, placeholder};
 use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
-use super::search::case::{Case, Simple, Wanted};
+use super::search::case::{Case, FOUND, Simple, Wanted};
 use super::search::converge::converged;
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
@@ -43,9 +43,6 @@ const AGAIN: usize = 3;
 
 /// Times that a simple model is asked for mistakes of the readings: each takes out what it finds.
 const ASKED: usize = 3;
-
-/// Values that change by less than this part are found.
-const FOUND: f64 = 1e-3;
 
 /// Why a log brings the gap that it has: which effects at which places, one after the other, and how far
 /// it shrinks with them on time that no fit has seen.
@@ -137,7 +134,7 @@ pub fn diagnosed_with(
         late: known_delay.abs(),
         left_out: &left_out,
     };
-    let simple = Simple::of(&case, options.seed);
+    let mut simple = Simple::of(&case, options.seed);
     let case = match domain {
         Domain::Torque => Case { late: case.late + simple.delay.abs(), ..case },
         Domain::Position => case,
@@ -169,7 +166,11 @@ pub fn diagnosed_with(
         };
         let last = search::search(&dict, &terms, &links, &offers, options.seed, &mut each);
         let verdict = converged(&dict, &last, &offers, options.seed, &mut each);
-        if again == AGAIN || !moved_on(&dict, &verdict.fit.terms) {
+        // What is made of loads is made of those of the links as they are fitted beside it.
+        let of_loads = verdict.fit.terms.iter().any(|term| term.effect.is_of_loads());
+        let better = of_loads && links == Links::Free;
+        let better = better && simple.moved_to(&dict, &verdict.fit.values[..dict.base]);
+        if again == AGAIN || !(better || moved_on(&dict, &verdict.fit.terms)) {
             break verdict;
         }
         again += 1;

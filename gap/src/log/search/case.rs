@@ -3,7 +3,7 @@
 use stiffarm_kernels::generic::Arm;
 
 use super::delay;
-use super::dictionary::Mixed;
+use super::dictionary::{Dictionary, Mixed};
 use super::fit::Term;
 use super::ripples;
 use crate::log::effects::{LogEffect, Spot};
@@ -13,6 +13,9 @@ use crate::log::rigid::Base;
 use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
 use crate::log::signal::Signals;
+
+/// What changes by less than this part is found.
+pub const FOUND: f64 = 1e-3;
 
 /// Fine samples are enough for the simple model.
 const ENOUGH: usize = 60_000;
@@ -71,6 +74,18 @@ impl Simple {
             ripples: vec![Vec::new(); joints],
             delay: 0.0,
         }
+    }
+
+    /// With the links' values as they were fitted beside findings; whether what they ask of some joint has changed by more
+    /// than [`FOUND`].
+    pub fn moved_to(&mut self, dict: &Dictionary<'_>, values: &[f64]) -> bool {
+        let columns: Vec<Mixed> = (0..values.len()).map(Mixed::one).collect();
+        let less: Vec<f64> = values.iter().zip(&self.values).map(|(to, from)| to - from).collect();
+        let sizes = |values: &[f64]| dict.sizes(&columns, values);
+        let pairs = sizes(&less).into_iter().zip(sizes(values));
+        let has_moved = pairs.into_iter().any(|(change, size)| change > FOUND * size);
+        self.values = values.to_vec();
+        has_moved
     }
 
     /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows a

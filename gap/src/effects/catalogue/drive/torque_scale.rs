@@ -26,6 +26,10 @@ impl Law for TorqueScale {
 }
 
 impl InMotion for TorqueScale {
+    fn is_of_loads(&self) -> bool {
+        true
+    }
+
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         if spot.place != Place::Arm {
             let joint = spot.row();
