@@ -13,6 +13,7 @@
 
 mod band;
 pub mod filter;
+mod repeats;
 #[cfg(test)]
 mod tests;
 
@@ -36,6 +37,9 @@ const WIDER: f64 = 2.0;
 
 /// Reaches of the filter after which nothing of an end is left: a thousandth of each is, of four 1e-12.
 const ROOM: f64 = 4.0;
+
+/// Reaches of the filter that a period lasts of which one is enough: eight blocks of twice the reach.
+const LONG: f64 = 16.0;
 
 /// Jitter below this part of a step is none: stamps are rounded.
 const ROUNDED: f64 = 0.02;
@@ -80,6 +84,8 @@ pub struct Signals {
     pub band: f64,
     /// Step between fine samples, s.
     pub period: f64,
+    /// How often a motion is repeated, and after how long, s: its periods are averaged.
+    pub repeated: Option<(usize, f64)>,
     /// Fine samples per one that is kept.
     every: usize,
     filter: Option<LowPass>,
@@ -113,6 +119,18 @@ impl Signals {
             let narrowest = if drive.is_some() { band::TORQUES } else { band::POSITIONS };
             band::found(&evens.iter().map(joints).collect::<Vec<_>>(), period, narrowest)
         });
+        let mut repeated = None;
+        let evens: Vec<Even> = evens
+            .into_iter()
+            .map(|even| {
+                let steps = drive.and_then(|_| repeats::found(&even.signals[0], period));
+                let long = |steps: &usize| *steps as f64 * period >= LONG * LowPass::reach(band);
+                let Some(steps) = steps.filter(long) else { return even };
+                let count = even.t.len() / steps;
+                repeated = Some(repeated.unwrap_or((count, steps as f64 * period)));
+                even.averaged(steps)
+            })
+            .collect();
         let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
         let thin = thinning(band, period);
         let period = period * thin as f64;
@@ -133,6 +151,7 @@ impl Signals {
             contact: Vec::new(),
             band,
             period,
+            repeated,
             every,
             filter: LowPass::new(band, period),
         };
@@ -261,6 +280,15 @@ impl Signals {
             ..*self
         };
         (signals, rows.start - from)
+    }
+
+    /// What is to be said of a motion that is repeated.
+    pub fn remark(&self) -> Option<String> {
+        let (count, period) = self.repeated?;
+        Some(format!(
+            "the motion repeats {count} times, every {period:.3} s, sample by sample: the repeats are averaged, since an error \
+             that all of them share is no chance"
+        ))
     }
 
     /// Number of joints.
