@@ -113,8 +113,23 @@ fn logged(kind: Kind, real: &Arm, seed: u64) -> Log {
     let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
     let mut log = Log::from_bytes("withheld", text.as_bytes(), &motions, &Names::default())
         .expect("a right log");
+    if let Clipped(joint) = kind {
+        clip(&mut log, joint);
+    }
     log.runs.iter_mut().for_each(|run| misread(kind, run));
     log
+}
+
+/// One amplifier has one limit in all runs, which a twentieth of the samples would exceed.
+fn clip(log: &mut Log, joint: usize) {
+    let rows = log.runs.iter().flat_map(|run| &run.signals[&Signal::Torque][joint]);
+    let mut sizes: Vec<f64> = rows.map(|x| x.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = sizes[sizes.len() * 19 / 20];
+    for run in &mut log.runs {
+        let rows = &mut run.signals.get_mut(&Signal::Torque).expect("torques")[joint];
+        rows.iter_mut().for_each(|x| *x = x.clamp(-most, most));
+    }
 }
 
 fn misread(kind: Kind, run: &mut Run) {
@@ -144,13 +159,6 @@ fn misread(kind: Kind, run: &mut Run) {
             run.t.iter_mut().for_each(|t| *t *= factor);
             run.clock.period *= factor;
             run.clock.jitter *= factor;
-        }
-        Clipped(joint) => {
-            let rows = &mut run.signals.get_mut(&Signal::Torque).expect("torques")[joint];
-            let most = rows.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            // One amplifier has one limit.
-            let most = (0.7 * most).min(60.0);
-            rows.iter_mut().for_each(|x| *x = x.clamp(-most, most));
         }
         Silent(joint) => run.signals.get_mut(&Signal::Torque).expect("torques")[joint].fill(0.0),
         Parked(joint) => run.signals.get_mut(&Signal::Q).expect("joints")[joint].fill(0.4),
@@ -191,8 +199,12 @@ fn tried(kind: Kind, real: &Arm, seed: u64) -> Tried {
     let (is_named, own) = is_named(kind, real, &log, &found);
     let read: Vec<&String> =
         found.remarks.iter().filter(|remark| remark.starts_with("withheld: ")).collect();
-    let said = usize::from(phrase(kind, &log).is_some());
-    let others = read.iter().skip(said).map(|remark| (*remark).clone());
+    let phrase = match kind {
+        Wrapped => Some("jumps by whole turns".to_owned()),
+        kind => phrase(kind, &log),
+    };
+    let is_own = |remark: &String| phrase.as_ref().is_some_and(|phrase| remark.contains(phrase));
+    let others = read.into_iter().filter(|remark| !is_own(remark)).cloned();
     let strays = found.findings.iter().filter(|finding| !own(finding));
     let strays = strays.map(|f| format!("{}@{}", f.effect, f.place));
     Tried { kind, is_named, beside: others.chain(strays).collect() }
@@ -322,11 +334,9 @@ fn full() {
 #[test]
 fn quick() {
     let few = |kind: Kind| {
-        matches!(
-            kind,
-            Sign(_, 3) | Swapped(1, 2) | Silent(_) | Wrapped | Friction(_) | Held(false, _)
-        ) || matches!(kind, Delay(delay) if delay == 0.2)
+        matches!(kind, Sign(Signal::Torque, 3) | Swapped(1, 2) | Held(false, _) | Silent(_))
+            || matches!(kind, Delay(delay) if delay == 0.2)
     };
     let [cases, missed, beside] = all(&["ur10"], 401..402, few);
-    assert!(missed == 0 && 2 * beside < cases);
+    assert!(missed == 0 && beside < 2, "{missed} of {cases} are missed, {beside} have more");
 }

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::along::{is_along, with_along};
 use super::blocks::Blocks;
-use super::candidates::Asked;
+use super::candidates::{Asked, Candidate};
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
 use super::{Round, friction, is_worse};
 use crate::effects::Place;
 use crate::infer::constants::SIGNIFICANT;
-use crate::log::effects::{LINKS, Spot};
+use crate::log::effects::{LINKS, SCALE, Spot};
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
 /// the best of unrelated things does not usually do as much.
@@ -132,6 +132,18 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
     }
 }
 
+/// Whether a body's numbers hold what a scale of all loads does: that body, so many times. It leaves as little, and on what
+/// is held out it is worse by the numbers that it has more alone.
+fn has_it_in(dict: &Dictionary<'_>, body: &Candidate, scale: &Candidate) -> bool {
+    let is_scale = scale.term.effect.identifier() == SCALE.identifier();
+    let is_body = body.term.effect.carried(dict.case.arm, body.term.spot).is_some();
+    let is_all = scale.term.spot.place == Place::Arm;
+    is_scale && is_all && is_body && body.takes() >= ALL * scale.takes()
+}
+
+/// What is taken by more columns is as much but for the rounding of products of thousands of rows.
+const ALL: f64 = 1.0 - 1e-6;
+
 impl Asked {
     /// The finding that the model lacks.
     fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
@@ -147,7 +159,8 @@ impl Asked {
                 *k != own
                     && self.p_values[*k] <= RIVAL
                     && dict.case.may_be(&rival.term)
-                    && !is_worse(&rival.squares, best)
+                    && (!is_worse(&rival.squares, best)
+                        || has_it_in(dict, rival, &self.candidates[own]))
             })
             .collect();
         rivals.sort_by(|a, b| left(*a).total_cmp(&left(*b)));
