@@ -116,8 +116,9 @@ impl Tried {
         let both = offer_both(dict, terms, joint)?.map(|offer| dict.term(offer, 0));
         let terms: Vec<Term> = terms.iter().cloned().chain(both).collect();
         let fit = Fitted::of(dict, &terms, links, sizes);
-        let own = fit.terms.iter().rev().take(2);
-        if !own.into_iter().all(|term| dict.case.may_be(term)) {
+        let own = &fit.terms[fit.terms.len() - BOTH.len()..];
+        let is_much = own.iter().any(|term| dict.case.may_be(term));
+        if !is_much || !own.iter().all(|term| dict.case.is_one(term)) {
             return None;
         }
         let squares = Asked::of(dict, &fit, sizes, divided, &[], seed).squares;

@@ -87,9 +87,12 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             let own = judged.squares.iter().sum::<f64>();
             let instead =
                 friction::instead(dict, &fit, &judged.term, &sizes, divided, &judged.squares, seed);
-            judged.rivals.extend(
-                instead.into_iter().map(|(t, s)| (t, (s.iter().sum::<f64>() / own).sqrt())),
-            );
+            for (rival, left) in instead {
+                let is_it = |(t, _): &(Term, f64)| t.offer == rival.offer;
+                if !judged.rivals.iter().any(is_it) {
+                    judged.rivals.push((rival, (left.iter().sum::<f64>() / own).sqrt()));
+                }
+            }
             if fit.links != Links::Free
                 && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
             {

@@ -114,7 +114,7 @@ impl Round {
         // what takes less, and would be taken for it bit by bit.
         let best = round.best(dict.case).map_or(0.0, Candidate::takes);
         let most = round.asked.most(dict.case, best);
-        let looks = most.len() as f64;
+        let looks = 1.0 + most.len() as f64;
         for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
             let correlation = Fitted::of(dict, &with, links, &sizes).correlation(dict);
@@ -124,7 +124,7 @@ impl Round {
             }
             let mut asked = ask(&blocks);
             for (chance, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
-                // Each look is another question that chance may answer (Bonferroni).
+                // Each look is another question that chance may answer, as was the first (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;
                 *chance = if is_it { (looks * *chance).min(1.0) } else { 1.0 };
             }
