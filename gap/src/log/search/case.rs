@@ -278,12 +278,9 @@ impl Case<'_> {
         let of = self.of_file(term.effect, term.spot);
         let is_little =
             |(of, value): (&f64, &f64)| *of > 0.0 && *value < 0.0 && *value > -LEAST * of;
-        !of.iter().zip(&term.values).any(is_little) && self.is_one(term)
-    }
-
-    /// The same of one that may be as little less than the file's as it likes.
-    pub fn is_one(&self, term: &Term) -> bool {
-        let of = self.of_file(term.effect, term.spot);
+        if of.iter().zip(&term.values).any(is_little) {
+            return false;
+        }
         let sum = of.iter().zip(&term.values).map(|(of, value)| match of + value {
             sum if sum < 0.0 && sum >= -NONE * of => 0.0,
             sum => sum,

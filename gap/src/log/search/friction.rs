@@ -117,8 +117,7 @@ impl Tried {
         let terms: Vec<Term> = terms.iter().cloned().chain(both).collect();
         let fit = Fitted::of(dict, &terms, links, sizes);
         let own = &fit.terms[fit.terms.len() - BOTH.len()..];
-        let is_much = own.iter().any(|term| dict.case.may_be(term));
-        if !is_much || !own.iter().all(|term| dict.case.is_one(term)) {
+        if !own.iter().all(|term| dict.case.may_be(term)) {
             return None;
         }
         let squares = Asked::of(dict, &fit, sizes, divided, &[], seed).squares;
