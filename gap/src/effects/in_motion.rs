@@ -87,13 +87,13 @@ pub trait InMotion: Law {
 
     /// What the robot file's table has of its first parameter at a spot, where that is in torques of this side: its own
     /// is beyond that, and their sum is what [`InMotion::may_be`] is asked of.
-    fn from_file(&self, _: &Arm, _: Option<TorqueSide>, _: Spot) -> f64 {
+    fn file_value(&self, _: &Arm, _: Option<TorqueSide>, _: Spot) -> f64 {
         0.0
     }
 
     /// Whether the robot file has it at a spot, and it is in the torques: what adds to it may be there.
     fn in_file(&self, scene: &Scene<'_>, spot: Spot) -> bool {
-        self.from_file(scene.arm, scene.side, spot) > 0.0
+        self.file_value(scene.arm, scene.side, spot) > 0.0
     }
 
     /// Why this log cannot show it; `None` if it may.

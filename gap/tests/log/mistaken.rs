@@ -21,7 +21,7 @@ fn recorded(seed: u64, late: f64, held: f64, off: [f64; 2]) -> Log {
     let mut dice = Dice::new(seed, Stream::Noise);
     let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.1));
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for k in 0..COUNT {
+    for (k, noises) in noises[0].iter().zip(&noises[1]).map(|(a, b)| [a, b]).enumerate() {
         let t = STEP * k as f64;
         let asks = |[q, v, a]: [[f64; 2]; 3]| {
             if held > 0.0 { heavier(held, q, v, a) } else { rigid(q, v, a) }
@@ -32,7 +32,7 @@ fn recorded(seed: u64, late: f64, held: f64, off: [f64; 2]) -> Log {
             let [coulomb, viscous] = FRICTION[j];
             let v = then[1][j];
             q[j].push(now[0][j] + off[j] * loads[j] + 1e-6 * dice.normal());
-            torque[j].push(told[j] + coulomb * v.signum() + viscous * v + noises[j][k]);
+            torque[j].push(told[j] + coulomb * v.signum() + viscous * v + noises[j]);
         }
     }
     log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
@@ -125,7 +125,9 @@ fn what_several_runs_carry_is_one_body() {
         all.runs.extend(recorded(seed, 0.0, held, [0.0; 2]).runs);
     }
     let mut told = all.clone();
-    [1, 3].map(|run: usize| told.runs[run].payload = Some("disc".to_owned()));
+    for run in [1, 3] {
+        told.runs[run].payload = Some("disc".to_owned());
+    }
     for (log, remarks) in [(told, 0), (all, 1)] {
         let found = diagnosed(&braked(1.0), &log);
         let named = named(&found);

@@ -319,7 +319,7 @@ impl<'a> Plain<'a> {
         let mut least = vec![f64::NEG_INFINITY; dict.base];
         for offer in &dict.offers[..count] {
             columns.extend(offer.entries[0].columns.iter().cloned());
-            let of_file = offer.effect.from_file(case.arm, case.kind.1, offer.spot);
+            let of_file = offer.effect.file_value(case.arm, case.kind.1, offer.spot);
             least.push(offer.effect.parameters()[0].least - of_file);
         }
         Plain { dict, columns, least }

@@ -264,7 +264,7 @@ impl Case<'_> {
         if effect.bends() || of.is_empty() {
             return of;
         }
-        of[0] = effect.from_file(self.arm, self.kind.1, spot);
+        of[0] = effect.file_value(self.arm, self.kind.1, spot);
         let is_it = |k: &&Acting| k.effect.identifier() == effect.identifier() && k.spot == spot;
         for known in self.known.iter().filter(is_it) {
             of.iter_mut().zip(&known.values).for_each(|(of, value)| *of += value);

@@ -87,7 +87,7 @@ fn offer_both(dict: &Dictionary<'_>, terms: &[Term], joint: usize) -> Option<[us
     let spot = Spot::of_joint(joint);
     let case = dict.case;
     let stands = |t: &Term| t.spot == spot && is_either(t.effect);
-    let in_file = |e: &&dyn LogEffect| e.from_file(case.arm, case.kind.1, spot) > 0.0;
+    let in_file = |e: &&dyn LogEffect| e.file_value(case.arm, case.kind.1, spot) > 0.0;
     if terms.iter().any(stands) || !BOTH.iter().any(in_file) {
         return None;
     }

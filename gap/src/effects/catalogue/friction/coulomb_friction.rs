@@ -27,7 +27,7 @@ impl InMotion for CoulombFriction {
         vec![scene.column(joint, |k| scene.sign(joint, k))]
     }
 
-    fn from_file(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
         of_drive(arm, side, spot, |drive| drive.coulomb)
     }
 

@@ -28,7 +28,7 @@ impl InMotion for ViscousFriction {
         vec![scene.column(joint, |k| scene.signals.qd[joint][k])]
     }
 
-    fn from_file(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
         of_drive(arm, side, spot, |drive| drive.viscous)
     }
 

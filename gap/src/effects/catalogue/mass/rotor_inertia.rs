@@ -28,7 +28,7 @@ impl InMotion for RotorInertia {
         vec![scene.column(joint, |k| scene.signals.qdd[joint][k])]
     }
 
-    fn from_file(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
         of_drive(arm, side, spot, |drive| drive.gear * drive.gear * drive.rotor_inertia)
     }
 
