@@ -53,7 +53,8 @@ pub fn next(
         if let Some((best, joint)) = at_best {
             let as_well = |both: &Tried| match is_unusual(&best.term) {
                 true => !is_worse(&both.squares, &best.squares),
-                false => left(&both.squares) <= left(&best.squares),
+                // Its two numbers against one.
+                false => is_worse(&best.squares, &both.squares),
             };
             if let Some(both) = tried(joint).filter(as_well) {
                 return Some(both.fit.terms);
