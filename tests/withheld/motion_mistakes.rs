@@ -234,13 +234,11 @@ fn phrase(kind: Kind, log: &Log) -> Option<String> {
     })
 }
 
+/// Whether a finding is a mistake's own.
+type Own = dyn Fn(&Finding) -> bool;
+
 /// Whether a mistake is named, and which findings are its own.
-fn is_named(
-    kind: Kind,
-    real: &Arm,
-    log: &Log,
-    found: &LogDiagnosis,
-) -> (bool, Box<dyn Fn(&Finding) -> bool>) {
+fn is_named(kind: Kind, real: &Arm, log: &Log, found: &LogDiagnosis) -> (bool, Box<Own>) {
     let says = phrase(kind, log)
         .is_none_or(|phrase| found.remarks.iter().any(|remark| remark.contains(&phrase)));
     let value = |effect: &str, place: &str| {
