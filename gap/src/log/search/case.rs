@@ -25,8 +25,8 @@ const ENOUGH: usize = 60_000;
 const NONE: f64 = 0.1;
 
 /// Of the robot file's value, the least part that is taken back. The signs of speeds are read wrongly where a joint turns
-/// round, and friction seems smaller by as much: in 40 logs without a cause, of three kinds, 2 had such a finding, of a
-/// thousandth of the file's.
+/// round, and friction seems smaller by as much: of 120 logs without a cause two had such a finding, of a thousandth of the
+/// file's.
 const LEAST: f64 = 0.05;
 
 /// What is to be explained, and by what in any case.
