@@ -99,7 +99,7 @@ fn settings() -> Vec<Setting> {
 }
 
 /// A built-in arm with rotors and friction such as arms of its size have, which its file then knows.
-fn arm(id: &str) -> Arm {
+pub fn arm(id: &str) -> Arm {
     let mut arm = stiffarm_gap::robot::arm(&file(id)).expect("numbers for everything");
     let last = (arm.dof() - 1) as f64;
     let weight = arm.joints.iter().map(|joint| joint.mass).sum::<f64>();

@@ -11,6 +11,7 @@ mod campaigns;
 mod goals;
 mod logs;
 mod mistakes;
+mod motion_mistakes;
 mod pairs;
 mod realistic;
 mod stream;

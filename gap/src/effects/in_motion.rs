@@ -1,6 +1,6 @@
 //! How an effect acts on an arm in motion.
 
-use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::generic::{Arm, Drive};
 
 use super::{Law, Parameter, RobotFile, Spot};
 use crate::log::pace::Pace;
@@ -64,9 +64,14 @@ pub trait InMotion: Law {
         if self.facts().counts_once { 1 } else { self.parameters().len() }
     }
 
-    /// Whether a thing of this kind may have such values.
+    /// Whether a thing of this kind may have such values, those of the robot file among them.
     fn may_be(&self, values: &[f64]) -> bool {
         self.parameters().iter().zip(values).all(|(parameter, value)| *value >= parameter.least)
+    }
+
+    /// Whether its columns are made of what rigid links ask: with better links they are others.
+    fn is_of_loads(&self) -> bool {
+        false
     }
 
     /// The effect that must stand at the same place before: what this one adds to.
@@ -80,9 +85,15 @@ pub trait InMotion: Law {
         &[]
     }
 
+    /// What the robot file's table has of its first parameter at a spot, where that is in torques of this side: its own
+    /// is beyond that, and their sum is what [`InMotion::may_be`] is asked of.
+    fn file_value(&self, _: &Arm, _: Option<TorqueSide>, _: Spot) -> f64 {
+        0.0
+    }
+
     /// Whether the robot file has it at a spot, and it is in the torques: what adds to it may be there.
-    fn in_file(&self, _: &Scene<'_>, _: Spot) -> bool {
-        false
+    fn in_file(&self, scene: &Scene<'_>, spot: Spot) -> bool {
+        self.file_value(scene.arm, scene.side, spot) > 0.0
     }
 
     /// Why this log cannot show it; `None` if it may.
@@ -100,6 +111,16 @@ pub trait InMotion: Law {
     fn write(&self, _: &mut RobotFile<'_>, _: Spot, _: &[f64]) -> Option<String> {
         None
     }
+}
+
+/// What a row's drive has of something, where it is in torques of this side.
+pub fn of_drive(
+    arm: &Arm,
+    side: Option<TorqueSide>,
+    spot: Spot,
+    of: impl Fn(&Drive) -> f64,
+) -> f64 {
+    if side.is_some_and(TorqueSide::is_driven) { of(&arm.joints[spot.row()].drive) } else { 0.0 }
 }
 
 /// Why a motor's own cannot be seen; `None` where the torque is the motor's.

@@ -10,7 +10,7 @@ pub(super) use stiffarm_kernels::generic::{Arm, Convention, Joint};
 
 pub(super) use super::body::{BODY, units};
 pub(super) use super::displacement::{displacement, one_after_other};
-pub(super) use super::in_motion::{behind_the_gear, weightless};
+pub(super) use super::in_motion::{behind_the_gear, of_drive, weightless};
 pub(super) use super::scene::direction;
 pub(super) use super::{
     At, AtRest, Carried, Carrier, Curve, Depends, Draw, Facts, Forms, Gives, Group, InMotion, Law,

@@ -99,6 +99,7 @@ fn put_bodies(
     found: &LogDiagnosis,
     model: &Model,
 ) -> Result<f64, Unwritable> {
+    let log = &*model.readings.mended(log);
     let signals = Signals::of(log, model.drive, Some(model.band));
     let n = arm.dof();
     let count = signals.t.len();
@@ -117,7 +118,8 @@ fn put_bodies(
     for sample in &rows {
         let mut told = sample.clone();
         for (mut row, gap) in told.row_iter_mut().zip(&found.gap) {
-            row /= gap.after.max(f64::MIN_POSITIVE);
+            // A joint that is left out tells nothing.
+            row *= if gap.after > 0.0 { 1.0 / gap.after } else { 0.0 };
         }
         weight.gemm_tr(share, &told, &told, 1.0);
     }

@@ -1,8 +1,8 @@
 //! The laws in motion with which models of a log begin.
 
 use crate::effects::{
-    CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, ServoDroop,
-    TorqueOffset, ViscousFriction,
+    CommandLatency, CoulombFriction, InMotion, JointElasticity, Laws, LinkInertia, Payload,
+    ServoDroop, TorqueLatency, TorqueOffset, TorqueScale, TorqueShift, ViscousFriction,
 };
 
 // alias: old path
@@ -16,12 +16,22 @@ pub(super) const COULOMB: &dyn InMotion = &CoulombFriction;
 pub(super) const VISCOUS: &dyn InMotion = &ViscousFriction;
 pub(super) const OFFSET: &dyn InMotion = &TorqueOffset;
 
+/// A torque that is told too large or too small.
+pub(super) const SCALE: &dyn InMotion = &TorqueScale;
+
+/// Torques that are told late: as a finding, and as a scan over delays asks for them.
+pub(super) const LATE: &dyn InMotion = &TorqueLatency;
+pub(super) const SHIFT: &dyn InMotion = &TorqueShift;
+
 /// What the simple model of servos has.
 pub(super) const LATENCY: &dyn InMotion = &CommandLatency;
 
 /// What a log has a joint's spring as: in rows of commands, and of torques.
 pub(super) const DROOP: &dyn InMotion = &ServoDroop;
 pub(super) const ELASTICITY: &dyn InMotion = &JointElasticity;
+
+/// What is held in runs.
+pub(super) const PAYLOAD: &dyn InMotion = &Payload;
 
 /// What the robot file tells of its links.
 pub(super) const LINKS: &dyn InMotion = &LinkInertia;

@@ -100,9 +100,10 @@ impl Asked<'_> {
         rows: &Range<usize>,
         counts: &[Vec<bool>],
     ) -> Equations {
-        let (part, before) = self.case.signals.stretch(span, rows);
+        let (part, before) = self.case.signals.stretch(span, rows, self.case.late);
         let (mut columns, left) = self.columns(&part, span.run);
-        let (instruments, _) = self.columns(&commanded.stretch(span, rows).0, span.run);
+        let (instruments, _) =
+            self.columns(&commanded.stretch(span, rows, self.case.late).0, span.run);
         let count = columns.len();
         columns.push(left);
         let mut sum = Equations {
@@ -143,7 +144,7 @@ impl Asked<'_> {
         for term in self.terms {
             if let Some(mixed) = self.case.carried(term.effect, term.spot) {
                 let here = mixed.iter().map(|mixed| {
-                    let is_here = mixed.run.is_none_or(|of| of == run);
+                    let is_here = mixed.run.is_none_or(|of| of == self.case.held_as(run));
                     let parts = mixed.of.iter().filter(|_| is_here);
                     parts.fold(Column::default(), |sum, (k, x)| sum.plus(*x, &rigid[*k]))
                 });

@@ -1,6 +1,7 @@
 //! The gap in motion: from a joint log to where, which effect, how far it shrinks.
 //!
 //! 1. [`read`]: text into runs of samples, damaged rows left out and named.
+//!    [`readings`]: what is wrong with them, taken out.
 //! 2. [`signal`]: even samples, one filter, rates.
 //! 3. [`scene`]: rows, a joint at a time each; [`effects`]: what each effect does to them; what rigid links ask of
 //!    the drives, by their [base parameters](stiffarm_kernels::generic::BaseParameter), is fitted along.
@@ -18,6 +19,7 @@ pub mod model;
 pub mod options;
 pub mod pace;
 pub mod read;
+pub mod readings;
 pub mod rigid;
 pub mod scene;
 pub mod search;

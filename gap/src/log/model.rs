@@ -2,9 +2,10 @@
 
 use stiffarm_kernels::generic::Arm;
 
-use super::effects::{LogEffect, Spot};
+use super::effects::{LATE, LogEffect, Spot};
 use super::options::Refused;
 use super::read::{Log, Signal, TorqueSide};
+use super::readings::Readings;
 use super::report::JointGap;
 use super::rigid::Base;
 use super::scene::{Column, Domain, Scene};
@@ -42,6 +43,15 @@ impl Acting {
     }
 }
 
+/// How late torques are told, s, as the robot file knows it, and what else it knows: the torques are brought beside the
+/// motion that they belong to, and a delay that is found is beyond that one.
+pub(super) fn late(known: &[Acting], rows: Domain) -> (f64, Vec<Acting>) {
+    let is_late =
+        |known: &&Acting| rows == Domain::Torque && known.effect.identifier() == LATE.identifier();
+    let late = known.iter().filter(is_late).map(|known| known.values[0]).sum();
+    (late, known.iter().filter(|known| !is_late(known)).cloned().collect())
+}
+
 /// Rigid links and findings, with their numbers.
 #[derive(Clone)]
 pub struct Model {
@@ -67,6 +77,8 @@ pub struct Model {
     pub alone: Vec<f64>,
     /// The simple model that says how the drives are loaded.
     pub simple: Simple,
+    /// What is wrong with the log's readings, and with others of its recorder.
+    pub readings: Readings,
     /// What the log tells of the joints' springs.
     pub springs: Springs,
 }
@@ -164,7 +176,10 @@ impl Model {
         if self.band >= limit {
             return Err(Refused::Band { found: self.band, limit });
         }
+        let log = &*self.readings.mended(log);
         let mut signals = Signals::of(log, self.drive, Some(self.band));
+        let (late, known) = late(&self.known, self.rows);
+        signals.align(late);
         signals.mark_ways(&self.still);
         let base = (self.rows == Domain::Torque).then(|| Base::of(arm));
         let payloads: Vec<Option<String>> = log.runs.iter().map(|r| r.payload.clone()).collect();
@@ -176,8 +191,10 @@ impl Model {
             still: &self.still,
             base: base.as_ref(),
             payloads: &payloads,
-            known: &self.known,
+            known: &known,
             loaded: &loaded(arm, &payloads, &self.payloads, current),
+            late: late.abs() + self.simple.delay.abs(),
+            left_out: &self.readings.left_out(arm.dof()),
         };
         let mut joints: Vec<JointRows> = case
             .counts()
@@ -193,7 +210,7 @@ impl Model {
             })
             .collect();
         for span in &signals.spans {
-            let (part, _) = signals.stretch(span, &span.kept);
+            let (part, _) = signals.stretch(span, &span.kept, case.late);
             self.add(&case, &part, span.run, &mut joints);
         }
         let run = signals.spans.iter().flat_map(|s| core::iter::repeat_n(s.run, s.kept.len()));
@@ -233,7 +250,8 @@ impl Model {
                 let does = match case.carried(term.effect, term.spot) {
                     Some(mixed) => {
                         let mine = mixed.iter().zip(&term.values);
-                        let mine = mine.filter(|(m, _)| m.run.is_none_or(|of| of == run));
+                        let mine =
+                            mine.filter(|(m, _)| m.run.is_none_or(|of| of == case.held_as(run)));
                         let each = mine.flat_map(|(m, value)| {
                             m.of.iter().map(move |(column, x)| (&rigid[*column], x * value))
                         });

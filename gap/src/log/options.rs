@@ -72,6 +72,11 @@ pub enum Refused {
     )]
     TooShort { file: String, found: f64, expected: f64 },
     #[error(
+        "{file}: no joint moves and is driven by a torque that changes, expected both of one joint at least: are the \
+         channels connected?"
+    )]
+    Silent { file: String },
+    #[error(
         "{file}: joint {joint} does not move, expected motion of every joint: leave the log's rest out, or give a lower --standstill"
     )]
     Still { file: String, joint: usize },

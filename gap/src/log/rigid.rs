@@ -8,40 +8,9 @@ pub mod works;
 
 use nalgebra::{DMatrix, Isometry3, Matrix3, Vector3};
 use stiffarm_kernels::generic::Arm;
-use stiffarm_kernels::{Convention, Motion};
 
 /// Entries of a tensor in the order of the numbers.
 const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
-
-/// What a unit of each joint's acceleration alone asks of that joint, of links of these numbers, ten
-/// each: the diagonal of the mass matrix, kg·m² (kg if prismatic).
-pub fn diagonal(arm: &Arm, q: &[f64], numbers: &[f64]) -> Vec<f64> {
-    let n = arm.dof();
-    let frames = arm.frames(q);
-    let axes = match arm.convention {
-        Convention::Standard => &frames[..n],
-        Convention::Modified => &frames[1..],
-    };
-    // Mass, first and second moments of all beyond a joint, base axes, about the base's origin.
-    let (mut mass, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
-    let mut diagonal = vec![0.0; n];
-    for joint in (0..n).rev() {
-        let own = moved(&frames[joint + 1], &numbers[10 * joint..10 * joint + 10]);
-        mass += own[0];
-        first += Vector3::new(own[1], own[2], own[3]);
-        second += tensor(&own);
-        let (axis, foot) = (axes[joint].rotation * Vector3::z(), axes[joint].translation.vector);
-        diagonal[joint] = match arm.joints[joint].motion {
-            Motion::Prismatic => mass,
-            Motion::Revolute => {
-                let lever = axis.cross(&foot);
-                axis.dot(&(second * axis)) - 2.0 * lever.dot(&axis.cross(&first))
-                    + mass * lever.norm_squared()
-            }
-        };
-    }
-    diagonal
-}
 
 fn tensor(numbers: &[f64]) -> Matrix3<f64> {
     let mut tensor = Matrix3::zeros();

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use stiffarm_kernels::generic::Arm;
 
 use super::read::TorqueSide;
-use super::rigid::diagonal;
+use super::rigid::works::Works;
 use super::signal::Signals;
 
 /// What the rows are.
@@ -83,7 +83,6 @@ pub struct Scene<'a> {
     /// What each run carries, by its name; `None` is nothing.
     pub payloads: &'a [Option<String>],
     weights: OnceCell<[Vec<Vec<f64>>; 4]>,
-    inertias: OnceCell<Vec<Vec<f64>>>,
 }
 
 impl<'a> Scene<'a> {
@@ -97,8 +96,8 @@ impl<'a> Scene<'a> {
         ripples: &'a [Vec<f64>],
         payloads: &'a [Option<String>],
     ) -> Self {
-        let (weights, inertias) = (OnceCell::new(), OnceCell::new());
-        Scene { arm, signals, domain, side, loads, still, ripples, payloads, weights, inertias }
+        let weights = OnceCell::new();
+        Scene { arm, signals, domain, side, loads, still, ripples, payloads, weights }
     }
 
     /// What the weights of the robot file do to each joint, N·m or N, at the rows; then what they do
@@ -126,17 +125,30 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// What a unit of acceleration of each joint alone asks of it at the fine samples.
-    pub fn inertias(&self) -> &[Vec<f64>] {
-        self.inertias.get_or_init(|| {
-            let mut inertias = vec![Vec::with_capacity(self.signals.t.len()); self.arm.dof()];
-            for k in 0..self.signals.t.len() {
-                let q: Vec<f64> = self.signals.q.iter().map(|q| q[k]).collect();
-                let diagonal = diagonal(self.arm, &q, &self.loads.numbers);
-                inertias.iter_mut().zip(diagonal).for_each(|(of, x)| of.push(x));
+    /// What the rigid links ask of all joints less, per unit, if a joint's acceleration, rate and value are less by as many
+    /// times these: at the fine samples, from `by` of it.
+    pub fn when_moved(&self, joint: usize, by: f64, less: &[Vec<f64>; 3]) -> Vec<Vec<f64>> {
+        let (signals, n) = (self.signals, self.arm.dof());
+        let mut change = vec![Vec::with_capacity(signals.t.len()); n];
+        if by == 0.0 || self.loads.numbers.is_empty() {
+            return vec![vec![0.0; signals.t.len()]; n];
+        }
+        let works = Works::of(self.arm);
+        let mut motion = [(); 3].map(|()| vec![0.0; n]);
+        for k in 0..signals.t.len() {
+            for (at, of) in motion.iter_mut().zip([&signals.q, &signals.qd, &signals.qdd]) {
+                at.iter_mut().zip(of).for_each(|(at, joint)| *at = joint[k]);
             }
-            inertias
-        })
+            let [acceleration, rate, value] = less;
+            for (at, less) in motion.iter_mut().zip([value, rate, acceleration]) {
+                at[joint] -= by * less[k];
+            }
+            let asks = works.torques(motion.each_ref().map(Vec::as_slice), &self.loads.numbers);
+            for ((to, asks), load) in change.iter_mut().zip(asks).zip(&self.loads.rigid) {
+                to.push((asks - load[k]) / by);
+            }
+        }
+        change
     }
 
     /// The column of one joint, of what a fine sample is.

@@ -8,13 +8,14 @@ use stiffarm_kernels::generic::Arm;
 use super::effects::{LogEffect, Spot};
 use super::instrument;
 use super::known;
-use super::model::{Acting, Model};
+use super::model::{Acting, Model, late};
 use super::options::{LogOptions, Refused};
-use super::read::{Log, TorqueSide};
+use super::read::{Log, Signal, TorqueSide};
+use super::readings::{Readings, placeholder};
 use super::rigid::{Base, body, moved};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
-use super::search::case::{Case, Simple, Wanted};
+use super::search::case::{Case, FOUND, Simple, Wanted};
 use super::search::converge::converged;
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
@@ -26,6 +27,7 @@ use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
 use super::sight::hidden;
 use super::signal::Signals;
+use crate::effects::Place;
 use crate::infer::interval;
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
@@ -39,8 +41,8 @@ const STILL: f64 = 0.005;
 /// its square.
 const AGAIN: usize = 3;
 
-/// Values that change by less than this part are found.
-const FOUND: f64 = 1e-3;
+/// Times that a simple model is asked for mistakes of the readings: each takes out what it finds.
+const ASKED: usize = 3;
 
 /// Why a log brings the gap that it has: which effects at which places, one after the other, and how far
 /// it shrinks with them on time that no fit has seen.
@@ -75,23 +77,51 @@ pub fn diagnosed_with(
 ) -> Result<(LogDiagnosis, Model), Refused> {
     each(0);
     let (domain, drive, side) = options.rows_of(log)?;
-    options.checked(log.period())?;
-    let mut signals = Signals::of(log, drive, options.band);
-    let (found, expected) =
-        (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
-    if found < expected {
-        return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
-    }
-    let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
-    let still: Vec<f64> = signals.qd.iter().map(still).collect();
-    signals.mark_ways(&still);
     let base = (domain == Domain::Torque).then(|| Base::of(arm));
-    let payloads: Vec<Option<String>> = log.runs.iter().map(|run| run.payload.clone()).collect();
     let current = side == Some(TorqueSide::Current);
-    let loaded = loaded(arm, &payloads, &options.payloads, current);
-    let known = known::terms(&options.known, arm.dof(), domain)
+    let all_known = known::terms(&options.known, arm.dof(), domain)
         .map_err(|wrong| Refused::Known { message: wrong.in_full() })?;
+    let (known_delay, known) = late(&all_known, domain);
+    let told_log = log;
+    let mut readings = Readings::of_channels(arm, log, drive);
+    let left_out = readings.left_out(arm.dof());
+    if !left_out.contains(&false) {
+        return Err(Refused::Silent { file: log.files.join(", ") });
+    }
+    let mut asked = 0;
+    let (log, signals, still, payloads, loaded) = loop {
+        let log = readings.mended(told_log);
+        let (mut signals, still) = prepared(&log, drive, options)?;
+        signals.align(known_delay);
+        let payloads: Vec<Option<String>> =
+            log.runs.iter().map(|run| run.payload.clone()).collect();
+        let loaded = loaded(arm, &payloads, &options.payloads, current);
+        let (kind, base, late) = ((domain, side), base.as_ref(), known_delay.abs());
+        let case = Case {
+            arm,
+            signals: &signals,
+            kind,
+            still: &still,
+            base,
+            payloads: &payloads,
+            known: &known,
+            loaded: &loaded,
+            late,
+            left_out: &left_out,
+        };
+        let counts = case.counts().into_iter().zip(&left_out);
+        let stands = |(counts, out): (Vec<bool>, &bool)| !out && !counts.contains(&true);
+        if let Some(joint) = counts.map(stands).position(|stands| stands) {
+            return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
+        }
+        let more = drive.filter(|_| asked < ASKED).map(|drive| Readings::of_model(&case, drive));
+        asked += 1;
+        match more.unwrap_or_default() {
+            none if none.is_empty() => break (log, signals, still, payloads, loaded),
+            more => readings.all.extend(more),
+        }
+    };
+    let log = &*log;
     let case = Case {
         arm,
         signals: &signals,
@@ -101,11 +131,14 @@ pub fn diagnosed_with(
         payloads: &payloads,
         known: &known,
         loaded: &loaded,
+        late: known_delay.abs(),
+        left_out: &left_out,
     };
-    if let Some(joint) = case.counts().iter().position(|c| !c.contains(&true)) {
-        return Err(Refused::Still { file: log.files.join(", "), joint: joint + 1 });
-    }
-    let simple = Simple::of(&case, options.seed);
+    let mut simple = Simple::of(&case, options.seed);
+    let case = match domain {
+        Domain::Torque => Case { late: case.late + simple.delay.abs(), ..case },
+        Domain::Position => case,
+    };
     let mut wanted = search::wanted(&case, &simple, &options.catalogue, options.effects.as_deref());
     let links = links(&case, options);
     if links == Links::Free {
@@ -114,9 +147,16 @@ pub fn diagnosed_with(
         });
     }
     let mut dict = Dictionary::of(&case, &simple, &wanted, 1);
-    let told = Told { arm, kind: case.kind, current, sizes: sizes(&dict) };
+    let told = Told { case: &case, arm, kind: case.kind, current, sizes: sizes(&dict) };
     let history = RefCell::new(History::default());
     let mut terms: Vec<Term> = Vec::new();
+    if let Some(late) = dict.late().filter(|_| simple.delay != 0.0) {
+        let sizes = dict.sizes(&[dict.left(&links, &[])], &[1.0]);
+        let offers: Vec<usize> = (0..dict.offers.len()).collect();
+        let none = Round::of(&dict, &[], &links, &sizes, &offers, options.seed);
+        history.borrow_mut().note(&dict, &told, &none);
+        terms.push(late);
+    }
     let mut again = 0;
     let verdict = loop {
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
@@ -126,7 +166,11 @@ pub fn diagnosed_with(
         };
         let last = search::search(&dict, &terms, &links, &offers, options.seed, &mut each);
         let verdict = converged(&dict, &last, &offers, options.seed, &mut each);
-        if again == AGAIN || !moved_on(&dict, &verdict.fit.terms) {
+        // What is made of loads is made of those of the links as they are fitted beside it.
+        let of_loads = verdict.fit.terms.iter().any(|term| term.effect.is_of_loads());
+        let better = of_loads && links == Links::Free;
+        let better = better && simple.moved_to(&dict, &verdict.fit.values[..dict.base]);
+        if again == AGAIN || !(better || moved_on(&dict, &verdict.fit.terms)) {
             break verdict;
         }
         again += 1;
@@ -151,8 +195,11 @@ pub fn diagnosed_with(
         Links::Known(values) => values.clone(),
         Links::Free => fitted[..dict.base].to_vec(),
     };
-    let acting =
-        |term: &Term| Acting { effect: term.effect, spot: term.spot, values: term.values.clone() };
+    let acting = |term: &Term| Acting {
+        effect: term.effect,
+        spot: term.spot,
+        values: case.at_least_none(term),
+    };
     let model = Model {
         rows: domain,
         drive,
@@ -160,11 +207,12 @@ pub fn diagnosed_with(
         band: signals.band,
         still: still.clone(),
         payloads: options.payloads.clone(),
-        known: known.clone(),
+        known: all_known,
         terms: verdict.findings.iter().map(|judged| acting(&judged.term)).collect(),
         rigid: rigid(&verdict.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
+        readings,
         springs: Springs::of(&dict, &verdict),
     };
     let asked = instrument::Asked {
@@ -214,9 +262,39 @@ pub fn diagnosed_with(
             log.period(),
         ),
         unexplained: Unexplained { present: !depends_on.is_empty(), depends_on },
-        remarks: [log.remarks(), log.doubts(arm)].concat(),
+        remarks: [
+            model.readings.sentences(told_log),
+            log.remarks(),
+            signals.remark().into_iter().collect(),
+            log.doubts(arm),
+            placeholder(arm, side).into_iter().collect(),
+        ]
+        .concat(),
     };
     Ok((diagnosis, model))
+}
+
+/// A log at even steps, and the speeds below which its joints count as standing.
+///
+/// # Errors
+/// [`Refused`]: a band or a speed that is none, or less motion than can be divided.
+fn prepared(
+    log: &Log,
+    drive: Option<Signal>,
+    options: &LogOptions,
+) -> Result<(Signals, Vec<f64>), Refused> {
+    options.checked(log.period())?;
+    let mut signals = Signals::of(log, drive, options.band);
+    let (found, expected) =
+        (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
+    if found < expected {
+        return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
+    }
+    let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
+    let still: Vec<f64> = signals.qd.iter().map(still).collect();
+    signals.mark_ways(&still);
+    Ok((signals, still))
 }
 
 /// Of each run the numbers of the load that is known to be on the last link, in its frame.
@@ -314,6 +392,7 @@ impl History {
 
 /// How numbers are told.
 struct Told<'a> {
+    case: &'a Case<'a>,
     arm: &'a Arm,
     kind: (Domain, Option<TorqueSide>),
     current: bool,
@@ -322,6 +401,20 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
+    /// A place; of what is held all runs that name it.
+    fn place(&self, spot: Spot) -> String {
+        let Place::Held(first) = spot.place else { return spot.to_string() };
+        let case = self.case;
+        let runs = (0..case.payloads.len()).filter(|run| case.held_as(*run) == first - 1);
+        let runs: Vec<String> = runs.map(|run| (run + 1).to_string()).collect();
+        match runs.as_slice() {
+            [before @ .., last] if !before.is_empty() => {
+                format!("the tool in runs {} and {last}", before.join(", "))
+            }
+            _ => spot.to_string(),
+        }
+    }
+
     /// What a joint's gap is measured in.
     fn gap_unit(&self, joint: usize) -> &'static str {
         match (self.kind.0, self.arm.joints[joint].motion) {
@@ -371,8 +464,18 @@ impl Told<'_> {
 
     /// Mean over the joints of what is left, as a part of their sizes.
     fn mean(&self, left: &[f64]) -> f64 {
-        let parts = left.iter().zip(&self.sizes).map(|(left, whole)| left / whole);
-        parts.sum::<f64>() / left.len() as f64
+        let own = left.iter().zip(&self.sizes).zip(self.case.left_out);
+        let parts: Vec<f64> =
+            own.filter(|(_, out)| !**out).map(|((left, whole), _)| left / whole).collect();
+        parts.iter().sum::<f64>() / parts.len().max(1) as f64
+    }
+
+    fn alternative(&self, (term, leaves): &(Term, f64)) -> Alternative {
+        Alternative {
+            effect: term.effect.identifier().into(),
+            place: self.place(term.spot),
+            left: Left::InMotion { leaves: *leaves },
+        }
     }
 
     /// In the order in which they were added.
@@ -392,18 +495,19 @@ impl Told<'_> {
             let name = (term.effect.identifier(), term.spot);
             // The first round that had it, and the one before.
             let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
-            let numbers = term.effect.parameters().iter().zip(&term.values).zip(&mut widths);
+            let numbers =
+                term.effect.parameters().iter().zip(self.case.at_least_none(term)).zip(&mut widths);
             let held_out = HeldOutGap::InMotion {
                 held_out_before: left[with - 1].1,
                 held_out_after: left[with].1,
             };
             Finding {
                 effect: name.0.into(),
-                place: term.spot.to_string(),
+                place: self.place(term.spot),
                 parameters: numbers
                     .map(|((parameter, value), width)| Parameter {
                         name: parameter.key.into(),
-                        value: *value,
+                        value,
                         unit: self.unit(parameter.quantity.unit(), term.spot).into(),
                         ci95: [value - width, value + width],
                         by_command: told_by_command.next(),
@@ -413,19 +517,11 @@ impl Told<'_> {
                 held_out,
                 p_value: judged.chance,
                 stability: None,
-                alternatives: judged.rivals.iter().map(alternative).collect(),
+                alternatives: judged.rivals.iter().map(|rival| self.alternative(rival)).collect(),
                 to_separate: (!judged.rivals.is_empty())
                     .then(|| Some(term.effect.facts().separated_by.to_owned())),
             }
         };
         verdict.findings.iter().map(&mut tell).collect()
-    }
-}
-
-fn alternative((term, leaves): &(Term, f64)) -> Alternative {
-    Alternative {
-        effect: term.effect.identifier().into(),
-        place: term.spot.to_string(),
-        left: Left::InMotion { leaves: *leaves },
     }
 }

@@ -67,6 +67,8 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
         known: &[],
         payloads: &[None],
         loaded: &[None],
+        late: 0.0,
+        left_out: &[],
     };
     let wanted = [(&UNRELATED as &dyn InMotion, Spot::of_joint(0), vec![vec![0.0]])];
     let dict = Dictionary::of(&case, &Simple::default(), &wanted, 1);

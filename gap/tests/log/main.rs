@@ -4,6 +4,7 @@ mod evidence;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 mod formats;
 mod instrument;
+mod mistaken;
 mod own;
 mod plant;
 mod planted;

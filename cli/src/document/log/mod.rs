@@ -287,8 +287,10 @@ impl Log<'_> {
 
 /// Mean of the joints' errors as parts of their sizes, before and after.
 pub fn left(gap: &[JointGap]) -> [f64; 2] {
+    // A joint that is left out has none.
+    let own: Vec<&JointGap> = gap.iter().filter(|g| g.before > 0.0 || g.after > 0.0).collect();
     let mean = |of: fn(&JointGap) -> f64| {
-        gap.iter().map(|g| of(g) / g.size).sum::<f64>() / gap.len() as f64
+        own.iter().map(|g| of(g) / g.size).sum::<f64>() / own.len().max(1) as f64
     };
     [mean(|g| g.before), mean(|g| g.after)]
 }

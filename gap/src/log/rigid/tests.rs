@@ -16,24 +16,6 @@ fn weighty(convention: &str) -> Arm {
     fixture::arm(&format!("name = \"weighty\"\nconvention = \"{convention}\"\n{rows}"))
 }
 
-/// Against the mass matrix of the textbook.
-#[test]
-fn what_a_joint_alone_accelerates_is_the_diagonal_of_the_mass_matrix() {
-    for arm in ["standard", "modified"].map(weighty) {
-        let q: Vec<f64> = (0..arm.dof()).map(|k| 0.4 - 0.7 * k as f64).collect();
-        let mass = arm.mass_matrix(&q);
-        // Rotors are no links.
-        let rotor = |k: usize| arm.joints[k].drive.gear.powi(2) * arm.joints[k].drive.rotor_inertia;
-        for (k, found) in diagonal(&arm, &q, &arm.moments()).into_iter().enumerate() {
-            let expected = mass[(k, k)] - rotor(k);
-            assert!(
-                (found - expected).abs() < 1e-12 * mass[(0, 0)].abs().max(1.0),
-                "{found} {expected}"
-            );
-        }
-    }
-}
-
 /// A body that is moved is the body whose centre is there, and whose tensor is turned.
 #[test]
 fn a_body_is_the_same_in_another_frame() {
@@ -67,6 +49,11 @@ fn what_the_moments_ask_is_what_the_textbook_says() {
             let off = DMatrix::from_column_slice(n, 10 * n, &asks) - &expected;
             // Some hundred roundings of terms of this size.
             assert!(off.amax() < 1e-13 * expected.amax(), "{:e}", off.amax());
+            let moments = arm.moments();
+            let torques = works.torques([&q, &rates, &accelerations], &moments);
+            let expected = expected * nalgebra::DVector::from_vec(moments);
+            let off = nalgebra::DVector::from_vec(torques) - &expected;
+            assert!(off.amax() < 1e-12 * expected.amax(), "{:e}", off.amax());
         }
     }
 }

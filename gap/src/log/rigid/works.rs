@@ -62,13 +62,7 @@ impl Works {
     pub fn regressor(&self, motion: [&[f64]; 3], asks: &mut [f64]) {
         let n = self.rows.len();
         let mut axes = Vec::with_capacity(n);
-        let mut link = Link {
-            turn: Matrix3::identity(),
-            origin: Vector3::zeros(),
-            spin: Vector3::zeros(),
-            spin_rate: Vector3::zeros(),
-            acceleration: -self.gravity,
-        };
+        let mut link = Link::base(&self.gravity);
         for (k, row) in self.rows.iter().enumerate() {
             axes.push(link.go(row, self.convention, motion.map(|of| of[k])));
             let own = &mut asks[10 * n * k..10 * n * (k + 1)];
@@ -80,7 +74,52 @@ impl Works {
     }
 }
 
+impl Works {
+    /// What links of these numbers, ten each, ask of the joints in a motion.
+    pub fn torques(&self, motion: [&[f64]; 3], numbers: &[f64]) -> Vec<f64> {
+        let mut link = Link::base(&self.gravity);
+        let mut axes = Vec::with_capacity(self.rows.len());
+        let mut torques = vec![0.0; self.rows.len()];
+        for (k, row) in self.rows.iter().enumerate() {
+            axes.push(link.go(row, self.convention, motion.map(|of| of[k])));
+            let (force, moment) = link.asks(&numbers[10 * k..10 * k + 10]);
+            for (axis, torque) in axes.iter().zip(&mut torques) {
+                *torque += match axis.motion {
+                    Motion::Prismatic => axis.direction.dot(&force),
+                    Motion::Revolute => {
+                        let lever = link.origin - axis.point;
+                        axis.direction.dot(&(moment + lever.cross(&force)))
+                    }
+                };
+            }
+        }
+        torques
+    }
+}
+
 impl Link {
+    /// What does not move, and is thrown against gravity.
+    fn base(gravity: &Vector3<f64>) -> Link {
+        Link {
+            turn: Matrix3::identity(),
+            origin: Vector3::zeros(),
+            spin: Vector3::zeros(),
+            spin_rate: Vector3::zeros(),
+            acceleration: -gravity,
+        }
+    }
+
+    /// The force, and the moment about the frame's origin, that a body of such numbers asks for, base axes.
+    fn asks(&self, numbers: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+        let told = |x: &Vector3<f64>| self.turn.tr_mul(x);
+        let [w, d, a] = [&self.spin, &self.spin_rate, &self.acceleration].map(told);
+        let first = Vector3::new(numbers[1], numbers[2], numbers[3]);
+        let tensor = super::tensor(numbers);
+        let force = a * numbers[0] + d.cross(&first) + w.cross(&w.cross(&first));
+        let moment = first.cross(&a) + tensor * d + w.cross(&(tensor * w));
+        (self.turn * force, self.turn * moment)
+    }
+
     /// Goes on to the next row's link, whose joint has this value, rate and acceleration; its axis.
     fn go(
         &mut self,

@@ -67,15 +67,16 @@ impl Blocks {
         Blocks { all, fold, folds: 1, by_run: false, length: 0.0, long_enough: false }
     }
 
-    /// Of a log in which what is left has this correlation time.
-    pub fn of(segments: &[Segment], signals: &Signals, correlation: f64) -> Blocks {
+    /// Of a log in which what is left has this correlation time; whole runs are held out if they `may` be, and are
+    /// enough.
+    pub fn of(segments: &[Segment], signals: &Signals, correlation: f64, may: bool) -> Blocks {
         let rows: usize = segments.iter().map(|segment| segment.rows.len()).sum();
         let segment = rows as f64 / segments.len() as f64 * signals.step();
         let wanted = LENGTH * correlation.max(signals.reach());
         let most = (segments.len() / LEAST).max(1);
         let each = ((wanted / segment).ceil() as usize).clamp(1, most);
         let runs = runs(segments);
-        let by_run = runs.len() >= RUNS;
+        let by_run = may && runs.len() >= RUNS;
         let mut all = Vec::new();
         for (run, own) in &runs {
             let count = (own.len() / each).max(1);

@@ -7,7 +7,7 @@
 use super::dictionary::Dictionary;
 use super::fit::Fitted;
 use super::judge::{Verdict, judged};
-use super::{Round, along, exchange};
+use super::{Round, along, friction};
 
 /// Judges what a search has found, and finds again what its judgement leaves without a name, as long as less is left
 /// with it. `each` is told of every round.
@@ -26,9 +26,8 @@ pub fn converged(
     loop {
         let round = Round::of(dict, &verdict.fit.terms, links, &verdict.sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best() else { return verdict };
-        let terms = exchange::added(dict, &round, &best.term, offers, seed);
-        let terms = along::with_along(dict, terms, offers);
+        let Some(more) = friction::next(dict, &round, offers, seed) else { return verdict };
+        let terms = along::with_along(dict, more, offers);
         let fit = Fitted::of(dict, &terms, links, &round.sizes);
         let sizes = fit.sizes(dict);
         let again = judged(dict, &Round { fit, sizes, ..round }, offers, seed);

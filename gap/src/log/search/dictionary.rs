@@ -13,10 +13,12 @@ use rayon::prelude::*;
 
 use super::blocks::{Block, Blocks};
 use super::case::{Case, Simple, Wanted};
+use super::fit::Term;
 use super::segments::{Segment, segments};
 use super::sums::Sums;
 use crate::infer::correlation_time;
-use crate::log::effects::{LogEffect, Spot};
+use crate::log::effects::{LATE, LogEffect, Spot};
+use crate::log::scene::Domain;
 use crate::log::signal::Signals;
 
 /// Rows that are kept, about.
@@ -30,7 +32,7 @@ const STRETCH: usize = 16_384;
 pub struct Mixed {
     /// A stored column, and how often.
     pub of: Vec<(usize, f64)>,
-    /// The one run that it is of; zero in all others.
+    /// The one run that it is of, and those that carry the same; zero in all others.
     pub run: Option<usize>,
 }
 
@@ -160,6 +162,16 @@ impl<'a> Dictionary<'a> {
         dict
     }
 
+    /// Torques that are told late, about the longest delay that is asked for.
+    pub fn late(&self) -> Option<Term> {
+        let is_late = |offer: &Offer| {
+            offer.effect.domain() == Domain::Torque
+                && offer.effect.identifier() == LATE.identifier()
+        };
+        let offer = self.offers.iter().position(is_late)?;
+        Some(self.term(offer, self.offers[offer].entries.len() - 1))
+    }
+
     /// The same without the rows of a fold, nor those behind them that the filter still reaches from there.
     #[must_use]
     pub fn without(&self, blocks: &Blocks, fold: usize) -> Dictionary<'a> {
@@ -188,6 +200,12 @@ impl<'a> Dictionary<'a> {
         dict
     }
 
+    /// The time divided for a residual of this correlation time, s.
+    pub fn blocks(&self, correlation: f64) -> Blocks {
+        let by_run = !self.case.is_held_once();
+        Blocks::of(&self.segments, self.case.signals, correlation, by_run)
+    }
+
     /// Products of all columns of each joint over whole runs.
     pub fn whole(&self) -> &Sums {
         &self.whole
@@ -213,7 +231,7 @@ impl<'a> Dictionary<'a> {
             blocks.all.iter().map(block).collect()
         };
         Sums {
-            runs: blocks.all.iter().map(|block| block.run).collect(),
+            runs: blocks.all.iter().map(|block| self.case.held_as(block.run)).collect(),
             at: self.joints.iter().map(|own| own.at.clone()).collect(),
             joints: self.joints.iter().map(joint).collect(),
         }
@@ -270,7 +288,7 @@ impl<'a> Dictionary<'a> {
     }
 
     fn run_of(&self, row: usize) -> usize {
-        self.segments[self.segment_of(row)].run
+        self.case.held_as(self.segments[self.segment_of(row)].run)
     }
 
     /// The block that a row is in; `None` of one between two blocks.
@@ -368,7 +386,7 @@ fn bring(
         if rows.is_empty() {
             continue;
         }
-        let (part, before) = signals.stretch(span, &rows);
+        let (part, before) = signals.stretch(span, &rows, case.late);
         let columns = case.columns(simple, wanted, &part, span.run);
         for joint in 0..joints {
             let parts = columns.iter().enumerate().flat_map(|(id, column)| {

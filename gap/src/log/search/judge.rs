@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::along::{is_along, with_along};
 use super::blocks::Blocks;
-use super::candidates::Asked;
+use super::candidates::{Asked, Candidate};
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
-use super::{Round, is_worse};
+use super::{Round, friction, is_worse};
 use crate::effects::Place;
 use crate::infer::constants::SIGNIFICANT;
-use crate::log::effects::{LINKS, Spot};
+use crate::log::effects::{LINKS, SCALE, Spot};
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
 /// the best of unrelated things does not usually do as much.
@@ -73,7 +73,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
         // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
         let correlation = fit.correlation(dict);
         let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = Blocks::of(&dict.segments, dict.case.signals, longest);
+        let blocks = dict.blocks(longest);
         let sums = dict.sums(&blocks);
         let divided = (&blocks, &sums);
         let without = |k: usize| -> Judged {
@@ -83,7 +83,16 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             let asked: Vec<usize> = offers.iter().filter(near).copied().collect();
             let lacks = Fitted::of(dict, &others, &fit.links, &sizes);
             let mut judged =
-                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(term);
+                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(dict, term);
+            let own = judged.squares.iter().sum::<f64>();
+            let instead =
+                friction::instead(dict, &fit, &judged.term, &sizes, divided, &judged.squares, seed);
+            for (rival, left) in instead {
+                let is_it = |(t, _): &(Term, f64)| t.offer == rival.offer;
+                if !judged.rivals.iter().any(is_it) {
+                    judged.rivals.push((rival, (left.iter().sum::<f64>() / own).sqrt()));
+                }
+            }
             if fit.links != Links::Free
                 && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
             {
@@ -94,7 +103,7 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             judged
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
-        let wrong = |j: &Judged| !j.term.effect.may_be(&j.term.values);
+        let wrong = |j: &Judged| !dict.case.may_be(&j.term);
         let doubted =
             |j: &Judged| wrong(j) || (j.chance > SIGNIFICANT && !is_along(&j.term, &fit.terms));
         let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
@@ -126,9 +135,21 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
     }
 }
 
+/// Whether a body's numbers hold what a scale of all loads does: that body, so many times. It leaves as little, and on what
+/// is held out it is worse by the numbers that it has more alone.
+fn has_it_in(dict: &Dictionary<'_>, body: &Candidate, scale: &Candidate) -> bool {
+    let is_scale = scale.term.effect.identifier() == SCALE.identifier();
+    let is_body = body.term.effect.carried(dict.case.arm, body.term.spot).is_some();
+    let is_all = scale.term.spot.place == Place::Arm;
+    is_scale && is_all && is_body && body.takes() >= ALL * scale.takes()
+}
+
+/// What is taken by more columns is as much but for the rounding of products of thousands of rows.
+const ALL: f64 = 1.0 - 1e-6;
+
 impl Asked {
     /// The finding that the model lacks.
-    fn judge(self, term: Term) -> Judged {
+    fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
         let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
             return Judged { term, chance: 1.0, squares: self.squares, rivals: Vec::new() };
@@ -140,8 +161,9 @@ impl Asked {
                 let rival = &self.candidates[*k];
                 *k != own
                     && self.p_values[*k] <= RIVAL
-                    && rival.term.effect.may_be(&rival.term.values)
-                    && !is_worse(&rival.squares, best)
+                    && dict.case.may_be(&rival.term)
+                    && (!is_worse(&rival.squares, best)
+                        || has_it_in(dict, rival, &self.candidates[own]))
             })
             .collect();
         rivals.sort_by(|a, b| left(*a).total_cmp(&left(*b)));

@@ -10,9 +10,11 @@ pub mod blocks;
 pub mod candidates;
 pub mod case;
 pub mod converge;
+pub mod delay;
 pub mod dictionary;
 mod exchange;
 pub mod fit;
+mod friction;
 pub mod judge;
 pub mod nested;
 pub mod residual;
@@ -62,7 +64,7 @@ pub fn wanted(
     catalogue: &Catalogue,
     only: Option<&[String]>,
 ) -> Vec<Wanted> {
-    let loads = Loads::default();
+    let loads = Loads { delay: simple.delay, ..Loads::default() };
     let scene = case.scene(simple, case.signals, &loads);
     let named = |e: &&dyn LogEffect| {
         only.is_none_or(|names| names.iter().any(|name| name == e.identifier()))
@@ -94,7 +96,7 @@ impl Round {
         let correlation = fit.correlation(dict);
         let divided = |correlation: &[f64]| {
             let longest = correlation.iter().copied().fold(0.0, f64::max);
-            Blocks::of(&dict.segments, dict.case.signals, longest)
+            dict.blocks(longest)
         };
         let ask = |blocks: &Blocks| {
             let sums = dict.sums(blocks);
@@ -110,9 +112,9 @@ impl Round {
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
         // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
         // what takes less, and would be taken for it bit by bit.
-        let best = round.best().map_or(0.0, Candidate::takes);
-        let most = round.asked.most(best);
-        let looks = most.len() as f64;
+        let best = round.best(dict.case).map_or(0.0, Candidate::takes);
+        let most = round.asked.most(dict.case, best);
+        let looks = 1.0 + most.len() as f64;
         for most in most {
             let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
             let correlation = Fitted::of(dict, &with, links, &sizes).correlation(dict);
@@ -122,13 +124,13 @@ impl Round {
             }
             let mut asked = ask(&blocks);
             for (chance, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
-                // Each look is another question that chance may answer (Bonferroni).
+                // Each look is another question that chance may answer, as was the first (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;
                 *chance = if is_it { (looks * *chance).min(1.0) } else { 1.0 };
             }
             let (fit, sizes) = (fit.clone(), sizes.clone());
             let again = Round { correlation, blocks, asked, fit, sizes };
-            if again.best().is_some() {
+            if again.best(dict.case).is_some() {
                 return again;
             }
         }
@@ -137,14 +139,14 @@ impl Round {
 
     /// The candidate that takes most of what is held out by each of its numbers, of those that chance
     /// does not explain.
-    pub fn best(&self) -> Option<&Candidate> {
+    pub fn best(&self, case: &Case<'_>) -> Option<&Candidate> {
         let Asked { squares, candidates, p_values } = &self.asked;
         let whole: f64 = squares.iter().sum();
         let left = |c: &Candidate| c.squares.iter().sum::<f64>();
         let gain = |c: &Candidate| (whole - left(c)) / c.things();
         let told =
             candidates.iter().zip(p_values).filter(|(_, p)| **p <= SIGNIFICANT).map(|(c, _)| c);
-        let told = told.filter(|c| left(c) < whole && c.term.effect.may_be(&c.term.values));
+        let told = told.filter(|c| left(c) < whole && case.may_be(&c.term));
         told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
     }
 }
@@ -152,10 +154,10 @@ impl Round {
 impl Asked {
     /// The candidates that chance may explain and that take most by each of their numbers, more than so much; that
     /// which does first.
-    fn most(&self, least: f64) -> Vec<&Candidate> {
+    fn most(&self, case: &Case<'_>, least: f64) -> Vec<&Candidate> {
         let open =
             self.candidates.iter().zip(&self.p_values).filter(|(_, chance)| **chance > SIGNIFICANT);
-        let may = open.map(|(c, _)| c).filter(|c| c.term.effect.may_be(&c.term.values));
+        let may = open.map(|(c, _)| c).filter(|c| case.may_be(&c.term));
         let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
         most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
         most.truncate(AGAIN);
@@ -210,10 +212,10 @@ pub fn search(
     loop {
         let round = Round::of(dict, &terms, links, &sizes, offers, seed);
         each(&round);
-        let Some(best) = round.best().filter(|_| rounds < MOST) else { return round };
+        let more = friction::next(dict, &round, offers, seed);
+        let Some(more) = more.filter(|_| rounds < MOST) else { return round };
         rounds += 1;
-        terms = exchange::added(dict, &round, &best.term, offers, seed);
-        terms = along::with_along(dict, terms, offers);
+        terms = along::with_along(dict, more, offers);
         sizes = round.sizes;
     }
 }
@@ -234,5 +236,6 @@ pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
 
 /// Independent numbers that the rows of the joints hold.
 pub fn effective(used: &[f64], correlation: &[f64], signals: &Signals) -> f64 {
-    used.iter().zip(correlation).map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
+    let all = used.iter().zip(correlation).filter(|(rows, _)| **rows > 0.0);
+    all.map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
 }

@@ -11,7 +11,7 @@ use crate::infer::Products;
 /// Products of the stored columns of each joint, block by block.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
-    /// The run of each block.
+    /// The run of each block: the first that carries the same.
     pub runs: Vec<usize>,
     /// Where each stored column stands among a joint's, of each joint.
     pub at: Vec<Vec<Option<usize>>>,

@@ -101,9 +101,38 @@ pub fn rate(x: &[f64], period: f64) -> Vec<f64> {
     (0..n).map(|k| slope(k) / period).collect()
 }
 
+/// Even samples as they are so many steps later, by the cubic through the four around; beyond an end the last.
+pub fn later(x: &[f64], steps: f64) -> Vec<f64> {
+    let last = x.len().saturating_sub(1) as f64;
+    let at = |k: f64| x[k.clamp(0.0, last) as usize];
+    let between = |k: usize| {
+        let at_time = (k as f64 + steps).clamp(0.0, last);
+        let (before, s) = (at_time.floor(), at_time.fract());
+        let [a, b, c, d] = [-1.0, 0.0, 1.0, 2.0].map(|by| at(before + by));
+        // Lagrange's polynomials at −1, 0, 1 and 2.
+        b * (1.0 - s * s) * (1.0 - 0.5 * s)
+            + c * s * (1.0 + s) * (1.0 - 0.5 * s)
+            + s * (1.0 - s) * ((s - 2.0) * a - (1.0 + s) * d) / 6.0
+    };
+    (0..x.len()).map(between).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A cubic is read exactly between its samples, and beyond the end the last is.
+    #[test]
+    fn samples_later_are_those_of_the_cubic_through_four() {
+        let cubic = |t: f64| 0.5 * t * t * t - 2.0 * t * t + t - 3.0;
+        let x: Vec<f64> = (0..9).map(|k| cubic(f64::from(k))).collect();
+        let moved = later(&x, 1.3);
+        for (k, is) in moved.iter().enumerate().take(6) {
+            let there = cubic(k as f64 + 1.3);
+            assert!((is - there).abs() < 1e-12 * there.abs().max(1.0), "{k}: {is}, not {there}");
+        }
+        assert_eq!((moved[8], later(&x, 0.0)), (x[8], x));
+    }
 
     const PERIOD: f64 = 1e-3;
 

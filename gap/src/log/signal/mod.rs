@@ -13,6 +13,7 @@
 
 mod band;
 pub mod filter;
+mod repeats;
 #[cfg(test)]
 mod tests;
 
@@ -36,6 +37,9 @@ const WIDER: f64 = 2.0;
 
 /// Reaches of the filter after which nothing of an end is left: a thousandth of each is, of four 1e-12.
 const ROOM: f64 = 4.0;
+
+/// Reaches of the filter that a period lasts of which one is enough: eight blocks of twice the reach.
+const LONG: f64 = 16.0;
 
 /// Jitter below this part of a step is none: stamps are rounded.
 const ROUNDED: f64 = 0.02;
@@ -80,6 +84,8 @@ pub struct Signals {
     pub band: f64,
     /// Step between fine samples, s.
     pub period: f64,
+    /// How often a motion is repeated, and after how long, s: its periods are averaged.
+    pub repeated: Option<(usize, f64)>,
     /// Fine samples per one that is kept.
     every: usize,
     filter: Option<LowPass>,
@@ -113,6 +119,18 @@ impl Signals {
             let narrowest = if drive.is_some() { band::TORQUES } else { band::POSITIONS };
             band::found(&evens.iter().map(joints).collect::<Vec<_>>(), period, narrowest)
         });
+        let mut repeated = None;
+        let evens: Vec<Even> = evens
+            .into_iter()
+            .map(|even| {
+                let steps = drive.and_then(|_| repeats::found(&even.signals[0], period));
+                let long = |steps: &usize| *steps as f64 * period >= LONG * LowPass::reach(band);
+                let Some(steps) = steps.filter(long) else { return even };
+                let count = even.t.len() / steps;
+                repeated = Some(repeated.unwrap_or((count, steps as f64 * period)));
+                even.averaged(steps)
+            })
+            .collect();
         let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
         let thin = thinning(band, period);
         let period = period * thin as f64;
@@ -133,6 +151,7 @@ impl Signals {
             contact: Vec::new(),
             band,
             period,
+            repeated,
             every,
             filter: LowPass::new(band, period),
         };
@@ -208,10 +227,36 @@ impl Signals {
         Some(Signals { q, qd, qdd, ..self.clone() })
     }
 
-    /// A part of a span by itself, with so much room at both its ends that no end is felt in its `rows`;
-    /// and how many of its rows are that room, before them.
-    pub fn stretch(&self, span: &Span, rows: &Range<usize>) -> (Signals, usize) {
-        let room = (ROOM * self.reach() / self.step()).ceil() as usize;
+    /// Torques of a joint at the fine samples, through the filter: of now, and of `delay` s later. By cubics through four
+    /// samples: [`FINE`] of them are there for each period of the band's edge. Beyond an end it is the last.
+    pub fn drive_and_later(&self, joint: usize, delay: f64) -> (Vec<f64>, Vec<f64>) {
+        let (mut now, mut later) = (Vec::new(), Vec::new());
+        for span in &self.spans {
+            let smooth = self.smoothed(&self.drive[joint][span.fine.clone()]);
+            later.extend(filter::later(&smooth, delay / self.period));
+            now.extend(smooth);
+        }
+        (now, later)
+    }
+
+    /// Brings torques that are told `delay` s late beside the motion that they belong to.
+    pub fn align(&mut self, delay: f64) {
+        if delay == 0.0 {
+            return;
+        }
+        let by = delay / self.period;
+        for joint in &mut self.drive {
+            for span in &self.spans {
+                let moved = filter::later(&joint[span.fine.clone()], by);
+                joint[span.fine.clone()].copy_from_slice(&moved);
+            }
+        }
+    }
+
+    /// A part of a span by itself, with so much room at both its ends, and `late` s more, that no end is felt in its
+    /// `rows`; and how many of its rows are that room, before them.
+    pub fn stretch(&self, span: &Span, rows: &Range<usize>, late: f64) -> (Signals, usize) {
+        let room = ((ROOM * self.reach() + late) / self.step()).ceil() as usize;
         let from = rows.start.saturating_sub(room).max(span.kept.start);
         let to = (rows.end + room).min(span.kept.end);
         let at = |row: usize| span.fine.start + (row - span.kept.start) * self.every;
@@ -237,6 +282,15 @@ impl Signals {
         (signals, rows.start - from)
     }
 
+    /// What is to be said of a motion that is repeated.
+    pub fn remark(&self) -> Option<String> {
+        let (count, period) = self.repeated?;
+        Some(format!(
+            "the motion repeats {count} times, every {period:.3} s, sample by sample: the repeats are averaged, since an error \
+             that all of them share is no chance"
+        ))
+    }
+
     /// Number of joints.
     pub fn joints(&self) -> usize {
         self.q.len()
@@ -258,9 +312,10 @@ impl Signals {
     }
 
     /// Of the samples that are kept, those that no end of a span reaches through the filters: the band's, the
-    /// one of the joint values and that of the thinning, whose reaches are 1, 1/2 and at most 1/4.
-    pub fn settled(&self) -> Vec<bool> {
-        let edge = (2.0 * self.reach() / self.step()).ceil() as usize;
+    /// one of the joint values and that of the thinning, whose reaches are 1, 1/2 and at most 1/4; nor by torques
+    /// that are told `late` s late.
+    pub fn settled(&self, late: f64) -> Vec<bool> {
+        let edge = ((2.0 * self.reach() + late) / self.step()).ceil() as usize;
         let of = |span: &Span| {
             let count = span.kept.len();
             (0..count).map(move |k| k >= edge && k + edge < count)

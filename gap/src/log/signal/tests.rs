@@ -47,7 +47,7 @@ fn torques_and_accelerations_pass_alike() {
         assert!((signals.step() - 0.02).abs() < 6e-3, "{}", signals.step());
         // The differences' fourth-order error at 1 Hz, twice: (ωT)⁴/15; the wider filter takes 2e-11.
         let error = (TAU * signals.period).powi(4) / 15.0 + 1e-6;
-        for (k, _) in signals.settled().iter().enumerate().filter(|(_, settled)| **settled) {
+        for (k, _) in signals.settled(0.0).iter().enumerate().filter(|(_, settled)| **settled) {
             assert!((drive[k] - computed[k]).abs() < error * TAU * TAU, "{step} {k}");
         }
     }

@@ -13,7 +13,8 @@ const TORQUE: &Facts = &Facts {
     confused_with: "All inertias, exactly so if all joints have the same.",
     separated_by: "A known payload: the same motion with and without.",
     formula: "τ → (1 + scale) τ",
-    parameters: &[Parameter::at_least("scale", Quantity::Ratio, (-1.0_f64).next_up())],
+    // Torque constants of one type of motor scatter by a tenth in makers' data sheets.
+    parameters: &[Parameter::at_least("scale", Quantity::Ratio, (-1.0_f64).next_up()).usually(0.1)],
     at: At::JointsAndArm,
     ..Facts::TORQUE
 };
@@ -25,6 +26,10 @@ impl Law for TorqueScale {
 }
 
 impl InMotion for TorqueScale {
+    fn is_of_loads(&self) -> bool {
+        true
+    }
+
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         if spot.place != Place::Arm {
             let joint = spot.row();

@@ -65,8 +65,8 @@ impl AtRest for JointCompliance {
     }
 }
 
-/// The link lags behind the encoder at the motor by `compliance · τ`, so that its inertia feels
-/// `−compliance · τ̈` more (Spong 1987, to first order; the change of the weights' moment is left out).
+/// The link lags behind the encoder at the motor by `compliance · τ` (Spong 1987): all joints feel the weights, speeds and
+/// accelerations of a link that is elsewhere than is read, to first order.
 #[derive(Clone, Copy, Debug)]
 pub struct JointElasticity;
 
@@ -76,10 +76,10 @@ const TORQUE: &Facts = &Facts {
     reality: "A gear gives, and the encoder stands before it: the link goes another way than is \
         read.",
     signature: "A torque that goes with the second rate of what the joint carries, times its \
-        inertia.",
+        inertia, and one that goes with its weight as the link sags.",
     confused_with: "`rotor_inertia`, `latency`, `torque_ripple`.",
     separated_by: "An encoder at the link; fast motion in folded and stretched postures.",
-    formula: "τ → τ − compliance · J τ̈",
+    formula: "τ → τ(q − compliance · τ)",
     parameters: &[Parameter::at_least("compliance", Quantity::AnglePerMoment, 0.0)],
     ..Facts::TORQUE
 };
@@ -94,15 +94,26 @@ impl InMotion for JointElasticity {
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, _: &[f64]) -> Vec<Column> {
         let (joint, signals) = (spot.row(), scene.signals);
         let load = signals.smoothed(&scene.loads.rigid[joint]);
-        let bent = rate(&rate(&load, signals.period), signals.period);
-        let inertia = &scene.inertias()[joint];
-        vec![scene.column(joint, |k| -inertia[k] * bent[k])]
+        let loads = rate(&load, signals.period);
+        let bent = [rate(&loads, signals.period), loads, load];
+        let most = bent[2].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let by = if most > 0.0 { SAGS / most } else { 0.0 };
+        let parts = scene.when_moved(joint, by, &bent).into_iter().enumerate();
+        let parts = parts.map(|(on, change)| (on, signals.filtered(&change)));
+        vec![Column { parts: parts.collect() }]
+    }
+
+    fn is_of_loads(&self) -> bool {
+        true
     }
 
     fn excluded(&self, scene: &LogScene<'_>) -> Option<String> {
         behind_the_gear(scene)
     }
 }
+
+/// By how much a joint is moved at most to see what its sag changes, rad or m: first order to as much.
+const SAGS: f64 = 1e-4;
 
 /// Torques below this part of the largest are none.
 const ROUNDING: f64 = 1e-9;

@@ -27,14 +27,14 @@ impl InMotion for CoulombFriction {
         vec![scene.column(joint, |k| scene.sign(joint, k))]
     }
 
-    fn in_file(&self, scene: &LogScene<'_>, spot: Spot) -> bool {
-        scene.side.is_some_and(TorqueSide::is_driven)
-            && scene.arm.joints[spot.row()].drive.coulomb > 0.0
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+        of_drive(arm, side, spot, |drive| drive.coulomb)
     }
 
     fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
         file.at_row(spot.place, |row| {
-            row.joint.drive.coulomb = Some(significant(row.nominal.drive.coulomb + values[0]));
+            row.joint.drive.coulomb =
+                Some(significant((row.nominal.drive.coulomb + values[0]).max(0.0)));
             "coulomb"
         })
     }

@@ -28,14 +28,14 @@ impl InMotion for ViscousFriction {
         vec![scene.column(joint, |k| scene.signals.qd[joint][k])]
     }
 
-    fn in_file(&self, scene: &LogScene<'_>, spot: Spot) -> bool {
-        scene.side.is_some_and(TorqueSide::is_driven)
-            && scene.arm.joints[spot.row()].drive.viscous > 0.0
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+        of_drive(arm, side, spot, |drive| drive.viscous)
     }
 
     fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
         file.at_row(spot.place, |row| {
-            row.joint.drive.viscous = Some(significant(row.nominal.drive.viscous + values[0]));
+            row.joint.drive.viscous =
+                Some(significant((row.nominal.drive.viscous + values[0]).max(0.0)));
             "viscous"
         })
     }

@@ -28,6 +28,10 @@ impl InMotion for RotorInertia {
         vec![scene.column(joint, |k| scene.signals.qdd[joint][k])]
     }
 
+    fn file_value(&self, arm: &Arm, side: Option<TorqueSide>, spot: Spot) -> f64 {
+        of_drive(arm, side, spot, |drive| drive.gear * drive.gear * drive.rotor_inertia)
+    }
+
     fn excluded(&self, scene: &LogScene<'_>) -> Option<String> {
         behind_the_gear(scene)
     }
@@ -37,7 +41,7 @@ impl InMotion for RotorInertia {
             let drive = &row.nominal.drive;
             // The file's is at the motor.
             let rotor = drive.rotor_inertia + values[0] / (drive.gear * drive.gear);
-            row.joint.drive.rotor_inertia = Some(significant(rotor));
+            row.joint.drive.rotor_inertia = Some(significant(rotor.max(0.0)));
             "rotor_inertia"
         })
     }

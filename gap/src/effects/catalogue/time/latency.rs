@@ -59,20 +59,21 @@ impl AtRest for Latency {
     }
 }
 
-/// All torques are those of `delay` ago, to first order.
+/// All torques are those of `delay` ago.
 #[derive(Clone, Copy, Debug)]
 pub struct TorqueLatency;
 
 const TORQUE: &Facts = &Facts {
     identifier: "latency",
     reality: "Torques are logged later than positions: another bus, another filter.",
-    signature: "A torque in proportion to the rate of what the model asks.",
+    signature: "All torques are those that the motion asked for some time ago.",
     confused_with: "`viscous_friction`, as weights go with the speed; `rotor_inertia`, \
-        `presliding`.",
+        `presliding`, where the delay is short.",
     separated_by: "Two speeds and reversals.",
-    formula: "τ → τ − delay · dτ/dt",
+    formula: "τ → τ(t − delay)",
     parameters: &[Parameter::free("delay", Quantity::Time)],
     at: At::Interface,
+    bends: true,
     ..Facts::TORQUE
 };
 
@@ -97,6 +98,49 @@ impl InMotion for TorqueLatency {
         };
         vec![Column { parts: (0..signals.joints()).map(|joint| (joint, of(joint))).collect() }]
     }
+
+    /// The torque of now less that which belongs to the motion of now, as it is told `delay` later. What is
+    /// shifted is the logged torque, with all that no effect explains: its noise stays as large as it is.
+    fn value(&self, scene: &LogScene<'_>, _: Spot, values: &[f64]) -> Column {
+        shifted(scene, values[0])
+    }
+
+    /// None, and the one that a scan over all delays has found.
+    fn probes(&self, scene: &LogScene<'_>, _: Spot) -> Vec<Vec<f64>> {
+        let found = Some(scene.loads.delay).filter(|delay| *delay != 0.0);
+        [0.0].into_iter().chain(found).map(|delay| vec![delay]).collect()
+    }
+}
+
+/// All torques are those of one delay ago, which is not fitted: what a scan over delays asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct TorqueShift;
+
+impl Law for TorqueShift {
+    fn facts(&self) -> &'static Facts {
+        TORQUE
+    }
+}
+
+impl InMotion for TorqueShift {
+    fn columns(&self, _: &LogScene<'_>, _: Spot, values: &[f64]) -> Vec<Column> {
+        vec![Column::default(); values.len()]
+    }
+
+    fn value(&self, scene: &LogScene<'_>, _: Spot, values: &[f64]) -> Column {
+        shifted(scene, values[0])
+    }
+}
+
+/// Torques of now less those of `delay` later, at the rows.
+fn shifted(scene: &LogScene<'_>, delay: f64) -> Column {
+    let signals = scene.signals;
+    let of = |joint: usize| {
+        let (now, later) = signals.drive_and_later(joint, delay);
+        let less: Vec<f64> = now.iter().zip(later).map(|(now, later)| now - later).collect();
+        signals.kept(&less)
+    };
+    Column { parts: (0..signals.joints()).map(|joint| (joint, of(joint))).collect() }
 }
 
 /// Joints go where they were to be `delay` ago: a bus, a buffer, an interpolator.

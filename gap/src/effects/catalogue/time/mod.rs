@@ -9,7 +9,7 @@ mod thermal_growth;
 
 pub use drift::Drift;
 pub use joint_warming::JointWarming;
-pub use latency::{CommandLatency, Latency, TorqueLatency};
+pub use latency::{CommandLatency, Latency, TorqueLatency, TorqueShift};
 pub use settling_lag::SettlingLag;
 pub use slip::Slip;
 pub use thermal_growth::ThermalGrowth;

@@ -85,7 +85,7 @@ pub fn dependences(dict: &Dictionary<'_>, verdict: &Verdict, seed: u64) -> Vec<D
         .unzip();
     let correlation = beside.par_iter().map(|rows| dict.correlation(rows));
     let longest = correlation.reduce(|| 0.0, f64::max);
-    let blocks = Blocks::of(&dict.segments, dict.case.signals, longest);
+    let blocks = dict.blocks(longest);
     if blocks.all.len() <= verdict.blocks.all.len() {
         return Vec::new();
     }

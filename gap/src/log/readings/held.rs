@@ -1,0 +1,49 @@
+//! Something that some runs carry and others do not, where no column says so.
+
+use super::{Misread, Plain};
+use crate::effects::{Place, Spot};
+use crate::log::effects::PAYLOAD;
+use crate::log::read::TorqueSide;
+use crate::log::search::case::{Case, Wanted};
+use crate::log::search::fit::Links;
+
+/// Runs carry different things if what is left shrinks by this part with a body of its own in each, mean over the joints.
+const SHRINKS: f64 = 0.2;
+
+/// Two masses are of two things that differ by more than this part of the range of all.
+const APART: f64 = 0.25;
+
+/// Of each thing the runs that carry it, those that carry least apart.
+pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
+    let runs = case.payloads.len();
+    let current = case.kind.1 == Some(TorqueSide::Current);
+    if runs < 2 || current || case.payloads.iter().any(Option::is_some) {
+        return Vec::new();
+    }
+    let spots = (1..runs).map(|run| Spot::at(Place::Held(run + 1)));
+    let wanted: Vec<Wanted> = spots.map(|spot| (PAYLOAD, spot, vec![vec![0.0; 10]])).collect();
+    let plain = Plain::of(case, wanted, usize::MAX);
+    let left = plain.dict.left(&Links::Free, &[]);
+    let bodies = &plain.dict.offers[plain.dict.offers.len() + 1 - runs..];
+    let more: Vec<_> = bodies.iter().flat_map(|body| body.entries[0].columns.clone()).collect();
+    let (alike, _) = plain.left(&[], &left);
+    let (each, values) = plain.left(&more, &left);
+    let gain: f64 = alike.iter().zip(&each).map(|(a, b)| (a / b).ln()).sum();
+    if 1.0 - (-gain / alike.len() as f64).exp() < SHRINKS {
+        return Vec::new();
+    }
+    let bodies = &values[plain.columns.len()..];
+    let mass = |run: usize| if run == 0 { 0.0 } else { bodies[10 * (run - 1)] };
+    let mut order: Vec<usize> = (0..runs).collect();
+    order.sort_by(|a, b| mass(*a).total_cmp(&mass(*b)));
+    let range = mass(order[runs - 1]) - mass(order[0]);
+    let mean = |of: &[usize]| of.iter().map(|run| mass(*run)).sum::<f64>() / of.len() as f64;
+    let mut things = order.chunk_by(|a, b| mass(*b) - mass(*a) <= APART * range);
+    let least = things.next().map_or(0.0, mean);
+    let held = |thing: &[usize]| {
+        let mut runs = thing.to_vec();
+        runs.sort_unstable();
+        Misread::Held { runs, mass: mean(thing) - least }
+    };
+    things.map(held).collect()
+}
