@@ -48,6 +48,4 @@ pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
 pub use io::ReadError;
 pub use measurement::Measurements;
 #[doc(hidden)]
-pub use rng as dice; // alias: old path
-#[doc(hidden)]
-pub use study::withhold; // alias: old path
+pub use study::withhold;

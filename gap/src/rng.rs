@@ -39,9 +39,6 @@ pub(crate) fn seed_of(seed: u64, k: usize) -> u64 {
     x ^ (x >> 31)
 }
 
-#[doc(hidden)]
-pub use Rng as Dice; // alias: old path
-
 /// A random number generator.
 pub struct Rng(ChaCha8Rng);
 

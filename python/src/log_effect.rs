@@ -261,7 +261,7 @@ impl InMotion for Own {
         scene.column(joint, |k| rows[0][k])
     }
 
-    fn may_be(&self, values: &[f64]) -> bool {
+    fn is_feasible(&self, values: &[f64]) -> bool {
         values.iter().enumerate().all(|(k, value)| self.is_near(k, *value))
     }
 

@@ -8,12 +8,12 @@ use stiffarm::kernels::generic::Arm;
 use stiffarm::kernels::parity::Comparison;
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Names, diagnosed};
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use crate::compare::{CANCELLED, Draws, ForArm, deviation};
 
@@ -49,7 +49,7 @@ fn read(text: &str) -> (Robot, Arm) {
 /// A minute of it, read as a file.
 fn recorded(arm: &Arm) -> Log {
     let limits = Limits::of(arm, &[1.5], &[5.0]).expect("joints with limits");
-    let course = Fourier::draw(&limits, 60.0, 30, &mut Dice::new(SEED, Stream::Poses));
+    let course = Fourier::draw(&limits, 60.0, 30, &mut Rng::new(SEED, Stream::Poses));
     let truths = TRUTHS.map(|text| MotionTruth::parse(text, arm, 1).expect("a truth"));
     let plant = MovingPlant::new(arm, &truths, MOTOR, Recording::default());
     let runs = plant.record(&[Stage { course: &course, payload: None }], SEED).expect("a log");

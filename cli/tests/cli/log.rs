@@ -7,7 +7,7 @@ mod real;
 use std::fmt::Write as _;
 
 use serde_json::Value;
-use stiffarm_gap::dice::{Dice, Stream};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use crate::support::{Folder, read, stiffarm, text};
 
@@ -31,7 +31,7 @@ limits = [-2.5, 2.5]
 /// Torque of a point mass of 3 kg at 0.8 m, with 2 N·m of Coulomb friction and 0.7 N·m·s/rad: rows at
 /// 100 Hz under a header.
 fn rows(header: &str) -> String {
-    let mut dice = Dice::new(5, Stream::Noise);
+    let mut rng = Rng::new(5, Stream::Noise);
     let mut text = format!("{header}\n");
     for k in 0..6000 {
         let t = 0.01 * f64::from(k);
@@ -43,7 +43,7 @@ fn rows(header: &str) -> String {
         let v = sum(|size, rate, at| size * rate * at.cos());
         let a = sum(|size, rate, at| -size * rate * rate * at.sin());
         let weight = 3.0 * 0.8 * 9.80665 * q.cos();
-        let torque = 3.0 * 0.64 * a + weight + 2.0 * v.signum() + 0.7 * v + 0.1 * dice.normal();
+        let torque = 3.0 * 0.64 * a + weight + 2.0 * v.signum() + 0.7 * v + 0.1 * rng.normal();
         writeln!(text, "{t:.2},{q:.7},{torque:.4}").expect("text");
     }
     text

@@ -19,7 +19,7 @@ const NOISE: &str = "200um";
 /// By how much the last arm's spring changes between its campaigns.
 const CHANGE: f64 = 5e-7;
 
-/// Normal numbers without dice: the quantiles of the middles of as many parts, in an order that mixes them.
+/// Normal numbers without rng: the quantiles of the middles of as many parts, in an order that mixes them.
 fn drawn(arm: usize) -> f64 {
     use statrs::distribution::{ContinuousCDF, Normal};
     let part = (7 * arm % ARMS) as f64;

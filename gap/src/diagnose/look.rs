@@ -178,17 +178,17 @@ mod tests {
     #[test]
     fn ordinary_calibration_is_one_finding_or_fitted_along() {
         let mut plant = bent();
-        let mut dice = Rng::new(3, Stream::Signs);
+        let mut rng = Rng::new(3, Stream::Signs);
         for joint in &mut plant.joints {
-            joint.theta += 5e-4 * normal(&mut dice);
-            joint.alpha += 5e-4 * normal(&mut dice);
-            joint.a += 3e-4 * normal(&mut dice);
-            joint.d += 3e-4 * normal(&mut dice);
+            joint.theta += 5e-4 * normal(&mut rng);
+            joint.alpha += 5e-4 * normal(&mut rng);
+            joint.a += 3e-4 * normal(&mut rng);
+            joint.d += 3e-4 * normal(&mut rng);
         }
         let mut data = data(40, [0.0; 3], 0.0, 4);
         for row in &mut data.rows {
             let exact = simulate(&plant, row, Kind::Pose { orientation: true }).unwrap();
-            row.measured = exact.reading().vector().map(|x| x + 2e-5 * normal(&mut dice));
+            row.measured = exact.reading().vector().map(|x| x + 2e-5 * normal(&mut rng));
         }
         let found = diagnose(&bent(), &data, &Options::default()).unwrap();
         let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };

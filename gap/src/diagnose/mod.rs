@@ -20,14 +20,14 @@
 
 pub(crate) mod data;
 pub(crate) mod fit;
+mod identifiability;
 mod look;
+mod normal_equations;
 mod options;
+mod prediction;
 mod prior;
 mod progress;
-mod promise;
 pub(crate) mod search;
-mod sight;
-mod sums;
 #[cfg(test)]
 mod tests;
 mod verdict;
@@ -38,12 +38,12 @@ use stiffarm_kernels::generic::Arm;
 pub(crate) use fit::rigid;
 use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
+pub use prediction::{Expected, Explanation, Prediction, Trust};
 pub use prior::Prior;
 pub use progress::{Stage, Stop};
-pub use promise::{Expected, Explanation, Prediction, Trust};
 
 use crate::gap::Statistics;
-// alias: old path
+
 use crate::measurement::Measurements;
 use crate::mistakes::{self, Mended};
 pub use crate::report::campaign as report;
@@ -53,13 +53,13 @@ pub use crate::shrink::Shrink;
 use crate::spring::Joined;
 use data::{Folds, Precision, Problem};
 use fit::{Axes, Model};
+use normal_equations::Candidate;
 use search::{Explained, Search};
-use sums::Candidate;
 
 /// Rounds of explaining and of leaving out what does not fit: after two of them hardly a row changes.
 const MOST_ROUNDS: usize = 4;
 
-/// Precisions of rows that change by less than this part have settled.
+/// Precisions of rows that change by less than this part have converged.
 const SAME_PRECISION: f64 = 0.05;
 
 /// A diagnosis, and the models before and after it.
@@ -145,7 +145,7 @@ fn diagnose_as_told(
         .collect::<Result<_, _>>()?;
     let mut candidates = Candidate::all(&problem, &effects);
     let mut model = fit::aligned(&problem)?;
-    sums::scale_elastic(&mut candidates, &problem, &model)?;
+    normal_equations::scale_elastic(&mut candidates, &problem, &model)?;
     let (mut known, mut left_out, mut round) = (None, Vec::new(), 0);
     let looked = loop {
         let search =
@@ -153,9 +153,9 @@ fn diagnose_as_told(
         let looked = search.look(&effects, &model, known)?;
         let (fits, out, precision) = search.fitting(&looked.explained)?;
         let fit = options.keep_all || fits == problem.fits;
-        let settled = fit && precision.is_near(&problem.precision, SAME_PRECISION);
-        let ends = settled || round == MOST_ROUNDS || search.stopped();
-        let hung = if ends { search.hung_as_measured(&looked.explained)? } else { None };
+        let converged = fit && precision.is_near(&problem.precision, SAME_PRECISION);
+        let ends = converged || round == MOST_ROUNDS || search.stopped();
+        let hung = if ends { search.with_loads_as_measured(&looked.explained)? } else { None };
         // The last fit is that of the rows that are told.
         if !options.keep_all && (fit || !ends) {
             (problem.fits, left_out) = (fits, out);

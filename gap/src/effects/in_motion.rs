@@ -65,7 +65,7 @@ pub trait InMotion: Law {
     }
 
     /// Whether a thing of this kind may have such values, those of the robot file among them.
-    fn may_be(&self, values: &[f64]) -> bool {
+    fn is_feasible(&self, values: &[f64]) -> bool {
         self.parameters().iter().zip(values).all(|(parameter, value)| *value >= parameter.least)
     }
 
@@ -86,7 +86,7 @@ pub trait InMotion: Law {
     }
 
     /// What the robot file's table has of its first parameter at a spot, where that is in torques of this side: its own
-    /// is beyond that, and their sum is what [`InMotion::may_be`] is asked of.
+    /// is beyond that, and their sum is what [`InMotion::is_feasible`] is asked of.
     fn file_value(&self, _: &Arm, _: Option<TorqueSide>, _: Spot) -> f64 {
         0.0
     }

@@ -49,10 +49,9 @@ pub(crate) use robot_file::significant;
 pub use robot_file::{RobotFile, Row as RobotRow};
 pub use scene::Scene;
 pub use told::Told;
-// alias: old path
+
 pub use crate::report::Parameter as ParameterReport;
 
-// alias: old path
 pub use at_rest::AtRest as Effect;
 pub use catalogue::AT_REST as CATALOGUE;
 

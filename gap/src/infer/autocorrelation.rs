@@ -97,12 +97,12 @@ impl Autoregression {
     }
 
     /// The chance of a fall as large, where the best of `tried` patterns of so many numbers was taken (Bonferroni).
-    pub(crate) fn chance(&self, rank: usize, tried: usize) -> f64 {
+    pub(crate) fn p_value(&self, rank: usize, tried: usize) -> f64 {
         // A number less than components is one of them all; more are the shape of the pattern.
         let rank = rank.max(self.components) as f64;
-        let chance = FisherSnedecor::new(rank, self.freedom).map(|f| f.sf(self.fall / rank));
-        let chance = chance.unwrap_or(1.0);
-        if chance.is_nan() { 1.0 } else { (chance * tried as f64).min(1.0) }
+        let p_value = FisherSnedecor::new(rank, self.freedom).map(|f| f.sf(self.fall / rank));
+        let p_value = p_value.unwrap_or(1.0);
+        if p_value.is_nan() { 1.0 } else { (p_value * tried as f64).min(1.0) }
     }
 }
 
@@ -220,14 +220,14 @@ mod tests {
     /// Errors of three components, a third of them of the instrument: they linger over `memory` steps, and
     /// the first jumps after two fifths of the steps.
     fn campaign(seed: u64, memory: f64, jump: f64) -> [Vec<f64>; 3] {
-        let mut dice = Rng::new(seed, Stream::Signs);
+        let mut rng = Rng::new(seed, Stream::Signs);
         let stays = if memory > 0.0 { (-1.0 / memory).exp() } else { 0.0 };
         std::array::from_fn(|component| {
-            let mut error = dice.normal();
+            let mut error = rng.normal();
             let step = |k: usize| {
-                error = stays * error + (1.0 - stays * stays).sqrt() * dice.normal();
+                error = stays * error + (1.0 - stays * stays).sqrt() * rng.normal();
                 let off = if component == 0 && k >= 2 * STEPS / 5 { jump } else { 0.0 };
-                error + off + dice.normal() / 3.0
+                error + off + rng.normal() / 3.0
             };
             (0..STEPS).map(step).collect()
         })
@@ -257,7 +257,7 @@ mod tests {
     fn is_claimed(seed: u64, memory: f64, jump: f64) -> bool {
         let series = best(&campaign(seed, memory, jump));
         let errors = Autoregression::of_kind(&series, 0.0).expect("steps enough");
-        errors.chance(3, JUMPS) <= SIGNIFICANT
+        errors.p_value(3, JUMPS) <= SIGNIFICANT
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! **In:** [`Products`] of a model's columns, of candidates' columns and of what is to be explained, block by
 //! block, whatever the observations are.
 //! **Out:** a [`Screen`] that gives the [`Score`] of each candidate beside the model, the squares that it
-//! leaves on blocks that no fit has seen, and each block's share in it, whose signs [`Flips`] set at random.
+//! leaves on blocks that no fit has seen, and each block's share in it, whose signs [`SignFlips`] set at random.
 //!
 //! Least squares are solved by a [`Basis`], with bounds by [`Squares`]; `autocorrelation` says how long errors
 //! last, `resample` how far a shrink scatters when blocks are drawn again.
@@ -27,4 +27,4 @@ pub(crate) use products::{Choice, Products, starts};
 pub(crate) use resample::{drawn, interval, students_t};
 pub(crate) use score::{Own, Score, price};
 pub(crate) use screen::{Columns, Screen};
-pub(crate) use signs::{Flips, Signs, deviate, unit};
+pub(crate) use signs::{SignFlips, Signs, deviate, unit};

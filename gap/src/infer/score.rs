@@ -74,7 +74,7 @@ impl Own {
 /// Nobody knows before there are data how large an effect is, only what is usual. So the standard deviations have a
 /// common factor, S = s · [`LOOSE`] · usual with s ≤ 1, which is the size of the `values` themselves: the most likely
 /// one (Tipping 2001, "Sparse Bayesian learning"). There values of which the data decide γ cost γ (1 − s²) beyond
-/// their strain at s = 1. Any power of e of the scale is as likely as another from the least that the data show up
+/// their prior penalty at s = 1. Any power of e of the scale is as likely as another from the least that the data show up
 /// to the usual: it costs their number; beyond the usual the scale's density falls as Cauchy's. Two effects that
 /// explain the same by as many usual numbers cost nearly the same then, whatever their units. Without `values` the
 /// standard deviations are known, as makers' tolerances are.
@@ -96,9 +96,9 @@ pub(crate) fn price(
     let decided: Vec<usize> = (0..held.len()).filter(is_decided).collect();
     let (mut size, mut scale_cost) = (1.0, 0.0);
     if let Some(values) = values.filter(|_| !decided.is_empty()) {
-        let strain: f64 = decided.iter().map(|k| (values[*k] * held[*k]).powi(2)).sum();
+        let prior_penalty: f64 = decided.iter().map(|k| (values[*k] * held[*k]).powi(2)).sum();
         let shown = decided.iter().map(|k| data[*k] / (held[*k] * held[*k])).fold(1.0, f64::max);
-        let own = strain / decided.len() as f64;
+        let own = prior_penalty / decided.len() as f64;
         size = own.clamp(f64::EPSILON, 1.0);
         scale_cost = 2.0 * ((0.5 * shown.ln()).ln_1p() + (own * LOOSE * LOOSE).ln_1p());
     }

@@ -97,14 +97,14 @@ pub(crate) fn deviate(squares: f64, count: f64) -> f64 {
 
 /// What the best of all that were tried explains of the gap under flipped signs: gathered once, asked for
 /// every score.
-pub(crate) struct Flips {
+pub(crate) struct SignFlips {
     signs: Signs,
     /// The highest deviate of each sign pattern.
     highest: Vec<f64>,
     variance: f64,
 }
 
-impl Flips {
+impl SignFlips {
     /// `variance` is that of what is left without any candidate.
     pub(crate) fn new<C: Columns>(
         screen: &Screen<'_, C>,
@@ -129,7 +129,7 @@ impl Flips {
     }
 
     /// The chance that a flipped gap lets the best explain as much as `best` does of the true one.
-    pub(crate) fn chance(&self, best: &Score) -> f64 {
+    pub(crate) fn p_value(&self, best: &Score) -> f64 {
         let observed = deviate(best.drop / self.variance, best.rank.max(1) as f64);
         self.signs.p_value(&self.highest, observed)
     }

@@ -5,7 +5,6 @@ use crate::effects::{
     ServoDroop, TorqueLatency, TorqueOffset, TorqueScale, TorqueShift, ViscousFriction,
 };
 
-// alias: old path
 pub use crate::effects::{IN_MOTION as CATALOGUE, InMotion as LogEffect, Spot};
 
 /// The laws that a log is asked for.

@@ -38,7 +38,7 @@ pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting
             entry.map_or(Ok(0.0), |entry| number(entry, parameter.quantity))
         };
         let values: Vec<f64> = effect.parameters().iter().map(value).collect::<Result<_, _>>()?;
-        if !effect.may_be(&values) {
+        if !effect.is_feasible(&values) {
             let message = format!(
                 "found {values:?}, expected numbers that such a thing as {} may have",
                 table.id.value

@@ -13,6 +13,7 @@
 pub mod bodies;
 pub mod corrected;
 pub mod effects;
+mod identifiability;
 mod instrument;
 pub mod known;
 pub mod model;
@@ -23,12 +24,11 @@ pub mod readings;
 pub mod rigid;
 pub mod scene;
 pub mod search;
-mod sight;
 pub mod signal;
 mod verdict;
 
 pub use model::Model;
-// alias: old path
+
 pub use crate::report::LogDiagnosis;
 pub use crate::report::log as report;
 pub use options::{LogOptions, Refused};

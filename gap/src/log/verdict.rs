@@ -6,6 +6,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::effects::{LogEffect, Spot};
+use super::identifiability::hidden;
 use super::instrument;
 use super::known;
 use super::model::{Acting, Model, late};
@@ -25,7 +26,6 @@ use super::search::residual::dependences;
 use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
-use super::sight::hidden;
 use super::signal::Signals;
 use crate::effects::Place;
 use crate::infer::interval;
@@ -515,7 +515,7 @@ impl Told<'_> {
                     .collect(),
                 share: held_out.share(left[0].1),
                 held_out,
-                p_value: judged.chance,
+                p_value: judged.p_value,
                 stability: None,
                 alternatives: judged.rivals.iter().map(|rival| self.alternative(rival)).collect(),
                 to_separate: (!judged.rivals.is_empty())

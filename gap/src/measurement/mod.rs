@@ -37,7 +37,7 @@ use crate::io::table::{Records, Separator, commented};
 pub use crate::io::{
     Column, Dimension, Fault, MOST_BYTES, MOST_MISTAKES, Mistake, ReadError, Unit, bytes,
 };
-use crate::io::{Convention, Mistakes}; // alias: old path
+use crate::io::{Convention, Mistakes};
 use crate::observe::{Aim, Pair, Seen, View};
 
 pub(crate) use group::Near;

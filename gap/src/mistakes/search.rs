@@ -124,7 +124,7 @@ impl Search<'_> {
         let rarity: f64 = tried.mistakes.iter().map(|mistake| mistake.rarity()).sum();
         let turned = if self.base_is_known { tried.left.turned } else { 0.0 };
         -tried.left.rows.min(MOST_ROWS) * tried.left.size.max(floor).ln()
-            - 0.5 * tried.left.strain
+            - 0.5 * tried.left.prior_penalty
             - rarity
             - turned
     }
@@ -209,7 +209,7 @@ impl Search<'_> {
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }
         if let Some((first, same)) = self.best(nothing, MOST_LEFT, self.beside(&[])) {
-            if first.left.size > ORDINARY * self.reach || 0.5 * first.left.strain > CERTAIN {
+            if first.left.size > ORDINARY * self.reach || 0.5 * first.left.prior_penalty > CERTAIN {
                 let more = self.beside(&first.mistakes);
                 if let Some((both, same)) = self.best(&first, MOST_LEFT_SECOND, more) {
                     return Found::Mistakes(both, same);

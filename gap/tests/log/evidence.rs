@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Domain, Scene};
 use stiffarm_gap::log::search::Round;
@@ -11,6 +10,7 @@ use stiffarm_gap::log::search::dictionary::Dictionary;
 use stiffarm_gap::log::search::fit::Links;
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Signal, TorqueSide};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use super::plant::{arm, log, noise};
@@ -49,10 +49,10 @@ const TIME: f64 = 0.5;
 const SEEDS: core::ops::Range<u64> = 20_000..20_500;
 
 fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
-    let mut dice = Dice::new(seed, Stream::Noise);
-    let torque = vec![noise(&mut dice, COUNT, STEP, TIME, 1.0)];
+    let mut rng = Rng::new(seed, Stream::Noise);
+    let torque = vec![noise(&mut rng, COUNT, STEP, TIME, 1.0)];
     // It wanders over tens of seconds, as temperatures, loads and postures do.
-    let slow = vec![noise(&mut dice, COUNT, STEP, 20.0, 1.0)];
+    let slow = vec![noise(&mut rng, COUNT, STEP, 20.0, 1.0)];
     let q = vec![(0..COUNT).map(|k| (0.7 * STEP * k as f64).sin()).collect()];
     let signals = [(Signal::Q, q), (Signal::Torque, torque), (Signal::QCmd, slow)];
     let log = log(STEP, BTreeMap::from(signals));

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, log, rigid};
 
@@ -16,16 +16,16 @@ const ROTOR: f64 = 0.8;
 /// Joint values that are read with so much noise, rad; commands that say where the joints are.
 fn recorded(reading: f64, commands: bool) -> Log {
     let path = Path::new(5, 1.2);
-    let mut dice = Dice::new(5, Stream::Noise);
+    let mut rng = Rng::new(5, Stream::Noise);
     let [mut q, mut sent, mut torque] = [(); 3].map(|()| vec![Vec::new(); 2]);
     for k in 0..COUNT {
         let [at, v, a] = path.at(STEP * k as f64);
         let links = rigid(at, v, a);
         for j in 0..2 {
-            q[j].push(at[j] + reading * dice.normal());
+            q[j].push(at[j] + reading * rng.normal());
             sent[j].push(at[j]);
             let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
-            torque[j].push(links[j] + rotor + 0.1 * dice.normal());
+            torque[j].push(links[j] + rotor + 0.1 * rng.normal());
         }
     }
     let mut signals = BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]);

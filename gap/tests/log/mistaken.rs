@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Log, LogOptions, Refused, Signal, TorqueSide, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use super::plant::{Path, arm, heavier, log, noise, rigid};
@@ -18,8 +18,8 @@ const FRICTION: [[f64; 2]; 2] = [[6.0, 3.0], [1.5, 2.5]];
 /// A log of the plant with friction: torques told `late`, of what is held, joint values `off` by so much of the torque.
 fn recorded(seed: u64, late: f64, held: f64, off: [f64; 2]) -> Log {
     let path = Path::new(seed, 0.6);
-    let mut dice = Dice::new(seed, Stream::Noise);
-    let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.1));
+    let mut rng = Rng::new(seed, Stream::Noise);
+    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.1));
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     for (k, noises) in noises[0].iter().zip(&noises[1]).map(|(a, b)| [a, b]).enumerate() {
         let t = STEP * k as f64;
@@ -31,7 +31,7 @@ fn recorded(seed: u64, late: f64, held: f64, off: [f64; 2]) -> Log {
         for j in 0..2 {
             let [coulomb, viscous] = FRICTION[j];
             let v = then[1][j];
-            q[j].push(now[0][j] + off[j] * loads[j] + 1e-6 * dice.normal());
+            q[j].push(now[0][j] + off[j] * loads[j] + 1e-6 * rng.normal());
             torque[j].push(told[j] + coulomb * v.signum() + viscous * v + noises[j]);
         }
     }

@@ -5,9 +5,9 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::read::Clock;
 use stiffarm_gap::log::{Log, Run, Signal, TorqueSide};
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::{Arm, Drive, Joint};
 use stiffarm_kernels::{Convention, Motion};
 
@@ -81,10 +81,10 @@ pub struct Path([Vec<[f64; 3]>; 2]);
 impl Path {
     /// Of frequencies up to `fastest`, Hz.
     pub fn new(seed: u64, fastest: f64) -> Path {
-        let mut dice = Dice::new(seed, Stream::Poses);
+        let mut rng = Rng::new(seed, Stream::Poses);
         let mut waves = || {
             (0..6)
-                .map(|_| [dice.between(0.1, 0.35), dice.between(0.05, fastest), dice.unit()])
+                .map(|_| [rng.between(0.1, 0.35), rng.between(0.05, fastest), rng.unit()])
                 .collect()
         };
         Path([waves(), waves()])
@@ -107,11 +107,11 @@ impl Path {
 }
 
 /// Noise of one correlation time and standard deviation, every `step`.
-pub fn noise(dice: &mut Dice, count: usize, step: f64, time: f64, size: f64) -> Vec<f64> {
+pub fn noise(rng: &mut Rng, count: usize, step: f64, time: f64, size: f64) -> Vec<f64> {
     let keep = (-step / time).exp();
-    let mut x = size * dice.normal();
+    let mut x = size * rng.normal();
     let mut next = || {
-        x = keep * x + size * (1.0 - keep * keep).sqrt() * dice.normal();
+        x = keep * x + size * (1.0 - keep * keep).sqrt() * rng.normal();
         x
     };
     (0..count).map(|_| next()).collect()

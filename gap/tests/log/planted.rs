@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Log, LogOptions, Run, Signal, diagnose};
 use stiffarm_gap::measurement::Body;
+use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
 use super::plant::{Path, arm, gravity, heavier, log, noise, rigid};
@@ -30,8 +30,8 @@ fn recorded(seed: u64, mut more: impl FnMut(&Now) -> [f64; 2]) -> Log {
 /// The same; encoders stand so far off the links.
 fn recorded_off(seed: u64, mut more: impl FnMut(&Now) -> ([f64; 2], [f64; 2])) -> Log {
     let path = Path::new(seed, 0.6);
-    let mut dice = Dice::new(seed, Stream::Noise);
-    let [first, second] = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.1));
+    let mut rng = Rng::new(seed, Stream::Noise);
+    let [first, second] = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.1));
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     for (k, noise) in first.into_iter().zip(second).map(|(a, b)| [a, b]).enumerate() {
         let t = STEP * k as f64;
@@ -39,7 +39,7 @@ fn recorded_off(seed: u64, mut more: impl FnMut(&Now) -> ([f64; 2], [f64; 2])) -
         let asks = rigid(at, v, a);
         let (more, off) = more(&Now { t, q: at, v, a });
         for j in 0..2 {
-            q[j].push(at[j] + off[j] + 1e-6 * dice.normal());
+            q[j].push(at[j] + off[j] + 1e-6 * rng.normal());
             torque[j].push(asks[j] + more[j] + noise[j]);
         }
     }

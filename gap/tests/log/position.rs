@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::{LogOptions, Signal, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, gravity, log};
 
@@ -16,7 +16,7 @@ const HALF_WIDTH: f64 = 0.01;
 #[test]
 fn delay_droop_and_play_are_told_apart() {
     let path = Path::new(4, 0.25);
-    let mut dice = Dice::new(4, Stream::Noise);
+    let mut rng = Rng::new(4, Stream::Noise);
     let (mut q, mut command) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     let mut last = f64::NAN;
     for k in 0..COUNT {
@@ -29,7 +29,7 @@ fn delay_droop_and_play_are_told_apart() {
         let (low, high) = (at[1] - HALF_WIDTH, at[1] + HALF_WIDTH);
         last = if last.is_nan() { low } else { last.clamp(low, high) };
         for (j, at) in [at[0], last].into_iter().enumerate() {
-            q[j].push(at + 1e-3 * dice.normal());
+            q[j].push(at + 1e-3 * rng.normal());
             command[j].push(path.at(t)[0][j]);
         }
     }

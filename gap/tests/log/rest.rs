@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Domain, Log, LogOptions, Signal, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, gravity, log, noise};
 
@@ -21,8 +21,8 @@ const SEEDS: core::ops::Range<u64> = 30_000..30_100;
 /// spreads so many times as much as the noise.
 fn recorded(seed: u64, memory: f64, times: f64) -> Log {
     let path = Path::new(seed, 0.4);
-    let mut dice = Dice::new(seed, Stream::Noise);
-    let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, memory, NOISE));
+    let mut rng = Rng::new(seed, Stream::Noise);
+    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, memory, NOISE));
     let at: Vec<[f64; 2]> = (0..COUNT).map(|k| path.at(STEP * k as f64)[0]).collect();
     let weights: Vec<f64> = at.iter().map(|q| gravity(*q)[0]).collect();
     let mean = weights.iter().sum::<f64>() / COUNT as f64;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::gap::percentile;
 use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose, diagnosed};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, log, noise, rigid};
 
@@ -17,14 +17,14 @@ const SEEDS: core::ops::Range<u64> = 700..740;
 /// Another stretch of one motion for each seed; the noise is as slow as the arm, so that a log has few blocks.
 fn recorded(seed: u64, friction: [f64; 2]) -> Log {
     let path = Path::new(31, 0.6);
-    let mut dice = Dice::new(seed, Stream::Noise);
-    let [first, second] = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.3, 1.0));
+    let mut rng = Rng::new(seed, Stream::Noise);
+    let [first, second] = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.3, 1.0));
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     for (k, noises) in first.into_iter().zip(second).enumerate() {
         let [at, v, a] = path.at(STEP * (k + COUNT * seed as usize) as f64);
         let links = rigid(at, v, a);
         for (j, (brake, noise)) in friction.into_iter().zip(<[f64; 2]>::from(noises)).enumerate() {
-            q[j].push(at[j] + 1e-6 * dice.normal());
+            q[j].push(at[j] + 1e-6 * rng.normal());
             torque[j].push(links[j] + brake * v[j].signum() + noise);
         }
     }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::report::{Finding, LogDiagnosis};
 use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, log, noise, rigid};
 
@@ -14,16 +14,16 @@ const COUNT: usize = 8000;
 /// Friction of the two joints, Coulomb and viscous; torques times `scale`.
 fn recorded(seed: u64, friction: [[f64; 2]; 2], scale: f64) -> Log {
     let path = Path::new(seed, 0.6);
-    let mut dice = Dice::new(seed, Stream::Noise);
+    let mut rng = Rng::new(seed, Stream::Noise);
     let mut q = vec![Vec::new(); 2];
-    let noises = [(); 2].map(|()| noise(&mut dice, COUNT, STEP, 0.05, 0.3));
+    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.3));
     let noises = noises[0].iter().zip(&noises[1]).map(|(first, second)| [*first, *second]);
     let mut torque = vec![Vec::new(); 2];
     for (k, noises) in noises.enumerate() {
         let [at, v, a] = path.at(STEP * k as f64);
         let drives = rigid(at, v, a);
         for (j, [coulomb, viscous]) in friction.into_iter().enumerate() {
-            q[j].push(at[j] + 1e-6 * dice.normal());
+            q[j].push(at[j] + 1e-6 * rng.normal());
             let friction = coulomb * v[j].signum() + viscous * v[j];
             torque[j].push(scale * (drives[j] + friction + noises[j]));
         }

@@ -5,10 +5,10 @@
 use std::collections::BTreeMap;
 
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::dice::{Dice, Stream};
 use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Signal, diagnosed};
+use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{self, Path, rigid};
 
@@ -43,15 +43,15 @@ const ROTOR: f64 = 0.8;
 
 fn log() -> Log {
     let path = Path::new(7, 0.6);
-    let mut dice = Dice::new(7, Stream::Noise);
+    let mut rng = Rng::new(7, Stream::Noise);
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     for k in 0..COUNT {
         let [at, v, a] = path.at(STEP * k as f64);
         let links = rigid(at, v, a);
         for (j, [coulomb, viscous]) in FRICTION.into_iter().enumerate() {
             let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
-            q[j].push(at[j] + 1e-6 * dice.normal());
-            let noise = 0.1 * dice.normal();
+            q[j].push(at[j] + 1e-6 * rng.normal());
+            let noise = 0.1 * rng.normal();
             let friction = coulomb * v[j].signum() + viscous * v[j];
             torque[j].push(links[j] + rotor + friction + noise);
         }

@@ -73,6 +73,7 @@ fn a_plan_says_what_the_identification_will() {
     arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
     let pull = |x: f64, y: f64, z: f64| nalgebra::Vector6::new(x, y, z, 0.0, 0.0, 0.0);
     let plan = Plan {
+        bench: Vec::new(),
         count: 8,
         purpose: Purpose::Identify,
         along: vec![],

@@ -10,14 +10,14 @@
 //! same options on the same data give the same bytes.
 
 mod folds;
-mod misfits;
 mod noise;
+mod outliers;
 mod precision;
 mod problem;
 mod visits;
 
 pub(crate) use folds::Folds;
-pub(crate) use misfits::fitting;
 pub(crate) use noise::Noise;
+pub(crate) use outliers::fitting;
 pub(crate) use precision::Precision;
 pub(crate) use problem::{LARGEST, Problem, Thing};

@@ -172,8 +172,8 @@ impl Noise {
             let share = level.per_row / if measured > 0.0 { measured } else { 1.0 };
             let freedom = f64::from(rows) * level.per_row - share * parameters as f64;
             let more = squares > freedom * (EXCESS * level.sd).powi(2);
-            let chance = level.chance(squares, freedom);
-            more && chance.is_some_and(|p| p * (judged as f64) < UNEXPLAINED)
+            let p_value = level.p_value(squares, freedom);
+            more && p_value.is_some_and(|p| p * (judged as f64) < UNEXPLAINED)
         })
     }
 }
@@ -190,7 +190,7 @@ impl Level {
     }
 
     /// How often noise alone would leave as much; `None` if that cannot be said.
-    fn chance(&self, squares: f64, freedom: f64) -> Option<f64> {
+    fn p_value(&self, squares: f64, freedom: f64) -> Option<f64> {
         if self.components == 0 || self.sd <= 0.0 || freedom <= 0.0 {
             return None;
         }
@@ -352,17 +352,17 @@ mod tests {
     /// arm's 50 µm are told from each other; of the first visits alone only the instrument's.
     #[test]
     fn the_arm_is_told_from_the_instrument() {
-        let (arm, mut dice) = (rigid(), Rng::new(5, Stream::Signs));
+        let (arm, mut rng) = (rigid(), Rng::new(5, Stream::Signs));
         let (mut rows, mut gaps) = (Vec::new(), Vec::new());
         for _ in 0..3 {
             for group in 0..100 {
-                let visit = Vector6::from_fn(|_, _| 5e-5 * normal(&mut dice));
+                let visit = Vector6::from_fn(|_, _| 5e-5 * normal(&mut rng));
                 for _ in 0..4 {
                     rows.push(Row {
                         group,
                         ..row(&[0.01 * group as f64, 0.2, 0.3], Vector6::zeros())
                     });
-                    let read = visit.map(|x| x + 2e-5 * normal(&mut dice));
+                    let read = visit.map(|x| x + 2e-5 * normal(&mut rng));
                     gaps.push(read.component_mul(&Vector6::new(1.0, 1.0, 1.0, 0.0, 0.0, 0.0)));
                 }
             }

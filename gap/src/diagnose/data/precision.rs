@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn what_scatters_beyond_the_instrument_is_told_from_it() {
-        let mut dice = Rng::new(4, Stream::Signs);
+        let mut rng = Rng::new(4, Stream::Signs);
         let sigmas = |k: usize| if k.is_multiple_of(3) { 8e-5 } else { 1e-5 };
         let rows = (0..4000).map(|k| {
             let sigma = Vector6::from_fn(|c, _| if c < 3 { sigmas(k) } else { 0.0 });
@@ -170,7 +170,7 @@ mod tests {
         let gaps: Vec<_> = (0..4000)
             .map(|k| {
                 let sd = sigmas(k).hypot(3e-5);
-                Vector6::from_fn(|c, _| if c < 3 { sd * normal(&mut dice) } else { 0.0 })
+                Vector6::from_fn(|c, _| if c < 3 { sd * normal(&mut rng) } else { 0.0 })
             })
             .collect();
         let precision = Precision::beyond(&data, &gaps, &[true; 4000], 0);

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point3, Vector6};
 use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
-use super::misfits::ordinary;
+use super::outliers::ordinary;
 use super::precision::Precision;
 use super::visits::Visits;
 use crate::diagnose::fit::Place;

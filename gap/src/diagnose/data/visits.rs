@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::misfits::ordinary;
+use super::outliers::ordinary;
 use crate::measurement::{Measurements, Near, Row};
 
 /// Loads that differ by less than this part of the largest are the same.

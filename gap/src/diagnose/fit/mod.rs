@@ -18,4 +18,6 @@ pub(crate) use align::{aligned, fitted_thing, rigid};
 pub(crate) use axes::Axes;
 pub(crate) use bond::Place;
 pub(crate) use model::{Fitted, Model, Predicted};
-pub(crate) use refit::{Fit, block, normal_equations, refit, refit_below, squares, step, strain};
+pub(crate) use refit::{
+    Fit, block, normal_equations, prior_penalty, refit, refit_below, squares, step,
+};

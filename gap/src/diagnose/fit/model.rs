@@ -10,8 +10,8 @@ use stiffarm_kernels::generic::Arm;
 use super::axes::Axes;
 use super::bond::Bond;
 use crate::diagnose::data::{LARGEST, Problem, Thing};
+use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
-use crate::diagnose::sums::Candidate;
 use crate::displacement::Displacement;
 use crate::effects::{Effect, Place, Scene, Spot};
 use crate::gap::row_gap;
@@ -29,9 +29,9 @@ pub(crate) struct Fitted {
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
     /// Forms and places that the effect has.
-    pub(crate) chances: usize,
+    pub(crate) multiplicity: usize,
     /// By how much more evidence it had than any other when last compared; 0 before.
-    pub(crate) lead: f64,
+    pub(crate) margin: f64,
 }
 
 /// An exact model of the data.

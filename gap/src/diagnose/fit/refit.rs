@@ -63,7 +63,7 @@ pub(crate) fn refit(
     refit_below(problem, model, near, weights, f64::INFINITY)
 }
 
-/// The same, given up where squares and strain have no hope of coming `below` something.
+/// The same, given up where squares and prior penalty have no hope of coming `below` something.
 pub(crate) fn refit_below(
     problem: &Problem<'_>,
     model: Model,
@@ -77,7 +77,7 @@ pub(crate) fn refit_below(
         return Ok(fit);
     }
     let cost = |model: &Model, predicted: &Predicted| {
-        squares(problem, &predicted.gaps, weights) + strain(problem, model)
+        squares(problem, &predicted.gaps, weights) + prior_penalty(problem, model)
     };
     let mut now = cost(&fit.model, &fit.predicted);
     // Frames alone are fitted to rounding: theirs is hand-eye calibration.
@@ -109,9 +109,9 @@ pub(crate) fn refit_below(
             part /= 2.0;
         }
         let Some((next, then)) = better else { break };
-        let settled = now - then <= last * (1.0 + now);
+        let converged = now - then <= last * (1.0 + now);
         (fit, now) = (next, then);
-        if settled {
+        if converged {
             break;
         }
     }
@@ -161,7 +161,7 @@ pub(crate) fn normal_equations(
 }
 
 /// What it costs that values are beyond what is usual, and against what is known of the bench.
-pub(crate) fn strain(problem: &Problem<'_>, model: &Model) -> f64 {
+pub(crate) fn prior_penalty(problem: &Problem<'_>, model: &Model) -> f64 {
     let values = model.values(problem);
     let held = model.held(problem);
     let usual: f64 = held.iter().zip(values).map(|(h, value)| (h * value).powi(2)).sum();

@@ -9,8 +9,8 @@ use super::first::First;
 use super::forward::{Explained, Search};
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, normal_equations};
+use crate::diagnose::normal_equations::{Candidate, Gathered, Kept, Screen, Wanted};
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen, Wanted};
 use crate::infer::Autoregression;
 
 /// Steps of time, at most: of more visits neighbours are one step, so that the cost is bounded.
@@ -86,7 +86,7 @@ impl<'s> Search<'s, '_> {
         let Some(errors) = errors else { return Ok(1.0) };
         let rank = asked.iter().map(|k| found[*k].values.len()).sum();
         let tried = self.candidates.iter().filter(|c| c.follows_time()).count();
-        Ok(errors.chance(rank, tried))
+        Ok(errors.p_value(rank, tried))
     }
 
     /// A fit with the best of what follows time added, be it significant or not.

@@ -30,9 +30,9 @@ impl Scale {
     }
 
     /// What an effect costs whose numbers have a [price](crate::infer::price) and which had so many
-    /// chances: its places and forms, each as likely as the others beforehand.
-    pub(crate) fn cost(price: f64, chances: usize) -> f64 {
-        price + 2.0 * (chances.max(1) as f64).ln()
+    /// multiplicity: its places and forms, each as likely as the others beforehand.
+    pub(crate) fn cost(price: f64, multiplicity: usize) -> f64 {
+        price + 2.0 * (multiplicity.max(1) as f64).ln()
     }
 
     pub(crate) fn freedom(&self, parameters: usize) -> f64 {
@@ -41,13 +41,13 @@ impl Scale {
 
     /// The chance that noise makes a fall as large with so many parameters, `tried` candidates
     /// having been tried (Bonferroni).
-    pub(crate) fn chance(&self, score: &Score, left: f64, fitted: usize, tried: usize) -> f64 {
+    pub(crate) fn p_value(&self, score: &Score, left: f64, fitted: usize, tried: usize) -> f64 {
         if score.rank == 0 || score.drop <= 0.0 {
             return 1.0;
         }
         let (rank, freedom) = (score.rank as f64, self.freedom(fitted + score.rank));
         let variance = self.variance((left - score.drop).max(0.0), fitted + score.rank);
-        let chance = if score.drop / variance > CERTAIN {
+        let p_value = if score.drop / variance > CERTAIN {
             Some(0.0)
         } else if self.known && variance == 1.0 {
             ChiSquared::new(rank).ok().map(|d| d.sf(score.drop))
@@ -55,8 +55,8 @@ impl Scale {
             let ratio = score.drop / rank / variance;
             FisherSnedecor::new(rank, freedom).ok().map(|d| d.sf(ratio))
         };
-        let chance = chance.unwrap_or(1.0);
-        if chance.is_nan() { 1.0 } else { (chance * tried as f64).clamp(LEAST_CHANCE, 1.0) }
+        let p_value = p_value.unwrap_or(1.0);
+        if p_value.is_nan() { 1.0 } else { (p_value * tried as f64).clamp(LEAST_CHANCE, 1.0) }
     }
 }
 
@@ -69,8 +69,8 @@ mod tests {
         let scale = Scale { known: true, numbers: 100 };
         let values = nalgebra::DVector::zeros(1);
         let score = Score { drop: 3.841_458_8, values, rank: 1, own: 1.0 };
-        let chance = scale.chance(&score, 90.0, 0, 1);
-        assert!((chance - 0.05).abs() < 1e-6, "{chance}");
-        assert_eq!(scale.chance(&score, 90.0, 0, 100), 1.0);
+        let p_value = scale.p_value(&score, 90.0, 0, 1);
+        assert!((p_value - 0.05).abs() < 1e-6, "{p_value}");
+        assert_eq!(scale.p_value(&score, 90.0, 0, 100), 1.0);
     }
 }

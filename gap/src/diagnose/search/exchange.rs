@@ -5,8 +5,8 @@ use nalgebra::DVector;
 
 use super::forward::{Explained, Ranked, Search};
 use crate::diagnose::fit::{Fit, Fitted, Model};
+use crate::diagnose::normal_equations::{Candidate, Kept};
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::sums::{Candidate, Kept};
 use crate::infer::Basis;
 
 /// Rounds of taking back and exchanging after each addition.
@@ -27,7 +27,7 @@ impl Search<'_, '_> {
                 break;
             }
             let Some(next) = self.changed(&mut now, end)? else { break };
-            now = self.settled(next, now.weights)?;
+            now = self.converged(next, now.weights)?;
         }
         Ok(now)
     }
@@ -46,15 +46,15 @@ impl Search<'_, '_> {
         let is_fine = |found: &Fitted| found.effect.forms_are().is_fine(found.spot.form);
         let all = Model::along(self.problem)..now.fit.model.found.len();
         for index in all.clone() {
-            if now.fit.model.found[index].lead > SURE {
+            if now.fit.model.found[index].margin > SURE {
                 continue;
             }
-            let (lead, fit) = self.exchanged(now, &[index], &costs, variance)?;
+            let (margin, fit) = self.exchanged(now, &[index], &costs, variance)?;
             if fit.is_some() {
                 return Ok(fit);
             }
-            if let Some(lead) = lead {
-                now.fit.model.found[index].lead = lead;
+            if let Some(margin) = margin {
+                now.fit.model.found[index].margin = margin;
             }
         }
         let open: Vec<usize> = all.filter(|k| !is_fine(&now.fit.model.found[*k])).collect();
@@ -106,9 +106,9 @@ impl Search<'_, '_> {
         let ranked = self.ranked(&screen, now);
         let Some(best) = ranked.iter().find(can) else { return Ok((None, None)) };
         let its = best.cost;
-        let lead = (screen.left() - best.score.drop) / variance + its - own;
-        if lead + EXCHANGE >= 0.0 {
-            return Ok((Some(lead), None));
+        let margin = (screen.left() - best.score.drop) / variance + its - own;
+        if margin + EXCHANGE >= 0.0 {
+            return Ok((Some(margin), None));
         }
         let refined = self.refined(now, without, best, &screen).into_iter().collect();
         let Some(fit) = self.with(now, without, refined, (own - its) * variance)? else {
@@ -149,7 +149,7 @@ mod tests {
     use super::*;
     use crate::diagnose::Options;
     use crate::diagnose::data::{Folds, Problem};
-    use crate::diagnose::sums::{Candidate, scale_elastic};
+    use crate::diagnose::normal_equations::{Candidate, scale_elastic};
     use crate::diagnose::tests::normal;
     use crate::effects::{CATALOGUE, Place, Spot};
     use crate::fixture::{rigid, row, table};
@@ -165,10 +165,10 @@ mod tests {
         let mut arm = rigid();
         (arm.joints[0].compliance, arm.joints[1].compliance) = (2e-5, 3e-5);
         arm.joints.iter_mut().for_each(|joint| joint.mass = 0.0);
-        let mut dice = Rng::new(8, Stream::Signs);
+        let mut rng = Rng::new(8, Stream::Signs);
         let kind = Kind::Pose { orientation: true };
         let rows = (0..40).map(|group| {
-            let mut any = |scale: f64| scale * normal(&mut dice);
+            let mut any = |scale: f64| scale * normal(&mut rng);
             let q = [any(1.0), any(0.7), any(0.7)];
             let wrench = Vector6::from_fn(|k, _| any(if k < 3 { 60.0 } else { 5.0 }));
             let real = simulate(&arm, &row(&q, wrench * 1.1), kind).unwrap().reading().vector();

@@ -2,7 +2,7 @@
 //! cannot be seen is read from it.
 
 use super::forward::{Explained, Search};
-use crate::diagnose::sums::{Candidate, Gathered};
+use crate::diagnose::normal_equations::{Candidate, Gathered};
 
 /// What the data show before anything is found: all of the catalogue, and displacements of free form,
 /// beside the frames and the geometry.

@@ -3,13 +3,15 @@
 
 use super::evidence::Scale;
 use crate::diagnose::data::{Folds, Noise, Problem};
-use crate::diagnose::fit::{Fit, Fitted, Model, Predicted, refit, refit_below, squares, strain};
+use crate::diagnose::fit::{
+    Fit, Fitted, Model, Predicted, prior_penalty, refit, refit_below, squares,
+};
+use crate::diagnose::normal_equations::{Candidate, Gathered, Kept, Screen};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
-use crate::diagnose::sums::{Candidate, Gathered, Kept, Screen};
 use crate::effects::{Effect, Forms, Spot};
 use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
-use crate::infer::{Basis, Flips, Score, price};
+use crate::infer::{Basis, Score, SignFlips, price};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
 
@@ -35,7 +37,7 @@ pub(crate) const OWN: f64 = 0.01;
 /// Rounds in which weights and fit settle.
 const MOST_WEIGHED: usize = 6;
 
-/// Weights that change by less than this part have settled: far less than any noise is known.
+/// Weights that change by less than this part have converged: far less than any noise is known.
 const SETTLED: f64 = 1e-3;
 
 /// Everything that a search works with.
@@ -90,11 +92,11 @@ impl Search<'_, '_> {
     /// Weighted squares that a fit leaves, and what it costs to hold its values.
     pub(crate) fn left(&self, now: &Explained) -> f64 {
         squares(self.problem, &now.fit.predicted.gaps, &now.weights)
-            + strain(self.problem, &now.fit.model)
+            + prior_penalty(self.problem, &now.fit.model)
     }
 
     /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
-    pub(crate) fn settled(
+    pub(crate) fn converged(
         &self,
         fit: Fit,
         mut before: Vector6<f64>,
@@ -122,7 +124,7 @@ impl Search<'_, '_> {
     /// Fits the frames, and the effects that the model has.
     pub(crate) fn begin(&self, model: Model) -> Result<Explained, DiagnoseError> {
         let predicted = Arc::new(model.predict(self.problem, None)?);
-        self.settled(Fit { predicted, model }, Vector6::zeros())
+        self.converged(Fit { predicted, model }, Vector6::zeros())
     }
 
     /// Adds effects as long as they are significant and shrink the gap on poses that no fit has
@@ -136,7 +138,7 @@ impl Search<'_, '_> {
             }
             (self.progress)(Stage::Search(now.fit.model.found.len()));
             let Some(next) = self.added(&now)? else { break };
-            now = self.settled(next, now.weights)?;
+            now = self.converged(next, now.weights)?;
             // Few effects are compared with all others after each addition, many now and then.
             let count = now.fit.model.found.len();
             if count >= at_first + 2
@@ -173,7 +175,7 @@ impl Search<'_, '_> {
             let products = &beside * beside.transpose();
             let values = (!found.effect.is_tolerated()).then_some(found.values.as_slice());
             let price = price(products, &found.held, values, numbers, variance);
-            Scale::cost(price, found.chances)
+            Scale::cost(price, found.multiplicity)
         };
         now.fit.model.found.iter().map(cost).collect()
     }
@@ -205,7 +207,7 @@ impl Search<'_, '_> {
                     let own = screen.own(candidate);
                     own.price(&it.held, &score.values, scale.numbers, variance)
                 };
-                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.chances));
+                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.multiplicity));
                 let gain = score.drop / variance - cost;
                 Ranked { candidate, score, cost, gain }
             })
@@ -238,24 +240,26 @@ impl Search<'_, '_> {
                 break;
             }
             tries += 1;
-            let chance = scale.chance(&one.score, screen.left(), screen.basis.rank(), tried.len());
+            let p_value =
+                scale.p_value(&one.score, screen.left(), screen.basis.rank(), tried.len());
             let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
-            if chance > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
+            if p_value > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
                 continue;
             }
-            let flips = flips
-                .get_or_insert_with(|| Flips::new(&screen, &tried, variance, self.options.seed));
-            if flips.chance(&one.score) > SIGNIFICANT {
+            let flips = flips.get_or_insert_with(|| {
+                SignFlips::new(&screen, &tried, variance, self.options.seed)
+            });
+            if flips.p_value(&one.score) > SIGNIFICANT {
                 continue;
             }
             let refined = self.refined(now, &[], one, &screen);
             let mut added: Vec<Fitted> = refined.into_iter().collect();
             let significant = |r: &&Ranked| {
-                let chance =
-                    scale.chance(&r.score, screen.left(), screen.basis.rank(), tried.len());
-                chance <= SIGNIFICANT
+                let p_value =
+                    scale.p_value(&r.score, screen.left(), screen.basis.rank(), tried.len());
+                p_value <= SIGNIFICANT
                     && r.gain > 0.0
-                    && flips.chance(&r.score) <= SIGNIFICANT
+                    && flips.p_value(&r.score) <= SIGNIFICANT
                     && screen.held_out(&trained, Some(r.candidate)).white < before.white
             };
             let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
@@ -314,7 +318,7 @@ impl Search<'_, '_> {
         (0..self.problem.arm.dof()).map(of_joint).collect()
     }
 
-    /// The model without the effects `out` and with another; `None` if squares and strain of the exact fit
+    /// The model without the effects `out` and with another; `None` if squares and prior penalty of the exact fit
     /// do not come `below` something, or an end was asked for before it was done.
     pub(super) fn with(
         &self,
@@ -341,7 +345,7 @@ impl Search<'_, '_> {
         });
         let Some(fit) = fit.ok().filter(|_| !self.stopped()) else { return Ok(None) };
         let left = squares(self.problem, &fit.predicted.gaps, &now.weights);
-        Ok((left + strain(self.problem, &fit.model) <= below).then_some(fit))
+        Ok((left + prior_penalty(self.problem, &fit.model) <= below).then_some(fit))
     }
 
     /// The model with every effect as a whole: a form that leaves out numbers is as likely as the
@@ -360,7 +364,7 @@ impl Search<'_, '_> {
         }
         let weights = *weights;
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
-        self.settled(fit, weights)
+        self.converged(fit, weights)
     }
 
     /// The candidate that has all numbers of a form that leaves some out, and its form; `None` of one that is whole.
@@ -389,6 +393,6 @@ impl Search<'_, '_> {
             model.found.remove(index);
         }
         let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
-        self.settled(fit, weights)
+        self.converged(fit, weights)
     }
 }

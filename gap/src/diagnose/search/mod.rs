@@ -6,7 +6,7 @@
 //!
 //! `forward` adds one effect after the other: the one with the most evidence (`evidence`: what it
 //! explains against what its parameters cost, and the chance that noise explains as much), if it
-//! shrinks the held-out gap. `refined` places a jump in time, `hung` says in whose axes loads act, `exchange`
+//! shrinks the held-out gap. `refined` places a jump in time, `load_frame` says in whose axes loads act, `exchange`
 //! removes or replaces what was added too early. All ask the sums that were gathered [`beside`](Search::screen)
 //! the model, where what follows time is also compared with autocorrelated errors. What is gathered [`First`],
 //! before anything is found, also says what the data could show.
@@ -16,7 +16,7 @@ mod evidence;
 mod exchange;
 mod first;
 mod forward;
-mod hung;
+mod load_frame;
 mod pairs;
 mod refined;
 

@@ -6,9 +6,9 @@ use nalgebra::{DMatrix, DVector};
 use super::evidence::Scale;
 use super::exchange::EXCHANGE;
 use super::forward::{Explained, OWN, Search};
-use crate::diagnose::fit::{Fitted, squares, strain};
+use crate::diagnose::fit::{Fitted, prior_penalty, squares};
+use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::sums::Candidate;
 use crate::effects::{Forms, Group};
 use crate::infer::{Basis, Squares, price, starts};
 
@@ -50,7 +50,7 @@ impl Search<'_, '_> {
             })
             .collect();
         let Some(fit) = self.with(begun, &[], added, f64::INFINITY)? else { return Ok(now) };
-        let pair = self.settled(fit, begun.weights)?;
+        let pair = self.converged(fit, begun.weights)?;
         // By the noise of either.
         let is_better = [&now, &pair]
             .into_iter()
@@ -65,7 +65,7 @@ impl Search<'_, '_> {
         let variance = self.scale(by).variance(self.left(by), fitted);
         let left = squares(self.problem, &fit.fit.predicted.gaps, &by.weights);
         let costs = self.costs_of(fit, variance).into_iter().sum::<f64>();
-        (left + strain(self.problem, model)) / variance + costs
+        (left + prior_penalty(self.problem, model)) / variance + costs
     }
 
     fn best_pair(&self, begun: &Explained, ordinary: &[Candidate]) -> Option<Pair> {
@@ -114,8 +114,8 @@ impl Search<'_, '_> {
         let variance = scale.variance((left - most).max(0.0), fitted);
         let weighed = falls.into_iter().map(|(causes, (fall, values, matrix, held))| {
             let price = price(matrix, &held, Some(values.as_slice()), scale.numbers, variance);
-            let chances = causes.into_iter().map(|c| ordinary[c].chances).product();
-            let gain = fall / variance - Scale::cost(price, chances);
+            let multiplicity = causes.into_iter().map(|c| ordinary[c].multiplicity).product();
+            let gain = fall / variance - Scale::cost(price, multiplicity);
             Pair { causes, values: values.iter().copied().collect(), gain }
         });
         weighed.max_by(|a, b| a.gain.total_cmp(&b.gain))

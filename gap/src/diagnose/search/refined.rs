@@ -2,7 +2,7 @@
 
 use super::forward::{Explained, Ranked, Search};
 use crate::diagnose::fit::Fitted;
-use crate::diagnose::sums::{Candidate, Kept, Screen};
+use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::effects::{Forms, Spot};
 use crate::infer::Score;
 

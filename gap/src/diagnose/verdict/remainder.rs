@@ -3,12 +3,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::diagnose::normal_equations::{About, Candidate, Kept, Probe, Source};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::{Share, Unexplained};
 use crate::diagnose::search::{Explained, First, Search};
-use crate::diagnose::sums::{About, Candidate, Kept, Probe, Source};
 use crate::effects::Place;
-use crate::infer::Flips;
+use crate::infer::SignFlips;
 use crate::infer::constants::UNEXPLAINED;
 
 /// Displacements of free form that are tried beside each other.
@@ -47,13 +47,14 @@ impl Search<'_, '_> {
             if share <= 0.0 {
                 continue;
             }
-            let chance = scale.chance(&one.score, screen.left(), fitted, tried.len());
-            if chance > UNEXPLAINED {
+            let p_value = scale.p_value(&one.score, screen.left(), fitted, tried.len());
+            if p_value > UNEXPLAINED {
                 continue;
             }
-            let flips = flips
-                .get_or_insert_with(|| Flips::new(&screen, &tried, variance, self.options.seed));
-            if flips.chance(&one.score) > UNEXPLAINED {
+            let flips = flips.get_or_insert_with(|| {
+                SignFlips::new(&screen, &tried, variance, self.options.seed)
+            });
+            if flips.p_value(&one.score) > UNEXPLAINED {
                 continue;
             }
             significant = true;
@@ -110,7 +111,7 @@ impl Search<'_, '_> {
             let whole = *whole.get_or_insert(left);
             let ranked = self.ranked(&screen, start);
             let Some(best) = ranked.first().filter(|best| best.gain > 0.0) else { break };
-            if scale.chance(&best.score, left, screen.basis.rank(), ranked.len()) > UNEXPLAINED {
+            if scale.p_value(&best.score, left, screen.basis.rank(), ranked.len()) > UNEXPLAINED {
                 break;
             }
             if let Source::Probe(probe) = &all[best.candidate].source {

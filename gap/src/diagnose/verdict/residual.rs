@@ -141,8 +141,8 @@ mod tests {
         let data = table(rows.collect(), Kind::Pose { orientation: false });
         let arm = rigid();
         let problem = Problem::new(&arm, &data, &Options::default()).unwrap();
-        let mut dice = Rng::new(2, Stream::Signs);
-        let gaps: Vec<_> = (0..400).map(|_| each(&mut || normal(&mut dice))).collect();
+        let mut rng = Rng::new(2, Stream::Signs);
+        let gaps: Vec<_> = (0..400).map(|_| each(&mut || normal(&mut rng))).collect();
         let (shape, order) =
             (normality(&problem, &gaps).unwrap(), autocorrelation(&problem, &gaps).unwrap());
         [shape.excess_kurtosis, shape.p_value, order.lag_1, order.p_value]

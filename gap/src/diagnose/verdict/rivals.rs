@@ -4,11 +4,11 @@
 use rayon::prelude::*;
 
 use super::outcome::Group;
+use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Ranked, Search};
-use crate::diagnose::sums::{Candidate, Kept, Screen};
 use crate::infer::constants::DISTINGUISHABLE;
-use crate::infer::{Flips, Score};
+use crate::infer::{Score, SignFlips};
 use crate::report::{Alternative, Left};
 
 /// Up to this much evidence the poses must agree on it: where few of them carry it, chance may.
@@ -141,9 +141,9 @@ impl Search<'_, '_> {
         now: &Explained,
     ) -> f64 {
         let scale = self.scale(now);
-        let chance = scale.chance(finding, screen.left(), screen.basis.rank(), tried.len());
+        let p_value = scale.p_value(finding, screen.left(), screen.basis.rank(), tried.len());
         let variance = scale.variance(screen.left(), screen.basis.rank());
-        let flips = Flips::new(screen, tried, variance, self.options.seed);
-        chance.max(flips.chance(finding))
+        let flips = SignFlips::new(screen, tried, variance, self.options.seed);
+        p_value.max(flips.p_value(finding))
     }
 }

@@ -4,8 +4,8 @@
 use nalgebra::{DVector, Matrix6xX, Vector6};
 
 use super::outcome::Group;
+use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::search::{Explained, Search};
-use crate::diagnose::sums::Candidate;
 use crate::measurement::Row;
 use crate::observe::View;
 use crate::simulate::Sim;

@@ -2,9 +2,9 @@
 //! that a log tells too.
 
 use crate::diagnose::fit::{Fitted, Model};
+use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
-use crate::diagnose::sums::Candidate;
 use crate::effects::{JOINT_SPRING, Place, Spot};
 use crate::spring::{Joined, Spring};
 

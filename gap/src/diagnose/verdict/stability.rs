@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::diagnose::normal_equations::Screen;
 use crate::diagnose::search::{Explained, OWN, Scale, Search};
-use crate::diagnose::sums::Screen;
 use crate::infer::{Basis, Own, Products};
 use crate::rng::{Rng, Stream};
 
@@ -81,7 +81,7 @@ impl Search<'_, '_> {
                 return (candidate, f64::MAX);
             }
             let price = own.price(&it.held, &score.values, numbers, variance);
-            (candidate, Scale::cost(price, it.chances) - score.drop / variance)
+            (candidate, Scale::cost(price, it.multiplicity) - score.drop / variance)
         };
         contenders.iter().map(cost).collect()
     }

@@ -57,7 +57,7 @@ impl Unknown {
         };
         let least = effect.parameters(arm, spot).iter().map(|p| p.least).collect();
         let (values, held) = (vec![value], vec![0.0]);
-        Fitted { effect, spot, least, values, held, chances: 1, lead: 0.0 }
+        Fitted { effect, spot, least, values, held, multiplicity: 1, margin: 0.0 }
     }
 }
 

@@ -18,7 +18,7 @@ use super::read::{Clock, Log, Signal, TorqueSide};
 use super::search::case::{Case, Wanted};
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::weights;
-use super::search::sums::sum;
+use super::search::normal_equations::sum;
 use crate::infer::{RANK, Squares};
 
 /// One thing that is wrong. Joints and runs count from 0.

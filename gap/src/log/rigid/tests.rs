@@ -1,7 +1,7 @@
 use super::works::Works;
 use super::*;
-use crate::dice::{Dice, Stream};
 use crate::fixture;
+use crate::rng::{Rng, Stream};
 
 /// Three joints, one of which slides, with whole tensors.
 fn weighty(convention: &str) -> Arm {
@@ -37,12 +37,12 @@ fn a_body_is_the_same_in_another_frame() {
 /// Against the textbook's, which turns a unit of each number into the base's axes.
 #[test]
 fn what_the_moments_ask_is_what_the_textbook_says() {
-    let mut dice = Dice::new(3, Stream::Poses);
+    let mut rng = Rng::new(3, Stream::Poses);
     for arm in ["standard", "modified"].map(weighty) {
         let (n, works) = (arm.dof(), Works::of(&arm));
         let mut asks = vec![0.0; 10 * n * n];
         for _ in 0..100 {
-            let motion = [3.0, 2.0, 5.0].map(|most| (0..n).map(|_| most * dice.normal()).collect());
+            let motion = [3.0, 2.0, 5.0].map(|most| (0..n).map(|_| most * rng.normal()).collect());
             let [q, rates, accelerations]: [Vec<f64>; 3] = motion;
             works.regressor([&q, &rates, &accelerations], &mut asks);
             let expected = arm.torque_regressor(&q, &rates, &accelerations);

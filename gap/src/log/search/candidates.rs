@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::blocks::Blocks;
 use super::dictionary::{Dictionary, Entry};
 use super::fit::{Fitted, Term, weights};
-use super::sums::Sums;
+use super::normal_equations::Sums;
 use crate::infer::{Basis, Columns, Products, Screen, Signs, unit};
 
 /// So many of the candidates that take most of what is left are held out; the others take less.

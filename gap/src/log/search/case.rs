@@ -274,7 +274,7 @@ impl Case<'_> {
 
     /// Whether an effect may have such values beyond the robot file's. Where in truth there is none of it the sum comes
     /// out on either side of zero: a little below is none.
-    pub fn may_be(&self, term: &Term) -> bool {
+    pub fn is_feasible(&self, term: &Term) -> bool {
         let of = self.of_file(term.effect, term.spot);
         let is_little =
             |(of, value): (&f64, &f64)| *of > 0.0 && *value < 0.0 && *value > -LEAST * of;
@@ -285,7 +285,7 @@ impl Case<'_> {
             sum if sum < 0.0 && sum >= -NONE * of => 0.0,
             sum => sum,
         });
-        term.effect.may_be(&sum.collect::<Vec<f64>>())
+        term.effect.is_feasible(&sum.collect::<Vec<f64>>())
     }
 
     /// The same values, none of them below what takes away all that the robot file has.

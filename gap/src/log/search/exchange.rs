@@ -36,7 +36,7 @@ pub fn added(
     let asked = Asked::lacking(dict, &lacks, sizes, divided, &here, seed);
     let told = asked.candidates.iter().zip(&asked.p_values).filter(|(_, p)| **p <= SIGNIFICANT);
     let left = told
-        .filter(|(candidate, _)| dict.case.may_be(&candidate.term))
+        .filter(|(candidate, _)| dict.case.is_feasible(&candidate.term))
         // What nobody expects has to do better.
         .filter(|(c, _)| !is_unusual(&c.term) || is_worse(&whole, &c.squares))
         .map(|(candidate, _)| (candidate.squares.iter().sum::<f64>(), &candidate.term));

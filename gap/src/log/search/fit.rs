@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::dictionary::{Dictionary, Entry, Mixed};
-use super::sums::sum;
+use super::normal_equations::sum;
 use crate::infer::Basis;
 use crate::log::effects::{LogEffect, Spot};
 

@@ -9,7 +9,7 @@ use super::blocks::Blocks;
 use super::candidates::{Asked, Candidate};
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
-use super::sums::Sums;
+use super::normal_equations::Sums;
 use super::{Round, exchange, is_worse};
 use crate::infer::constants::{LOOSE, SIGNIFICANT};
 use crate::log::effects::{COULOMB, LogEffect, SCALE, Spot, VISCOUS};
@@ -78,7 +78,7 @@ fn is_either(effect: &dyn LogEffect) -> bool {
 fn too_much<'r>(dict: &'r Dictionary<'_>, round: &'r Round) -> impl Iterator<Item = usize> + 'r {
     let asked = round.asked.candidates.iter().zip(&round.asked.p_values);
     let is_more = |(c, p): &(&Candidate, &f64)| {
-        **p <= SIGNIFICANT && is_either(c.term.effect) && !dict.case.may_be(&c.term)
+        **p <= SIGNIFICANT && is_either(c.term.effect) && !dict.case.is_feasible(&c.term)
     };
     asked.filter(is_more).filter_map(|(c, _)| c.term.spot.joint())
 }
@@ -118,7 +118,7 @@ impl Tried {
         let terms: Vec<Term> = terms.iter().cloned().chain(both).collect();
         let fit = Fitted::of(dict, &terms, links, sizes);
         let own = &fit.terms[fit.terms.len() - BOTH.len()..];
-        if !own.iter().all(|term| dict.case.may_be(term)) {
+        if !own.iter().all(|term| dict.case.is_feasible(term)) {
             return None;
         }
         let squares = Asked::of(dict, &fit, sizes, divided, &[], seed).squares;
@@ -155,7 +155,7 @@ pub fn instead(
         let scale = offer_both(dict, &others, joint).and_then(|_| offered(dict, SCALE, term.spot));
         let asked = scale.map(|offer| Asked::of(dict, &lacks, sizes, divided, &[offer], seed));
         let asked = asked.into_iter().flat_map(|asked| asked.candidates);
-        asked.filter(|c| dict.case.may_be(&c.term)).map(|c| (c.term, c.squares)).collect()
+        asked.filter(|c| dict.case.is_feasible(&c.term)).map(|c| (c.term, c.squares)).collect()
     } else {
         Vec::new()
     };

@@ -24,7 +24,7 @@ pub struct Judged {
     /// With its values.
     pub term: Term,
     /// The chance that something unrelated does as well.
-    pub chance: f64,
+    pub p_value: f64,
     /// What it leaves of each block, held out.
     squares: Vec<f64>,
     /// What would do instead, with what it leaves for each that the finding leaves; the best first.
@@ -103,11 +103,11 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
             judged
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
-        let wrong = |j: &Judged| !dict.case.may_be(&j.term);
+        let wrong = |j: &Judged| !dict.case.is_feasible(&j.term);
         let doubted =
-            |j: &Judged| wrong(j) || (j.chance > SIGNIFICANT && !is_along(&j.term, &fit.terms));
+            |j: &Judged| wrong(j) || (j.p_value > SIGNIFICANT && !is_along(&j.term, &fit.terms));
         let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
-            let doubt = |k: &usize| (wrong(&all[*k]), all[*k].chance);
+            let doubt = |k: &usize| (wrong(&all[*k]), all[*k].p_value);
             let (a, b) = (doubt(a), doubt(b));
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         });
@@ -152,7 +152,7 @@ impl Asked {
     fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
         let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
-            return Judged { term, chance: 1.0, squares: self.squares, rivals: Vec::new() };
+            return Judged { term, p_value: 1.0, squares: self.squares, rivals: Vec::new() };
         };
         let left = |k: usize| self.candidates[k].squares.iter().sum::<f64>();
         let best = &self.candidates[own].squares;
@@ -161,7 +161,7 @@ impl Asked {
                 let rival = &self.candidates[*k];
                 *k != own
                     && self.p_values[*k] <= RIVAL
-                    && dict.case.may_be(&rival.term)
+                    && dict.case.is_feasible(&rival.term)
                     && (!is_worse(&rival.squares, best)
                         || has_it_in(dict, rival, &self.candidates[own]))
             })
@@ -171,6 +171,6 @@ impl Asked {
         let ratio = |k: usize| (left(k) / left(own)).sqrt();
         let rivals = rivals.into_iter().map(|k| (self.candidates[k].term.clone(), ratio(k)));
         let squares = best.clone();
-        Judged { chance: self.p_values[own], squares, rivals: rivals.collect(), term }
+        Judged { p_value: self.p_values[own], squares, rivals: rivals.collect(), term }
     }
 }

@@ -17,11 +17,11 @@ pub mod fit;
 mod friction;
 pub mod judge;
 pub mod nested;
+pub mod normal_equations;
 pub mod residual;
 pub mod ripples;
 pub mod segments;
 pub mod springs;
-pub mod sums;
 pub mod unseen;
 
 use blocks::Blocks;
@@ -29,7 +29,7 @@ use candidates::{Asked, Candidate};
 use case::{Case, Simple, Wanted};
 use dictionary::Dictionary;
 use fit::{Fitted, Links, Term};
-use sums::Sums;
+use normal_equations::Sums;
 
 use super::effects::{CATALOGUE, Catalogue, LogEffect, Spot};
 use super::scene::Loads;
@@ -123,10 +123,10 @@ impl Round {
                 continue;
             }
             let mut asked = ask(&blocks);
-            for (chance, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
+            for (p_value, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
                 // Each look is another question that chance may answer, as was the first (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;
-                *chance = if is_it { (looks * *chance).min(1.0) } else { 1.0 };
+                *p_value = if is_it { (looks * *p_value).min(1.0) } else { 1.0 };
             }
             let (fit, sizes) = (fit.clone(), sizes.clone());
             let again = Round { correlation, blocks, asked, fit, sizes };
@@ -146,7 +146,7 @@ impl Round {
         let gain = |c: &Candidate| (whole - left(c)) / c.things();
         let told =
             candidates.iter().zip(p_values).filter(|(_, p)| **p <= SIGNIFICANT).map(|(c, _)| c);
-        let told = told.filter(|c| left(c) < whole && case.may_be(&c.term));
+        let told = told.filter(|c| left(c) < whole && case.is_feasible(&c.term));
         told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
     }
 }
@@ -155,9 +155,12 @@ impl Asked {
     /// The candidates that chance may explain and that take most by each of their numbers, more than so much; that
     /// which does first.
     fn most(&self, case: &Case<'_>, least: f64) -> Vec<&Candidate> {
-        let open =
-            self.candidates.iter().zip(&self.p_values).filter(|(_, chance)| **chance > SIGNIFICANT);
-        let may = open.map(|(c, _)| c).filter(|c| case.may_be(&c.term));
+        let open = self
+            .candidates
+            .iter()
+            .zip(&self.p_values)
+            .filter(|(_, p_value)| **p_value > SIGNIFICANT);
+        let may = open.map(|(c, _)| c).filter(|c| case.is_feasible(&c.term));
         let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
         most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
         most.truncate(AGAIN);

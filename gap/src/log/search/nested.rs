@@ -6,8 +6,8 @@ use super::blocks::Blocks;
 use super::converge::converged;
 use super::dictionary::Dictionary;
 use super::fit::Links;
+use super::normal_equations::quadratic;
 use super::search;
-use super::sums::quadratic;
 
 /// Root mean square that is left of each joint by what a search finds that has not seen a fold, over all
 /// folds; 0 of a joint that has no rows.

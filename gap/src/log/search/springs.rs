@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use super::dictionary::Dictionary;
 use super::fit::{minimum, weights};
 use super::judge::Verdict;
-use super::sums::sum;
+use super::normal_equations::sum;
 use super::unseen::half_widths;
 use crate::log::effects::{DROOP, ELASTICITY, LogEffect, Spot};
 use crate::log::model::{Acting, Model};

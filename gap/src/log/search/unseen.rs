@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::blocks::Blocks;
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, minimum, weights};
-use super::sums::{quadratic, sum};
+use super::normal_equations::{quadratic, sum};
 use crate::infer::{Basis, drawn, students_t};
 
 /// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.

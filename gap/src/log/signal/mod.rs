@@ -287,7 +287,7 @@ impl Signals {
         let (count, period) = self.repeated?;
         Some(format!(
             "the motion repeats {count} times, every {period:.3} s, sample by sample: the repeats are averaged, since an error \
-             that all of them share is no chance"
+             that all of them share is no p_value"
         ))
     }
 

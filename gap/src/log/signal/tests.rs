@@ -85,11 +85,11 @@ fn a_clock_that_jitters_comes_to_even_steps() {
 #[test]
 fn the_band_is_that_of_the_motion() {
     let mut log = log(&[even(6000, 2e-3)]);
-    let mut dice = crate::dice::Dice::new(7, crate::dice::Stream::Noise);
+    let mut rng = crate::rng::Rng::new(7, crate::rng::Stream::Noise);
     for (q, t) in
         log.runs[0].signals.get_mut(&Signal::Q).unwrap()[0].iter_mut().zip(even(6000, 2e-3))
     {
-        *q += 0.3 * (TAU * 3.0 * t).sin() + 1e-5 * dice.normal();
+        *q += 0.3 * (TAU * 3.0 * t).sin() + 1e-5 * rng.normal();
     }
     let band = Signals::of(&log, None, None).band;
     // A window of 512 samples tells frequencies by the Hz; Blackman's main lobe ends three of them

@@ -52,7 +52,7 @@ pub(super) struct Left {
     /// Root mean square of those rows that fit best, m; a rotation counts by a lever.
     pub size: f64,
     /// How far zeros and springs went from what the file says, in squares of their prior scales.
-    pub strain: f64,
+    pub prior_penalty: f64,
     /// Root mean square of all rows, positions (m) and rotations (rad).
     pub position: f64,
     pub rotation: f64,
@@ -290,11 +290,11 @@ impl Fit {
     fn cost(&self, gaps: &[Gap], scale: f64) -> f64 {
         let of_gap = |gap: &Gap| (self.size(gap) / scale).powi(2);
         let rows = gaps.iter().map(|gap| FLAT * (of_gap(gap) / FLAT).ln_1p()).sum::<f64>();
-        rows + self.strain()
+        rows + self.prior_penalty()
     }
 
     /// Squares of zeros and springs in their prior scales.
-    fn strain(&self) -> f64 {
+    fn prior_penalty(&self) -> f64 {
         let zeros = self.at.zeros.iter().map(|zero| (zero / ZERO).powi(2)).sum::<f64>();
         let springs = self.at.springs.iter().zip(&self.soft);
         zeros + springs.map(|(by, (_, scale))| (by / scale).powi(2)).sum::<f64>()
@@ -310,7 +310,7 @@ impl Fit {
         let size = self.scale(gaps);
         Left {
             size: if size.is_finite() { size } else { f64::INFINITY },
-            strain: self.strain(),
+            prior_penalty: self.prior_penalty(),
             position: of(|gap| gap.0.norm()),
             rotation: of(|gap| gap.1.norm()),
             rows: self.rows.len() as f64 - free / part,

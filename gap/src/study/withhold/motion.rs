@@ -106,12 +106,12 @@ impl<'a> Bench<'a> {
             }
         }
         let close = (found / multiple - 1.0).abs() < 0.2 && all <= LARGEST * self.spread;
-        (close && self.may_be(&truth)).then_some((truth, found))
+        (close && self.is_feasible(&truth)).then_some((truth, found))
     }
 
     /// Whether there is such a thing: gears that give way little and do not hold themselves, iron that
     /// saturates by less than what is given, friction that is there at the end.
-    fn may_be(&self, truth: &MotionTruth) -> bool {
+    fn is_feasible(&self, truth: &MotionTruth) -> bool {
         let Spot::Joint(joint) = truth.spot else { return true };
         let given = self.nominal.iter().flat_map(|run| &run[joint]);
         let given = given.fold(0.0_f64, |most, x| most.max(x.abs()));

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::forward::{Explained, Search};
-use crate::diagnose::fit::{Axes, Model, refit_below, squares, strain};
+use crate::diagnose::fit::{Axes, Model, prior_penalty, refit_below, squares};
 use crate::diagnose::options::DiagnoseError;
 use crate::infer::constants::DISTINGUISHABLE;
 
@@ -13,7 +13,10 @@ const MOST_LEAN: f64 = 0.1;
 impl Search<'_, '_> {
     /// The same with loads and gravity in the measuring frame's axes, if the data are rather those of it than of the
     /// arm's. A tilt of gravity that was found is then not needed.
-    pub(crate) fn hung_as_measured(&self, now: &Explained) -> Result<Option<Model>, DiagnoseError> {
+    pub(crate) fn with_loads_as_measured(
+        &self,
+        now: &Explained,
+    ) -> Result<Option<Model>, DiagnoseError> {
         let (problem, model) = (self.problem, &now.fit.model);
         let lean = |base: &Isometry3<f64>| {
             let own = &problem.arm.gravity;
@@ -38,8 +41,8 @@ impl Search<'_, '_> {
             Err(DiagnoseError::Unstable { .. }) => return Ok(None),
             fit => fit?,
         };
-        let left =
-            squares(problem, &fit.predicted.gaps, &now.weights) + strain(problem, &fit.model);
+        let left = squares(problem, &fit.predicted.gaps, &now.weights)
+            + prior_penalty(problem, &fit.model);
         Ok((left < below).then_some(fit.model))
     }
 }

@@ -20,7 +20,7 @@ pub(crate) struct Candidate {
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
     pub(crate) held: Vec<f64>,
     /// Forms and places that the effect has: each more is one more chance to fit noise.
-    pub(crate) chances: usize,
+    pub(crate) multiplicity: usize,
 }
 
 /// Where a candidate's block comes from.
@@ -112,7 +112,7 @@ impl Candidate {
             size: parameters.len(),
             least: parameters.iter().map(|p| p.least).collect(),
             source: Source::Effect { effect, spot },
-            chances: forms * effect.places(problem.arm).len() * effect.odds(),
+            multiplicity: forms * effect.places(problem.arm).len() * effect.odds(),
         }
     }
 
@@ -120,13 +120,21 @@ impl Candidate {
     pub(crate) fn fitted(&self, spot: Spot, values: Vec<f64>) -> Option<Fitted> {
         let (effect, _) = self.effect()?;
         let (least, held) = (self.least.clone(), self.held.clone());
-        Some(Fitted { effect, spot, least, values, held, lead: 0.0, chances: self.chances })
+        Some(Fitted {
+            effect,
+            spot,
+            least,
+            values,
+            held,
+            margin: 0.0,
+            multiplicity: self.multiplicity,
+        })
     }
 
     pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
         let least = vec![f64::NEG_INFINITY; size];
         let held = vec![0.0; size];
-        Candidate { source: Source::Probe(probe), size, least, held, chances: 1 }
+        Candidate { source: Source::Probe(probe), size, least, held, multiplicity: 1 }
     }
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {

@@ -1,8 +1,8 @@
 //! Plain facts of the gap: which part of it goes with what, and how large it is where.
 
+use crate::diagnose::normal_equations::{Candidate, Kept};
 use crate::diagnose::report::{Part, Slice};
 use crate::diagnose::search::{Explained, Search};
-use crate::diagnose::sums::{Candidate, Kept};
 use crate::effects::Group;
 use crate::gap::rms;
 use crate::infer::constants::NUMBERS_EACH;

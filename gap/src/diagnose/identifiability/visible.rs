@@ -1,8 +1,8 @@
 //! What this data could show, before anything is fitted: what is left of each effect when the
 //! nuisances, and all of the arm's geometry, have taken up what they can.
 
+use crate::diagnose::normal_equations::{Kept, Screen};
 use crate::diagnose::search::{Explained, First, OWN, Search};
-use crate::diagnose::sums::{Kept, Screen};
 use crate::effects::{Effect, Place};
 use crate::infer::constants::NUMBERS_EACH;
 use crate::report::{CannotSee, Hidden};

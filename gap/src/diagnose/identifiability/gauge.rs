@@ -1,10 +1,10 @@
 //! Freedoms of the geometry: numbers of the table of which the data see only sums. Parallel axes
 //! share their `d`, the first offset is a turn of the base, the last lengths are the tool's.
 
+use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::Gauge;
 use crate::diagnose::search::{First, Search};
-use crate::diagnose::sums::Candidate;
 use crate::effects::{Place, Spot};
 use crate::infer::Dependent;
 
