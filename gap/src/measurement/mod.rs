@@ -448,8 +448,8 @@ fn read_into(
         pairs: Vec::new(),
         poses,
     };
-    if let Err(fault) = layout.bench.set_up(&mut data) {
-        mistakes.add(Mistake::from(fault));
+    if let Err(mistake) = layout.bench.set_up(&mut data) {
+        mistakes.add(mistake);
     }
     Ok(Some(data))
 }

@@ -44,7 +44,7 @@ use serde::Deserialize;
 use camera::{Board, Camera};
 
 use super::{Aim, Pair, Plane, Seen, View};
-use crate::io::{Dimension, Fault, ReadError, from_toml, quantity};
+use crate::io::{Dimension, Fault, Mistake, ReadError, from_toml, quantity};
 use crate::measurement::{Measurements, Row};
 
 /// What is known of a bench.
@@ -208,8 +208,8 @@ impl Bench {
     /// another file's.
     ///
     /// # Errors
-    /// [`Fault`]: a pair of which the file has one point alone.
-    pub(crate) fn set_up(&self, data: &mut Measurements) -> Result<(), Fault> {
+    /// [`Mistake`]: a pair of which the file has one point alone; as [`Bench::look`].
+    pub(crate) fn set_up(&self, data: &mut Measurements) -> Result<(), Mistake> {
         data.rows.iter_mut().for_each(|row| self.known(row));
         self.look(data)?;
         let has = |name: &String| {
@@ -224,14 +224,13 @@ impl Bench {
                 [is_first, _] => {
                     let [one, other] = points;
                     let (is, not) = if is_first { (one, other) } else { (other, one) };
-                    return Err(Fault::new(
-                        format!(
-                            "a [[pair]] of `{is}` and `{not}` in {}, and no row with point `{not}`",
-                            self.file
-                        ),
-                        "rows of both points or of none",
-                        "mend the name, or remove the pair",
-                    ));
+                    let found = format!(
+                        "a [[pair]] of `{is}` and `{not}` in {}, and no row with point `{not}`",
+                        self.file
+                    );
+                    let expected = "rows of both points or of none";
+                    let fault = Fault::new(found, expected, "mend the name, or remove the pair");
+                    return Err(Mistake::from(fault));
                 }
             }
         }

@@ -228,7 +228,7 @@ impl Signals {
     }
 
     /// Torques of a joint at the fine samples, through the filter: of now, and of `delay` s later. By cubics through four
-    /// samples: [`FINE`] of them are there for each period of the band's edge. Beyond an end it is the last.
+    /// samples: ten of them are there for each period of the band's edge. Beyond an end it is the last.
     pub fn drive_and_later(&self, joint: usize, delay: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut now, mut later) = (Vec::new(), Vec::new());
         for span in &self.spans {

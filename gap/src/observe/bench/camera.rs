@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 use super::{Bench, Length};
-use crate::io::Fault;
+use crate::io::{Fault, Mistake};
 use crate::measurement::{Measurements, Row};
 use crate::observe::{Aim, Lens, Seen, View, lens};
 
@@ -112,12 +112,13 @@ impl Bench {
     /// Puts what is known of cameras and boards into their rows.
     ///
     /// # Errors
-    /// [`Fault`]: two cameras or boards where there is one frame, or a row whose camera or corner nobody knows.
-    pub(super) fn look(&self, data: &mut Measurements) -> Result<(), Fault> {
-        one_of_each(data)?;
+    /// [`Mistake`]: two cameras or boards where there is one frame, or a row whose camera or corner nobody knows.
+    pub(super) fn look(&self, data: &mut Measurements) -> Result<(), Mistake> {
+        one_of_each(data).map_err(Mistake::from)?;
         for row in &mut data.rows {
             if row.aim.as_ref().is_some_and(|aim| aim.seen == Seen::Camera) {
-                data.by_board |= self.pixels(row)?;
+                let line = row.line;
+                data.by_board |= self.pixels(row).map_err(|fault| fault.at(line, None))?;
             } else {
                 self.carried(row);
             }
@@ -149,10 +150,9 @@ impl Bench {
     /// Points the camera of a row at what it shows, pixels in parts of the focal length; whether that is a board's
     /// corner.
     fn pixels(&self, row: &mut Row) -> Result<bool, Fault> {
-        let at = |found: String, expected: &str, help: &str| {
-            Err(Fault::new(format!("line {}: {found}", row.line), expected, help))
-        };
-        let name = row.camera.as_ref().map_or("", |names| &names[0]);
+        let at = |found: String, expected: &str, help: &str| Err(Fault::new(found, expected, help));
+        let told = row.camera.as_ref().map_or("", |names| &names[0]);
+        let name = self.camera(row).map_or(told, |camera| &camera.name);
         let Some((camera, lens)) =
             self.camera(row).and_then(|camera| Some((camera, camera.lens()?)))
         else {
@@ -271,7 +271,7 @@ mod tests {
                 camera(""),
                 header,
                 row,
-                "line 2: found `u` and `v` of camera ``, whose matrix nobody knows",
+                "line 2: found `u` and `v` of camera `left`, whose matrix nobody knows",
             ),
             (camera(&format!("{MATRIX}\non = \"tool\"")), "q1,u,v", "0.1,1,2", "without a marker"),
             (camera(MATRIX), header, "0.1,c7,600,300", "unknown marker `c7`"),

@@ -86,7 +86,7 @@ impl Design {
         };
         let rows = design.rows.iter().flat_map(of).collect();
         let mut data = Measurements { rows, by_camera: true, by_board: true, ..design };
-        bench.set_up(&mut data)?;
+        bench.set_up(&mut data).map_err(|mistake| mistake.fault)?;
         Ok(data)
     }
 }
