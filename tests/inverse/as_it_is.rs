@@ -46,18 +46,13 @@ place = "tool"
 scale = "2 %"
 "#;
 
-/// The files of the collection that have a closed form, and no symbols.
+/// The arms of the collection that have numbers and a closed form.
 fn collection() -> Vec<Robot> {
-    let mut files: Vec<_> = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/arms"))
-        .expect("the folder")
-        .map(|file| file.expect("a file").path())
-        .collect();
-    files.sort();
-    let robots = files.iter().map(|path| {
-        let text = std::fs::read_to_string(path).expect("the file");
-        Robot::from_toml(&text, "arm.toml").expect("the file is valid").0
-    });
-    robots.filter(|robot| robot.closed_form().is_ok() && robot.symbols().is_empty()).collect()
+    let mut arms = stiffarm_robots::ARMS.to_vec();
+    arms.sort_by_key(|arm| arm.id);
+    let read = |arm: &stiffarm_robots::Arm| Robot::from_toml(arm.toml, arm.id).expect("a robot").0;
+    let robots = arms.iter().map(read);
+    robots.filter(|robot| robot.closed_form().is_ok()).collect()
 }
 
 fn size(robot: &Robot) -> f64 {

@@ -53,6 +53,11 @@ impl Seen {
         }
     }
 
+    /// How many numbers it reads.
+    pub(crate) fn numbers(self) -> usize {
+        self.components().into_iter().filter(|is| *is).count()
+    }
+
     /// What reports call the thing.
     pub fn thing(self) -> &'static str {
         match self {

@@ -60,16 +60,17 @@ fn null(rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     Some(own.eigenvectors.column(own.eigenvalues.imin()).iter().copied().collect())
 }
 
+/// The two equations, linear in the entries of a projective matrix by its rows, by which it takes a point to a direction.
+fn equations(point: &[f64], direction: &Vector2<f64>) -> [Vec<f64>; 2] {
+    let row = |first: f64, second: f64, by: f64| {
+        [first, second, -by].iter().flat_map(|part| point.iter().map(move |x| x * part)).collect()
+    };
+    [row(1.0, 0.0, direction.x), row(0.0, 1.0, direction.y)]
+}
+
 /// By the homography of points with z = 0.
 fn flat(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
-    let rows = seen.iter().flat_map(|(p, d)| {
-        let at = [p.x, p.y, 1.0];
-        let row = |first: f64, second: f64, by: f64| {
-            let parts = at.map(|a| a * first).into_iter().chain(at.map(|a| a * second));
-            parts.chain(at.map(|a| -a * by)).collect::<Vec<_>>()
-        };
-        [row(1.0, 0.0, d.x), row(0.0, 1.0, d.y)]
-    });
+    let rows = seen.iter().flat_map(|(p, d)| equations(&[p.x, p.y, 1.0], d));
     let h = Matrix3::from_row_slice(&null(&rows.collect::<Vec<_>>())?);
     let columns: [Vector3<f64>; 3] = core::array::from_fn(|k| h.column(k).into_owned());
     // What is seen is in front.
@@ -80,14 +81,7 @@ fn flat(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
 
 /// By the direct linear transform.
 fn solid(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
-    let rows = seen.iter().flat_map(|(p, d)| {
-        let at = [p.x, p.y, p.z, 1.0];
-        let row = |first: f64, second: f64, by: f64| {
-            let parts = at.map(|a| a * first).into_iter().chain(at.map(|a| a * second));
-            parts.chain(at.map(|a| -a * by)).collect::<Vec<_>>()
-        };
-        [row(1.0, 0.0, d.x), row(0.0, 1.0, d.y)]
-    });
+    let rows = seen.iter().flat_map(|(p, d)| equations(&[p.x, p.y, p.z, 1.0], d));
     let m = nalgebra::Matrix3x4::from_row_slice(&null(&rows.collect::<Vec<_>>())?);
     let turn: Matrix3<f64> = m.fixed_columns::<3>(0).into_owned();
     let factor = turn.determinant().signum() / turn.determinant().abs().cbrt();

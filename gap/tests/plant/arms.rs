@@ -1,7 +1,8 @@
 //! Arms and rows.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
-use stiffarm_gap::measurement::{Kind, Measurements, Row};
+use stiffarm_gap::measurement::{Kind, Layout, Measurements, Row};
+use stiffarm_gap::observe::Bench;
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
@@ -136,4 +137,10 @@ pub fn same_pose(measured: &Vector6<f64>, expected: &Isometry3<f64>, tolerance: 
 
 pub fn frames(base: Isometry3<f64>, tool: Isometry3<f64>) -> Frames {
     Frames { base, tool }
+}
+
+/// What the reader of a file has to know of an arm on a bench.
+pub fn layout(arm: &Arm, bench: Bench) -> Layout {
+    let motions = arm.joints.iter().map(|j| j.motion).collect();
+    Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench }
 }

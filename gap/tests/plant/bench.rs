@@ -1,7 +1,7 @@
 //! Instruments that are no trackers: sockets and plates, alone and together, against the plant's own formulas.
 
 use nalgebra::{Isometry3, Point3, Unit, Vector3, Vector6};
-use stiffarm_gap::measurement::{Kind, Layout, Row};
+use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::observe::{Aim, Bench, Lens, Pair, Plane, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, csv};
@@ -9,7 +9,7 @@ use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose, diagnose_with};
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::arms::{EXACT, loaded, plant, reading, rows, spatial, sprung};
+use crate::arms::{EXACT, layout, loaded, plant, reading, rows, spatial, sprung};
 
 const NOISE: Noise = Noise { position: 2e-5, rotation: 0.0 };
 const TRUTH: &str = "joint_compliance@joint 2=4e-6";
@@ -20,11 +20,6 @@ fn measured(arm: &Arm, kind: Kind, seed: u64) -> Measurements {
     let (shape, poses) = (Shape::Payload, 48);
     let design = Design { shape, poses, repeats: 1, payload: 20.0, kind, seed }.rows(arm);
     plant(arm, &[TRUTH]).measure(&design, NOISE, seed).expect("rows")
-}
-
-fn layout(arm: &Arm, bench: Bench) -> Layout {
-    let motions = arm.joints.iter().map(|j| j.motion).collect();
-    Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench }
 }
 
 #[track_caller]

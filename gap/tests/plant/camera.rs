@@ -1,14 +1,14 @@
 //! Cameras, inclinometers and gauges of unknown zero against the plant's own formulas.
 
 use nalgebra::{Isometry3, Matrix4, Point3, Vector3};
-use stiffarm_gap::measurement::{Kind, Layout, Row};
+use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::observe::{Aim, Bench, Lens, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, csv};
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose};
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::arms::{EXACT, loaded, plant, spatial};
+use crate::arms::{EXACT, layout, loaded, plant, spatial};
 
 /// A fifth of a pixel.
 const NOISE: Noise = Noise { position: 0.0, rotation: 0.2 / 1200.0 };
@@ -82,10 +82,9 @@ fn shown(
 }
 
 fn read(arm: &Arm, data: &Measurements, bench: &str) -> Measurements {
-    let motions = arm.joints.iter().map(|j| j.motion).collect();
     let bench = Bench::read("b.toml", bench).expect("a bench");
-    let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench };
-    Measurements::from_bytes("shown.csv", csv(arm, data, &[]).as_bytes(), &layout).expect("a file")
+    let text = csv(arm, data, &[]);
+    Measurements::from_bytes("shown.csv", text.as_bytes(), &layout(arm, bench)).expect("a file")
 }
 
 #[track_caller]

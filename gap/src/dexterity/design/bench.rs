@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Isometry3};
 use stiffarm_kernels::generic::Arm;
 
-use crate::observe::{Aim, Seen, View};
+use crate::observe::{Aim, View};
 
 /// Steps that bring a posture there at most, and a step in joints, rad or m, as far as first order holds.
 const STEPS: usize = 60;
@@ -23,17 +23,17 @@ pub(super) fn reaches(
 ) -> bool {
     for _ in 0..STEPS {
         let at = arm.pose(q);
-        let off = read(&thing.view, &at);
+        let off = read(thing, &at);
         if off.norm() < THERE {
             break;
         }
-        let slope = rows(&thing.view, &at) * arm.jacobian(q);
+        let slope = rows(thing, &at) * arm.jacobian(q);
         let Ok(step) = slope.svd(true, true).solve(&-off, 1e-3) else { return false };
         let part = (LONGEST / step.amax()).min(1.0);
         q.iter_mut().zip(step.iter()).for_each(|(q, step)| *q += part * step);
     }
     let within = ranges.iter().zip(q.iter()).all(|([low, high], q)| (low..=high).contains(&q));
-    let is_there = read(&thing.view, &arm.pose(q)).norm() < THERE;
+    let is_there = read(thing, &arm.pose(q)).norm() < THERE;
     within && is_there && is_above(arm, bench, q)
 }
 
@@ -47,22 +47,17 @@ fn is_above(arm: &Arm, bench: &[Aim], q: &[f64]) -> bool {
     })
 }
 
-fn read(view: &View, at: &Isometry3<f64>) -> DVector<f64> {
-    DVector::from_column_slice(&view.read(at).as_slice()[..count(view)])
+fn read(aim: &Aim, at: &Isometry3<f64>) -> DVector<f64> {
+    DVector::from_column_slice(&aim.view.read(at).as_slice()[..aim.seen.numbers()])
 }
 
 /// What is read per shift and turn of the tool, a row for each number.
-pub(super) fn rows(view: &View, at: &Isometry3<f64>) -> DMatrix<f64> {
-    let by_frame = view.by_frame(at);
-    DMatrix::from_fn(count(view), 6, |r, c| by_frame[(r, c)])
+pub(super) fn rows(aim: &Aim, at: &Isometry3<f64>) -> DMatrix<f64> {
+    let by_frame = aim.view.by_frame(at);
+    DMatrix::from_fn(aim.seen.numbers(), 6, |r, c| by_frame[(r, c)])
 }
 
 /// The same per constant of the thing, which nobody knows as well as the arm reads it.
-pub(super) fn constants(view: &View, at: &Isometry3<f64>) -> DMatrix<f64> {
-    rows(view, at) * view.as_twists(at)
-}
-
-fn count(view: &View) -> usize {
-    let seen = if matches!(view, View::Point(_)) { Seen::Point } else { Seen::Plane };
-    seen.components().into_iter().filter(|is| *is).count()
+pub(super) fn constants(aim: &Aim, at: &Isometry3<f64>) -> DMatrix<f64> {
+    rows(aim, at) * aim.view.as_twists(at)
 }

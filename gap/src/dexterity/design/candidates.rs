@@ -208,8 +208,8 @@ fn bench_rows(
     [springs, zeros]: [Matrix6xX<f64>; 2],
 ) -> DMatrix<f64> {
     let (n, at) = (arm.dof(), arm.pose(&posture.q));
-    let view = &plan.bench[thing].view;
-    let (by_frame, constants) = (bench::rows(view, &at), bench::constants(view, &at));
+    let aim = &plan.bench[thing];
+    let (by_frame, constants) = (bench::rows(aim, &at), bench::constants(aim, &at));
     let (springs, zeros) = (&by_frame * springs, &by_frame * zeros);
     let read = by_frame.nrows();
     let own = plan.constants(thing);

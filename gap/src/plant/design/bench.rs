@@ -115,7 +115,7 @@ fn aim(design: &Design, number: usize, at: Vector3<f64>) -> Aim {
 fn bring(arm: &Arm, at: &dyn Fn(&[f64]) -> Vector3<f64>, q: &mut [f64], aim: &Aim) -> bool {
     const STEP: f64 = 1e-6;
     let near = if aim.seen == Seen::Plane { PROBED } else { THERE };
-    let count = aim.seen.components().iter().filter(|is| **is).count();
+    let count = aim.seen.numbers();
     let read = |point: &Vector3<f64>| aim.view.read(&Isometry3::from(*point));
     for _ in 0..STEPS {
         let here = at(q);
