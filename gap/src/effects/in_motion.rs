@@ -24,6 +24,11 @@ pub trait InMotion: Law {
         self.facts().parameters
     }
 
+    /// The parameter that a robot file's key is a multiple of, and how many times.
+    fn number(&self, key: &str) -> Option<(&'static Parameter, f64)> {
+        self.parameters().iter().find(|parameter| parameter.key == key).map(|it| (it, 1.0))
+    }
+
     /// Its change of the rows per unit of each parameter, where they have these values.
     fn columns(&self, scene: &Scene<'_>, spot: Spot, values: &[f64]) -> Vec<Column>;
 

@@ -1,7 +1,7 @@
 //! What a robot file says of the arm in motion beyond its table: `[[effect]]` tables of the effects of logs.
 //!
 //! A table is one of motion if its identifier is in the catalogue of logs, its place is one of theirs and its
-//! keys are that effect's numbers: some effects (a coupling, backlash) have a twin at rest.
+//! keys are that effect's numbers: a coupling is told from that at rest by them. Backlash is both.
 
 use stiffarm_codegen::robot::{Effect as Table, Entry, Quantity as Given};
 
@@ -34,8 +34,12 @@ pub fn terms(tables: &[Table], joints: usize, rows: Domain) -> Result<Vec<Acting
             KnownError::new(&table.place.at, format!("`{found}` is no place of {id}"), help)
         })?;
         let value = |parameter: &Parameter| {
-            let entry = table.numbers.iter().find(|entry| entry.key == parameter.key);
-            entry.map_or(Ok(0.0), |entry| number(entry, parameter.quantity))
+            let mut told = table.numbers.iter().filter_map(|entry| {
+                let (it, times) = effect.number(&entry.key)?;
+                (it.key == parameter.key).then_some((entry, times))
+            });
+            let value = |(entry, times)| Ok(times * number(entry, parameter.quantity)?);
+            told.next().map_or(Ok(0.0), value)
         };
         let values: Vec<f64> = effect.parameters().iter().map(value).collect::<Result<_, _>>()?;
         if !effect.is_feasible(&values) {
@@ -74,10 +78,9 @@ pub fn table(term: &Acting) -> Table {
 /// The effects of a table: those of its identifier that have all its keys, one for torques and one for positions of
 /// a latency.
 fn effects(table: &Table) -> impl Iterator<Item = &'static dyn InMotion> {
-    let has = |effect: &dyn InMotion, key: &str| effect.parameters().iter().any(|p| p.key == key);
     let is = move |effect: &&'static dyn InMotion| {
         effect.identifier() == table.id.value
-            && table.numbers.iter().all(|entry| has(*effect, &entry.key))
+            && table.numbers.iter().all(|entry| effect.number(&entry.key).is_some())
     };
     IN_MOTION.iter().copied().filter(is)
 }
@@ -92,6 +95,7 @@ mod tests {
     use stiffarm_codegen::robot::Robot;
 
     use super::*;
+    use crate::effects::{Catalogue, Depends};
 
     /// What an `[[effect]]` of an arm of two joints says in these rows.
     fn said(effect: &str, rows: Domain) -> Result<Vec<(String, Vec<f64>)>, String> {
@@ -106,10 +110,12 @@ mod tests {
 
     #[test]
     fn numbers_may_have_their_units() {
-        let backlash = "id = \"backlash\"\nplace = \"joint 2\"\nhalf_width = \"0.5 mrad\"\n";
-        let found = said(backlash, Domain::Position);
-        assert_eq!(found, Ok(vec![("joint 2".to_owned(), vec![0.5e-3])]));
-        assert_eq!(said(backlash, Domain::Torque), Ok(Vec::new()));
+        for width in ["width = \"1 mrad\"", "half_width = \"0.5 mrad\""] {
+            let backlash = format!("id = \"backlash\"\nplace = \"joint 2\"\n{width}\n");
+            let found = said(&backlash, Domain::Position);
+            assert_eq!(found, Ok(vec![("joint 2".to_owned(), vec![1e-3])]));
+            assert_eq!(said(&backlash, Domain::Torque), Ok(Vec::new()));
+        }
         let latency = "id = \"latency\"\nplace = \"the interface\"\ndelay = 0.1\n";
         for rows in [Domain::Torque, Domain::Position] {
             assert_eq!(said(latency, rows), Ok(vec![("the interface".to_owned(), vec![0.1])]));
@@ -119,13 +125,18 @@ mod tests {
         assert_eq!(found, Ok(vec![("joint 1".to_owned(), vec![12.0])]));
     }
 
-    /// Each is refused as what it is, none as something unknown.
+    /// Each is refused as what it is, none as something unknown, but for the backlash that acts at rest too.
     #[test]
     fn no_kernel_is_made_of_any() {
         let text =
             "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1\n";
         let (robot, _) = Robot::from_toml(text, "arm.toml").expect("a robot");
-        for effect in IN_MOTION {
+        let at_rest = |effect: &&dyn InMotion| {
+            let twin = Catalogue::default().named(effect.identifier());
+            let kernels = twin.filter(|twin| twin.depends() == Depends::Direction);
+            kernels.is_some_and(|twin| twin.facts().parameters[0].key == effect.parameters()[0].key)
+        };
+        for effect in IN_MOTION.into_iter().filter(|effect| !at_rest(effect)) {
             let values = vec![0.5; effect.parameters().len()];
             let effects = vec![table(&Acting { effect, spot: Spot::of_joint(0), values })];
             let wrong = Robot { effects, ..robot.clone() }.with_effects().expect_err("no kernel");

@@ -30,6 +30,7 @@ const EFFECTS: &[(&str, &[&str])] = &[
     ("latency", &["delay"]),
     ("tracking_lag", &["lag", "inertia"]),
     ("servo_droop", &["compliance"]),
+    // Of earlier versions; a whole `width` is that of an arm at rest, of which kernels are made.
     ("backlash", &["half_width"]),
 ];
 

@@ -133,7 +133,7 @@ pub static LAWS: [Law; 23] = [
     },
     position("tracking_lag", At::Joints, &[("lag", "s"), ("inertia", "s²")]),
     position("servo_droop", At::Joints, &[("compliance", "rad/(N·m)")]),
-    position("backlash", At::Joints, &[("half_width", "rad")]),
+    position("backlash", At::Joints, &[("width", "rad")]),
 ];
 
 impl Law {

@@ -48,7 +48,7 @@ pub(super) fn served(
                 servo.inertia += truth.value("inertia");
             }
             "servo_droop" => servo.compliance += size,
-            "backlash" => servo.half_width += size,
+            "backlash" => servo.half_width += 0.5 * size,
             _ => {}
         }
     }

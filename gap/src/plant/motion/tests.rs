@@ -263,7 +263,7 @@ fn servos_follow_their_laws() {
         // Weights of a step before: a joint that turns by 1.5 mrad.
         assert!((drooping[1][k] - expected).abs() < 1e-4 * 200.0 * 2e-3, "{k}");
     }
-    let loose = served(&["backlash@joint 2=0.01"]);
+    let loose = served(&["backlash@joint 2=0.02"]);
     for k in 1000..7000 {
         let wanted = 0.5 * (rate * (k as f64 * 1e-3)).cos() * rate;
         // A hundredth of a radian behind the sine, once it has gone through its play.

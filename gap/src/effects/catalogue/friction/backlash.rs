@@ -44,14 +44,14 @@ impl AtRest for Backlash {
 }
 
 /// The joint stands until its servo, which is where it was to be as late as commands are followed, has gone
-/// `half_width` ahead of it, and is dragged behind from there (the play of Krasnosel'skii & Pokrovskii 1989).
+/// half of `width` ahead of it, and is dragged behind from there (the play of Krasnosel'skii & Pokrovskii 1989).
 #[derive(Clone, Copy, Debug)]
 pub struct BacklashInMotion;
 
-/// Half widths from which the search begins, rad or m.
-const WIDTHS: [f64; 6] = [3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
+/// Widths from which the search begins, rad or m.
+const WIDTHS: [f64; 6] = [6e-4, 2e-3, 6e-3, 2e-2, 6e-2, 2e-1];
 
-/// Part of a half width by which the slope over it is taken.
+/// Part of a width by which the slope over it is taken.
 const STEP: f64 = 0.05;
 
 const POSITION: &Facts = &Facts {
@@ -62,8 +62,8 @@ const POSITION: &Facts = &Facts {
         way.",
     confused_with: "`tracking_lag` of a joint that always moves equally fast.",
     separated_by: "Approaches from both sides, at two speeds.",
-    formula: "q = clamp(q, servo ± half_width)",
-    parameters: &[Parameter::at_least("half_width", Quantity::Angle, 0.0)],
+    formula: "q = clamp(q, servo ± ½ width)",
+    parameters: &[Parameter::at_least("width", Quantity::Angle, 0.0)],
     bends: true,
     ..Facts::POSITION
 };
@@ -76,10 +76,9 @@ impl Law for BacklashInMotion {
 
 impl InMotion for BacklashInMotion {
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
-        let (joint, half_width) = (spot.row(), values[0]);
-        let [less, more] =
-            [1.0 - STEP, 1.0 + STEP].map(|by| dragged(scene, joint, by * half_width));
-        let slope = 1.0 / (2.0 * STEP * half_width);
+        let (joint, width) = (spot.row(), values[0]);
+        let [less, more] = [1.0 - STEP, 1.0 + STEP].map(|by| dragged(scene, joint, by * width));
+        let slope = 1.0 / (2.0 * STEP * width);
         vec![scene.column(joint, |k| slope * (more[k] - less[k]))]
     }
 
@@ -92,11 +91,19 @@ impl InMotion for BacklashInMotion {
     fn probes(&self, _: &LogScene<'_>, _: Spot) -> Vec<Vec<f64>> {
         WIDTHS.iter().map(|width| vec![*width]).collect()
     }
+
+    /// Files of earlier versions have the half width.
+    fn number(&self, key: &str) -> Option<(&'static Parameter, f64)> {
+        let [width] = POSITION.parameters else { return None };
+        [(width.key, 1.0), ("half_width", 2.0)]
+            .into_iter()
+            .find_map(|(name, times)| (name == key).then_some((width, times)))
+    }
 }
 
 /// By how much the joint is ahead of its servo. Where a span begins it is where it was measured.
-fn dragged(scene: &LogScene<'_>, joint: usize, half_width: f64) -> Vec<f64> {
-    let signals = scene.signals;
+fn dragged(scene: &LogScene<'_>, joint: usize, width: f64) -> Vec<f64> {
+    let (signals, half_width) = (scene.signals, 0.5 * width);
     let servo = scene.ago(joint, scene.loads.delay);
     let mut ahead = Vec::with_capacity(servo.len());
     for span in &signals.spans {
