@@ -102,7 +102,7 @@ pub fn advice(answer: &Answer) -> Vec<String> {
 /// The springs that differ from the file's, and how far the error is reduced with them.
 pub fn sentence(source: &Source, answer: &Answer, unit: Unit<'_>, error: &str) -> String {
     let mut changed: Vec<&Parameter> =
-        answer.parameters.iter().filter(|p| p.usable() && p.differs()).collect();
+        answer.parameters.iter().filter(|p| p.usable() && p.differs).collect();
     let surprise = |p: &Parameter| {
         let deviation = p.spread.map_or(f64::MAX, |s| s.deviation.max(f64::MIN_POSITIVE));
         ((p.value - p.file) / deviation).abs()

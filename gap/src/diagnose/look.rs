@@ -10,11 +10,7 @@ use super::report::{CannotSee, Gauge, LeftOut, Part, Share};
 use super::search::{Explained, Search};
 use super::verdict::Held;
 use crate::effects::Effect;
-use crate::gap::Statistics;
 use crate::infer::Basis;
-
-/// A gap below this, relative to the arm's reach, is rounding error.
-const ROUNDING: f64 = 1e-12;
 
 /// What was seen before anything was found, and what explains it.
 pub(crate) struct Looked {
@@ -41,9 +37,7 @@ impl Search<'_, '_> {
     ) -> Result<Looked, DiagnoseError> {
         let begun = self.begin(model.clone())?;
         let mut before = begun.fit.predicted.gaps.clone();
-        let size = Statistics::of(self.problem.kept(&before));
-        let is_there = size.position_max > ROUNDING * (1.0 + self.problem.reach)
-            || size.rotation_rms > ROUNDING;
+        let is_there = self.problem.is_there(&before);
         let seen = self.first(&begun);
         let cannot_see = self.cannot_see(effects, &begun, &seen);
         let gauge = self.gauges(&seen);
@@ -144,6 +138,18 @@ mod tests {
         let kept = diagnose(&bent(), &bad, &kept).unwrap();
         assert!(kept.left_out.is_empty());
         assert!(kept.gap.after.position_rms > 10.0 * with.gap.after.position_rms);
+    }
+
+    /// What is left of clean data is the rounding of sums: no row stands out of it, and how far it shrinks is plain.
+    #[test]
+    fn clean_data_leave_nothing_to_tell() {
+        let clean = data(20, [0.0, 4e-6, 0.0], 0.0, 11);
+        let found = diagnose(&bent(), &clean, &Options::default()).unwrap();
+        let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
+        assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+        assert!(found.left_out.is_empty() && found.residual.is_none(), "{:?}", found.left_out);
+        let [low, high] = found.gap.shrink.shrink_ci95;
+        assert!(low > 1.0 - 1e-6 && high <= 1.0, "{low} {high}");
     }
 
     /// A load that is mistyped decides alone what gives under it, and what is found hides that it is wrong:

@@ -24,7 +24,7 @@ pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use dependent::Dependent;
 pub(crate) use products::{Choice, Products, starts};
-pub(crate) use resample::{drawn, interval, students_t};
+pub(crate) use resample::{drawn, interval, students_t, two_sided};
 pub(crate) use score::{Own, Score, price};
 pub(crate) use screen::{Columns, Screen};
 pub(crate) use signs::{SignFlips, Signs, deviate, unit};

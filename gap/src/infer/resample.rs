@@ -9,6 +9,11 @@ pub(crate) fn students_t(freedom: f64, p: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(p))
 }
 
+/// The chance that Student's t of so many degrees of freedom is as far from 0.
+pub(crate) fn two_sided(freedom: f64, t: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(1.0, |d| (2.0 * d.sf(t.abs())).min(1.0))
+}
+
 /// 95 % interval of a shrink whose logarithm of what is left scatters by `spread` over data
 /// that are drawn again from so many poses or blocks. What is drawn again scatters less than what it was drawn
 /// from: the limits stand off by Student's deviate, and by the ratio of the variances.

@@ -1,25 +1,30 @@
 //! The name that may have been meant.
 
-/// The candidate most like `found`: equal but for case, or within one edit (two if it is long).
+/// Fewer letters are a part of too many names.
+const PART: usize = 4;
+
+/// The candidate most like `found`, whatever the case: within one edit (two if it is long), or the only one of which
+/// it is a part.
 pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let long = found.chars().count();
+    let (found, long) = (found.to_lowercase(), found.chars().count());
     let reach = if long >= 6 { 2 } else { 1 };
-    candidates
-        .into_iter()
+    let (mut near, mut holding) = (None, Vec::new());
+    for candidate in candidates {
         // An edit changes a length by one at most: nothing is compared in vain with a name of megabytes.
-        .filter(|c| c.chars().count().abs_diff(long) <= reach)
-        .filter_map(|c| {
-            let distance = if c.eq_ignore_ascii_case(found) {
-                0
-            } else {
-                strsim::damerau_levenshtein(found, c)
-            };
+        if candidate.chars().count().abs_diff(long) <= reach {
+            let distance = strsim::damerau_levenshtein(&found, &candidate.to_lowercase());
             // Two short names that share no letter are no misspelling of each other.
-            let related = distance == 0 || distance < long.max(c.len());
-            (distance <= reach && related).then_some((distance, c))
-        })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, c)| c)
+            let related = distance <= reach && distance < long.max(candidate.len());
+            if related && near.is_none_or(|(least, _)| distance < least) {
+                near = Some((distance, candidate));
+            }
+        }
+        if long >= PART && candidate.to_lowercase().contains(&found) {
+            holding.push(candidate);
+        }
+    }
+    let only = if let [only] = holding[..] { Some(only) } else { None };
+    near.map(|(_, candidate)| candidate).or(only)
 }
 
 /// The question at the end of a message; empty where nothing is near.
@@ -37,5 +42,8 @@ mod tests {
         assert_eq!((of("Deg"), of("degs")), (Some("deg"), Some("deg")));
         assert_eq!((of("furlong"), of("x")), (None, None));
         assert_eq!(did_you_mean(of("Rad")), "; did you mean `rad`?");
+        let of = |found| nearest(found, ["ur5", "ur10", "kuka_kr240", "lin_elbow", "lin_planar"]);
+        assert_eq!((of("KR240"), of("UR10e")), (Some("kuka_kr240"), Some("ur10")));
+        assert_eq!((of("lin_"), of("elbow")), (None, Some("lin_elbow")));
     }
 }

@@ -46,11 +46,7 @@ pub fn shares(experiment: &Experiment<'_>, answer: &Answer) -> Vec<Share> {
             subtract_means(&mut moves, experiment.data);
         }
         let part = if whole > 0.0 { squares(&moves) / whole } else { 0.0 };
-        Share {
-            place: parameter.unknown.to_string(),
-            share: Some(part),
-            found: parameter.differs(),
-        }
+        Share { place: parameter.unknown.to_string(), share: Some(part), found: parameter.differs }
     };
     let mut shares: Vec<Share> = corrected(answer).map(share).collect();
     shares.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));

@@ -48,7 +48,7 @@ pub(crate) fn fitting(problem: &Problem<'_>, noise: &Noise, gaps: &[Vector6<f64>
     let mut fits = vec![true; gaps.len()];
     for level in noise.kinds() {
         let sizes: Vec<f64> = problem.standard(gaps).map(|gap| level.square(&gap)).collect();
-        let limit = limit(level, &sizes, problem.data.rows.len());
+        let limit = limit(level, &sizes, problem.data.rows.len()).max(problem.rounding().powi(2));
         fits.iter_mut().zip(&sizes).for_each(|(fits, size)| *fits &= *size <= limit);
     }
     let out = fits.iter().filter(|fits| !**fits).count();

@@ -21,6 +21,9 @@ use crate::simulate::{Actual, Moments, Reading, Sim};
 /// added up, are then finite.
 pub(crate) const LARGEST: f64 = 1e50;
 
+/// A gap below this, relative to the arm's reach, is rounding error.
+const ROUNDING: f64 = 1e-12;
+
 /// Rows that are worked on at once: what is found of each is more than what is kept of it.
 const AT_ONCE: usize = 1 << 14;
 
@@ -219,6 +222,17 @@ impl<'a> Problem<'a> {
     /// The size of the gaps of all rows, of those that are counted.
     pub(crate) fn statistics(&self, gaps: &[Vector6<f64>]) -> Statistics {
         Statistics::of_rows(self.data.kind, self.kept_rows().zip(self.kept(gaps)))
+    }
+
+    /// Below this a gap is rounding error, m or rad.
+    pub(crate) fn rounding(&self) -> f64 {
+        ROUNDING * (1.0 + self.reach)
+    }
+
+    /// Whether gaps are more than rounding.
+    pub(crate) fn is_there(&self, gaps: &[Vector6<f64>]) -> bool {
+        let size = Statistics::of(self.kept(gaps));
+        size.position_max.max(size.rotation_rms) > self.rounding()
     }
 
     /// What a row's gap is multiplied by, whitened by `weights` of its kinds.

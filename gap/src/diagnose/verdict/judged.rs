@@ -72,7 +72,8 @@ impl Search<'_, '_> {
                 }
                 let last: Vec<f64> = after.iter().map(|gap| self.problem.size(gap)).collect();
                 let shrink = self.shrink(&sizes, &last, refitted.spread(0, groups.len()));
-                let residual = is_there.then(|| self.residual(&now, before, after));
+                let is_left = is_there && self.problem.is_there(after);
+                let residual = is_left.then(|| self.residual(&now, before, after));
                 let observability = self.observability(&now.fit, &certainty);
                 let after = if groups.is_empty() { before.to_vec() } else { shrinking.after };
                 let (bench, pairs) = (self.bench(&now, &certainty), self.pairs_apart(&now));

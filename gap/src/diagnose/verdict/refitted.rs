@@ -26,8 +26,10 @@ impl Refitted {
                 sum
             };
             let (white, plain) = (sum(fitted, 0), sum(measured, 1));
-            let left = |kept: &Vec<usize>| plain.left(&held.solved(&white, kept));
-            let logs = steps.iter().map(|kept| 0.5 * left(kept).max(f64::MIN_POSITIVE).ln());
+            // What cancels leaves the rounding of the whole.
+            let least = (f64::EPSILON * plain.rr).max(f64::MIN_POSITIVE);
+            let left = |kept: &Vec<usize>| plain.left(&held.solved(&white, kept)).max(least);
+            let logs = steps.iter().map(|kept| 0.5 * left(kept).ln());
             DVector::from_iterator(steps.len(), logs).transpose()
         });
         Self(DMatrix::from_rows(&rows.collect::<Vec<_>>()))

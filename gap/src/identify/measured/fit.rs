@@ -14,7 +14,8 @@ use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
-use crate::infer::{Basis, students_t};
+use crate::infer::constants::SIGNIFICANT;
+use crate::infer::{Basis, students_t, two_sided};
 use crate::measurement::Measurements;
 
 /// The fit has not come to its end if another step promises more than this part of what there was.
@@ -180,7 +181,7 @@ fn answer(
             let with =
                 held.map_or(&[][..], |(_, with)| with).iter().map(|k| unknowns[*k]).collect();
             let status = Status::Held { with, pull: advice(problem, unknown) };
-            return Parameter { unknown, status, value: file, file, spread: None };
+            return Parameter { unknown, status, value: file, file, spread: None, differs: false };
         };
         let (value, deviation) = (file + values[at], variances[at].sqrt());
         let weak = deviation > WEAK * value;
@@ -192,11 +193,14 @@ fn answer(
             value,
             file,
             spread: Some(Uncertainty { deviation, interval }),
+            differs: false,
         }
     });
+    let mut parameters: Vec<Parameter> = parameters.collect();
+    tell_apart(&mut parameters, freedom);
     let has = |kind: core::ops::Range<usize>| problem.measured.iter().any(|k| kind.contains(k));
     Answer {
-        parameters: parameters.collect(),
+        parameters,
         freedom: freedom as usize,
         noise: Noise {
             position: has(0..3).then_some(now.noise.position.sd),
@@ -207,6 +211,24 @@ fn answer(
         scaled_condition: condition(&normal, &basis),
         gap,
     }
+}
+
+/// Notes which numbers differ from the file's: the chance of the least likely is held against a level for all that were
+/// found, that of the next for all others, and so on (Holm's step-down; Student's t of so many degrees of freedom).
+fn tell_apart(parameters: &mut [Parameter], freedom: f64) {
+    let p_value = |p: &Parameter| {
+        let off = (p.value - p.file).abs();
+        let found = p.spread.map(|spread| (off > 0.0, off / spread.deviation));
+        found.map(|(is_off, t)| if is_off { two_sided(freedom, t) } else { 1.0 })
+    };
+    let mut found: Vec<(f64, &mut Parameter)> =
+        parameters.iter_mut().filter_map(|p| p_value(p).map(|chance| (chance, p))).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let others = (1..=found.len()).rev();
+    let passes = |(tried, (chance, _)): &(usize, (f64, &mut Parameter))| {
+        *tried as f64 * chance <= SIGNIFICANT
+    };
+    others.zip(found).take_while(passes).for_each(|(_, (_, parameter))| parameter.differs = true);
 }
 
 /// The condition number of the columns, each brought to length 1: `tᵀ A t = 1` has the singular

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::{Answer, MeasuredError, Question, Status, Unknown, identify_measured};
+use super::{Answer, MeasuredError, Parameter, Question, Status, Unknown, identify_measured};
 use crate::diagnose::DiagnoseError;
 use crate::effects::Known;
 use crate::fixture::known;
@@ -289,4 +289,23 @@ fn springs_are_found_on_top_of_what_is_known() {
         // A thousand times what the fit leaves with all of them.
         assert!(worst(&others) > 1e-3, "{left_out}: {}", worst(&others));
     }
+}
+
+/// All intervals hold the truth of 95 in 100 springs each; of six springs one does not in every fourth campaign.
+#[test]
+fn of_an_arm_that_is_as_its_file_says_springs_differ_in_one_campaign_of_twenty() {
+    let arm = kr240();
+    let question = Question { folds: Some(2), ..Question::default() };
+    let count = |seed: u64| {
+        let text = file(&arm, &TRANSLATIONS, 8, 5e-5, seed, &LOADS);
+        let found = answer(&arm, &text, &question).unwrap();
+        let outside =
+            |p: &Parameter| p.interval().is_some_and(|[low, high]| !(low..=high).contains(&p.file));
+        let any = |is: &dyn Fn(&Parameter) -> bool| usize::from(found.parameters.iter().any(is));
+        [any(&|p| p.differs), any(&outside)]
+    };
+    let each = (100..160).map(count);
+    let [differ, outside] = each.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    // More than nine of sixty where a twentieth is allowed come once in a thousand times.
+    assert!(differ <= 9 && outside > differ, "{differ} of {outside}");
 }
