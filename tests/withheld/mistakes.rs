@@ -37,7 +37,7 @@ const ROBOTS: [(&str, f64, f64); 7] = [
 const FAMILY: [&str; 4] = ["ur5", "ur10", "irb120", "kuka_kr240"];
 
 /// All kinds.
-const KINDS: [&str; 18] = [
+const KINDS: [&str; 21] = [
     "joint_sign",
     "joint_zero",
     "reading_coupling",
@@ -56,7 +56,20 @@ const KINDS: [&str; 18] = [
     "load_sign",
     "moment_unit",
     "other_robot",
+    "any_zero",
+    "any_twist",
+    "any_length",
 ];
+
+/// What a kind is called where it is named.
+fn named(kind: &str) -> &str {
+    match kind {
+        "any_zero" => "joint_zero",
+        "any_twist" => "twist",
+        "any_length" => "table_length",
+        kind => kind,
+    }
+}
 
 /// A file and rows that it is measured by.
 struct Case {
@@ -112,6 +125,26 @@ impl Case {
             Convention::Standard => 0..self.file.dof() - 1,
             Convention::Modified => 1..self.file.dof(),
         }
+    }
+
+    /// An amount of either sign.
+    fn amount(&mut self, least: f64, most: f64) -> f64 {
+        self.rng.between(least, most) * self.rng.sign()
+    }
+
+    /// A row, and whether it is its `a` or its `d`, where that is the arm's own: the base's and the tool's are fitted along.
+    fn length(&mut self, is: impl Fn(f64) -> bool) -> (usize, bool) {
+        let (last, rows) = (self.file.dof() - 1, self.rows());
+        let seen = |row: usize, is_a: bool| {
+            if is_a { rows.contains(&row) } else { row > 0 && row < last }
+        };
+        let own = |(row, is_a): &(usize, bool)| {
+            let joint = &self.file.joints[*row];
+            is(if *is_a { joint.a } else { joint.d }) && seen(*row, *is_a)
+        };
+        let all = (0..=last).flat_map(|row| [(row, true), (row, false)]);
+        let entries: Vec<(usize, bool)> = all.filter(own).collect();
+        self.one(&entries)
     }
 
     /// Changes every row's readings.
@@ -171,22 +204,26 @@ impl Case {
                 self.file.joints[row].alpha += PI / 180.0 * by;
                 at(row)
             }
+            "any_zero" => {
+                let (j, by) = (self.joint(true), self.amount(8.0, 172.0) * PI / 180.0);
+                self.readings(|q| q[j] -= by);
+                at(j)
+            }
+            "any_twist" => {
+                let rows: Vec<usize> = self.rows().collect();
+                let (row, by) = (self.one(&rows), self.amount(8.0, 60.0) * PI / 180.0);
+                self.file.joints[row].alpha += by;
+                at(row)
+            }
+            "any_length" => {
+                let by = self.amount(0.1, 0.5) * reach(&self.file);
+                let (row, is_a) = self.length(|_| true);
+                let joint = &mut self.file.joints[row];
+                *(if is_a { &mut joint.a } else { &mut joint.d }) += by;
+                at(row)
+            }
             "table_unit" => {
-                let (last, joints) = (self.file.dof() - 1, &self.file.joints);
-                // What is the base's or the tool's is fitted along.
-                let rows = self.rows();
-                let seen = |row: usize, is_a: bool| {
-                    if is_a { rows.contains(&row) } else { row > 0 && row < last }
-                };
-                let is_long = |row: usize, is_a: bool| {
-                    let joint = &joints[row];
-                    (if is_a { joint.a } else { joint.d }).abs() > 0.01 && seen(row, is_a)
-                };
-                let entries: Vec<(usize, bool)> = (0..=last)
-                    .flat_map(|row| [(row, true), (row, false)])
-                    .filter(|(row, is_a)| is_long(*row, *is_a))
-                    .collect();
-                let (row, is_a) = self.one(&entries);
+                let (row, is_a) = self.length(|entry| entry.abs() > 0.01);
                 let factor = self.one(&[1e3, 1e-3, 1.0 / 0.0254]);
                 let joint = &mut self.file.joints[row];
                 *(if is_a { &mut joint.a } else { &mut joint.d }) *= factor;
@@ -272,6 +309,11 @@ impl Case {
     }
 }
 
+/// How far an arm reaches, stretched, m.
+fn reach(arm: &Arm) -> f64 {
+    arm.joints.iter().map(|joint| joint.a.hypot(joint.d)).sum()
+}
+
 /// Zeros of two joints by some mrad, springs of all of them by a third, a length, a gear.
 fn truths(arm: &Arm, rng: &mut Rng) -> Vec<String> {
     let mut truths = Vec::new();
@@ -323,7 +365,7 @@ fn rates(
             let mut case = Case::clean(seed, kind);
             let place = case.spoil(kind);
             let found = case.found();
-            let planted = [(*kind, place)];
+            let planted = [(named(kind), place)];
             let is_named = found.as_ref().is_some_and(|found| {
                 is_that(&found.mistakes, &planted)
                     || found.same.iter().any(|same| is_that(same, &planted))
@@ -370,12 +412,19 @@ fn given_up(seeds: core::ops::Range<u64>) -> usize {
 
 /// Two mistakes of the table or of readings at once.
 fn both(seeds: core::ops::Range<u64>) -> usize {
-    let kinds = ["joint_sign", "joint_zero", "reading_coupling", "measuring_axes", "table_unit"];
+    let kinds = [
+        "joint_sign",
+        "joint_zero",
+        "reading_coupling",
+        "measuring_axes",
+        "table_unit",
+        "any_zero",
+    ];
     let is_named = |seed: &u64| {
         let mut case = Case::clean(*seed, "");
         let first = case.rng.below(kinds.len());
         let second = (first + 1 + case.rng.below(kinds.len() - 1)) % kinds.len();
-        let planted = [first, second].map(|k| (kinds[k], case.spoil(kinds[k])));
+        let planted = [first, second].map(|k| (named(kinds[k]), case.spoil(kinds[k])));
         let found = case.found();
         let is = found.as_ref().is_some_and(|found| {
             is_that(&found.mistakes, &planted)

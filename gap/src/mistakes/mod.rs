@@ -7,6 +7,8 @@
 
 mod fit;
 mod kind;
+mod list;
+mod off;
 mod rows;
 mod search;
 mod words;
@@ -185,7 +187,8 @@ impl Mended {
                 Mistake::Entry { row, .. }
                 | Mistake::TwistSign { row }
                 | Mistake::Twist { row, .. }
-                | Mistake::Zero { joint: row, .. } => entries(&mut robot.joints[row], mistake),
+                | Mistake::Zero { joint: row, .. }
+                | Mistake::Off { row, .. } => entries(&mut robot.joints[row], mistake),
                 _ => {}
             }
         }
@@ -195,9 +198,9 @@ impl Mended {
 
 /// Changes the entries of a row as a mistake's mending changes the arm's.
 fn entries(joint: &mut Joint, mistake: &Mistake) {
-    let scaled = |value: &mut Value, factor: f64| {
+    let moved = |value: &mut Value, to: &dyn Fn(f64) -> f64| {
         if let Value::Number(number) = value {
-            *number = Number::rounded(factor * number.to_f64());
+            *number = Number::rounded(to(number.to_f64()));
         }
     };
     let turned = |angle: &mut Angle, to: &dyn Fn(f64) -> f64| {
@@ -205,8 +208,12 @@ fn entries(joint: &mut Joint, mistake: &Mistake) {
         *angle = to.and_then(Angle::from_radians).unwrap_or_else(|| angle.clone());
     };
     match *mistake {
-        Mistake::Entry { entry: Entry::A, factor, .. } => scaled(&mut joint.a, factor),
-        Mistake::Entry { entry: Entry::D, factor, .. } => scaled(&mut joint.d, factor),
+        Mistake::Entry { entry: Entry::A, factor, .. } => moved(&mut joint.a, &|x| factor * x),
+        Mistake::Entry { entry: Entry::D, factor, .. } => moved(&mut joint.d, &|x| factor * x),
+        Mistake::Off { entry: Entry::A, by, .. } => moved(&mut joint.a, &|x| x + by),
+        Mistake::Off { entry: Entry::D, by, .. } => moved(&mut joint.d, &|x| x + by),
+        Mistake::Off { entry: Entry::Theta, by, .. } => turned(&mut joint.theta, &|x| x + by),
+        Mistake::Off { entry: Entry::Alpha, by, .. } => turned(&mut joint.alpha, &|x| x + by),
         Mistake::Entry { entry: Entry::Theta, factor, .. } => {
             turned(&mut joint.theta, &|x| factor * x);
         }

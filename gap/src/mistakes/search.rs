@@ -5,6 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::fit::{Fit, Left};
 use super::kind::Mistake;
+use super::off;
 use super::rows::Rows;
 use crate::doubts::reach;
 
@@ -45,8 +46,8 @@ const CERTAIN: f64 = 4.6;
 const CERTAIN_OF_LOADS: f64 = CERTAIN + 5.0;
 
 /// Rows by which all pairs are compared, with the frames in closed form, and pairs that are then fitted.
-const FEW: usize = 36;
-const FEW_TURNS: usize = 4;
+pub(super) const FEW: usize = 36;
+pub(super) const FEW_TURNS: usize = 4;
 const BEST_PAIRS: usize = 48;
 
 /// Part by which what the frames leave changes at least where a mistake does more than to move a frame;
@@ -100,7 +101,7 @@ impl Search<'_> {
         reach(&self.arm_without(mistakes)).min(given)
     }
 
-    fn fit(
+    pub(super) fn fit(
         &self,
         mut mistakes: Vec<Mistake>,
         rows: &[usize],
@@ -114,8 +115,14 @@ impl Search<'_> {
 
     /// With all unknowns.
     pub(super) fn tried(&self, mistakes: Vec<Mistake>) -> Option<Tried> {
-        let (mistakes, fit) = self.fit(mistakes, &self.rows.chosen, true)?;
-        let left = fit.refined();
+        let (mut mistakes, fit) = self.fit(mistakes, &self.rows.chosen, true)?;
+        let (mut left, mut more) = fit.refined();
+        if !more.is_empty() {
+            // Once more with the loads of the arm that it is.
+            off::put(&mut mistakes, &more);
+            (left, more) = self.fit(mistakes.clone(), &self.rows.chosen, true)?.1.refined();
+            off::put(&mut mistakes, &more);
+        }
         left.size.is_finite().then_some(Tried { mistakes, left })
     }
 
@@ -180,8 +187,7 @@ impl Search<'_> {
     /// The pairs that leave least with frames alone, on few rows.
     fn pairs(&self) -> Vec<Tried> {
         let few = self.rows.fewer(FEW);
-        let is_apart =
-            |mistake: &&Mistake| !matches!(mistake, Mistake::Stuck { .. }) && !mistake.is_of_load();
+        let is_apart = |mistake: &&Mistake| !mistake.is_stuck() && !mistake.is_of_load();
         let all: Vec<Mistake> = self.all.iter().filter(is_apart).copied().collect();
         let of_first = |first: usize| {
             let pair = |second: usize| {
@@ -208,16 +214,27 @@ impl Search<'_> {
             let best = self.best(nothing, MOST_LEFT, tried);
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }
-        if let Some((first, same)) = self.best(nothing, MOST_LEFT, self.beside(&[])) {
+        let singles = self.beside(&[]);
+        let is_plain = |(first, _): &(Tried, Vec<Tried>)| first.left.size <= ORDINARY * self.reach;
+        let mut first = self.best(nothing, MOST_LEFT, singles.clone());
+        if !first.as_ref().is_some_and(is_plain) {
+            first = self.best(nothing, MOST_LEFT, [singles, self.offs(&[])].concat());
+        }
+        if let Some((first, same)) = first {
+            if first.mistakes.iter().any(|mistake| mistake.is_small(self.reach)) {
+                return Found::Nothing;
+            }
             if first.left.size > ORDINARY * self.reach || 0.5 * first.left.prior_penalty > CERTAIN {
-                let more = self.beside(&first.mistakes);
+                let more = [self.beside(&first.mistakes), self.offs(&first.mistakes)].concat();
                 if let Some((both, same)) = self.best(&first, MOST_LEFT_SECOND, more) {
                     return Found::Mistakes(both, same);
                 }
             }
             return Found::Mistakes(first, same);
         }
-        if let Some((pair, same)) = self.best(nothing, MOST_LEFT, self.pairs()) {
+        let pairs = self.best(nothing, MOST_LEFT, self.pairs());
+        let pairs = pairs.or_else(|| self.best(nothing, MOST_LEFT, self.pairs_with_zeros()));
+        if let Some((pair, same)) = pairs {
             return Found::Mistakes(pair, same);
         }
         match nothing.left.size > UNEXPLAINED * self.reach && !is_stream {

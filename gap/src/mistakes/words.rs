@@ -14,7 +14,9 @@ impl Mistake {
             Mistake::Entry { .. } => "table_angle_unit",
             Mistake::TwistSign { .. } => "twist_sign",
             Mistake::Twist { .. } => "twist",
-            Mistake::Zero { .. } => "joint_zero",
+            Mistake::Zero { .. } | Mistake::Off { entry: Entry::Theta, .. } => "joint_zero",
+            Mistake::Off { entry: Entry::Alpha, .. } => "twist",
+            Mistake::Off { .. } => "table_length",
             Mistake::Sign { .. } => "joint_sign",
             Mistake::Coupling { .. } => "reading_coupling",
             Mistake::Swapped { .. } => "swapped_readings",
@@ -36,6 +38,7 @@ impl Mistake {
             | Mistake::TwistSign { row }
             | Mistake::Twist { row, .. }
             | Mistake::Zero { joint: row, .. }
+            | Mistake::Off { row, .. }
             | Mistake::Sign { joint: row }
             | Mistake::Coupling { joint: row, .. }
             | Mistake::ReadingUnit { joint: row, .. }
@@ -79,6 +82,7 @@ impl Mistake {
                 format!("the zero of joint {} is off by {by}°: J{0} := J{0} {1} {2}°", joint + 1,
                     if by < 0 { '-' } else { '+' }, by.abs())
             }
+            Mistake::Off { row, entry, by } => off(row + 1, entry, by),
             Mistake::Sign { joint } => {
                 format!("joint {0} turns against its reading: J{0} := -J{0}", joint + 1)
             }
@@ -182,6 +186,20 @@ impl Mistake {
             ),
             _ => String::new(),
         }
+    }
+}
+
+/// An entry of a row, counted from 1, that is off by an amount, rad or m.
+fn off(row: usize, entry: Entry, by: f64) -> String {
+    let sign = if by < 0.0 { '-' } else { '+' };
+    match entry {
+        Entry::Theta => {
+            let by = (by / DEGREE).abs();
+            format!("the zero of joint {row} is off by {by:.2}°: J{row} := J{row} {sign} {by:.2}°")
+        }
+        Entry::Alpha => format!("the table's alpha of joint {row} is off by {:.2}°", by / DEGREE),
+        Entry::A => format!("the table's a of joint {row} is off by {:.2} mm", 1e3 * by),
+        Entry::D => format!("the table's d of joint {row} is off by {:.2} mm", 1e3 * by),
     }
 }
 

@@ -15,7 +15,7 @@ mod step;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use stiffarm_kernels::generic::{self, Arm, Convention};
 
-use super::kind::Mistake;
+use super::kind::{Entry, Mistake};
 use super::rows::Rows;
 use crate::doubts::reach;
 
@@ -83,6 +83,8 @@ pub(super) struct Fit {
     lever: f64,
     is_loaded: bool,
     at: Unknowns,
+    /// Entries of the table that are fitted too, and what they are where `entries` is zero.
+    open: Vec<(usize, Entry, f64)>,
     /// Compliances at which `springs` is zero, and the prior scales of their logarithms.
     soft: Vec<(f64, f64)>,
     first_base: UnitQuaternion<f64>,
@@ -101,6 +103,8 @@ struct Unknowns {
     zeros: Vec<f64>,
     /// By which [`Fit::compliance`] is told.
     springs: Vec<f64>,
+    /// Of each open entry, how much more it is, rad or m.
+    entries: Vec<f64>,
     /// Of each row, what its joint turns by whose reading is not known, rad (m).
     turned: Vec<f64>,
 }
@@ -164,6 +168,11 @@ impl Fit {
             return None;
         }
         let has_rotation = all.data.kind.components()[3];
+        let open = mistakes.iter().filter_map(|mistake| match *mistake {
+            Mistake::Off { row, entry, .. } => Some((row, entry, *entry.of(&mut arm.joints[row]))),
+            _ => None,
+        });
+        let open: Vec<_> = open.collect();
         let reach = reach(&arm).max(1e-3);
         let soft = arm.joints.iter().map(|joint| match joint.compliance {
             0.0 => (SOFTNESS / reach.powi(3), NO_SPRING),
@@ -179,9 +188,11 @@ impl Fit {
                 tools: vec![UnitQuaternion::identity(); all.sessions],
                 zeros: vec![0.0; arm.dof()],
                 springs: vec![0.0; arm.dof()],
+                entries: vec![0.0; open.len()],
                 turned: vec![0.0; rows.len()],
             },
             soft: soft.collect(),
+            open,
             first_base,
             rows,
             arm,
@@ -195,8 +206,8 @@ impl Fit {
         self.left(&gaps)
     }
 
-    /// With all unknowns.
-    pub(super) fn refined(mut self) -> Left {
+    /// With all unknowns: what is left, and by how much more the open entries are off.
+    pub(super) fn refined(mut self) -> (Left, Vec<f64>) {
         self.align(TURNS);
         let mut gaps = self.gaps();
         let mut damping = 1e-6;
@@ -216,10 +227,18 @@ impl Fit {
                 }
             } else {
                 self.at = before;
+                self.put_entries();
                 damping = (damping * 100.0).max(1e-4);
             }
         }
-        self.left(&gaps)
+        (self.left(&gaps), self.at.entries)
+    }
+
+    /// Puts the open entries into the arm.
+    fn put_entries(&mut self) {
+        for ((row, entry, from), more) in self.open.iter().zip(&self.at.entries) {
+            *entry.of(&mut self.arm.joints[*row]) = from + more;
+        }
     }
 
     fn compliance(&self, joint: usize) -> f64 {

@@ -1,9 +1,19 @@
-//! A step of least squares of all unknowns: bases, points, tools, zeros, springs.
+//! A step of least squares of all unknowns: bases, points, tools, zeros, springs, open entries of the table.
+
+use core::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
 
 use super::{FLAT, Fit, Gap, NO_SPRING, ZERO};
+use crate::mistakes::kind::Entry;
+
+/// Half of a central difference, rad or m: its error is of the square, its rounding of 1e-10.
+const STEP: f64 = 1e-6;
+
+/// Prior scale of an open length, m: as good as none.
+const REACH: f64 = 10.0;
 
 impl Fit {
     /// Number of unknowns of frames and points.
@@ -13,10 +23,28 @@ impl Fit {
         [bases, points, points + if self.has_rotation { 3 * self.at.tools.len() } else { 0 }]
     }
 
+    /// Where the open entries begin.
+    fn first_entry(&self) -> usize {
+        self.frames()[2] + self.arm.dof() * if self.is_loaded { 2 } else { 1 }
+    }
+
+    /// The arm with each open entry a little less and a little more.
+    fn steps_of_entries(&self) -> Vec<[Arm; 2]> {
+        let moved = |(row, entry, _): &(usize, Entry, f64)| {
+            [-STEP, STEP].map(|by| {
+                let mut arm = self.arm.clone();
+                *entry.of(&mut arm.joints[*row]) += by;
+                arm
+            })
+        };
+        self.open.iter().map(moved).collect()
+    }
+
     /// A step of least squares.
     pub(super) fn step(&self, gaps: &[Gap], scale: f64, damping: f64) -> Option<DVector<f64>> {
         let (dof, [bases, points, tools]) = (self.arm.dof(), self.frames());
-        let count = tools + dof * if self.is_loaded { 2 } else { 1 };
+        let (first, entries) = (self.first_entry(), self.steps_of_entries());
+        let count = first + entries.len();
         let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
         let mut columns: Vec<(usize, Vector6<f64>)> = Vec::new();
         for (number, (row, gap)) in self.rows.iter().zip(gaps).enumerate() {
@@ -49,6 +77,13 @@ impl Fit {
                     let gives = if scale == NO_SPRING { soft } else { self.compliance(j) };
                     columns.push((tools + dof + j, twist * (gives * row.torque[j])));
                 }
+            }
+            for (k, steps) in entries.iter().enumerate() {
+                let [less, more] = steps.each_ref().map(|arm| arm.pose(&q));
+                let point = Point3::from(self.at.points[row.point]);
+                let shift = (more * point - less * point) / (2.0 * STEP);
+                let turn = (more.rotation * less.rotation.inverse()).scaled_axis() / (2.0 * STEP);
+                columns.push((first + k, rotated(&base.rotation, &stacked(shift, turn))));
             }
             let mut gap = stacked(gap.0, gap.1);
             let weight =
@@ -83,6 +118,15 @@ impl Fit {
                 held(&mut normal, &mut right, tools + dof + j, self.at.springs[j], self.soft[j].1);
             }
         }
+        for (k, (_, entry, _)) in self.open.iter().enumerate() {
+            held(
+                &mut normal,
+                &mut right,
+                first + k,
+                0.0,
+                if entry.is_angle() { PI } else { REACH },
+            );
+        }
         for k in 0..count {
             normal[(k, k)] += damping * normal[(k, k)] + 1e-9 * normal[(0, 0)].max(1.0);
         }
@@ -116,6 +160,9 @@ impl Fit {
                 };
             }
         }
+        let first = self.first_entry();
+        self.at.entries.iter_mut().enumerate().for_each(|(k, more)| *more += step[first + k]);
+        self.put_entries();
     }
 }
 
