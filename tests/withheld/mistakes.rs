@@ -62,7 +62,7 @@ const KINDS: [&str; 21] = [
 ];
 
 /// What a kind is called where it is named.
-fn named(kind: &str) -> &str {
+fn called(kind: &str) -> &str {
     match kind {
         "any_zero" => "joint_zero",
         "any_twist" => "twist",
@@ -365,7 +365,7 @@ fn rates(
             let mut case = Case::clean(seed, kind);
             let place = case.spoil(kind);
             let found = case.found();
-            let planted = [(named(kind), place)];
+            let planted = [(called(kind), place)];
             let is_named = found.as_ref().is_some_and(|found| {
                 is_that(&found.mistakes, &planted)
                     || found.same.iter().any(|same| is_that(same, &planted))
@@ -424,7 +424,7 @@ fn both(seeds: core::ops::Range<u64>) -> usize {
         let mut case = Case::clean(*seed, "");
         let first = case.rng.below(kinds.len());
         let second = (first + 1 + case.rng.below(kinds.len() - 1)) % kinds.len();
-        let planted = [first, second].map(|k| (named(kinds[k]), case.spoil(kinds[k])));
+        let planted = [first, second].map(|k| (called(kinds[k]), case.spoil(kinds[k])));
         let found = case.found();
         let is = found.as_ref().is_some_and(|found| {
             is_that(&found.mistakes, &planted)

@@ -6,8 +6,7 @@ use core::f64::consts::PI;
 use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::generic::{Arm, Convention, Joint};
 
-/// Nats that the amount of an entry costs that may be off by any: a turn over the milliradian to which a campaign
-/// tells it, `ln 2000π`, as MacKay's Occam factor has it.
+/// Nats that an amount costs that may be any: a turn over the milliradian to which a campaign tells it, `ln 2000π`, as MacKay's Occam factor has it.
 const ANY_AMOUNT: f64 = 8.7;
 
 /// rad in a degree.
@@ -64,6 +63,8 @@ pub(super) enum Mistake {
     Swapped { joints: [usize; 2] },
     /// A joint's reading has another unit.
     ReadingUnit { joint: usize, factor: f64 },
+    /// A joint goes with a reading, its own or another's, by as much as the data say: `q += ratio · q of`.
+    Geared { joint: usize, of: usize, ratio: f64 },
     /// Readings stand so many rows behind the positions that belong to them.
     Late { rows: i32 },
     /// A joint's reading does not change any more from a row on, though the joint moves.
@@ -125,7 +126,10 @@ impl Mistake {
             Mistake::Convention => 1,
             Mistake::Entry { .. } | Mistake::TwistSign { .. } | Mistake::Twist { .. } => 2,
             Mistake::Off { .. } => 2,
-            Mistake::Zero { .. } | Mistake::Sign { .. } | Mistake::Coupling { .. } => 3,
+            Mistake::Zero { .. }
+            | Mistake::Sign { .. }
+            | Mistake::Coupling { .. }
+            | Mistake::Geared { .. } => 3,
             Mistake::ReadingUnit { .. } | Mistake::Coordinate { .. } => 4,
             _ => 5,
         }
@@ -149,9 +153,9 @@ impl Mistake {
             }
             Mistake::Swapped { joints: [a, b] } if b == a + 1 => 0.5,
             Mistake::Coupling { .. } | Mistake::Twist { .. } => 2.0,
-            Mistake::Off { .. } => ANY_AMOUNT,
-            // One entry is less to be wrong than a whole table.
-            Mistake::Other(_) => 6.0,
+            Mistake::Off { .. } | Mistake::Geared { .. } => ANY_AMOUNT,
+            // One entry is less to be wrong than a whole table, by whatever amount.
+            Mistake::Other(_) => ANY_AMOUNT + 1.0,
             _ => 1.0,
         }
     }
@@ -184,7 +188,9 @@ impl Mistake {
     pub(super) fn turn(self, q: &mut [f64]) {
         match self {
             Mistake::Sign { joint } => q[joint] *= -1.0,
-            Mistake::Coupling { joint, of, ratio } => q[joint] += ratio * q[of],
+            Mistake::Coupling { joint, of, ratio } | Mistake::Geared { joint, of, ratio } => {
+                q[joint] += ratio * q[of];
+            }
             _ => {}
         }
     }

@@ -88,6 +88,7 @@ pub(crate) fn find(
         Found::Nothing => None,
         Found::Unexplained => Some((told(&nothing, None, &[], &names), None)),
         Found::Mistakes(best, same) => {
+            let best = search.polished(best);
             let mended = Mended {
                 arm: search.arm_without(&best.mistakes),
                 data: search.rows.mended(&best.mistakes),
@@ -141,7 +142,9 @@ fn known(mistakes: &[Mistake], known: &[Known], catalogue: &Catalogue) -> Vec<Kn
     for mistake in mistakes {
         let (joint, of, ratio) = match *mistake {
             Mistake::Sign { joint } => (joint, joint, -2.0),
-            Mistake::Coupling { joint, of, ratio } => (joint, of, ratio),
+            Mistake::Coupling { joint, of, ratio } | Mistake::Geared { joint, of, ratio } => {
+                (joint, of, ratio)
+            }
             _ => continue,
         };
         let Some((effect, spot)) =

@@ -1,4 +1,4 @@
-//! Entries of the table that are off by any amount: a zero by 30°, a twist by 20°, a length by a hand.
+//! Mistakes of any amount: a zero off by 30°, a twist by 20°, a length by a hand, half of a neighbour's reading.
 //!
 //! No list of round numbers holds them, and a linear step from the file does not reach them. The amount is looked for
 //! over its whole range with the frames in closed form, and the best are fitted as one more unknown.
@@ -18,15 +18,25 @@ const ANGLES: usize = 24;
 /// squares converge from anywhere.
 const LENGTHS: [f64; 3] = [0.1, 0.3, 0.7];
 
+/// Ratios that are tried, of either sign, and their step: over a range of 3 rad half of it is as much as 17°.
+const RATIOS: i32 = 10;
+const RATIO: f64 = 0.2;
+
 /// Of all that were looked for so many are fitted.
 const BEST: usize = 12;
 
-/// Of the frames' gap: what an entry that is off explains a half of leaves less on few rows, too.
+/// Of the frames' gap: what an amount explains a half of leaves less on few rows, too.
 const WORTH: f64 = 0.8;
 
-/// The least amount that is a mistake, rad and parts of the reach. What is less is an effect of the arm, and the effects'
-/// own search is exact up to twice as much (zeros of 10°, lengths of a tenth of the reach).
-const LEAST: [f64; 2] = [5.0 * PI / 180.0, 0.05];
+/// The least amount that is a mistake, rad, parts of the reach and 1. What is less is an effect of the arm, and the
+/// effects' own search is exact up to twice as much (zeros of 10°, lengths of a tenth of the reach).
+const LEAST: [f64; 3] = [5.0 * PI / 180.0, 0.05, 0.05];
+
+/// What holds zeros and springs where the file has them.
+const FAST: f64 = 1e-6;
+
+/// Zeros and springs explain something if the squares fall by so many times what they fall by chance.
+const MORE: f64 = 3.0;
 
 impl Mistake {
     /// Whether it is an amount by which arms are off.
@@ -34,27 +44,42 @@ impl Mistake {
         match self {
             Mistake::Off { entry, by, .. } if entry.is_angle() => by.abs() < LEAST[0],
             Mistake::Off { by, .. } => by.abs() < LEAST[1] * reach,
+            Mistake::Geared { ratio, .. } => ratio.abs() < LEAST[2],
             _ => false,
         }
+    }
+
+    /// Whether its amount is fitted.
+    fn is_open(&self) -> bool {
+        matches!(self, Mistake::Off { .. } | Mistake::Geared { .. })
+    }
+
+    fn is_zero(&self) -> bool {
+        matches!(self, Mistake::Off { entry: Entry::Theta, .. })
     }
 }
 
 /// Adds what was fitted to the amounts.
 pub(super) fn put(mistakes: &mut [Mistake], more: &[f64]) {
-    let amounts = mistakes.iter_mut().filter_map(|mistake| match mistake {
-        Mistake::Off { entry, by, .. } => Some((entry.is_angle(), by)),
-        _ => None,
-    });
-    for ((is_angle, by), more) in amounts.zip(more) {
-        *by += more;
-        if is_angle {
-            *by -= TAU * (*by / TAU).round();
+    for (mistake, more) in mistakes.iter_mut().filter(|m| m.is_open()).zip(more) {
+        match mistake {
+            Mistake::Off { entry, by, .. } => {
+                *by += more;
+                if entry.is_angle() {
+                    *by -= TAU * (*by / TAU).round();
+                }
+            }
+            Mistake::Geared { joint, of, ratio } if joint == of => {
+                *ratio = (1.0 + *ratio) * (1.0 + more) - 1.0;
+            }
+            Mistake::Geared { ratio, .. } => *ratio += more,
+            _ => {}
         }
     }
 }
 
 impl Search<'_> {
-    /// The best entries that are off beside some mistakes.
+    /// The best mistakes of any amount beside some others.
     pub(super) fn offs(&self, others: &[Mistake]) -> Vec<Tried> {
         let few = self.rows.fewer(FEW);
         let left = |mistakes: Vec<Mistake>| {
@@ -62,20 +87,11 @@ impl Search<'_> {
             fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
         };
         let most = WORTH * left(others.to_vec());
-        let best_of = |(row, entry): &(usize, Entry)| {
-            let amounts = amounts(*entry, self.reach).into_iter();
-            let each = amounts.map(|by| {
-                let off = Mistake::Off { row: *row, entry: *entry, by };
-                (left([others, &[off]].concat()), off)
-            });
-            each.min_by(|a, b| a.0.total_cmp(&b.0))
+        let best_of = |amounts: &Vec<Mistake>| {
+            let each = amounts.iter().map(|off| (left([others, &[*off]].concat()), *off));
+            each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| *left < most)
         };
-        let mut found: Vec<(f64, Mistake)> = self
-            .entries()
-            .par_iter()
-            .filter_map(best_of)
-            .filter(|(left, _)| *left < most)
-            .collect();
+        let mut found: Vec<_> = self.amounts().par_iter().filter_map(best_of).collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.truncate(BEST);
         let fitted = found.into_par_iter();
@@ -85,17 +101,18 @@ impl Search<'_> {
     /// The best pairs of a joint's zero and anything else, another joint's zero among them.
     pub(super) fn pairs_with_zeros(&self) -> Vec<Tried> {
         let few = self.rows.fewer(FEW);
-        let coarse = |row: usize| {
-            let amounts = amounts(Entry::Theta, self.reach).into_iter().skip(1).step_by(2);
-            amounts.map(move |by| Mistake::Off { row, entry: Entry::Theta, by })
-        };
-        let joints = || self.entries().into_iter().filter(|(_, e)| *e == Entry::Theta);
-        let zeros: Vec<Mistake> = joints().flat_map(|(row, _)| coarse(row)).collect();
+        // Steps of 30°.
+        let zeros = self.amounts().into_iter().filter(|amounts| amounts[0].is_zero());
+        let zeros: Vec<Mistake> =
+            zeros.flat_map(|amounts| amounts.into_iter().skip(1).step_by(2)).collect();
         let others = self.all.iter().filter(|m| !m.is_of_load() && !m.is_stuck());
-        let others: Vec<Mistake> = others.copied().chain(zeros.iter().copied()).collect();
+        let others: Vec<Mistake> = others.chain(&zeros).copied().collect();
         let best_of = |other: &Mistake| {
-            let is_same = |zero: &&Mistake| matches!((zero, other), (Mistake::Off { row: a, .. }, Mistake::Off { row: b, .. }) if a <= b);
-            let each = zeros.iter().filter(|zero| !is_same(zero)).filter_map(|zero| {
+            let is_new = |zero: &&Mistake| match (zero, other) {
+                (Mistake::Off { row: a, .. }, Mistake::Off { row: b, .. }) => a > b,
+                _ => true,
+            };
+            let each = zeros.iter().filter(is_new).filter_map(|zero| {
                 let (mistakes, fit) = self.fit(vec![*other, *zero], &few, false)?;
                 Some((fit.framed(FEW_TURNS).size, mistakes))
             });
@@ -107,26 +124,46 @@ impl Search<'_> {
         pairs.into_par_iter().filter_map(|(_, pair)| self.tried(pair)).collect()
     }
 
-    /// Rows and their entries that are the arm's own.
-    fn entries(&self) -> Vec<(usize, Entry)> {
-        let all = [Entry::A, Entry::D, Entry::Theta, Entry::Alpha];
-        let joints = self.arm.joints.iter().enumerate();
-        let is_own = |slides: bool, entry: Entry| {
-            // What the reading is added to is the joint's zero, which slides in a prismatic one.
-            !(slides && entry == Entry::Theta)
-        };
-        let of_row = |(row, joint): (usize, &stiffarm_kernels::generic::Joint)| {
-            let slides = joint.motion == Motion::Prismatic;
-            all.into_iter().filter(move |entry| is_own(slides, *entry)).map(move |e| (row, e))
-        };
-        joints.flat_map(of_row).collect()
+    /// The same with amounts that need no zeros and springs beside them, where these explain nothing: what the diagnosis
+    /// goes on with has none.
+    pub(super) fn polished(&self, mut tried: Tried) -> Tried {
+        if !tried.mistakes.iter().any(Mistake::is_open) {
+            return tried;
+        }
+        let fit = self.fit(tried.mistakes.clone(), &self.rows.chosen, true);
+        let Some((_, fit)) = fit else { return tried };
+        let (left, more) = fit.tightened(FAST).refined();
+        let numbers = 2.0 * self.arm.dof() as f64;
+        let measured = self.rows.data.kind.components().iter().filter(|is| **is).count() as f64;
+        let chance = MORE * numbers / (measured * left.rows);
+        if left.size.powi(2) <= tried.left.size.powi(2) * (1.0 + chance) {
+            put(&mut tried.mistakes, &more);
+            tried.left = left;
+        }
+        tried
     }
-}
 
-/// What is tried of an entry, rad or m.
-fn amounts(entry: Entry, reach: f64) -> Vec<f64> {
-    if entry.is_angle() {
-        return (1..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64).collect();
+    /// Of each entry of the table, and of each reading with each joint, the amounts that are tried.
+    fn amounts(&self) -> Vec<Vec<Mistake>> {
+        let joints = &self.arm.joints;
+        let slides = |joint: usize| joints[joint].motion == Motion::Prismatic;
+        let turns = || (1..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64);
+        let lengths = || LENGTHS.iter().flat_map(|p| [p * self.reach, -p * self.reach]);
+        let ratios = || (-RATIOS..=RATIOS).filter(|k| *k != 0).map(|k| RATIO * f64::from(k));
+        let mut all = Vec::new();
+        for row in 0..joints.len() {
+            for entry in [Entry::A, Entry::D, Entry::Theta, Entry::Alpha] {
+                let off = |by| Mistake::Off { row, entry, by };
+                all.push(match entry.is_angle() {
+                    true => turns().map(off).collect(),
+                    false => lengths().map(off).collect(),
+                });
+            }
+            for of in (0..joints.len()).filter(|of| slides(*of) == slides(row)) {
+                let geared = |ratio| Mistake::Geared { joint: row, of, ratio };
+                all.push(ratios().map(geared).collect());
+            }
+        }
+        all
     }
-    LENGTHS.iter().flat_map(|part| [part * reach, -part * reach]).collect()
 }

@@ -215,7 +215,10 @@ impl Search<'_> {
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }
         let singles = self.beside(&[]);
-        let is_plain = |(first, _): &(Tried, Vec<Tried>)| first.left.size <= ORDINARY * self.reach;
+        let is_plain = |(first, _): &(Tried, Vec<Tried>)| {
+            let is_other = matches!(first.mistakes[..], [Mistake::Other(_)]);
+            first.left.size <= ORDINARY * self.reach && !is_other
+        };
         let mut first = self.best(nothing, MOST_LEFT, singles.clone());
         if !first.as_ref().is_some_and(is_plain) {
             first = self.best(nothing, MOST_LEFT, [singles, self.offs(&[])].concat());

@@ -18,7 +18,8 @@ impl Mistake {
             Mistake::Off { entry: Entry::Alpha, .. } => "twist",
             Mistake::Off { .. } => "table_length",
             Mistake::Sign { .. } => "joint_sign",
-            Mistake::Coupling { .. } => "reading_coupling",
+            Mistake::Geared { joint, of, .. } if joint == of => "reading_scale",
+            Mistake::Coupling { .. } | Mistake::Geared { .. } => "reading_coupling",
             Mistake::Swapped { .. } => "swapped_readings",
             Mistake::ReadingUnit { .. } => "reading_unit",
             Mistake::Late { .. } => "late_readings",
@@ -41,6 +42,7 @@ impl Mistake {
             | Mistake::Off { row, .. }
             | Mistake::Sign { joint: row }
             | Mistake::Coupling { joint: row, .. }
+            | Mistake::Geared { joint: row, .. }
             | Mistake::ReadingUnit { joint: row, .. }
             | Mistake::Stuck { joint: row, .. } => format!("joint {}", row + 1),
             Mistake::Swapped { joints: [a, b] } => format!("joints {} and {}", a + 1, b + 1),
@@ -92,6 +94,18 @@ impl Mistake {
                 of + 1,
                 if ratio > 0.0 { '+' } else { '-' },
                 if (joint, of) == (2, 1) { " (a Fanuc's convention)" } else { "" }
+            ),
+            Mistake::Geared { joint, of, ratio } if joint == of => format!(
+                "joint {0} turns {1:.4} times as far as its reading: J{0} := {1:.4} J{0}",
+                joint + 1,
+                1.0 + ratio
+            ),
+            Mistake::Geared { joint, of, ratio } => format!(
+                "joint {0} turns with joint {1}, which its reading does not tell: J{0} := J{0} {2} {3:.4} J{1}",
+                joint + 1,
+                of + 1,
+                if ratio > 0.0 { '+' } else { '-' },
+                ratio.abs()
             ),
             Mistake::Swapped { joints: [a, b] } => {
                 format!("the readings of joints {} and {} stand in each other's columns", a + 1, b + 1)

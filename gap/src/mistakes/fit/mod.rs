@@ -10,14 +10,16 @@
 //! are refined by least squares with weights of Cauchy's form, for some rows are just wrong.
 
 mod align;
+mod open;
 mod step;
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use stiffarm_kernels::generic::{self, Arm, Convention};
 
-use super::kind::{Entry, Mistake};
+use super::kind::Mistake;
 use super::rows::Rows;
 use crate::doubts::reach;
+use open::Open;
 
 /// Prior scale of a joint's zero, rad (m): marks and masters are good to some mrad.
 const ZERO: f64 = 0.01;
@@ -83,8 +85,10 @@ pub(super) struct Fit {
     lever: f64,
     is_loaded: bool,
     at: Unknowns,
-    /// Entries of the table that are fitted too, and what they are where `entries` is zero.
-    open: Vec<(usize, Entry, f64)>,
+    /// Whose amounts are fitted too.
+    open: Vec<Open>,
+    /// By which the prior scales of zeros and springs are multiplied.
+    tight: f64,
     /// Compliances at which `springs` is zero, and the prior scales of their logarithms.
     soft: Vec<(f64, f64)>,
     first_base: UnitQuaternion<f64>,
@@ -103,8 +107,8 @@ struct Unknowns {
     zeros: Vec<f64>,
     /// By which [`Fit::compliance`] is told.
     springs: Vec<f64>,
-    /// Of each open entry, how much more it is, rad or m.
-    entries: Vec<f64>,
+    /// By how much more each that is open is off.
+    amounts: Vec<f64>,
     /// Of each row, what its joint turns by whose reading is not known, rad (m).
     turned: Vec<f64>,
 }
@@ -168,11 +172,7 @@ impl Fit {
             return None;
         }
         let has_rotation = all.data.kind.components()[3];
-        let open = mistakes.iter().filter_map(|mistake| match *mistake {
-            Mistake::Off { row, entry, .. } => Some((row, entry, *entry.of(&mut arm.joints[row]))),
-            _ => None,
-        });
-        let open: Vec<_> = open.collect();
+        let open = Open::all(mistakes, &mut arm);
         let reach = reach(&arm).max(1e-3);
         let soft = arm.joints.iter().map(|joint| match joint.compliance {
             0.0 => (SOFTNESS / reach.powi(3), NO_SPRING),
@@ -188,11 +188,12 @@ impl Fit {
                 tools: vec![UnitQuaternion::identity(); all.sessions],
                 zeros: vec![0.0; arm.dof()],
                 springs: vec![0.0; arm.dof()],
-                entries: vec![0.0; open.len()],
+                amounts: vec![0.0; open.len()],
                 turned: vec![0.0; rows.len()],
             },
             soft: soft.collect(),
             open,
+            tight: 1.0,
             first_base,
             rows,
             arm,
@@ -206,7 +207,12 @@ impl Fit {
         self.left(&gaps)
     }
 
-    /// With all unknowns: what is left, and by how much more the open entries are off.
+    /// With zeros and springs as the file has them, but for this part of what is usual.
+    pub(super) fn tightened(self, tight: f64) -> Fit {
+        Fit { tight, ..self }
+    }
+
+    /// With all unknowns: what is left, and by how much more the open amounts are off.
     pub(super) fn refined(mut self) -> (Left, Vec<f64>) {
         self.align(TURNS);
         let mut gaps = self.gaps();
@@ -227,18 +233,11 @@ impl Fit {
                 }
             } else {
                 self.at = before;
-                self.put_entries();
+                self.put_amounts();
                 damping = (damping * 100.0).max(1e-4);
             }
         }
-        (self.left(&gaps), self.at.entries)
-    }
-
-    /// Puts the open entries into the arm.
-    fn put_entries(&mut self) {
-        for ((row, entry, from), more) in self.open.iter().zip(&self.at.entries) {
-            *entry.of(&mut self.arm.joints[*row]) = from + more;
-        }
+        (self.left(&gaps), self.at.amounts)
     }
 
     fn compliance(&self, joint: usize) -> f64 {
@@ -258,6 +257,7 @@ impl Fit {
             |j: usize| if self.is_loaded { self.compliance(j) * row.torque[j] } else { 0.0 };
         let each = row.q.iter().zip(&self.at.zeros).enumerate();
         let mut q: Vec<f64> = each.map(|(j, (q, zero))| q + zero + gives(j)).collect();
+        self.add_readings(row, &mut q);
         if let Some(joint) = row.free {
             q[joint] += self.at.turned[number];
         }
@@ -316,7 +316,8 @@ impl Fit {
     fn prior_penalty(&self) -> f64 {
         let zeros = self.at.zeros.iter().map(|zero| (zero / ZERO).powi(2)).sum::<f64>();
         let springs = self.at.springs.iter().zip(&self.soft);
-        zeros + springs.map(|(by, (_, scale))| (by / scale).powi(2)).sum::<f64>()
+        let springs = springs.map(|(by, (_, scale))| (by / scale).powi(2)).sum::<f64>();
+        (zeros + springs) / (self.tight * self.tight)
     }
 
     fn left(&self, gaps: &[Gap]) -> Left {

@@ -1,19 +1,12 @@
-//! A step of least squares of all unknowns: bases, points, tools, zeros, springs, open entries of the table.
-
-use core::f64::consts::PI;
+//! A step of least squares of all unknowns: bases, points, tools, zeros, springs, open amounts.
 
 use nalgebra::{DMatrix, DVector, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::Arm;
 
 use super::{FLAT, Fit, Gap, NO_SPRING, ZERO};
-use crate::mistakes::kind::Entry;
 
-/// Half of a central difference, rad or m: its error is of the square, its rounding of 1e-10.
-const STEP: f64 = 1e-6;
-
-/// Prior scale of an open length, m: as good as none.
-const REACH: f64 = 10.0;
+/// Prior scale of an amount, rad, m or 1: as good as none.
+const ANY: f64 = 10.0;
 
 impl Fit {
     /// Number of unknowns of frames and points.
@@ -23,30 +16,19 @@ impl Fit {
         [bases, points, points + if self.has_rotation { 3 * self.at.tools.len() } else { 0 }]
     }
 
-    /// Where the open entries begin.
-    fn first_entry(&self) -> usize {
+    /// Where the amounts begin.
+    fn first_amount(&self) -> usize {
         self.frames()[2] + self.arm.dof() * if self.is_loaded { 2 } else { 1 }
-    }
-
-    /// The arm with each open entry a little less and a little more.
-    fn steps_of_entries(&self) -> Vec<[Arm; 2]> {
-        let moved = |(row, entry, _): &(usize, Entry, f64)| {
-            [-STEP, STEP].map(|by| {
-                let mut arm = self.arm.clone();
-                *entry.of(&mut arm.joints[*row]) += by;
-                arm
-            })
-        };
-        self.open.iter().map(moved).collect()
     }
 
     /// A step of least squares.
     pub(super) fn step(&self, gaps: &[Gap], scale: f64, damping: f64) -> Option<DVector<f64>> {
         let (dof, [bases, points, tools]) = (self.arm.dof(), self.frames());
-        let (first, entries) = (self.first_entry(), self.steps_of_entries());
-        let count = first + entries.len();
+        let (first, steps) = (self.first_amount(), self.steps_of_entries());
+        let count = first + steps.len();
         let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
         let mut columns: Vec<(usize, Vector6<f64>)> = Vec::new();
+        let mut turns: Vec<Vector6<f64>> = Vec::new();
         for (number, (row, gap)) in self.rows.iter().zip(gaps).enumerate() {
             let q = self.joints(number);
             let (axes, pose) = self.axes(&q);
@@ -55,6 +37,7 @@ impl Fit {
             let at = (pose * Point3::from(self.at.points[row.point])).coords;
             let out = base.rotation * at;
             columns.clear();
+            turns.clear();
             for k in 0..3 {
                 let axis = Vector3::ith(k, 1.0);
                 columns.push((6 * row.session + k, stacked(axis, Vector3::zeros())));
@@ -71,6 +54,7 @@ impl Fit {
                     Motion::Prismatic => stacked(*along, Vector3::zeros()),
                 };
                 let twist = rotated(&base.rotation, &twist);
+                turns.push(twist);
                 columns.push((tools + j, twist));
                 if self.is_loaded {
                     let (soft, scale) = self.soft[j];
@@ -78,13 +62,8 @@ impl Fit {
                     columns.push((tools + dof + j, twist * (gives * row.torque[j])));
                 }
             }
-            for (k, steps) in entries.iter().enumerate() {
-                let [less, more] = steps.each_ref().map(|arm| arm.pose(&q));
-                let point = Point3::from(self.at.points[row.point]);
-                let shift = (more * point - less * point) / (2.0 * STEP);
-                let turn = (more.rotation * less.rotation.inverse()).scaled_axis() / (2.0 * STEP);
-                columns.push((first + k, rotated(&base.rotation, &stacked(shift, turn))));
-            }
+            let amounts = self.by_amounts(row, &q, &steps, &turns);
+            columns.extend(amounts.enumerate().map(|(k, column)| (first + k, column)));
             let mut gap = stacked(gap.0, gap.1);
             let weight =
                 1.0 / (1.0 + (self.size(&(head(&gap), tail(&gap))) / scale).powi(2) / FLAT);
@@ -113,19 +92,14 @@ impl Fit {
             }
         }
         for j in 0..dof {
-            held(&mut normal, &mut right, tools + j, self.at.zeros[j], ZERO);
+            held(&mut normal, &mut right, tools + j, self.at.zeros[j], ZERO * self.tight);
             if self.is_loaded {
-                held(&mut normal, &mut right, tools + dof + j, self.at.springs[j], self.soft[j].1);
+                let scale = self.soft[j].1 * self.tight;
+                held(&mut normal, &mut right, tools + dof + j, self.at.springs[j], scale);
             }
         }
-        for (k, (_, entry, _)) in self.open.iter().enumerate() {
-            held(
-                &mut normal,
-                &mut right,
-                first + k,
-                0.0,
-                if entry.is_angle() { PI } else { REACH },
-            );
+        for at in first..count {
+            held(&mut normal, &mut right, at, 0.0, ANY);
         }
         for k in 0..count {
             normal[(k, k)] += damping * normal[(k, k)] + 1e-9 * normal[(0, 0)].max(1.0);
@@ -160,13 +134,13 @@ impl Fit {
                 };
             }
         }
-        let first = self.first_entry();
-        self.at.entries.iter_mut().enumerate().for_each(|(k, more)| *more += step[first + k]);
-        self.put_entries();
+        let first = self.first_amount();
+        self.at.amounts.iter_mut().enumerate().for_each(|(k, more)| *more += step[first + k]);
+        self.put_amounts();
     }
 }
 
-fn stacked(shift: Vector3<f64>, turn: Vector3<f64>) -> Vector6<f64> {
+pub(super) fn stacked(shift: Vector3<f64>, turn: Vector3<f64>) -> Vector6<f64> {
     Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
 }
 
@@ -178,7 +152,7 @@ fn tail(six: &Vector6<f64>) -> Vector3<f64> {
     six.fixed_rows::<3>(3).into_owned()
 }
 
-fn rotated(by: &UnitQuaternion<f64>, twist: &Vector6<f64>) -> Vector6<f64> {
+pub(super) fn rotated(by: &UnitQuaternion<f64>, twist: &Vector6<f64>) -> Vector6<f64> {
     stacked(by * head(twist), by * tail(twist))
 }
 
