@@ -67,6 +67,31 @@ fn a_coupling_is_named_and_written() {
     assert!(!again.contains("Joint 3's reading"), "{again}");
 }
 
+/// A zero and the scale of a reading, each by no round number: named with its amount, and written.
+#[test]
+fn amounts_are_measured_and_written() {
+    let folder = Folder::new();
+    let (header, rows) = campaign(&folder);
+    let spoilt = |name: &str, column: usize, told: &dyn Fn(f64) -> f64| {
+        let mut rows = rows.clone();
+        for row in &mut rows {
+            row[column] = told(row[column].parse().expect("a number")).to_string();
+        }
+        file(&folder, name, &header, &rows)
+    };
+    let three = column(&header, "q3");
+    let turned = spoilt("turned.csv", three, &|q| q - 37_f64.to_radians());
+    let scaled = spoilt("scaled.csv", three, &|q| q / 0.7);
+    for (data, said) in [(&turned, "J3 := J3 + 37.0"), (&scaled, "J3 := 0.700")] {
+        let robot = text(&folder.path("better.toml"));
+        let write = ["--write-robot", &robot];
+        let shown = good(&[&["diagnose", "ur5", data], &FRAMES[..], &write[..]].concat());
+        assert!(shown.contains(said), "{shown}");
+        let again = good(&[&["diagnose", &robot, data], &FRAMES[..]].concat());
+        assert!(!again.contains("Mistaken"), "{again}");
+    }
+}
+
 #[test]
 fn exchanged_coordinates_are_to_be_mended_in_the_measurements() {
     let folder = Folder::new();

@@ -2,6 +2,9 @@
 
 use crate::report::Parameter as ParameterReport;
 
+/// What no instrument reads of a frame, m and rad.
+const LEAST: f64 = 1e-9;
+
 /// What was found, for a sentence.
 #[derive(Clone, Copy)]
 pub struct Told<'a> {
@@ -62,13 +65,14 @@ impl<'a> Told<'a> {
         names.iter().map(|name| self.value(name).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// How far a frame is moved and turned.
+    /// How far a frame is moved and turned, each as far as it is more than rounding.
     pub fn moved(&self) -> String {
         let parts = [("m", ["x", "y", "z"]), ("rad", ["rx", "ry", "rz"])].map(|(unit, names)| {
             let size = self.norm(&names);
             (size, (self.write)(unit, size, size))
         });
-        let there = parts.into_iter().filter(|(size, _)| *size > 0.0);
+        let least = if parts.iter().any(|(size, _)| *size > LEAST) { LEAST } else { 0.0 };
+        let there = parts.into_iter().filter(|(size, _)| *size > least);
         there.map(|(_, text)| text).collect::<Vec<_>>().join(" and ")
     }
 }

@@ -12,6 +12,9 @@ use crate::measurement::{Kind, Measurements};
 /// millimetres, each both ways: what is true is the factor times what is told.
 const LENGTHS: [f64; 6] = [1e-3, 1e3, 0.0254, 1.0 / 0.0254, 25.4, 1.0 / 25.4];
 
+/// No table has a shorter length that would have been meant, m: what is as good as none is no other unit's.
+const SHORT: f64 = 5e-3;
+
 /// Factors of a load: kilograms or pounds for newtons, a wrong sign, decanewtons and kilonewtons.
 const LOADS: [f64; 7] = [9.80665, 1.0 / 9.80665, -1.0, -9.80665, 4.448_221_615_260_5, 10.0, 1e3];
 
@@ -59,7 +62,7 @@ fn of_row(arm: &Arm, row: usize, all: &mut Vec<Mistake>) {
     let joint = &arm.joints[row];
     let is_revolute = joint.motion == Motion::Revolute;
     for (entry, value) in [(Entry::A, joint.a), (Entry::D, joint.d)] {
-        let factors = LENGTHS.iter().filter(|_| value != 0.0);
+        let factors = LENGTHS.iter().filter(|factor| (*factor * value).abs() > SHORT);
         all.extend(factors.map(|&factor| Mistake::Entry { row, entry, factor }));
     }
     for (entry, value) in [(Entry::Theta, joint.theta), (Entry::Alpha, joint.alpha)] {

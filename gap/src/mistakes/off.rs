@@ -11,19 +11,19 @@ use stiffarm_kernels::Motion;
 use super::kind::{Entry, Mistake};
 use super::search::{FEW, FEW_TURNS, Search, Tried};
 
-/// Steps of a turn: least squares converge from half of one, 7.5°.
+/// Steps of a turn: least squares converge from half of one, 7.5°, which is tried itself, too: midway from nothing no
+/// amount leaves less.
 const ANGLES: usize = 24;
 
 /// Lengths that are tried, as parts of the reach, of either sign. The point moves in proportion to a length: least
 /// squares converge from anywhere.
-const LENGTHS: [f64; 3] = [0.1, 0.3, 0.7];
+const LENGTHS: [f64; 4] = [0.06, 0.15, 0.35, 0.8];
 
-/// Ratios that are tried, of either sign, and their step: over a range of 3 rad half of it is as much as 17°.
-const RATIOS: i32 = 10;
-const RATIO: f64 = 0.2;
+/// Ratios that are tried, of either sign: over a range of 3 rad half of a step is as much as 17°.
+const RATIOS: [f64; 10] = [0.07, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0];
 
 /// Of all that were looked for so many are fitted.
-const BEST: usize = 12;
+const BEST: usize = 24;
 
 /// Of the frames' gap: what an amount explains a half of leaves less on few rows, too.
 const WORTH: f64 = 0.8;
@@ -103,8 +103,8 @@ impl Search<'_> {
         let few = self.rows.fewer(FEW);
         // Steps of 30°.
         let zeros = self.amounts().into_iter().filter(|amounts| amounts[0].is_zero());
-        let zeros: Vec<Mistake> =
-            zeros.flat_map(|amounts| amounts.into_iter().skip(1).step_by(2)).collect();
+        let steps = |amounts: Vec<Mistake>| amounts.into_iter().take(ANGLES - 1).skip(1).step_by(2);
+        let zeros: Vec<Mistake> = zeros.flat_map(steps).collect();
         let others = self.all.iter().filter(|m| !m.is_of_load() && !m.is_stuck());
         let others: Vec<Mistake> = others.chain(&zeros).copied().collect();
         let best_of = |other: &Mistake| {
@@ -120,7 +120,7 @@ impl Search<'_> {
         };
         let mut pairs: Vec<(f64, Vec<Mistake>)> = others.par_iter().filter_map(best_of).collect();
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        pairs.truncate(2 * BEST);
+        pairs.truncate(BEST);
         pairs.into_par_iter().filter_map(|(_, pair)| self.tried(pair)).collect()
     }
 
@@ -147,9 +147,10 @@ impl Search<'_> {
     fn amounts(&self) -> Vec<Vec<Mistake>> {
         let joints = &self.arm.joints;
         let slides = |joint: usize| joints[joint].motion == Motion::Prismatic;
-        let turns = || (1..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64);
+        let step = TAU / ANGLES as f64;
+        let turns = || (1..ANGLES).map(|k| step * k as f64).chain([-0.5 * step, 0.5 * step]);
         let lengths = || LENGTHS.iter().flat_map(|p| [p * self.reach, -p * self.reach]);
-        let ratios = || (-RATIOS..=RATIOS).filter(|k| *k != 0).map(|k| RATIO * f64::from(k));
+        let ratios = || RATIOS.iter().flat_map(|ratio| [*ratio, -ratio]);
         let mut all = Vec::new();
         for row in 0..joints.len() {
             for entry in [Entry::A, Entry::D, Entry::Theta, Entry::Alpha] {

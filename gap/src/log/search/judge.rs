@@ -27,6 +27,8 @@ pub struct Judged {
     pub p_value: f64,
     /// What it leaves of each block, held out.
     squares: Vec<f64>,
+    /// Whether that is less than what the others leave without it.
+    shrinks: bool,
     /// What would do instead, with what it leaves for each that the finding leaves; the best first.
     pub rivals: Vec<(Term, f64)>,
 }
@@ -63,8 +65,8 @@ pub struct Verdict {
     pub blocks: Blocks,
 }
 
-/// Judges each term beside the others, and drops those that are not told from accident, or have become
-/// what no such thing is, one after the other. What stands beside another on any such arm is tried once more
+/// Judges each term beside the others, and drops those that are not told from accident, without which no more of the
+/// held-out blocks is left, or which have become what no such thing is, one after the other. What stands beside another on any such arm is tried once more
 /// without them.
 pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
     let (mut fit, mut sizes) = (last.fit.clone(), last.sizes.clone());
@@ -104,12 +106,12 @@ pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) 
         };
         let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
         let wrong = |j: &Judged| !dict.case.is_feasible(&j.term);
-        let doubted =
-            |j: &Judged| wrong(j) || (j.p_value > SIGNIFICANT && !is_along(&j.term, &fit.terms));
+        let is_idle = |j: &Judged| j.p_value > SIGNIFICANT || !j.shrinks;
+        let doubted = |j: &Judged| wrong(j) || (is_idle(j) && !is_along(&j.term, &fit.terms));
         let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
-            let doubt = |k: &usize| (wrong(&all[*k]), all[*k].p_value);
+            let doubt = |k: &usize| (wrong(&all[*k]), !all[*k].shrinks, all[*k].p_value);
             let (a, b) = (doubt(a), doubt(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
         });
         match worst {
             None => {
@@ -152,7 +154,8 @@ impl Asked {
     fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
         let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
-            return Judged { term, p_value: 1.0, squares: self.squares, rivals: Vec::new() };
+            let (squares, rivals) = (self.squares, Vec::new());
+            return Judged { term, p_value: 1.0, squares, shrinks: false, rivals };
         };
         let left = |k: usize| self.candidates[k].squares.iter().sum::<f64>();
         let best = &self.candidates[own].squares;
@@ -170,7 +173,9 @@ impl Asked {
         rivals.truncate(RIVALS);
         let ratio = |k: usize| (left(k) / left(own)).sqrt();
         let rivals = rivals.into_iter().map(|k| (self.candidates[k].term.clone(), ratio(k)));
+        // What took less than many others was not held out.
+        let shrinks = left(own) < self.squares.iter().sum() || *best == self.squares;
         let squares = best.clone();
-        Judged { p_value: self.p_values[own], squares, rivals: rivals.collect(), term }
+        Judged { p_value: self.p_values[own], squares, shrinks, rivals: rivals.collect(), term }
     }
 }
