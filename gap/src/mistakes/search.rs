@@ -126,6 +126,11 @@ impl Search<'_> {
         left.size.is_finite().then_some(Tried { mistakes, left })
     }
 
+    /// Whether it is what arms leave, by zeros and springs that they have.
+    fn is_ordinary(&self, left: &Left) -> bool {
+        left.size <= ORDINARY * self.reach && 0.5 * left.prior_penalty <= CERTAIN
+    }
+
     /// Log-odds of what was tried, up to a constant.
     fn score(&self, tried: &Tried, floor: f64) -> f64 {
         let rarity: f64 = tried.mistakes.iter().map(|mistake| mistake.rarity()).sum();
@@ -217,7 +222,7 @@ impl Search<'_> {
         let singles = self.beside(&[]);
         let is_plain = |(first, _): &(Tried, Vec<Tried>)| {
             let is_other = matches!(first.mistakes[..], [Mistake::Other(_)]);
-            first.left.size <= ORDINARY * self.reach && !is_other
+            self.is_ordinary(&first.left) && !is_other
         };
         let mut first = self.best(nothing, MOST_LEFT, singles.clone());
         if !first.as_ref().is_some_and(is_plain) {
@@ -227,7 +232,7 @@ impl Search<'_> {
             if first.mistakes.iter().any(|mistake| mistake.is_small(self.reach)) {
                 return Found::Nothing;
             }
-            if first.left.size > ORDINARY * self.reach || 0.5 * first.left.prior_penalty > CERTAIN {
+            if !self.is_ordinary(&first.left) {
                 let more = [self.beside(&first.mistakes), self.offs(&first.mistakes)].concat();
                 if let Some((both, same)) = self.best(&first, MOST_LEFT_SECOND, more) {
                     return Found::Mistakes(both, same);
