@@ -1,6 +1,7 @@
 //! Something that some runs carry and others do not, where no column says so.
 
-use super::{Misread, Plain};
+use super::Misread;
+use super::plain::Plain;
 use crate::effects::{Place, Spot};
 use crate::log::effects::PAYLOAD;
 use crate::log::read::TorqueSide;
