@@ -312,8 +312,9 @@ fn all(robots: &[&str], seeds: core::ops::Range<u64>, only: fn(Kind) -> bool) ->
         let real = arm(robot);
         for seed in seeds.clone() {
             for kind in kinds(real.dof()).into_iter().filter(|kind| only(*kind)) {
-                let shift = if matches!(kind, Nothing) { counts[0] as u64 } else { 0 };
-                let Tried { kind, is_named, beside } = tried(kind, &real, 1000 * shift + seed);
+                // Of motions and noise that no other case has: what is right one time in twenty is so in one case.
+                let own = 1000 * counts[0] as u64 + seed;
+                let Tried { kind, is_named, beside } = tried(kind, &real, own);
                 counts[0] += 1;
                 counts[1] += usize::from(!is_named);
                 counts[2] += usize::from(!beside.is_empty());
