@@ -263,7 +263,7 @@ pub fn diagnosed_with(
         remarks: [
             model.readings.sentences(told_log),
             log.remarks(),
-            signals.remark().into_iter().collect(),
+            signals.remarks(),
             log.doubts(arm),
             placeholder(arm, side).into_iter().collect(),
         ]

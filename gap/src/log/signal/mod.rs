@@ -11,6 +11,7 @@
 //!
 //! Of the result as many samples are kept as the band holds.
 
+mod alike;
 mod band;
 mod even;
 pub mod filter;
@@ -20,6 +21,7 @@ mod tests;
 
 use core::ops::Range;
 
+use alike::Merged;
 use even::{Even, stretches, thinning};
 use filter::{LowPass, rate};
 use repeats::Repeats;
@@ -85,6 +87,8 @@ pub struct Signals {
     pub period: f64,
     /// How often a motion is repeated, and after how long, s: its periods are averaged.
     pub repeated: Option<(usize, f64)>,
+    /// The runs of each motion that there is in several of them: they are averaged to the first.
+    pub alike: Vec<Vec<usize>>,
     /// Fine samples per one that is kept.
     every: usize,
     filter: Option<LowPass>,
@@ -120,6 +124,11 @@ impl Signals {
                 even.averaged(&found)
             })
             .collect();
+        let carries = |a: usize, b: usize| log.runs[a].payload == log.runs[b].payload;
+        let Merged { evens, alike } = match drive.and_then(at) {
+            Some(drive) => alike::merged(evens, (period, band), drive, &carries),
+            None => Merged { evens, alike: Vec::new() },
+        };
         let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
         let thin = thinning(band, period);
         let period = period * thin as f64;
@@ -142,6 +151,7 @@ impl Signals {
             band,
             period,
             repeated,
+            alike,
             every,
             filter: LowPass::new(band, period),
         };
@@ -269,18 +279,30 @@ impl Signals {
             ways: part(&self.ways, &fine),
             contact: self.contact[fine.clone()].to_vec(),
             holes: part(&self.holes, &fine),
+            alike: Vec::new(),
             ..*self
         };
         (signals, rows.start - from)
     }
 
     /// What is to be said of a motion that is repeated.
-    pub fn remark(&self) -> Option<String> {
-        let (count, period) = self.repeated?;
-        Some(format!(
-            "the motion repeats {count} times, every {period:.3} s: the repeats are averaged, since an error that all of them \
-             share is no evidence"
-        ))
+    pub fn remarks(&self) -> Vec<String> {
+        let why = "since an error that all of them share is no evidence";
+        let repeats = self.repeated.map(|(count, period)| {
+            format!(
+                "the motion repeats {count} times, every {period:.3} s: the repeats are averaged, {why}"
+            )
+        });
+        let runs = self.alike.iter().map(|runs| {
+            let runs: Vec<String> = runs.iter().map(|run| (run + 1).to_string()).collect();
+            let (last, before) =
+                runs.split_last().map_or((String::new(), &[][..]), |(l, b)| (l.clone(), b));
+            format!(
+                "runs {} and {last} repeat one motion: they are averaged, {why}",
+                before.join(", ")
+            )
+        });
+        repeats.into_iter().chain(runs).collect()
     }
 
     /// Number of joints.

@@ -6,6 +6,8 @@
 //! et al. 1997): one period is left, with less noise. The clock need not be locked to the motion: a period is any number
 //! of steps, whole or not, and what lies before the first repeat and behind the last is left out.
 
+use core::ops::Range;
+
 use super::even::Even;
 use super::filter::at;
 
@@ -57,12 +59,16 @@ impl Repeats {
 
 /// The repeats of a motion at even steps of `period`, s; `None` if it never begins again.
 pub(super) fn found(q: &[Vec<f64>], period: f64) -> Option<Repeats> {
-    let every = ((STEP / period) as usize).max(1);
-    let coarse: Vec<Vec<f64>> =
-        q.iter().map(|q| q.iter().step_by(every).copied().collect()).collect();
-    let Repeats { start, end, steps } = found_at(&coarse, period * every as f64)?;
+    let (every, samples) = coarse(q, period);
+    let Repeats { start, end, steps } = found_at(&samples, period * every as f64)?;
     let end = (end * every).min(q.first().map_or(0, Vec::len));
     Some(Repeats { start: start * every, end, steps: steps * every as f64 })
+}
+
+/// Every so-manyth sample, and how many.
+pub(super) fn coarse(q: &[Vec<f64>], period: f64) -> (usize, Vec<Vec<f64>>) {
+    let every = ((STEP / period) as usize).max(1);
+    (every, q.iter().map(|q| q.iter().step_by(every).copied().collect()).collect())
 }
 
 /// The same of samples that are coarse enough.
@@ -75,14 +81,8 @@ fn found_at(q: &[Vec<f64>], period: f64) -> Option<Repeats> {
         if inner.is_empty() {
             return None;
         }
-        let anchors = (0..ANCHORS).map(|k| inner.start + inner.len() * k / ANCHORS);
-        if !Off::of(q, lag as f64, anchors).is_within(BETWEEN + LOCKED) {
-            return None;
-        }
-        let refine = |steps: f64, _| steps - Off::of(q, steps, inner.clone()).late();
-        let steps = (0..REFINED).fold(lag as f64, refine);
-        let off = Off::of(q, steps, inner.clone());
-        ((steps - lag as f64).abs() < 1.0 && off.is_within(LOCKED)).then_some((inner, steps, off))
+        let (steps, off) = Off::least(q, q, lag as f64, inner.clone())?;
+        Some((inner, steps, off))
     });
     let (inner, steps, off) = found?;
     let limits = off.limits(inner.len());
@@ -98,8 +98,8 @@ fn found_at(q: &[Vec<f64>], period: f64) -> Option<Repeats> {
     (repeats.count() > 1).then_some(repeats)
 }
 
-/// By how much a motion differs from what it was so many steps before.
-struct Off {
+/// By how much a motion differs from another one so many steps later.
+pub(super) struct Off {
     /// Of each joint the sums of squares: of the difference, of a step, and of what the step changes by.
     joints: Vec<[f64; 3]>,
     /// The product of differences and steps.
@@ -107,20 +107,43 @@ struct Off {
 }
 
 impl Off {
-    fn of(q: &[Vec<f64>], steps: f64, samples: impl Iterator<Item = usize> + Clone) -> Off {
+    /// Near a lag, at the steps at which they differ least; `None` where they are not the same.
+    pub(super) fn least(
+        first: &[Vec<f64>],
+        second: &[Vec<f64>],
+        lag: f64,
+        inner: Range<usize>,
+    ) -> Option<(f64, Off)> {
+        let anchors = (0..ANCHORS).map(|k| inner.start + inner.len() * k / ANCHORS);
+        if !Off::of(first, second, lag, anchors).is_within(BETWEEN + LOCKED) {
+            return None;
+        }
+        let refine = |steps: f64, _| steps - Off::of(first, second, steps, inner.clone()).late();
+        let steps = (0..REFINED).fold(lag, refine);
+        let off = Off::of(first, second, steps, inner.clone());
+        ((steps - lag).abs() < 1.0 && off.is_within(LOCKED)).then_some((steps, off))
+    }
+
+    fn of(
+        first: &[Vec<f64>],
+        second: &[Vec<f64>],
+        steps: f64,
+        samples: impl Iterator<Item = usize> + Clone,
+    ) -> Off {
         let mut along = 0.0;
-        let mut joint = |q: &Vec<f64>| {
+        let mut joint = |(first, second): (&Vec<f64>, &Vec<f64>)| {
             let mut sums = [0.0; 3];
             for k in samples.clone() {
-                let [before, here, after] = [-1.0, 0.0, 1.0].map(|by| at(q, k as f64 + steps + by));
-                let (off, step) = (here - q[k], 0.5 * (after - before));
+                let [before, here, after] =
+                    [-1.0, 0.0, 1.0].map(|by| at(second, k as f64 + steps + by));
+                let (off, step) = (here - first[k], 0.5 * (after - before));
                 let bend = after - 2.0 * here + before;
                 sums.iter_mut().zip([off, step, bend]).for_each(|(sum, x)| *sum += x * x);
                 along += off * step;
             }
             sums
         };
-        let joints = q.iter().map(&mut joint).collect();
+        let joints = first.iter().zip(second).map(&mut joint).collect();
         Off { joints, along }
     }
 
