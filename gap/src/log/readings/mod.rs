@@ -36,8 +36,8 @@ pub enum Misread {
     Parked { joint: usize },
     /// What drives a joint stands at its limit in so many samples.
     Clipped { signal: Signal, joint: usize, samples: usize, limits: [f64; 2] },
-    /// A column has the wrong sign.
-    Sign { signal: Signal, joint: usize },
+    /// A column has the wrong sign, or the joint's other one has, as far as these data distinguish them.
+    Sign { signal: Signal, joint: usize, or: Option<Signal> },
     /// A joint goes against its command.
     Against { joint: usize },
     /// Two joints' columns stand in each other's place.
@@ -151,7 +151,7 @@ impl Misread {
                         }
                     }
                 }
-                Misread::Sign { signal, joint } => {
+                Misread::Sign { signal, joint, .. } => {
                     let with: &[Signal] = match signal {
                         Signal::Q => {
                             &[Signal::Q, Signal::Qd, Signal::Qdd, Signal::QCmd, Signal::QdCmd]

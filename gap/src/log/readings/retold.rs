@@ -22,6 +22,11 @@ const BAD: f64 = 0.5;
 /// A mistake leaves of its joints less than this part of what they leave with it.
 const LEAVES: f64 = 0.5;
 
+/// The torque of a joint and the joint itself, turned round, leave the same if the logarithms of what they leave differ by
+/// less, sum over the joints: where neither gravity nor another joint tells its sides apart, as of a last joint about its
+/// own axis, friction and inertia are the same of both.
+const SAME: f64 = 0.05;
+
 /// Mistakes of one log that are looked for.
 const MOST: usize = 3;
 
@@ -135,14 +140,14 @@ impl Asked {
         let column = |(entry, [a, b]): (usize, &[usize; 2])| {
             let (left, _) = plain.left(&[], &dict.left(&Links::Free, &[dict.term(last, entry)]));
             match a == b {
-                true => (Misread::Sign { signal: *drive, joint: *a }, vec![*a], left),
+                true => (Misread::Sign { signal: *drive, joint: *a, or: None }, vec![*a], left),
                 false => {
                     (Misread::Swapped { signal: *drive, joints: [*a, *b] }, vec![*a, *b], left)
                 }
             }
         };
         let angle = |joint: &usize| {
-            let misread = Misread::Sign { signal: Signal::Q, joint: *joint };
+            let misread = Misread::Sign { signal: Signal::Q, joint: *joint, or: None };
             let mut signals = case.signals.clone();
             turn(&mut signals, &misread);
             let left = self.without(&Case { signals: &signals, ..*case });
@@ -151,12 +156,27 @@ impl Asked {
         pairs.iter().enumerate().map(column).chain(joints.iter().map(angle)).collect()
     }
 
-    /// The mistake without which least is left, if that is so much less than `is` at its own joints.
+    /// The mistake without which least is left, if that is so much less than `is` at its own joints. Of a joint's two signs
+    /// that leave the same it is the torque's: its column is given a convention, where an encoder has an arrow.
     fn best(&self, is: &[f64], tried: Vec<Tried>) -> Option<Misread> {
-        let best = tried.into_iter().min_by(|a, b| self.sum(&a.2).total_cmp(&self.sum(&b.2)));
-        let (misread, own, left) = best?;
+        let sums: Vec<f64> = tried.iter().map(|(.., left)| self.sum(left)).collect();
+        let best = (0..tried.len()).min_by(|a, b| sums[*a].total_cmp(&sums[*b]))?;
+        let (misread, own, left) = &tried[best];
         let part = own.iter().map(|j| (left[*j] / is[*j]).ln()).sum::<f64>() / own.len() as f64;
-        (part < LEAVES.ln() && self.sum(&left) < self.sum(is)).then_some(misread)
+        if part >= LEAVES.ln() || sums[best] >= self.sum(is) {
+            return None;
+        }
+        let Misread::Sign { signal, joint, .. } = *misread else { return Some(misread.clone()) };
+        let is_other = |of: &Misread| match of {
+            Misread::Sign { signal: s, joint: j, .. } => *j == joint && *s != signal,
+            _ => false,
+        };
+        let other = (0..tried.len()).filter(|k| is_other(&tried[*k].0));
+        let is_told = other.min_by(|a, b| sums[*a].total_cmp(&sums[*b]));
+        match is_told.is_some_and(|k| sums[k] - sums[best] < SAME) {
+            true => Some(Misread::Sign { signal: self.drive, joint, or: Some(Signal::Q) }),
+            false => Some(misread.clone()),
+        }
     }
 
     fn sum(&self, left: &[f64]) -> f64 {
@@ -183,7 +203,7 @@ fn spreads(case: &Case<'_>, joints: &[usize]) -> Vec<f64> {
 /// The signals without the mistake.
 fn turn(signals: &mut Signals, misread: &Misread) {
     match misread {
-        Misread::Sign { signal: Signal::Q, joint } => {
+        Misread::Sign { signal: Signal::Q, joint, .. } => {
             let Signals { q, qd, qdd, .. } = signals;
             for rows in [q, qd, qdd] {
                 rows[*joint].iter_mut().for_each(|x| *x = -*x);

@@ -64,7 +64,14 @@ impl Misread {
                     joint + 1
                 )
             }
-            Misread::Sign { signal, joint } => format!(
+            Misread::Sign { signal, joint, or: Some(other) } => format!(
+                "{name} has the wrong sign for joint {n}, or {} has the wrong sign for joint {n}: this log does not \
+                 distinguish them; {name} is read as −{name}; give the wrong one factor = -1 in a map",
+                named(other, *joint),
+                n = joint + 1,
+                name = named(signal, *joint),
+            ),
+            Misread::Sign { signal, joint, or: None } => format!(
                 "{name} has the wrong sign for joint {}: it is read as −{name}; give it factor = -1 in a map",
                 joint + 1,
                 name = named(signal, *joint),
