@@ -13,6 +13,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use stiffarm_gap::diagnose::Stop;
+use stiffarm_gap::readings::Sheet;
 
 use crate::terminal::failure::Failure;
 
@@ -143,6 +144,17 @@ pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     match host().and_then(held) {
         Some(bytes) => Ok(bytes),
         None => stiffarm_gap::measurement::bytes(path),
+    }
+}
+
+/// A file of a table: one on disk is gone through where it is, and not held.
+///
+/// # Errors
+/// As reading it.
+pub(crate) fn sheet(path: &Path) -> io::Result<Sheet> {
+    match path.is_file() && owner(path).is_none() {
+        true => Ok(Sheet::on_disk(path)),
+        false => Ok(Sheet::new(path.display().to_string(), bytes(path)?)),
     }
 }
 

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use stiffarm_gap::io::{Map, ReadError};
-use stiffarm_gap::readings::{By, Sheet, import};
+use stiffarm_gap::readings::{By, Stopped, import, import_into};
 
 use super::Verdict;
 use crate::input::data;
 use crate::input::source::RobotArgs;
-use crate::inside::bytes;
+use crate::inside::{bytes, sheet};
 use crate::terminal::failure::Failure;
 use crate::terminal::note::note;
 use crate::terminal::output::Target;
@@ -46,8 +46,8 @@ pub struct Args {
     /// A second table whose columns stand beside: a controller's log of what a tracker saw
     #[arg(long, value_name = "FILE")]
     join: Option<PathBuf>,
-    /// Which of its rows belongs to which: `row` (one to one), `time` (interpolated), or the name of a
-    /// column that both have
+    /// Which of its rows belongs to which: `row` (one to one), `time` (interpolated; `time+0.5` where the
+    /// raw table's clock is half a second ahead), or the name of a column that both have
     #[arg(long, value_name = "row|time|COLUMN", default_value = "row", requires = "join")]
     by: By,
     /// The sheet of a workbook [default: the first]
@@ -76,20 +76,37 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         }
     };
     map.sheet = args.sheet.clone().or(map.sheet);
-    let sheet = Sheet::new(args.raw.display().to_string(), read(&args.raw)?);
-    let named = |path: &PathBuf| Ok(Sheet::new(path.display().to_string(), read(path)?));
-    let other = args.join.as_ref().map(named).transpose()?;
+    let table = |path: &PathBuf| sheet(path).map_err(|error| Failure::io("read", path, &error));
+    let raw = table(&args.raw)?;
+    let other = args.join.as_ref().map(table).transpose()?;
     let other = other.as_ref().map(|other| (other, &args.by));
-    let imported = import(&sheet, other, &map).map_err(plain)?;
-    if let Some(robot) = &args.robot {
-        let source = RobotArgs::named(robot).load(quiet)?;
-        let written = PathBuf::from("what was made of it");
-        let data = data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
-        data::doubted(&source.arm()?, &data, &[], quiet);
-    }
-    args.csv.write(&imported.csv)?;
-    for said in &imported.said {
-        note(said, quiet);
-    }
+    let said = match &args.robot {
+        Some(robot) => {
+            let imported = import(&raw, other, &map).map_err(plain)?;
+            let source = RobotArgs::named(robot).load(quiet)?;
+            let written = PathBuf::from("what was made of it");
+            let layout = data::layout(&source)?;
+            let data = data::from_bytes(&written, imported.csv.as_bytes(), &layout)?;
+            data::doubted(&source.arm()?, &data, &[], quiet);
+            args.csv.write(&imported.csv)?;
+            imported.said
+        }
+        None => {
+            let mut done = Ok(Vec::new());
+            args.csv.stream(&mut |sink| match import_into(&raw, other, &map, sink) {
+                Ok(said) => {
+                    done = Ok(said);
+                    Ok(true)
+                }
+                Err(Stopped::Read(error)) => {
+                    done = Err(plain(error));
+                    Ok(false)
+                }
+                Err(Stopped::Write(error)) => Err(error),
+            })?;
+            done?
+        }
+    };
+    said.iter().for_each(|said| note(said, quiet));
     Ok(Verdict::Good)
 }

@@ -66,6 +66,12 @@ class Diagnosis:
         return [finding for part in self.parts for finding in part.findings]
 
     @property
+    def base_parameters(self) -> list[Record]:
+        """Of a log of torques the links' base parameters as they are fitted: ``name``, ``sum``, ``value``, ``unit``, ``ci95`` and
+        ``in_file`` of each; their covariance is ``rigid.covariance``. Empty where none are fitted."""
+        return [one for part in self.parts if "rigid" in part for one in part.rigid.parameters]
+
+    @property
     def stopped(self) -> bool:
         """Whether the search was told to stop before its end."""
         return any(part.get("stopped", False) for part in self.parts)

@@ -336,3 +336,17 @@ def test_a_campaign_and_a_log(cli, tmp_path, monkeypatch):
     assert found.to_html().count("<iframe") == 2
     pytest.importorskip("matplotlib")
     assert len(found.plot().axes) == 2
+
+
+def test_base_parameters_have_intervals_and_a_covariance(found):
+    told = found.base_parameters
+    spread = numpy.sqrt(numpy.diag(numpy.array(found.rigid.covariance)))
+    assert len(told) == found.rigid_parameters == len(spread) > 0
+    for one, deviation in zip(told, spread):
+        assert one.sum[0].times == 1.0 and one.name.startswith(one.sum[0].moment)
+        if "ci95" in one:
+            low, high = one.ci95
+            # Student's t of a few blocks or of many.
+            assert low < one.value < high and 1.9 < (high - low) / (2.0 * deviation) < 13.0
+        else:
+            assert one.value == deviation == 0.0

@@ -14,5 +14,6 @@ mod mistakes;
 mod motion_mistakes;
 mod pairs;
 mod realistic;
+mod repeats;
 mod stream;
 mod suite;

@@ -1,5 +1,7 @@
 //! Measurement files, each mistake shown at its cell.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use stiffarm_gap::Measurements;
@@ -12,7 +14,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
 use super::source::Source;
-use crate::inside::bytes;
+use crate::inside::{bytes, owner};
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::note::note;
 use crate::terminal::snippet;
@@ -62,8 +64,17 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-    read_bytes(path, &bytes, layout, quiet)
+    let wrong = |error| Failure::io("read", path, &error);
+    if !path.is_file() || owner(path).is_some() {
+        return read_bytes(path, &bytes(path).map_err(wrong)?, layout, quiet);
+    }
+    let source = BufReader::new(File::open(path).map_err(wrong)?);
+    let data = match Measurements::from_source(&path.display().to_string(), source, layout) {
+        Ok(data) => Ok(data),
+        // Its lines are shown at their mistakes.
+        Err(error) => Err(refusal(&bytes(path).map_err(wrong)?, &error)),
+    };
+    told(data, quiet)
 }
 
 /// The same of a file whose bytes are there.

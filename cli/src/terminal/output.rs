@@ -1,7 +1,7 @@
 //! Where results go: standard output, or a file that is never half-written.
 
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Command};
@@ -41,6 +41,45 @@ impl Target {
                     return Ok(());
                 }
                 file(path, text.as_bytes()).map_err(|error| Failure::io("write", path, &error))
+            }
+        }
+    }
+}
+
+impl Target {
+    /// Writes there what `write` writes bit by bit; where that says that it is nothing, a file is as it was.
+    ///
+    /// # Errors
+    /// As [`Target::write`].
+    pub fn stream(
+        &self,
+        write: &mut dyn FnMut(&mut dyn Write) -> io::Result<bool>,
+    ) -> Result<(), Failure> {
+        let (path, is_held) = match self {
+            Target::Stdout => (Path::new("standard output"), host().is_some()),
+            Target::File(path) => (path.as_path(), owner(path).is_some()),
+        };
+        let failed = |error: io::Error| Failure::io("write", path, &error);
+        if is_held {
+            let mut held = Vec::new();
+            let is_whole = write(&mut held).map_err(failed)?;
+            return if is_whole { self.write(&String::from_utf8_lossy(&held)) } else { Ok(()) };
+        }
+        match self {
+            Target::Stdout => {
+                let mut out = BufWriter::new(io::stdout().lock());
+                match write(&mut out).and_then(|_| out.flush()) {
+                    Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(failed(error)),
+                    _ => Ok(()),
+                }
+            }
+            Target::File(path) => {
+                let mut whole = BufWriter::new(Whole::new(path).map_err(failed)?);
+                if !write(&mut whole).map_err(failed)? {
+                    return Ok(());
+                }
+                let whole = whole.into_inner().map_err(|error| failed(error.into_error()))?;
+                whole.finish().map_err(failed)
             }
         }
     }

@@ -9,6 +9,7 @@
 
 pub(crate) mod columns;
 mod convention;
+pub(crate) mod encoding;
 pub mod map;
 mod mistake;
 mod nearest;
@@ -24,4 +25,4 @@ pub use source::{MOST_BYTES, bytes};
 pub use unit::{Dimension, Unit, plain, quantity};
 
 pub(crate) use mistake::Mistakes;
-pub(crate) use source::{decoded, from_toml};
+pub(crate) use source::from_toml;

@@ -97,7 +97,7 @@ impl Record {
     }
 
     /// All cells.
-    pub(crate) fn cells(&self) -> impl ExactSizeIterator<Item = &[u8]> {
+    pub(crate) fn cells(&self) -> impl ExactSizeIterator<Item = &[u8]> + Clone {
         (0..self.cells).map(|k| self.cell(k).unwrap_or_default())
     }
 

@@ -25,6 +25,7 @@ pub mod rigid;
 pub mod scene;
 pub mod search;
 pub mod signal;
+mod told;
 mod verdict;
 
 pub use model::Model;
@@ -32,6 +33,6 @@ pub use model::Model;
 pub use crate::report::LogDiagnosis;
 pub use crate::report::log as report;
 pub use options::{LogOptions, Refused};
-pub use read::{Format, Log, Names, Opened, Run, Signal, TorqueSide, is_log};
+pub use read::{Format, Hole, Log, Names, Opened, Run, Signal, TorqueSide, is_log};
 pub use scene::Domain;
 pub use verdict::{diagnose, diagnosed, diagnosed_with};

@@ -77,7 +77,8 @@ pub enum Refused {
     )]
     Silent { file: String },
     #[error(
-        "{file}: joint {joint} does not move, expected motion of every joint: leave the log's rest out, or give a lower --standstill"
+        "{file}: joint {joint} has no row that counts: it does not move, or what drives it is missing or at its limit throughout; \
+         expected motion of every joint: leave the log's rest out, or give a lower --standstill"
     )]
     Still { file: String, joint: usize },
 }

@@ -4,10 +4,11 @@
 //! the tensor of inertia about the origin of the row's frame. Not all of them are seen, whatever the motion:
 //! the [`Base`] is a set of columns that the others are sums of.
 
+pub(super) mod report;
 pub mod works;
 
 use nalgebra::{DMatrix, Isometry3, Matrix3, Vector3};
-use stiffarm_kernels::generic::Arm;
+use stiffarm_kernels::generic::{Arm, BaseParameter};
 
 /// Entries of a tensor in the order of the numbers.
 const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
@@ -53,6 +54,8 @@ pub struct Base {
     pub columns: Vec<usize>,
     /// What each column of the regressor, all of them, is of these.
     pub mix: DMatrix<f64>,
+    /// The sums of moments whose columns these are.
+    pub sums: Vec<BaseParameter>,
 }
 
 impl Base {
@@ -64,7 +67,8 @@ impl Base {
             mix[(k, parameter.moment)] = 1.0;
             parameter.others.iter().for_each(|(moment, times)| mix[(k, *moment)] = *times);
         }
-        Base { columns: parameters.iter().map(|parameter| parameter.moment).collect(), mix }
+        let columns = parameters.iter().map(|parameter| parameter.moment).collect();
+        Base { columns, mix, sums: parameters }
     }
 
     /// Numbers of all links, ten each, that ask the same as these values of the base columns.

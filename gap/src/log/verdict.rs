@@ -2,10 +2,8 @@
 
 use std::cell::RefCell;
 
-use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::effects::{LogEffect, Spot};
 use super::identifiability::hidden;
 use super::instrument;
 use super::known;
@@ -13,26 +11,22 @@ use super::model::{Acting, Model, late};
 use super::options::{LogOptions, Refused};
 use super::read::{Log, Signal, TorqueSide};
 use super::readings::{Readings, placeholder};
-use super::rigid::{Base, body, moved};
+use super::rigid::{Base, body, moved, report};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, FOUND, Simple, Wanted};
 use super::search::converge::converged;
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
-use super::search::judge::{Judged, Verdict};
 use super::search::nested::nested;
 use super::search::residual::dependences;
 use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, effective};
 use super::signal::Signals;
-use crate::effects::Place;
-use crate::infer::interval;
+use super::told::{History, Told};
 use crate::measurement::Body;
-use crate::report::log::{Evidence, Filter, JointGap, LogDiagnosis, Unexplained};
-use crate::report::{Alternative, Finding, HeldOutGap, Left, Parameter};
-use crate::shrink::Shrink;
+use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
 
 /// A joint that is slower than this part of its largest speed counts as standing.
 const STILL: f64 = 0.005;
@@ -249,6 +243,10 @@ pub fn diagnosed_with(
             folds: blocks.folds,
         },
         rigid_parameters: if links == Links::Free { dict.base } else { 0 },
+        rigid: case.base.filter(|_| links == Links::Free && !current).map(|base| {
+            let values = &verdict.fit.values;
+            report::fitted(arm, base, values, &after.covariance(values), blocks.all.len())
+        }),
         gap: told.gap(&before, &after.sizes, nested.as_deref()),
         shrink: told.shrink([first, &after.sizes], spread, blocks.all.len()),
         findings: told.findings(&left, &verdict, &after, by_command.as_deref()),
@@ -265,7 +263,7 @@ pub fn diagnosed_with(
         remarks: [
             model.readings.sentences(told_log),
             log.remarks(),
-            signals.remark().into_iter().collect(),
+            signals.remarks(),
             log.doubts(arm),
             placeholder(arm, side).into_iter().collect(),
         ]
@@ -361,167 +359,4 @@ fn about(wanted: &[Wanted], terms: &[Term]) -> Vec<Wanted> {
 fn again_of(dict: &Dictionary<'_>, term: &Term) -> Term {
     let entry = if term.effect.bends() { dict.offers[term.offer].entries.len() - 1 } else { 0 };
     Term { entry, ..term.clone() }
-}
-
-/// What was left before each term.
-#[derive(Default)]
-struct History {
-    /// Of each joint, before any.
-    before: Vec<f64>,
-    /// Of all joints, before each that was added, by effect and place, and at the end.
-    left: Vec<(Vec<(&'static str, Spot)>, f64)>,
-    /// What the model as it was first showed nothing of.
-    hidden: Vec<(&'static dyn LogEffect, Spot)>,
-    /// Values of the links' columns, where they are fitted, before any.
-    alone: Vec<f64>,
-}
-
-impl History {
-    fn note(&mut self, dict: &Dictionary<'_>, told: &Told<'_>, round: &Round) {
-        let unseen = Unseen::of(dict, &round.fit, &round.sizes, &round.blocks).sizes;
-        let names = round.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
-        self.left.push((names.collect(), told.mean(&unseen)));
-        if self.before.is_empty() {
-            self.before = unseen;
-            self.alone.clone_from(&round.fit.values);
-            let blind = round.asked.candidates.iter().filter(|c| !c.seen);
-            self.hidden = blind.map(|c| (c.term.effect, c.term.spot)).collect();
-        }
-    }
-}
-
-/// How numbers are told.
-struct Told<'a> {
-    case: &'a Case<'a>,
-    arm: &'a Arm,
-    kind: (Domain, Option<TorqueSide>),
-    current: bool,
-    /// Sizes of the joints' torques, or of their position errors.
-    sizes: Vec<f64>,
-}
-
-impl Told<'_> {
-    /// A place; of what is held all runs that name it.
-    fn place(&self, spot: Spot) -> String {
-        let Place::Held(first) = spot.place else { return spot.to_string() };
-        let case = self.case;
-        let runs = (0..case.payloads.len()).filter(|run| case.held_as(*run) == first - 1);
-        let runs: Vec<String> = runs.map(|run| (run + 1).to_string()).collect();
-        match runs.as_slice() {
-            [before @ .., last] if !before.is_empty() => {
-                format!("the tool in runs {} and {last}", before.join(", "))
-            }
-            _ => spot.to_string(),
-        }
-    }
-
-    /// What a joint's gap is measured in.
-    fn gap_unit(&self, joint: usize) -> &'static str {
-        match (self.kind.0, self.arm.joints[joint].motion) {
-            (Domain::Torque, _) if self.current => "A",
-            (Domain::Torque, Motion::Revolute) => "N·m",
-            (Domain::Torque, Motion::Prismatic) => "N",
-            (Domain::Position, Motion::Revolute) => "rad",
-            (Domain::Position, Motion::Prismatic) => "m",
-        }
-    }
-
-    /// The unit of an effect's number at a spot.
-    fn unit(&self, unit: &str, spot: Spot) -> String {
-        let joint = spot.joint().or(spot.pair().map(|[first, _]| first));
-        let slides = joint.is_some_and(|j| self.arm.joints[j].motion == Motion::Prismatic);
-        let unit = match (slides, unit) {
-            (true, "kg·m²") if !self.current => "kg".to_owned(),
-            (true, unit) => unit.replace("N·m", "N").replace("rad", "m"),
-            (false, unit) => unit.to_owned(),
-        };
-        match (self.current, unit.as_str()) {
-            (false, _) => unit,
-            (true, "kg·m²") => "A·s²/rad".to_owned(),
-            (true, unit) => unit.replace("N·m", "A").replace('N', "A"),
-        }
-    }
-
-    fn gap(&self, before: &[f64], after: &[f64], nested: Option<&[f64]>) -> Vec<JointGap> {
-        let pairs = before.iter().zip(after).zip(&self.sizes);
-        let told = |(joint, ((before, after), size)): (usize, ((&f64, &f64), &f64))| JointGap {
-            unit: self.gap_unit(joint).into(),
-            size: *size,
-            before: *before,
-            after: *after,
-            nested: nested.map(|nested| nested[joint]),
-        };
-        pairs.enumerate().map(told).collect()
-    }
-
-    /// From what is left of the joints before to what is left with all findings, the logarithm of whose ratio
-    /// scatters by `spread` over logs of so many blocks.
-    fn shrink(&self, left: [&[f64]; 2], spread: f64, blocks: usize) -> Shrink {
-        let [before, after] = left.map(|left| self.mean(left));
-        let shrink = if before > 0.0 { 1.0 - after / before } else { 0.0 };
-        Shrink { before, after, shrink, shrink_ci95: interval(shrink, spread, blocks) }
-    }
-
-    /// Mean over the joints of what is left, as a part of their sizes.
-    fn mean(&self, left: &[f64]) -> f64 {
-        let own = left.iter().zip(&self.sizes).zip(self.case.left_out);
-        let parts: Vec<f64> =
-            own.filter(|(_, out)| !**out).map(|((left, whole), _)| left / whole).collect();
-        parts.iter().sum::<f64>() / parts.len().max(1) as f64
-    }
-
-    fn alternative(&self, (term, leaves): &(Term, f64)) -> Alternative {
-        Alternative {
-            effect: term.effect.identifier().into(),
-            place: self.place(term.spot),
-            left: Left::InMotion { leaves: *leaves },
-        }
-    }
-
-    /// In the order in which they were added.
-    fn findings(
-        &self,
-        left: &[(Vec<(&'static str, Spot)>, f64)],
-        verdict: &Verdict,
-        unseen: &Unseen,
-        by_command: Option<&[f64]>,
-    ) -> Vec<Finding> {
-        let base = verdict.fit.columns.len()
-            - verdict.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
-        let mut widths = unseen.half_widths[base..].iter();
-        let mut told_by_command = by_command.into_iter().flatten().copied();
-        let mut tell = |judged: &Judged| {
-            let term = &judged.term;
-            let name = (term.effect.identifier(), term.spot);
-            // The first round that had it, and the one before.
-            let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
-            let numbers =
-                term.effect.parameters().iter().zip(self.case.at_least_none(term)).zip(&mut widths);
-            let held_out = HeldOutGap::InMotion {
-                held_out_before: left[with - 1].1,
-                held_out_after: left[with].1,
-            };
-            Finding {
-                effect: name.0.into(),
-                place: self.place(term.spot),
-                parameters: numbers
-                    .map(|((parameter, value), width)| Parameter {
-                        name: parameter.key.into(),
-                        value,
-                        unit: self.unit(parameter.quantity.unit(), term.spot).into(),
-                        ci95: [value - width, value + width],
-                        by_command: told_by_command.next(),
-                    })
-                    .collect(),
-                share: held_out.share(left[0].1),
-                held_out,
-                p_value: judged.p_value,
-                stability: None,
-                alternatives: judged.rivals.iter().map(|rival| self.alternative(rival)).collect(),
-                to_separate: (!judged.rivals.is_empty())
-                    .then(|| Some(term.effect.facts().separated_by.to_owned())),
-            }
-        };
-        verdict.findings.iter().map(&mut tell).collect()
-    }
 }

@@ -22,6 +22,8 @@ mod stack;
 mod told;
 
 use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use nalgebra::Vector6;
@@ -301,13 +303,25 @@ impl Measurements {
     /// [`ReadError`]: the file cannot be opened, or all its mistakes.
     pub fn read(path: &Path, layout: &Layout) -> Result<Measurements, ReadError> {
         let file = path.display().to_string();
-        match bytes(path) {
-            Ok(bytes) => Measurements::from_bytes(&file, &bytes, layout),
+        match File::open(path) {
+            Ok(source) => Measurements::from_source(&file, BufReader::new(source), layout),
             Err(error) => {
                 let found = format!("no file that can be read ({error})");
                 Err(Fault::new(found, "a measurement file (CSV)", "").of(&file))
             }
         }
+    }
+
+    /// Reads a measurement file from its source, of which the record at hand alone is held.
+    ///
+    /// # Errors
+    /// As [`Measurements::from_bytes`].
+    pub fn from_source(
+        file: &str,
+        source: impl BufRead,
+        layout: &Layout,
+    ) -> Result<Measurements, ReadError> {
+        Measurements::of_source(file, source, layout, false)
     }
 
     /// Reads the bytes of a measurement file; `file` is what messages call it.
@@ -319,7 +333,7 @@ impl Measurements {
         bytes: &[u8],
         layout: &Layout,
     ) -> Result<Measurements, ReadError> {
-        Measurements::of_bytes(file, bytes, layout, false)
+        Measurements::of_source(file, bytes, layout, false)
     }
 
     /// The same of a file that is still to be measured, in which cells of what is measured may be
@@ -332,17 +346,17 @@ impl Measurements {
         bytes: &[u8],
         layout: &Layout,
     ) -> Result<Measurements, ReadError> {
-        Measurements::of_bytes(file, bytes, layout, true)
+        Measurements::of_source(file, bytes, layout, true)
     }
 
-    fn of_bytes(
+    fn of_source(
         file: &str,
-        bytes: &[u8],
+        source: impl BufRead,
         layout: &Layout,
         planned: bool,
     ) -> Result<Measurements, ReadError> {
         let mut mistakes = Mistakes::default();
-        let read = read_into(&mut mistakes, file, bytes, layout, planned);
+        let read = read_into(&mut mistakes, file, source, layout, planned);
         let read = read.map_err(|mistake| mistakes.add(mistake)).ok().flatten();
         mistakes.check(file)?;
         read.ok_or_else(|| Fault::new("nothing", "measurements", "").of(file))
@@ -368,11 +382,11 @@ impl Measurements {
 fn read_into(
     mistakes: &mut Mistakes,
     file: &str,
-    bytes: &[u8],
+    source: impl BufRead,
     layout: &Layout,
     planned: bool,
 ) -> Result<Option<Measurements>, Mistake> {
-    let mut records = Records::new(bytes, Some(Separator::Byte(b',')))?;
+    let mut records = Records::new(source, Some(Separator::Byte(b',')))?;
     let Some(top) = records.read()? else {
         let help = format!("begin with one such as {HEADER}");
         return Err(Fault::new("nothing", "a header row", help).at(1, None));

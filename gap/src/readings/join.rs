@@ -12,22 +12,26 @@ use super::sheet::{Row, Seen, Table, is_none};
 use crate::io::{Fault, Mistake, Mistakes, ReadError, Unit};
 
 /// Which rows belong together.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum By {
     /// Row by row.
     Row,
-    /// By their columns of time: what the other table has between two of its times is interpolated.
-    Time,
+    /// By their columns of time: what the other table has between two of its times is interpolated. So many seconds are added
+    /// to the times of the other first.
+    Time(f64),
     /// Those in which this column, which both have, says the same.
     Column(String),
 }
 
 impl From<String> for By {
     fn from(word: String) -> By {
-        match word.as_str() {
-            "row" => By::Row,
-            "time" => By::Time,
-            _ => By::Column(word),
+        let shift = word.strip_prefix("time").filter(|shift| shift.starts_with(['+', '-']));
+        let shift = shift.and_then(|shift| shift.trim_end_matches('s').trim().parse().ok());
+        match (word.as_str(), shift) {
+            ("row", _) => By::Row,
+            ("time", _) => By::Time(0.0),
+            (_, Some(shift)) => By::Time(shift),
+            (_, None) => By::Column(word),
         }
     }
 }
@@ -37,9 +41,46 @@ impl From<String> for By {
 pub(super) struct Join<'t> {
     file: &'t str,
     pub columns: Vec<Beside>,
-    /// Of each row the cells of these columns.
-    rows: Vec<Vec<String>>,
+    /// How many rows the other table has.
+    count: usize,
+    /// The cells of these columns.
+    kept: Kept,
     key: Key,
+}
+
+/// Cells of the rows that belong to one of ours, one behind the other: a controller's log is long, and few rows of it meet
+/// one of a tracker.
+#[derive(Clone, Debug, Default)]
+struct Kept {
+    /// The numbers of the rows, rising, and where each begins.
+    rows: Vec<(usize, usize)>,
+    /// Where each cell of each row ends, from the beginning of the row.
+    ends: Vec<u32>,
+    text: String,
+}
+
+impl Kept {
+    fn push<'c>(&mut self, row: usize, cells: impl Iterator<Item = Cow<'c, str>>) {
+        let begin = self.text.len();
+        self.rows.push((row, begin));
+        for cell in cells {
+            self.text.push_str(&cell);
+            self.ends.push((self.text.len() - begin) as u32);
+        }
+    }
+
+    /// The cells of a row that is kept.
+    fn row(&self, row: usize) -> Vec<&str> {
+        let at = self.rows.partition_point(|(kept, _)| *kept < row);
+        let Some((_, begin)) = self.rows.get(at) else { return Vec::new() };
+        let width = self.ends.len() / self.rows.len();
+        let mut from = *begin;
+        let cell = |end: &u32| {
+            let to = begin + *end as usize;
+            &self.text[core::mem::replace(&mut from, to)..to]
+        };
+        self.ends[at * width..(at + 1) * width].iter().map(cell).collect()
+    }
 }
 
 /// A column of the other table.
@@ -84,7 +125,7 @@ pub(super) fn join<'t>(
     let keys =
         match by {
             By::Row => None,
-            By::Time => Some([&ours, other].map(|table| {
+            By::Time(_) => Some([&ours, other].map(|table| {
                 let is = |name: &String| meaning(name) == Some(Meaning::Ours("time".to_owned()));
                 at(table, "time", is)
             })),
@@ -109,9 +150,11 @@ pub(super) fn join<'t>(
             taken.push(k);
         }
     }
-    let timed = keys.filter(|_| *by == By::Time);
-    let timed = timed.map(|(mine, theirs)| (timing(&ours, mine), timing(other, theirs)));
-    let (mut rows, mut times, mut cells) = (Vec::new(), Vec::new(), HashMap::new());
+    let shift = if let By::Time(shift) = by { Some(*shift) } else { None };
+    let timed = keys
+        .zip(shift)
+        .map(|((mine, theirs), shift)| (timing(&ours, mine, 0.0), timing(other, theirs, shift)));
+    let (mut count, mut times, mut cells) = (0, Vec::new(), HashMap::new());
     let read = other.each(|row| {
         if row.cells.iter().all(|cell| cell.is_empty()) {
             return;
@@ -128,14 +171,14 @@ pub(super) fn join<'t>(
             },
             (Some((_, theirs)), None) => {
                 let key = other.text(row, theirs).into_owned();
-                if cells.insert(key.clone(), rows.len()).is_some() {
+                if cells.insert(key.clone(), count).is_some() {
                     let fault = Fault::new(format!("`{key}` again"), "it in one row", "");
                     mistakes.add(fault.at(row.line, Some(other.column(theirs))));
                 }
             }
             (None, _) => {}
         }
-        rows.push(taken.iter().map(|k| other.text(row, *k).into_owned()).collect());
+        count += 1;
     });
     mistakes.extend(read.err());
     mistakes.check(other.file)?;
@@ -154,8 +197,22 @@ pub(super) fn join<'t>(
         (Some((mine, _)), None) => Key::Column(mine, cells),
         (None, None) => Key::Row,
     };
-    let join = Join { file: other.file, columns: taken.iter().map(beside).collect(), rows, key };
-    said.extend(join.met(&ours)?);
+    let (columns, kept) = (taken.iter().map(beside).collect(), Kept::default());
+    let mut join = Join { file: other.file, columns, count, kept, key };
+    let (met, wanted) = join.met(&ours)?;
+    said.extend(met);
+    let (mut kept, mut number) = (Kept::default(), 0);
+    let read = other.each(|row| {
+        if row.cells.iter().all(|cell| cell.is_empty()) {
+            return;
+        }
+        if wanted.get(number) == Some(&true) {
+            kept.push(number, taken.iter().map(|k| other.text(row, *k)));
+        }
+        number += 1;
+    });
+    read.map_err(|mistake| mistake.of(other.file))?;
+    join.kept = kept;
     Ok(ours.joined(join, said))
 }
 
@@ -167,17 +224,17 @@ fn at(table: &Table<'_>, name: &str, is: impl Fn(&String) -> bool) -> Result<usi
     })
 }
 
-/// A column of times as seconds.
-fn timing(table: &Table<'_>, index: usize) -> Column {
+/// A column of times as seconds, so many of them later.
+fn timing(table: &Table<'_>, index: usize, shift: f64) -> Column {
     let column = Column::new(table, index);
     let unit = column.unit.as_deref().and_then(Unit::named);
-    Column { factor: unit.map_or(1.0, |unit| unit.factor), ..column }
+    Column { factor: unit.map_or(1.0, |unit| unit.factor), offset: shift, ..column }
 }
 
 /// The time of a row, s.
 fn seconds(table: &Table<'_>, row: &Row<'_>, time: &Column) -> Result<f64, Mistake> {
     if let Some(clock) = Clock::of(&table.text(row, time.index)) {
-        return Ok(clock.seconds);
+        return Ok(clock.seconds + time.offset);
     }
     let here = || table.column(time.index);
     let none = || Fault::new("no time", "one", "").at(row.line, Some(here()));
@@ -185,31 +242,46 @@ fn seconds(table: &Table<'_>, row: &Row<'_>, time: &Column) -> Result<f64, Mista
 }
 
 impl Join<'_> {
-    /// What is to be said of the rows that have met.
-    fn met(&self, ours: &Table<'_>) -> Result<Vec<String>, ReadError> {
+    /// What is to be said of the rows that have met, and which of the other's belong to one of ours.
+    fn met(&self, ours: &Table<'_>) -> Result<(Vec<String>, Vec<bool>), ReadError> {
         let (mut rows, mut met, mut mistakes) = (0, 0, Mistakes::default());
+        let mut wanted = vec![false; self.count];
+        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
         let read = ours.each(|row| {
             if row.cells.iter().all(|cell| cell.is_empty()) {
                 return;
             }
+            if let Key::Time(mine, _) = &self.key
+                && let Ok(time) = seconds(ours, row, mine)
+            {
+                ends = [ends[0].min(time), ends[1].max(time)];
+            }
             match self.meets(ours, rows, row) {
-                Ok(found) => met += usize::from(found.is_some()),
+                Ok(found) => {
+                    met += usize::from(found.is_some());
+                    match found {
+                        Some(Met::Row(row)) => wanted[row] = true,
+                        Some(Met::Behind(row, _)) => wanted[row..row + 2].fill(true),
+                        None => {}
+                    }
+                }
                 Err(mistake) => mistakes.add(mistake),
             }
             rows += 1;
         });
         mistakes.extend(read.err());
         mistakes.check(ours.file)?;
-        let all = self.rows.len();
+        let all = self.count;
         if matches!(self.key, Key::Row) && rows != all {
             let help = "join by a column that both have, or by time";
             let expected = format!("{all} as in {}", self.file);
             return Err(Fault::new(counted(rows), expected, help).of(ours.file));
         }
+        let times = self.times(ours.file, ends);
         if met == 0 {
-            let fault =
-                Fault::new(format!("no row that belongs to one of {}", self.file), "some", "");
-            return Err(fault.of(ours.file));
+            let found = format!("no row that belongs to one of {}", self.file);
+            let help = times.map_or_else(String::new, |times| times + ": is one of both ahead?");
+            return Err(Fault::new(found, "some", help).of(ours.file));
         }
         let mut said =
             vec![format!("{} of {} met by one of {}", counted(met), ours.file, self.file)];
@@ -217,7 +289,23 @@ impl Join<'_> {
             let left = counted(rows - met);
             said.push(format!("left out: {left} of {}, which meets none", ours.file));
         }
-        Ok(said)
+        said.extend(times.map(|times| {
+            format!(
+                "both clocks are taken to agree: {times}; if the first is so many seconds ahead, they are added by \
+                 `--by time+0.5`"
+            )
+        }));
+        Ok((said, wanted))
+    }
+
+    /// From when to when the rows of both tables are, in words.
+    fn times(&self, file: &str, [first, last]: [f64; 2]) -> Option<String> {
+        let Key::Time(_, times) = &self.key else { return None };
+        let (begin, end) = (times.first()?, times.last()?);
+        Some(format!(
+            "{file} has the times {first:.3} to {last:.3} s, {} those from {begin:.3} to {end:.3} s",
+            self.file
+        ))
     }
 
     /// What belongs to a row of ours, the one so many from the first.
@@ -228,7 +316,7 @@ impl Join<'_> {
         row: &Row<'_>,
     ) -> Result<Option<Met>, Mistake> {
         Ok(match &self.key {
-            Key::Row => (number < self.rows.len()).then_some(Met::Row(number)),
+            Key::Row => (number < self.count).then_some(Met::Row(number)),
             Key::Column(mine, cells) => cells.get(&*ours.text(row, *mine)).map(|k| Met::Row(*k)),
             Key::Time(mine, times) => {
                 let time = seconds(ours, row, mine)?;
@@ -249,18 +337,16 @@ impl Join<'_> {
     /// The cells of it.
     pub(super) fn cells(&self, met: &Met) -> Vec<Cow<'_, str>> {
         let (before, part) = match met {
-            Met::Row(row) => return self.rows[*row].iter().map(Cow::from).collect(),
+            Met::Row(row) => return self.kept.row(*row).into_iter().map(Cow::from).collect(),
             Met::Behind(before, part) => (*before, *part),
         };
-        let near = &self.rows[if part < 0.5 { before } else { before + 1 }];
-        let each = self.columns.iter().zip(near).enumerate().map(|(k, (column, near))| {
-            let value = |row: usize| {
-                let cell = &self.rows[row][k];
-                cell.parse::<f64>().ok().filter(|_| !is_none(cell))
-            };
-            let both = value(before).zip(value(before + 1)).filter(|_| column.between);
+        let [first, second] = [before, before + 1].map(|row| self.kept.row(row));
+        let each = self.columns.iter().zip(first.into_iter().zip(second)).map(|(column, cells)| {
+            let value = |cell: &str| cell.parse::<f64>().ok().filter(|_| !is_none(cell));
+            let both = value(cells.0).zip(value(cells.1)).filter(|_| column.between);
             let between = both.map(|(a, b)| a + part * (b - a));
-            between.map_or(Cow::Borrowed(&**near), |value| Cow::Owned(value.to_string()))
+            let near = if part < 0.5 { cells.0 } else { cells.1 };
+            between.map_or(Cow::Borrowed(near), |value| Cow::Owned(value.to_string()))
         });
         each.collect()
     }

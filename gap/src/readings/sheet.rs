@@ -1,25 +1,19 @@
-//! A table as its program wrote it: text with whatever separates its cells, or a sheet of a workbook.
+//! A table as its program wrote it: its header, whatever separates its cells, and its rows one by one.
 
 use std::borrow::Cow;
 
 use super::clock::Clock;
+use super::file::Text;
 use super::join::Join;
 use super::{Map, names};
-use crate::io::table::{Record, Records, Separator, commented};
-use crate::io::{Column, Convention, Fault, Mistake, Mistakes, ReadError, Unit, decoded};
-
-/// A file as it was read.
-#[derive(Clone, Debug)]
-pub struct Sheet {
-    file: String,
-    bytes: Vec<u8>,
-}
+use crate::io::table::{Record, Separator, commented};
+use crate::io::{Column, Convention, Fault, Mistake, Mistakes, ReadError, Unit};
 
 /// A table whose header was found and whose cells were looked at; its rows are read again one by one.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(super) struct Table<'t> {
     pub file: &'t str,
-    text: &'t str,
+    text: &'t Text<'t>,
     separator: Separator,
     /// Whether a comma may begin decimals, and whether it does.
     may_comma: bool,
@@ -61,86 +55,6 @@ impl Default for Seen {
 /// Rows above which a header is looked for.
 const MOST_ABOVE: u64 = 1000;
 
-/// A zip archive, which an xlsx or ods file is.
-const ZIP: &[u8] = b"PK\x03\x04";
-
-impl Sheet {
-    /// The bytes of a file; `file` is what messages call it.
-    pub fn new(file: impl Into<String>, bytes: Vec<u8>) -> Sheet {
-        Sheet { file: file.into(), bytes }
-    }
-
-    pub(super) fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// The text of the file, of a workbook that of a sheet with a line for each row; what separates its
-    /// cells, if that is known.
-    pub(super) fn text(
-        &self,
-        map: &Map,
-        said: &mut Vec<String>,
-    ) -> Result<(Cow<'_, str>, Option<Separator>), ReadError> {
-        if self.bytes.starts_with(ZIP) {
-            let sheet = self.workbook(map, said).map_err(|fault| fault.of(&self.file))?;
-            return Ok((Cow::Owned(sheet), Some(Separator::Byte(b','))));
-        }
-        let (text, encoding) = decoded(&self.bytes);
-        said.extend(encoding.map(|encoding| format!("the text is read as {encoding}")));
-        Ok((text, map.separator()))
-    }
-
-    #[cfg(not(feature = "xlsx"))]
-    fn workbook(&self, _: &Map, _: &mut Vec<String>) -> Result<String, Fault> {
-        Err(Fault::not_built("a workbook", "xlsx"))
-    }
-
-    #[cfg(feature = "xlsx")]
-    fn workbook(&self, map: &Map, said: &mut Vec<String>) -> Result<String, Fault> {
-        use std::io::Cursor;
-
-        use calamine::{Data, Reader, open_workbook_auto_from_rs};
-
-        const DAY: f64 = 86_400.0;
-        let wrong = |reason: calamine::Error| {
-            Fault::new("a workbook that cannot be read", "one", reason.to_string())
-        };
-        let mut book = open_workbook_auto_from_rs(Cursor::new(&self.bytes)).map_err(wrong)?;
-        let known = book.sheet_names();
-        let sheet = map.sheet.clone().or_else(|| known.first().cloned()).unwrap_or_default();
-        if !known.contains(&sheet) {
-            let expected = format!("one of {}", known.join(", "));
-            return Err(Fault::new(format!("no sheet `{sheet}`"), expected, ""));
-        }
-        if known.len() > 1 {
-            said.push(format!("sheet `{sheet}` of {}", known.join(", ")));
-        }
-        let range = book.worksheet_range(&sheet).map_err(wrong)?;
-        let mut has_dates = false;
-        let mut cell = |data: &Data| match data {
-            Data::Empty | Data::Error(_) => String::new(),
-            Data::DateTime(at) => {
-                has_dates = true;
-                // A double holds a day of this century to a microsecond.
-                ((at.as_f64() * DAY * 1e6).round() / 1e6).to_string()
-            }
-            // A line is a row.
-            other => other.to_string().replace(['\n', '\r'], " "),
-        };
-        let above = range.start().map_or(0, |(row, _)| row as usize);
-        let mut writer = csv::WriterBuilder::new()
-            .comment(Some(b'#'))
-            .from_writer("\n".repeat(above).into_bytes());
-        for row in range.rows() {
-            // Into memory nothing fails.
-            let _ = writer.write_record(row.iter().map(&mut cell));
-        }
-        said.extend(has_dates.then(|| "dates and times of day are read as seconds".to_owned()));
-        let text = writer.into_inner().unwrap_or_default();
-        Ok(String::from_utf8_lossy(&text).into_owned())
-    }
-}
-
 impl<'t> Table<'t> {
     /// Finds the header, and looks at all cells.
     ///
@@ -148,11 +62,11 @@ impl<'t> Table<'t> {
     /// [`ReadError`]: no header; rows that are not as long as it; a quotation mark that is not closed.
     pub(super) fn of(
         file: &'t str,
-        text: &'t (Cow<'t, str>, Option<Separator>),
+        text: &'t Text<'t>,
         map: &Map,
         mut said: Vec<String>,
     ) -> Result<Table<'t>, ReadError> {
-        let table = Table::headed(file, (&text.0, text.1), map);
+        let table = Table::headed(file, text, map);
         let mut table = table.map_err(|mistake| mistake.of(file))?;
         let (mut seen, mut mistakes) =
             (vec![Seen::default(); table.names.len()], Mistakes::default());
@@ -189,12 +103,8 @@ impl<'t> Table<'t> {
     }
 
     /// The header, where the map says, else the last row of words above the first row of numbers.
-    fn headed(
-        file: &'t str,
-        (text, separator): (&'t str, Option<Separator>),
-        map: &Map,
-    ) -> Result<Table<'t>, Mistake> {
-        let mut records = Records::new(text.as_bytes(), separator)?;
+    fn headed(file: &'t str, text: &'t Text<'t>, map: &Map) -> Result<Table<'t>, Mistake> {
+        let mut records = text.records(None)?;
         let separator = records.separator();
         let may_comma = separator != Separator::Byte(b',') || map.decimal == Some(',');
         let mut rows: Vec<Owned> = Vec::new();
@@ -282,7 +192,7 @@ impl<'t> Table<'t> {
     /// # Errors
     /// What nothing can be read after.
     pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<(), Mistake> {
-        let mut records = Records::new(self.text.as_bytes(), Some(self.separator))?;
+        let mut records = self.text.records(Some(self.separator))?;
         let mut rows = 0;
         while let Some(record) = records.read()? {
             if record.line <= self.above {

@@ -1,3 +1,6 @@
+#[cfg(feature = "xlsx")]
+mod workbook;
+
 use nalgebra::{Rotation3, Vector3};
 use stiffarm_kernels::Motion;
 
@@ -334,6 +337,20 @@ fn a_trackers_table_and_a_controllers_are_joined() {
     let timed = joined("Time [s],X,Y,Z\n0.5,0,0,0\n1.25,1,2,3\n2,4,5,6\n", log, "time").unwrap();
     assert!(timed.csv.contains("\n0.15,1.25,1,2,3,a\n0.3,2,4,5,6,b\n"), "{}", timed.csv);
     assert!(timed.said.iter().any(|s| s == "left out: 1 row of tracker.csv, which meets none"));
+    let assumed = "both clocks are taken to agree: tracker.csv has the times 0.500 to 2.000 s, controller.csv those from \
+                   1.000 to 3.000 s";
+    assert!(timed.said.iter().any(|s| s.starts_with(assumed)), "{:?}", timed.said);
+    // A controller that is half a second behind, and one that is ahead.
+    let ours = "Time [s],X,Y,Z\n1.75,1,2,3\n";
+    let later = joined(ours, log, "time+0.5").unwrap();
+    assert!(later.csv.contains("\n0.15,1.75,1,2,3,a\n"), "{}", later.csv);
+    let earlier = joined(ours, log, "time-0.25s").unwrap();
+    assert!(earlier.csv.contains("\n0.3,1.75,1,2,3,b\n"), "{}", earlier.csv);
+    let error = joined("Time,X\n90,1\n", log, "time").unwrap_err().to_string();
+    assert!(
+        error.contains("has the times 90.000 to 90.000 s") && error.contains("ahead"),
+        "{error}"
+    );
     for (ours, other, by, message) in [
         (
             "X,Y\n1,2\n3,4\n",

@@ -2,6 +2,7 @@
 
 use core::cell::Cell as Held;
 use core::f64::consts::TAU;
+use std::io::Write;
 
 use nalgebra::Vector3;
 
@@ -10,7 +11,7 @@ use super::columns::{Column, Columns, dimension};
 use super::map::Map;
 use super::sheet::{Row, Table, is_none};
 use super::turn::Turn;
-use super::{Imported, counted, names};
+use super::{Stopped, counted, names};
 use crate::io::{Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
 use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
 
@@ -35,14 +36,61 @@ struct Output<'a> {
     cell: Cell<'a>,
 }
 
+/// Writes the rows, and says what was done.
+///
+/// # Errors
+/// [`Stopped`]: mistakes of the rows, or a sink that takes no more.
 pub(super) fn write(
     table: &Table<'_>,
     columns: &Columns,
-    turn: Option<Turn>,
+    turn: Option<&Turn>,
     map: &Map,
-) -> Result<Imported, ReadError> {
+    sink: &mut dyn Write,
+) -> Result<Vec<String>, Stopped> {
+    let (outputs, mut said) = outputs(table, columns, turn, map)?;
+    let mut writer = csv::Writer::from_writer(sink);
+    let (mut mistakes, mut rows) = (Mistakes::default(), 0);
+    let mut wrote = writer.write_record(outputs.iter().map(|o| &o.header));
+    let read = table.each(|row| {
+        if row.cells.iter().all(|cell| cell.is_empty()) {
+            return;
+        }
+        for point in 0..columns.points.len().max(1) {
+            // A beam that was cut leaves the cells of its point empty.
+            let axes = columns.points.get(point).map(|(_, axes)| axes);
+            if axes.is_some_and(|axes| axes.iter().all(|c| is_none(&table.text(row, c.index)))) {
+                continue;
+            }
+            rows += 1;
+            for output in &outputs {
+                match (output.cell)(row, point) {
+                    Ok(cell) if wrote.is_ok() => wrote = writer.write_field(cell),
+                    Ok(_) => {}
+                    Err(mistake) => mistakes.add(mistake),
+                }
+            }
+            if wrote.is_ok() {
+                wrote = writer.write_record(None::<&[u8]>);
+            }
+        }
+    });
+    mistakes.extend(read.err());
+    mistakes.check(table.file)?;
+    wrote.map_err(std::io::Error::from)?;
+    writer.flush()?;
+    said.push(counted(rows));
+    Ok(said)
+}
+
+/// What is written of each row, and what was done for it.
+fn outputs<'a>(
+    table: &'a Table<'_>,
+    columns: &'a Columns,
+    turn: Option<&'a Turn>,
+    map: &Map,
+) -> Result<(Vec<Output<'a>>, Vec<String>), ReadError> {
     let mut said = table.said.clone();
-    let turned = turn.as_ref().map_or(&[][..], |t| &t.columns);
+    let turned = turn.map_or(&[][..], |t| &t.columns);
     let is_turned = |c: &Column| turned.iter().any(|t| t.index == c.index);
     let mut outputs = Vec::new();
     let mut ours: Vec<&(String, Column)> =
@@ -135,7 +183,7 @@ pub(super) fn write(
             named.join(", ")
         ));
     }
-    if let Some(turn) = &turn {
+    if let Some(turn) = turn {
         said.push(orientation(table, turn, &mut outputs)?);
     } else {
         said.extend(in_degrees_about(columns));
@@ -168,37 +216,7 @@ pub(super) fn write(
         outputs.push(Output { header, cell });
     }
     said.extend((!map.ignore.is_empty()).then(|| format!("{} not kept", map.ignore.join(", "))));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let (mut mistakes, mut rows) = (Mistakes::default(), 0);
-    // Into memory nothing fails.
-    let _ = writer.write_record(outputs.iter().map(|o| &o.header));
-    let read = table.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
-        for point in 0..columns.points.len().max(1) {
-            // A beam that was cut leaves the cells of its point empty.
-            let axes = columns.points.get(point).map(|(_, axes)| axes);
-            if axes.is_some_and(|axes| axes.iter().all(|c| is_none(&table.text(row, c.index)))) {
-                continue;
-            }
-            rows += 1;
-            for output in &outputs {
-                match (output.cell)(row, point) {
-                    Ok(cell) => {
-                        let _ = writer.write_field(cell);
-                    }
-                    Err(mistake) => mistakes.add(mistake),
-                }
-            }
-            let _ = writer.write_record(None::<&[u8]>);
-        }
-    });
-    mistakes.extend(read.err());
-    mistakes.check(table.file)?;
-    said.push(counted(rows));
-    let csv = String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default();
-    Ok(Imported { csv, said })
+    Ok((outputs, said))
 }
 
 /// The cell of a time: of a number as it stands, of a time of day in seconds, with its `date` if that stands

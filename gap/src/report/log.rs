@@ -33,6 +33,9 @@ pub struct LogDiagnosis {
     pub evidence: Evidence,
     /// Base parameters of the rigid links, which are fitted along; 0 of position rows.
     pub rigid_parameters: usize,
+    /// These parameters; of torques where the links are co-estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<RigidLinks>,
     /// The gap of each joint.
     pub gap: Vec<JointGap>,
     /// Of all joints, from the gap before to that with all findings.
@@ -45,6 +48,50 @@ pub struct LogDiagnosis {
     pub unexplained: Unexplained,
     /// What was noticed of rows and clocks.
     pub remarks: Vec<String>,
+}
+
+/// The rigid links as they are fitted beside the findings, by their base parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RigidLinks {
+    /// Base to tip.
+    pub parameters: Vec<BaseValue>,
+    /// Covariance of the parameters in the order above, in the products of their units; zero where the motion does not
+    /// determine one. Empty of more than [`MOST_COVARIANCES`](RigidLinks::MOST_COVARIANCES) parameters.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub covariance: Vec<Vec<f64>>,
+}
+
+impl RigidLinks {
+    /// Parameters of which the covariance is reported: those of an arm of eight joints.
+    pub const MOST_COVARIANCES: usize = 60;
+}
+
+/// A sum of moments of mass, the finest that the torques of any motion determine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BaseValue {
+    /// The sum: `mx2 + 0.4318 m3`.
+    pub name: String,
+    /// Its parts.
+    pub sum: Vec<Moment>,
+    /// As it is fitted.
+    pub value: f64,
+    /// `kg`, `kg·m` or `kg·m²`.
+    pub unit: Word,
+    /// `None` where this motion does not determine it: it is not fitted then, and its value is zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ci95: Option<[f64; 2]>,
+    /// The same sum of the robot file's moments.
+    pub in_file: f64,
+}
+
+/// A part of a base parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moment {
+    /// Which moment of mass, with the number of its link: `m`, `mx`, `my`, `mz`, or `xx`, `xy`, `yy`, `xz`, `yz`, `zz` of
+    /// the inertia tensor about the origin of the row's frame.
+    pub moment: String,
+    /// How many times.
+    pub times: f64,
 }
 
 /// How the samples were filtered.

@@ -53,7 +53,9 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     let torque = vec![noise(&mut rng, COUNT, STEP, TIME, 1.0)];
     // It wanders over tens of seconds, as temperatures, loads and postures do.
     let slow = vec![noise(&mut rng, COUNT, STEP, 20.0, 1.0)];
-    let q = vec![(0..COUNT).map(|k| (0.7 * STEP * k as f64).sin()).collect()];
+    // A motion that repeats would be averaged.
+    let q = |t: f64| (0.7 * t).sin() + 0.5 * (0.7 * core::f64::consts::SQRT_2 * t).sin();
+    let q = vec![(0..COUNT).map(|k| q(STEP * k as f64)).collect()];
     let signals = [(Signal::Q, q), (Signal::Torque, torque), (Signal::QCmd, slow)];
     let log = log(STEP, BTreeMap::from(signals));
     let mut signals = Signals::of(&log, Some(Signal::Torque), Some(4.0));

@@ -4,6 +4,7 @@ mod evidence;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 mod formats;
 mod instrument;
+mod links;
 mod mistaken;
 mod own;
 mod plant;

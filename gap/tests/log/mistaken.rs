@@ -168,6 +168,64 @@ fn a_silent_channel_is_left_out_and_not_the_log() {
     assert!(matches!(refused, Err(Refused::Silent { .. })), "{refused:?}");
 }
 
+/// The second joint's amplifier has a limit below a twentieth of its torques: the first joint keeps its rows and its values,
+/// and the second's friction is that of its other rows.
+#[test]
+fn what_is_clipped_costs_its_own_joint_alone() {
+    let right = recorded(93, 0.0, 0.0, [0.0; 2]);
+    let mut clipped = right.clone();
+    let rows = &mut clipped.runs[0].signals.get_mut(&Signal::Torque).expect("torques")[1];
+    let mut sizes: Vec<f64> = rows.iter().map(|x| x.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = sizes[19 * sizes.len() / 20];
+    rows.iter_mut().for_each(|x| *x = x.clamp(-most, most));
+    let [before, after] = [&right, &clipped].map(|log| diagnosed(&braked(0.0), log));
+    let said = &after.remarks[0];
+    assert!(said.contains("tau2 stands at its limit of"), "{said}");
+    assert!(said.contains("there rows of joint 2 are left out"), "{said}");
+    // A twentieth of one joint's samples, and half a period of 10 Hz beside each of some dozen stretches.
+    let rows = after.evidence.rows as f64 / before.evidence.rows as f64;
+    assert!((0.88..0.98).contains(&rows), "{rows}");
+    let first = |found: &LogDiagnosis| -> Vec<f64> {
+        let own = found.findings.iter().filter(|f| f.place == "joint 1");
+        own.map(|f| f.parameters[0].value).collect()
+    };
+    assert_eq!(first(&before).len(), first(&after).len());
+    for (is, was) in first(&after).iter().zip(first(&before)) {
+        assert!((is / was - 1.0).abs() < 0.02, "{is} {was}");
+    }
+    for (effect, there) in [("coulomb_friction", 1.5), ("viscous_friction", 2.5)] {
+        let all = named(&after);
+        let is = all.iter().find(|(e, place, _)| (*e, *place) == (effect, "joint 2"));
+        assert!(is.is_some_and(|is| (is.2 / there - 1.0).abs() < 0.1), "{all:?}");
+    }
+}
+
+/// Late by a fifth of a second besides: the columns are put right first, then the delay is found as that of right ones.
+#[test]
+fn columns_are_read_as_meant_where_torques_are_late_besides() {
+    let right = recorded(96, 0.2, 0.0, [0.0; 2]);
+    let torques = |log: &mut Log, change: &dyn Fn(&mut Vec<Vec<f64>>)| {
+        change(log.runs[0].signals.get_mut(&Signal::Torque).expect("torques"));
+    };
+    type Change<'a> = &'a dyn Fn(&mut Vec<Vec<f64>>);
+    let turned: Change<'_> = &|all| all[1].iter_mut().for_each(|x| *x = -*x);
+    let swapped: Change<'_> = &|all| all.swap(0, 1);
+    for (change, words) in [
+        (turned, "tau2 has the wrong sign"),
+        (swapped, "tau1 and tau2 stand in each other's columns"),
+    ] {
+        let mut log = right.clone();
+        torques(&mut log, change);
+        let found = diagnosed(&braked(1.0), &log);
+        let said: Vec<&String> = found.remarks.iter().filter(|r| r.contains("plant.csv")).collect();
+        assert!(said.len() == 1 && said[0].contains(words), "{:?}", found.remarks);
+        let all = named(&found);
+        assert!(all.len() == 1 && all[0].0 == "latency", "{all:?}");
+        assert!((all[0].2 - 0.2).abs() < 1e-3, "{all:?}");
+    }
+}
+
 /// A turned column, and one that wraps.
 #[test]
 fn columns_are_read_as_they_must_have_been_meant() {

@@ -126,6 +126,7 @@ pub fn log(step: f64, signals: BTreeMap<Signal, Vec<Vec<f64>>>) -> Log {
         signals,
         payload: None,
         contact: vec![false; count],
+        holes: Vec::new(),
         clock: Clock { period: step, jitter: 0.0, dropped: 0, repeated: 0 },
     };
     Log {
@@ -134,6 +135,7 @@ pub fn log(step: f64, signals: BTreeMap<Signal, Vec<Vec<f64>>>) -> Log {
         runs: vec![run],
         side: Some(TorqueSide::Motor),
         damaged: Vec::new(),
+        lacking: Vec::new(),
         unknown: Vec::new(),
     }
 }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::log::{LogOptions, Signal, diagnose};
+use stiffarm_gap::log::report::LogDiagnosis;
+use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose};
 use stiffarm_gap::rng::{Rng, Stream};
 
 use super::plant::{Path, arm, gravity, log};
@@ -13,8 +14,8 @@ const DELAY: f64 = 0.09;
 const COMPLIANCE: f64 = 2e-3;
 const HALF_WIDTH: f64 = 0.01;
 
-#[test]
-fn delay_droop_and_play_are_told_apart() {
+/// The first joint late and soft under weights, the second late and with play.
+fn recorded() -> Log {
     let path = Path::new(4, 0.25);
     let mut rng = Rng::new(4, Stream::Noise);
     let (mut q, mut command) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
@@ -33,9 +34,38 @@ fn delay_droop_and_play_are_told_apart() {
             command[j].push(path.at(t)[0][j]);
         }
     }
-    let log = log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::QCmd, command)]));
+    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::QCmd, command)]))
+}
+
+fn diagnosed(log: &Log) -> LogDiagnosis {
     let options = LogOptions { band: Some(8.0), ..LogOptions::default() };
-    let found = diagnose(&arm(), &log, &options).unwrap();
+    diagnose(&arm(), log, &options).unwrap()
+}
+
+/// Whichever of both is turned, it is named; where it is the command, what is found stays as it is.
+#[test]
+fn a_joint_that_moves_against_its_command_is_named() {
+    let right = recorded();
+    let turned = |signal: Signal| {
+        let mut log = right.clone();
+        let rows = &mut log.runs[0].signals.get_mut(&signal).expect("rows")[1];
+        rows.iter_mut().for_each(|x| *x = -*x);
+        diagnosed(&log)
+    };
+    let plain = diagnosed(&right);
+    assert!(plain.remarks.is_empty(), "{:?}", plain.remarks);
+    for signal in [Signal::Q, Signal::QCmd] {
+        let found = turned(signal);
+        let said = &found.remarks[0];
+        assert!(said.contains("q2 moves against q_cmd2: one of them has the wrong sign"), "{said}");
+        assert_eq!(found.remarks.len(), 1, "{:?}", found.remarks);
+        assert!(signal == Signal::Q || found.findings == plain.findings, "{found:#?}");
+    }
+}
+
+#[test]
+fn delay_droop_and_play_are_told_apart() {
+    let found = diagnosed(&recorded());
     let value = |effect: &str, place: &str| {
         let finding = found.findings.iter().find(|f| f.effect == effect && f.place == place);
         finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}")).parameters[0].value

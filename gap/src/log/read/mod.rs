@@ -12,13 +12,15 @@
 //! is not SI. Lines that begin with `#` are comments, and may say `torque_side = …`.
 //!
 //! Damaged rows are what a real log has: cells missing or too many, no number, a number that no joint
-//! has. They are left out, counted, and told by line. What is wrong with the header is an error.
+//! has. They are left out, counted, and told by line; a cell that other joints do without costs them nothing
+//! (`holes`). What is wrong with the header is an error.
 
 #[cfg(any(feature = "mcap", feature = "rosbag2"))]
 mod cdr;
 mod clock;
 mod column;
 mod format;
+mod holes;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod names;
@@ -38,6 +40,7 @@ use std::collections::BTreeMap;
 pub use clock::Clock;
 pub use column::{Signal, is_log};
 pub use format::{Format, Opened};
+pub use holes::{GAP, Hole};
 pub use names::Names;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
@@ -103,6 +106,8 @@ pub struct Run {
     pub payload: Option<String>,
     /// Where the arm touches something: such samples are left out of every fit.
     pub contact: Vec<bool>,
+    /// Where what drives a joint is missing or at its limit: rows of that joint are left out, of no other.
+    pub holes: Vec<Hole>,
     /// What was seen of its clock.
     pub clock: Clock,
 }
@@ -120,6 +125,8 @@ pub struct Log {
     pub side: Option<TorqueSide>,
     /// Rows that were left out, of each why.
     pub damaged: Vec<Damaged>,
+    /// Columns that lack numbers in rows that were read.
+    pub lacking: Vec<Lacking>,
     /// Columns that nothing reads.
     pub unknown: Vec<String>,
 }
@@ -135,6 +142,23 @@ pub struct Damaged {
     pub line: u64,
     /// `found 20 cells, expected 13`.
     pub reason: String,
+}
+
+/// A column that lacks numbers in rows that are read without them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lacking {
+    /// The file.
+    pub file: String,
+    /// What the column is: `tau3`.
+    pub name: String,
+    /// How many rows lack it.
+    pub rows: usize,
+    /// What its rows are called: `line`, `row`, `message`.
+    pub row: &'static str,
+    /// The first of them, from 1.
+    pub line: u64,
+    /// What stands there in place of a number.
+    pub found: String,
 }
 
 /// A file that is none of its kind.
@@ -180,6 +204,7 @@ impl Log {
         self.samples += other.samples;
         self.runs.extend(other.runs);
         self.damaged.extend(other.damaged);
+        self.lacking.extend(other.lacking);
         Ok(self)
     }
 
@@ -222,6 +247,7 @@ impl Log {
                 row = first.row,
             ));
         }
+        said.extend(holes::remark(&self.lacking));
         if !self.unknown.is_empty() {
             let named: Vec<&str> = self.unknown.iter().take(8).map(String::as_str).collect();
             let more = match self.unknown.len() - named.len() {

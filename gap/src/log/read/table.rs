@@ -3,7 +3,8 @@
 use stiffarm_kernels::Motion;
 
 use super::column::{Role, Signal};
-use super::{Clock, Damaged, Log, Names, Run, TorqueSide};
+use super::holes::{Hole, fill};
+use super::{Clock, Damaged, Lacking, Log, Names, Run, TorqueSide};
 use crate::io::columns::{self, split};
 use crate::io::{Dimension, Fault, Mistakes, ReadError, Unit, did_you_mean, nearest};
 
@@ -44,6 +45,8 @@ pub(super) enum Cell<'c> {
 pub(super) struct Table {
     columns: Columns,
     log: Log,
+    /// Of each cell what is known of rows that lack it.
+    lacking: Vec<Option<Lacking>>,
     row: &'static str,
     open: Option<Open>,
     sample: Sample,
@@ -89,6 +92,8 @@ struct Sample {
     run: String,
     payload: String,
     contact: bool,
+    /// Cells that hold no number, which the row can do without.
+    lacks: Vec<usize>,
 }
 
 impl Table {
@@ -106,9 +111,11 @@ impl Table {
             runs: Vec::new(),
             side: header.side,
             damaged: Vec::new(),
+            lacking: Vec::new(),
             unknown: columns.unknown.clone(),
         };
-        Ok(Table { columns, log, row: header.row, open: None, sample: Sample::default() })
+        let lacking = vec![None; columns.heads.len()];
+        Ok(Table { columns, log, lacking, row: header.row, open: None, sample: Sample::default() })
     }
 
     /// Whether a column's cells are read.
@@ -118,17 +125,36 @@ impl Table {
     }
 
     /// The next row, which is the one so many in its file, from 1.
-    pub(super) fn push<'c>(&mut self, row: u64, cells: impl ExactSizeIterator<Item = Cell<'c>>) {
-        match self.columns.read(cells, &mut self.sample) {
+    pub(super) fn push<'c>(
+        &mut self,
+        row: u64,
+        cells: impl ExactSizeIterator<Item = Cell<'c>> + Clone,
+    ) {
+        match self.columns.read(cells.clone(), &mut self.sample) {
             Err(reason) => self.damaged(row, reason),
             Ok(()) => {
                 self.log.samples += 1;
+                self.lacks(row, cells);
                 if !self.open.as_ref().is_some_and(|open| open.takes(&self.sample)) {
                     self.close();
                 }
                 let open = self.open.get_or_insert_with(|| Open::new(&self.sample));
                 open.push(&self.sample);
             }
+        }
+    }
+
+    /// Notes the cells that a row lacks.
+    fn lacks<'c>(&mut self, line: u64, cells: impl Iterator<Item = Cell<'c>> + Clone) {
+        for cell in self.sample.lacks.drain(..) {
+            let first = || {
+                let mut found = String::new();
+                cells.clone().nth(cell).into_iter().for_each(|cell| cell.text_into(&mut found));
+                let name = self.columns.heads[cell].as_ref().map_or_else(String::new, Head::name);
+                let file = self.log.files.concat();
+                Lacking { file, name, rows: 0, row: self.row, line, found }
+            };
+            self.lacking[cell].get_or_insert_with(first).rows += 1;
         }
     }
 
@@ -141,7 +167,8 @@ impl Table {
     /// The log of all rows.
     pub(super) fn end(mut self) -> Result<Log, ReadError> {
         self.close();
-        let Table { columns, log, .. } = self;
+        let Table { columns, mut log, lacking, .. } = self;
+        log.lacking.extend(lacking.into_iter().flatten());
         if log.runs.is_empty() {
             let expected = format!("rows of {} numbers below the header", columns.heads.len());
             let first = log.damaged.first();
@@ -161,6 +188,10 @@ impl Table {
 }
 
 impl Head {
+    fn name(&self) -> String {
+        self.role.name()
+    }
+
     /// # Errors
     /// A joint that the arm has not, or a unit of another quantity.
     fn new(role: Role, unit: Option<&str>, motions: &[Motion]) -> Result<Head, Fault> {
@@ -283,9 +314,11 @@ impl Columns {
         if cells.len() != self.heads.len() {
             return Err(format!("found {} cells, expected {}", cells.len(), self.heads.len()));
         }
+        sample.values.clear();
         sample.values.resize(self.signals.len() * self.joints, 0.0);
         sample.contact = false;
-        for (cell, head) in cells.zip(&self.heads) {
+        sample.lacks.clear();
+        for (k, (cell, head)) in cells.zip(&self.heads).enumerate() {
             let Some(head) = head else { continue };
             if let Role::Run | Role::Payload = head.role {
                 let word =
@@ -295,11 +328,18 @@ impl Columns {
             }
             let number =
                 cell.number().map(|x| head.factor * x + head.offset).filter(|x| x.abs() < LARGEST);
-            let number = number.ok_or_else(|| {
-                let mut found = String::new();
-                cell.text_into(&mut found);
-                format!("found `{found}` for {}, expected a number", head.role.name())
-            })?;
+            let number = match (number, head.role) {
+                (Some(number), _) => number,
+                (None, Role::Joint(signal, _)) if self.can_lack(signal, sample, head.slot) => {
+                    sample.lacks.push(k);
+                    f64::NAN
+                }
+                (None, role) => {
+                    let mut found = String::new();
+                    cell.text_into(&mut found);
+                    return Err(format!("found `{found}` for {}, expected a number", role.name()));
+                }
+            };
             match head.role {
                 Role::Time => sample.t = number,
                 Role::Joint(..) => sample.values[head.slot] = number,
@@ -308,6 +348,23 @@ impl Columns {
             }
         }
         Ok(())
+    }
+}
+
+impl Columns {
+    /// Whether a row does without a joint's cell: nothing else is made of it. One that lacks what drives all joints says
+    /// nothing.
+    fn can_lack(&self, signal: Signal, sample: &Sample, slot: usize) -> bool {
+        let first = slot / self.joints * self.joints;
+        let lacks = |slot: usize| sample.values[slot].is_nan();
+        match signal {
+            Signal::Q | Signal::Qd | Signal::QCmd => false,
+            Signal::Torque | Signal::Current => {
+                let others = (first..first + self.joints).filter(|other| *other != slot);
+                self.joints > 1 && !others.into_iter().all(lacks)
+            }
+            Signal::Qdd | Signal::QdCmd | Signal::TorqueCmd | Signal::Temperature => true,
+        }
     }
 }
 
@@ -356,16 +413,26 @@ impl Open {
 
     /// With the signals that it has, of so many joints each.
     fn close(mut self, file: &str, (signals, joints): (&[Signal], usize)) -> Run {
+        let clock = Clock::of(&self.t, self.repeated);
+        let mut holes = Vec::new();
+        for (k, values) in self.values.iter_mut().enumerate() {
+            let (signal, joint) = (signals[k / joints], k % joints);
+            let long = fill(&self.t, values, clock.period);
+            if matches!(signal, Signal::Torque | Signal::Current) {
+                holes.extend(long.into_iter().map(|samples| Hole { signal, joint, samples }));
+            }
+        }
         let each = signals.iter().zip(self.values.chunks_mut(joints.max(1)));
         Run {
             name: if self.name.is_empty() { file.to_owned() } else { self.name },
-            clock: Clock::of(&self.t, self.repeated),
+            clock,
             t: self.t,
             signals: each
                 .map(|(s, values)| (*s, values.iter_mut().map(core::mem::take).collect()))
                 .collect(),
             payload: (!self.payload.is_empty()).then_some(self.payload),
             contact: self.contact,
+            holes,
         }
     }
 }

@@ -37,7 +37,7 @@ fn stamps_are_looked_at() {
 
 #[test]
 fn damaged_rows_are_left_out_and_named() {
-    let rows = "0,1,1,1,1,,\n2,1,1e306,1,1,,\n4,1,1\n6,1,1,nan,1,,\n8,1,1,1,1,,\n";
+    let rows = "0,1,1,1,1,,\n2,1,1e306,1,1,,\n4,1,1\n6,1,1,nan,x,,\n8,1,1,1,1,,\n";
     let log = read(&format!("{HEADER}{rows}")).unwrap();
     let damaged: Vec<(u64, &str)> =
         log.damaged.iter().map(|d| (d.line, d.reason.as_str())).collect();
@@ -46,11 +46,33 @@ fn damaged_rows_are_left_out_and_named() {
         [
             (3, "found `1e306` for q2, expected a number"),
             (4, "found 3 cells, expected 7"),
-            (5, "found `nan` for tau1, expected a number"),
+            (5, "found `x` for tau2, expected a number"),
         ]
     );
     assert_eq!(log.samples, 2);
     assert!(log.remarks()[0].contains("3 of 5 rows are damaged and left out: line 3, 4, 5"));
+}
+
+/// A torque that one joint lacks costs no other joint a row; short gaps are interpolated.
+#[test]
+fn a_cell_that_other_joints_do_without_costs_them_nothing() {
+    let row = |k: usize| {
+        let lacks = k == 3 || (10..20).contains(&k);
+        let tau2 = if lacks { "n/a".to_owned() } else { k.to_string() };
+        format!("{},1,1,5,{tau2},{}\n", 2 * k, if k % 4 == 0 { "20" } else { "" })
+    };
+    let header = "t[ms],q1[deg],q2[mm],tau1[N*m],tau2[N],temp1[degC],temp2[degC]\n";
+    let rows: String = (0..30).map(row).collect::<String>().replace(",20\n", ",20,20\n");
+    let log = read(&format!("{header}{}", rows.replace(",\n", ",,\n"))).unwrap();
+    assert_eq!((log.samples, log.damaged.len()), (30, 0), "{:?}", log.damaged);
+    let run = &log.runs[0];
+    let near = |(k, x): (usize, &f64)| (x - k as f64).abs() < 1e-12;
+    assert!(run.signals[&Signal::Torque][1].iter().enumerate().all(near), "{run:?}");
+    let hole = Hole { signal: Signal::Torque, joint: 1, samples: 10..20 };
+    assert_eq!(run.holes, [hole]);
+    let said = log.remarks()[0].clone();
+    assert!(said.contains("no number for tau2 in 11 rows, temp1 in 22 rows"), "{said}");
+    assert!(said.contains("first in line 5 (found `n/a`)"), "{said}");
 }
 
 #[test]

@@ -23,6 +23,16 @@ const OVER: f64 = 0.05;
 /// A rate goes with its joint if so much of its square does; a fair one leaves some for noise and delays.
 const GOES: f64 = 0.5;
 
+/// A joint goes against its command if it is off by less than this part of what it is otherwise with its sign turned round;
+/// one that follows is off by less, whichever its delay.
+const AGAINST: f64 = 0.5;
+
+/// Delays of a servo that are tried, s: up to, in steps.
+const FOLLOWS: [f64; 2] = [0.5, 0.02];
+
+/// Samples that are enough for a sign.
+const ENOUGH: usize = 20_000;
+
 /// Factors are told to this part: sensors' scales are right to a tenth, units differ by more than nine.
 const ALIKE: f64 = 0.1;
 
@@ -48,6 +58,8 @@ pub(super) fn found(arm: &Arm, log: &Log, drive: Option<Signal>) -> Vec<Misread>
     let most = ranges.iter().copied().fold(0.0, f64::max);
     let parked = |j: &usize| ranges[*j] <= (PARKED * most).min(PARKED);
     all.extend(rates(arm, log, &|j| !parked(&j)));
+    let moving = (0..arm.dof()).filter(|j| !parked(j));
+    all.extend(moving.filter(|j| is_against(log, *j)).map(|joint| Misread::Against { joint }));
     let Some(drive) = drive else { return all };
     for joint in 0..arm.dof() {
         if parked(&joint) {
@@ -161,6 +173,31 @@ fn rates(arm: &Arm, log: &Log, moves: &dyn Fn(usize) -> bool) -> Vec<Misread> {
     }
     let wrong = ratios.into_iter().filter(|(_, r)| !is(*r, 1.0));
     wrong.map(|(joint, ratio)| Misread::NoRate { joint, ratio }).collect()
+}
+
+/// Whether a joint goes where its command would send it with the other sign, at whatever delay of a servo.
+fn is_against(log: &Log, joint: usize) -> bool {
+    if !log.has(Signal::QCmd) {
+        return false;
+    }
+    let step = ((FOLLOWS[1] / log.period()).round() as usize).max(1);
+    let most = (FOLLOWS[0] / log.period()).round() as usize;
+    let every = log.samples.div_ceil(ENOUGH).max(1);
+    // Mean square of the joint less its command, times 1 or −1, from which a mean is taken in each run.
+    let left = |sign: f64, lag: usize| -> f64 {
+        let of_run = |run: &Run| {
+            let (q, command) = (of(run, Signal::Q, joint), of(run, Signal::QCmd, joint));
+            let pairs = q.iter().skip(lag).zip(command).step_by(every);
+            let off: Vec<f64> = pairs.map(|(q, command)| q - sign * command).collect();
+            let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
+            off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / off.len().max(1) as f64
+        };
+        log.runs.iter().map(of_run).sum()
+    };
+    let least = |sign: f64| {
+        (0..=most).step_by(step).map(|lag| left(sign, lag)).fold(f64::INFINITY, f64::min)
+    };
+    least(-1.0) < AGAINST * AGAINST * least(1.0)
 }
 
 /// A channel that stands at its ends: both of them, or one.

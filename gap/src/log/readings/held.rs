@@ -1,6 +1,7 @@
 //! Something that some runs carry and others do not, where no column says so.
 
-use super::{Misread, Plain};
+use super::Misread;
+use super::plain::Plain;
 use crate::effects::{Place, Spot};
 use crate::log::effects::PAYLOAD;
 use crate::log::read::TorqueSide;
@@ -16,8 +17,13 @@ const APART: f64 = 0.25;
 /// Of each thing the runs that carry it, those that carry least apart.
 pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
     let runs = case.payloads.len();
+    let signals = case.signals;
+    let has_rows = |run: &usize| signals.spans.iter().any(|span| span.run == *run);
     let current = case.kind.1 == Some(TorqueSide::Current);
-    if runs < 2 || current || case.payloads.iter().any(Option::is_some) {
+    if (0..runs).filter(has_rows).count() < 2
+        || current
+        || case.payloads.iter().any(Option::is_some)
+    {
         return Vec::new();
     }
     let spots = (1..runs).map(|run| Spot::at(Place::Held(run + 1)));
@@ -34,14 +40,19 @@ pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
     }
     let bodies = &values[plain.columns.len()..];
     let mass = |run: usize| if run == 0 { 0.0 } else { bodies[10 * (run - 1)] };
-    let mut order: Vec<usize> = (0..runs).collect();
+    let mut order: Vec<usize> = (0..runs).filter(has_rows).collect();
     order.sort_by(|a, b| mass(*a).total_cmp(&mass(*b)));
-    let range = mass(order[runs - 1]) - mass(order[0]);
+    let range = mass(order[order.len() - 1]) - mass(order[0]);
     let mean = |of: &[usize]| of.iter().map(|run| mass(*run)).sum::<f64>() / of.len() as f64;
     let mut things = order.chunk_by(|a, b| mass(*b) - mass(*a) <= APART * range);
     let least = things.next().map_or(0.0, mean);
     let held = |thing: &[usize]| {
-        let mut runs = thing.to_vec();
+        // Runs that were averaged carry the same.
+        let with = |run: &usize| -> Vec<usize> {
+            let alike = signals.alike.iter().find(|alike| alike.contains(run));
+            alike.map_or_else(|| vec![*run], Vec::clone)
+        };
+        let mut runs: Vec<usize> = thing.iter().flat_map(with).collect();
         runs.sort_unstable();
         Misread::Held { runs, mass: mean(thing) - least }
     };

@@ -4,7 +4,10 @@
 //! one column turned round, or two exchanged. Gravity and inertia ask for torques of several joints by the same masses, and
 //! friction never drives: a wrong column leaves most of its torque.
 
-use super::{ENOUGH, Misread, Plain};
+use std::borrow::Cow;
+
+use super::Misread;
+use super::plain::{ENOUGH, Plain};
 use crate::effects::{Facts, InMotion, Law, Place, Spot};
 use crate::log::read::Signal;
 use crate::log::scene::{Column, Scene};
@@ -19,8 +22,17 @@ const BAD: f64 = 0.5;
 /// A mistake leaves of its joints less than this part of what they leave with it.
 const LEAVES: f64 = 0.5;
 
+/// The torque of a joint and the joint itself, turned round, leave the same if the logarithms of what they leave differ by
+/// less, sum over the joints: where neither gravity nor another joint tells its sides apart, as of a last joint about its
+/// own axis, friction and inertia are the same of both.
+const SAME: f64 = 0.05;
+
 /// Mistakes of one log that are looked for.
 const MOST: usize = 3;
+
+/// Delays, s, about which mistakes are asked for where without one nothing helps: those that the
+/// [scan](crate::log::search::delay) has, so coarsely that a motion of 1 Hz is off by less than a sixth of its size.
+const DELAYS: [f64; 12] = [-0.1, -0.05, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5];
 
 /// Two joints' torques in each other's place; of one joint, its sign.
 #[derive(Debug)]
@@ -57,7 +69,7 @@ impl InMotion for Retold {
 
 /// Mistakes of the columns; none if a simple model leaves little.
 pub(super) fn found(case: &Case<'_>, drive: Signal) -> Vec<Misread> {
-    let mut signals = std::borrow::Cow::Borrowed(case.signals);
+    let mut signals = Cow::Borrowed(case.signals);
     let mut all = Vec::new();
     while all.len() < MOST {
         let case = Case { signals: &signals, ..*case };
@@ -69,47 +81,107 @@ pub(super) fn found(case: &Case<'_>, drive: Signal) -> Vec<Misread> {
 }
 
 fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
-    let joints: Vec<usize> = case
-        .counts()
-        .iter()
-        .enumerate()
-        .filter(|(_, c)| c.contains(&true))
-        .map(|(j, _)| j)
-        .collect();
-    let pairs = joints.iter().flat_map(|a| joints.iter().map(move |b| [*a, *b]));
-    let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| a <= b).collect();
-    let probes = pairs.iter().map(|pair| pair.map(|j| j as f64).to_vec()).collect();
-    let wanted: Vec<Wanted> = vec![(&Retold, Spot::at(Place::Interface), probes)];
-    let plain = Plain::of(case, wanted, ENOUGH);
-    let dict = &plain.dict;
-    let (is, _) = plain.left(&[], &dict.left(&Links::Free, &[]));
-    let spread = spreads(case, &joints);
-    if joints.iter().all(|j| is[*j] < BAD * spread[*j]) {
+    let counts = case.counts();
+    let joints = (0..counts.len()).filter(|joint| counts[*joint].contains(&true)).collect();
+    let asked = Asked { drive, joints };
+    let spread = spreads(case, &asked.joints);
+    let is_well = |left: &[f64]| asked.joints.iter().all(|j| left[*j] < BAD * spread[*j]);
+    let is = asked.without(case);
+    if is_well(&is) {
         return None;
     }
-    let last = dict.offers.len() - 1;
-    let mut tried: Vec<(Misread, Vec<usize>, Vec<f64>)> = Vec::new();
-    for (entry, [a, b]) in pairs.iter().enumerate() {
-        let (left, _) = plain.left(&[], &dict.left(&Links::Free, &[dict.term(last, entry)]));
-        tried.push(match a == b {
-            true => (Misread::Sign { signal: drive, joint: *a }, vec![*a], left),
-            false => (Misread::Swapped { signal: drive, joints: [*a, *b] }, vec![*a, *b], left),
-        });
+    if let Some(found) = asked.best(&is, asked.tried(case)) {
+        return Some(found);
     }
-    for joint in &joints {
-        let misread = Misread::Sign { signal: Signal::Q, joint: *joint };
+    // Torques that are late besides hide what is wrong with their columns.
+    let late = case.late + DELAYS.iter().fold(0.0_f64, |most, delay| most.max(delay.abs()));
+    let moved = DELAYS.map(|delay| {
         let mut signals = case.signals.clone();
-        turn(&mut signals, &misread);
-        let turned = Case { signals: &signals, ..*case };
-        let plain = Plain::of(&turned, Vec::new(), ENOUGH);
-        let (left, _) = plain.left(&[], &plain.dict.left(&Links::Free, &[]));
-        tried.push((misread, vec![*joint], left));
+        signals.align(delay);
+        signals
+    });
+    let cases: Vec<Case<'_>> =
+        moved.iter().map(|signals| Case { signals, late, ..*case }).collect();
+    let alone = cases.iter().map(|case| asked.without(case));
+    let is = alone.min_by(|a, b| asked.sum(a).total_cmp(&asked.sum(b)))?;
+    if is_well(&is) {
+        return None;
     }
-    let gain = |left: &[f64]| -> f64 { joints.iter().map(|j| (is[*j] / left[*j]).ln()).sum() };
-    let best = tried.into_iter().max_by(|a, b| gain(&a.2).total_cmp(&gain(&b.2)))?;
-    let (misread, own, left) = best;
-    let part: f64 = own.iter().map(|j| (left[*j] / is[*j]).ln()).sum::<f64>() / own.len() as f64;
-    (part < LEAVES.ln() && gain(&left) > 0.0).then_some(misread)
+    asked.best(&is, cases.iter().flat_map(|case| asked.tried(case)).collect())
+}
+
+/// A mistake, the joints whose rows it is in, and what is left of every joint without it.
+type Tried = (Misread, Vec<usize>, Vec<f64>);
+
+/// What is asked of a log.
+struct Asked {
+    drive: Signal,
+    /// Those that have rows.
+    joints: Vec<usize>,
+}
+
+impl Asked {
+    /// What is left of every joint with the columns as they are told.
+    fn without(&self, case: &Case<'_>) -> Vec<f64> {
+        let plain = Plain::of(case, Vec::new(), ENOUGH);
+        plain.left(&[], &plain.dict.left(&Links::Free, &[])).0
+    }
+
+    /// Every mistake by itself.
+    fn tried(&self, case: &Case<'_>) -> Vec<Tried> {
+        let Asked { drive, joints } = self;
+        let pairs = joints.iter().flat_map(|a| joints.iter().map(move |b| [*a, *b]));
+        let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| a <= b).collect();
+        let probes = pairs.iter().map(|pair| pair.map(|j| j as f64).to_vec()).collect();
+        let wanted: Vec<Wanted> = vec![(&Retold, Spot::at(Place::Interface), probes)];
+        let plain = Plain::of(case, wanted, ENOUGH);
+        let dict = &plain.dict;
+        let last = dict.offers.len() - 1;
+        let column = |(entry, [a, b]): (usize, &[usize; 2])| {
+            let (left, _) = plain.left(&[], &dict.left(&Links::Free, &[dict.term(last, entry)]));
+            match a == b {
+                true => (Misread::Sign { signal: *drive, joint: *a, or: None }, vec![*a], left),
+                false => {
+                    (Misread::Swapped { signal: *drive, joints: [*a, *b] }, vec![*a, *b], left)
+                }
+            }
+        };
+        let angle = |joint: &usize| {
+            let misread = Misread::Sign { signal: Signal::Q, joint: *joint, or: None };
+            let mut signals = case.signals.clone();
+            turn(&mut signals, &misread);
+            let left = self.without(&Case { signals: &signals, ..*case });
+            (misread, vec![*joint], left)
+        };
+        pairs.iter().enumerate().map(column).chain(joints.iter().map(angle)).collect()
+    }
+
+    /// The mistake without which least is left, if that is so much less than `is` at its own joints. Of a joint's two signs
+    /// that leave the same it is the torque's: its column is given a convention, where an encoder has an arrow.
+    fn best(&self, is: &[f64], tried: Vec<Tried>) -> Option<Misread> {
+        let sums: Vec<f64> = tried.iter().map(|(.., left)| self.sum(left)).collect();
+        let best = (0..tried.len()).min_by(|a, b| sums[*a].total_cmp(&sums[*b]))?;
+        let (misread, own, left) = &tried[best];
+        let part = own.iter().map(|j| (left[*j] / is[*j]).ln()).sum::<f64>() / own.len() as f64;
+        if part >= LEAVES.ln() || sums[best] >= self.sum(is) {
+            return None;
+        }
+        let Misread::Sign { signal, joint, .. } = *misread else { return Some(misread.clone()) };
+        let is_other = |of: &Misread| match of {
+            Misread::Sign { signal: s, joint: j, .. } => *j == joint && *s != signal,
+            _ => false,
+        };
+        let other = (0..tried.len()).filter(|k| is_other(&tried[*k].0));
+        let is_told = other.min_by(|a, b| sums[*a].total_cmp(&sums[*b]));
+        match is_told.is_some_and(|k| sums[k] - sums[best] < SAME) {
+            true => Some(Misread::Sign { signal: self.drive, joint, or: Some(Signal::Q) }),
+            false => Some(misread.clone()),
+        }
+    }
+
+    fn sum(&self, left: &[f64]) -> f64 {
+        self.joints.iter().map(|j| left[*j].ln()).sum()
+    }
 }
 
 /// Standard deviation of what drives each joint, where its rows count.
@@ -131,7 +203,7 @@ fn spreads(case: &Case<'_>, joints: &[usize]) -> Vec<f64> {
 /// The signals without the mistake.
 fn turn(signals: &mut Signals, misread: &Misread) {
     match misread {
-        Misread::Sign { signal: Signal::Q, joint } => {
+        Misread::Sign { signal: Signal::Q, joint, .. } => {
             let Signals { q, qd, qdd, .. } = signals;
             for rows in [q, qd, qdd] {
                 rows[*joint].iter_mut().for_each(|x| *x = -*x);

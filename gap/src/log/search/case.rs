@@ -134,10 +134,10 @@ impl Case<'_> {
     }
 
     /// Which rows count, of each joint: away from the ends of the filters, no contact, and for torques
-    /// no standstill, where friction takes any value up to Coulomb's.
+    /// no standstill, where friction takes any value up to Coulomb's, nor what is missing or at its limit.
     pub fn counts(&self) -> Vec<Vec<bool>> {
         let signals = self.signals;
-        let touches = signals.kept(&signals.contact);
+        let touches = signals.near(&signals.contact, 0.0);
         let free =
             signals.settled(self.late).into_iter().zip(touches).map(|(s, touch)| s && !touch);
         let free: Vec<bool> = free.collect();
@@ -147,9 +147,11 @@ impl Case<'_> {
             }
             let speeds = signals.kept(&signals.qd[joint]);
             let moves = |speed: f64| speed.abs() > self.still[joint];
-            let pairs = speeds.into_iter().zip(&free);
+            let lacks = signals.near(&signals.holes[joint], self.late);
+            let free = free.iter().zip(lacks).map(|(free, lacks)| *free && !lacks);
+            let pairs = speeds.into_iter().zip(free);
             let position = self.kind.0 == Domain::Position;
-            pairs.map(|(speed, free)| *free && (position || moves(speed))).collect()
+            pairs.map(|(speed, free)| free && (position || moves(speed))).collect()
         };
         (0..signals.joints()).map(counts).collect()
     }

@@ -103,18 +103,22 @@ pub fn rate(x: &[f64], period: f64) -> Vec<f64> {
 
 /// Even samples as they are so many steps later, by the cubic through the four around; beyond an end the last.
 pub fn later(x: &[f64], steps: f64) -> Vec<f64> {
+    (0..x.len()).map(|k| at(x, k as f64 + steps)).collect()
+}
+
+/// What even samples, of which there is one at least, are at a place among them; as [`later`].
+pub fn at(x: &[f64], place: f64) -> f64 {
     let last = x.len().saturating_sub(1) as f64;
-    let at = |k: f64| x[k.clamp(0.0, last) as usize];
-    let between = |k: usize| {
-        let at_time = (k as f64 + steps).clamp(0.0, last);
-        let (before, s) = (at_time.floor(), at_time.fract());
-        let [a, b, c, d] = [-1.0, 0.0, 1.0, 2.0].map(|by| at(before + by));
-        // Lagrange's polynomials at −1, 0, 1 and 2.
-        b * (1.0 - s * s) * (1.0 - 0.5 * s)
-            + c * s * (1.0 + s) * (1.0 - 0.5 * s)
-            + s * (1.0 - s) * ((s - 2.0) * a - (1.0 + s) * d) / 6.0
-    };
-    (0..x.len()).map(between).collect()
+    let place = place.clamp(0.0, last);
+    let (before, s) = (place.floor(), place.fract());
+    if s == 0.0 {
+        return x[place as usize];
+    }
+    let [a, b, c, d] = [-1.0, 0.0, 1.0, 2.0].map(|by| x[(before + by).clamp(0.0, last) as usize]);
+    // Lagrange's polynomials at −1, 0, 1 and 2.
+    b * (1.0 - s * s) * (1.0 - 0.5 * s)
+        + c * s * (1.0 + s) * (1.0 - 0.5 * s)
+        + s * (1.0 - s) * ((s - 2.0) * a - (1.0 + s) * d) / 6.0
 }
 
 #[cfg(test)]

@@ -11,7 +11,9 @@
 //!
 //! Of the result as many samples are kept as the band holds.
 
+mod alike;
 mod band;
+mod even;
 pub mod filter;
 mod repeats;
 #[cfg(test)]
@@ -19,15 +21,12 @@ mod tests;
 
 use core::ops::Range;
 
+use alike::Merged;
+use even::{Even, stretches, thinning};
 use filter::{LowPass, rate};
+use repeats::Repeats;
 
-use super::read::{Log, Run, Signal};
-
-/// Steps beyond which nothing is interpolated.
-const GAP: f64 = 5.0;
-
-/// Samples per period of the band's edge where columns are computed: signs have harmonics.
-const FINE: f64 = 10.0;
+use super::read::{Log, Signal};
 
 /// Samples per period of the band's edge that are kept for the fits.
 const KEPT: f64 = 4.0;
@@ -35,14 +34,14 @@ const KEPT: f64 = 4.0;
 /// Joint values are differentiated with so many times the band.
 const WIDER: f64 = 2.0;
 
+/// Half the main lobe of the filter's response, in periods of its edge: an ideal low-pass is zero first there.
+const LOBE: f64 = 0.5;
+
 /// Reaches of the filter after which nothing of an end is left: a thousandth of each is, of four 1e-12.
 const ROOM: f64 = 4.0;
 
 /// Reaches of the filter that a period lasts of which one is enough: eight blocks of twice the reach.
 const LONG: f64 = 16.0;
-
-/// Jitter below this part of a step is none: stamps are rounded.
-const ROUNDED: f64 = 0.02;
 
 /// Samples without a gap.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,24 +79,19 @@ pub struct Signals {
     pub ways: Vec<Vec<i8>>,
     /// Where the arm touches something.
     pub contact: Vec<bool>,
+    /// Of each joint where what drives it is missing or at its limit.
+    pub holes: Vec<Vec<bool>>,
     /// The band's edge, Hz.
     pub band: f64,
     /// Step between fine samples, s.
     pub period: f64,
     /// How often a motion is repeated, and after how long, s: its periods are averaged.
     pub repeated: Option<(usize, f64)>,
+    /// The runs of each motion that there is in several of them: they are averaged to the first.
+    pub alike: Vec<Vec<usize>>,
     /// Fine samples per one that is kept.
     every: usize,
     filter: Option<LowPass>,
-}
-
-/// A gap-free stretch of a run at even steps.
-struct Even {
-    run: usize,
-    t: Vec<f64>,
-    /// Of each signal each joint.
-    signals: Vec<Vec<Vec<f64>>>,
-    contact: Vec<bool>,
 }
 
 impl Signals {
@@ -111,7 +105,7 @@ impl Signals {
         wanted.extend(drive);
         let period = log.period();
         let evens: Vec<Even> = (0..log.runs.len())
-            .flat_map(|run| stretches(run, &log.runs[run], period, &wanted))
+            .flat_map(|run| stretches(run, &log.runs[run], period, &wanted, drive))
             .collect();
         let at = |signal| wanted.iter().position(|s| *s == signal);
         let band = band.unwrap_or_else(|| {
@@ -123,14 +117,18 @@ impl Signals {
         let evens: Vec<Even> = evens
             .into_iter()
             .map(|even| {
-                let steps = drive.and_then(|_| repeats::found(&even.signals[0], period));
-                let long = |steps: &usize| *steps as f64 * period >= LONG * LowPass::reach(band);
-                let Some(steps) = steps.filter(long) else { return even };
-                let count = even.t.len() / steps;
-                repeated = Some(repeated.unwrap_or((count, steps as f64 * period)));
-                even.averaged(steps)
+                let found = drive.and_then(|_| repeats::found(&even.signals[0], period));
+                let long = |r: &Repeats| r.steps * period >= LONG * LowPass::reach(band);
+                let Some(found) = found.filter(long) else { return even };
+                repeated = Some(repeated.unwrap_or((found.count(), found.steps * period)));
+                even.averaged(&found)
             })
             .collect();
+        let carries = |a: usize, b: usize| log.runs[a].payload == log.runs[b].payload;
+        let Merged { evens, alike } = match drive.and_then(at) {
+            Some(drive) => alike::merged(evens, (period, band), drive, &carries),
+            None => Merged { evens, alike: Vec::new() },
+        };
         let evens: Vec<Even> = evens.into_iter().map(|e| e.thinned(band, period)).collect();
         let thin = thinning(band, period);
         let period = period * thin as f64;
@@ -149,9 +147,11 @@ impl Signals {
             temperature: empty(),
             ways: vec![Vec::new(); joints],
             contact: Vec::new(),
+            holes: vec![Vec::new(); joints],
             band,
             period,
             repeated,
+            alike,
             every,
             filter: LowPass::new(band, period),
         };
@@ -182,6 +182,7 @@ impl Signals {
                 all.temperature[joint].extend(temperature);
                 all.command[joint].extend(of(Signal::QCmd).into_iter().flatten());
                 all.drive[joint].extend(drive.and_then(of).into_iter().flatten());
+                all.holes[joint].extend(&even.holes[joint]);
             }
             all.t.extend(even.t);
             all.contact.extend(even.contact);
@@ -277,18 +278,31 @@ impl Signals {
             temperature: part(&self.temperature, &fine),
             ways: part(&self.ways, &fine),
             contact: self.contact[fine.clone()].to_vec(),
+            holes: part(&self.holes, &fine),
+            alike: Vec::new(),
             ..*self
         };
         (signals, rows.start - from)
     }
 
     /// What is to be said of a motion that is repeated.
-    pub fn remark(&self) -> Option<String> {
-        let (count, period) = self.repeated?;
-        Some(format!(
-            "the motion repeats {count} times, every {period:.3} s, sample by sample: the repeats are averaged, since an error \
-             that all of them share is no p_value"
-        ))
+    pub fn remarks(&self) -> Vec<String> {
+        let why = "since an error that all of them share is no evidence";
+        let repeats = self.repeated.map(|(count, period)| {
+            format!(
+                "the motion repeats {count} times, every {period:.3} s: the repeats are averaged, {why}"
+            )
+        });
+        let runs = self.alike.iter().map(|runs| {
+            let runs: Vec<String> = runs.iter().map(|run| (run + 1).to_string()).collect();
+            let (last, before) =
+                runs.split_last().map_or((String::new(), &[][..]), |(l, b)| (l.clone(), b));
+            format!(
+                "runs {} and {last} repeat one motion: they are averaged, {why}",
+                before.join(", ")
+            )
+        });
+        repeats.into_iter().chain(runs).collect()
     }
 
     /// Number of joints.
@@ -323,6 +337,27 @@ impl Signals {
         self.spans.iter().flat_map(of).collect()
     }
 
+    /// Of the samples that are kept, those in which a marked one weighs: within half a period of the band's edge, the main
+    /// lobe of the filter, and as far as torques are told `late`, s.
+    pub fn near(&self, marks: &[bool], late: f64) -> Vec<bool> {
+        if !marks.contains(&true) {
+            return vec![false; self.rows()];
+        }
+        let lobe = self.filter.map_or(0.0, |_| LOBE / self.band);
+        let reach = ((lobe + late) / self.period).ceil() as usize;
+        let of = |span: &Span| -> Vec<bool> {
+            let part = &marks[span.fine.clone()];
+            let mut until = vec![0; part.len() + 1];
+            for (k, mark) in part.iter().enumerate() {
+                until[k + 1] = until[k] + usize::from(*mark);
+            }
+            let is_near =
+                |k: usize| until[(k + reach + 1).min(part.len())] > until[k.saturating_sub(reach)];
+            (0..part.len()).step_by(self.every).map(is_near).collect()
+        };
+        self.spans.iter().flat_map(of).collect()
+    }
+
     /// What is computed at every fine sample, through the filter, at those that are kept.
     pub fn filtered(&self, fine: &[f64]) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.rows());
@@ -345,81 +380,5 @@ impl Signals {
     pub fn kept<T: Copy>(&self, fine: &[T]) -> Vec<T> {
         let part = |span: &Span| fine[span.fine.clone()].iter().step_by(self.every).copied();
         self.spans.iter().flat_map(part).collect()
-    }
-}
-
-/// A run at even steps, cut at its gaps; what is too short to be filtered is left out.
-fn stretches(index: usize, run: &Run, period: f64, wanted: &[Signal]) -> Vec<Even> {
-    let start = run.t.first().copied().unwrap_or(0.0);
-    let gaps = (1..run.t.len()).filter(|k| run.t[*k] - run.t[k - 1] > GAP * period);
-    let ends: Vec<usize> = gaps.chain([run.t.len()]).collect();
-    let mut from = 0;
-    let mut evens = Vec::new();
-    for end in ends {
-        let (t, part) = (&run.t[from..end], from..end);
-        from = end;
-        if t.len() < 2 * FINE as usize {
-            continue;
-        }
-        let joints = |signal: &Signal| -> Vec<&[f64]> {
-            run.signals[signal].iter().map(|joint| &joint[part.clone()]).collect()
-        };
-        let contact = &run.contact[part.clone()];
-        let clean = run.clock.dropped == 0 && run.clock.jitter < ROUNDED * period;
-        let (first, last) = (t[0], t[t.len() - 1]);
-        // A step that rounding makes a little short is one.
-        let whole = ((last - first) / period + ROUNDED) as usize + 1;
-        let steps = if clean { t.len() } else { whole };
-        let mut before = 0;
-        let places: Vec<(usize, f64)> = (0..steps)
-            .map(|k| match clean {
-                true => (k, 0.0),
-                false => {
-                    let at = first + period * k as f64;
-                    while before + 2 < t.len() && t[before + 1] <= at {
-                        before += 1;
-                    }
-                    (before, (at - t[before]) / (t[before + 1] - t[before]))
-                }
-            })
-            .collect();
-        let between = |x: &[f64]| -> Vec<f64> {
-            let value = |&(k, part): &(usize, f64)| match part {
-                0.0 => x[k],
-                part => x[k] + part * (x[k + 1] - x[k]),
-            };
-            places.iter().map(value).collect()
-        };
-        evens.push(Even {
-            run: index,
-            t: (0..steps).map(|k| first - start + period * k as f64).collect(),
-            signals: wanted
-                .iter()
-                .map(|signal| joints(signal).into_iter().map(between).collect())
-                .collect(),
-            contact: places.iter().map(|(k, _)| contact[*k]).collect(),
-        });
-    }
-    evens
-}
-
-/// Every so-manyth sample is enough for the band.
-fn thinning(band: f64, period: f64) -> usize {
-    ((1.0 / (FINE * band * period)).floor() as usize).max(1)
-}
-
-impl Even {
-    fn thinned(self, band: f64, period: f64) -> Even {
-        let every = thinning(band, period);
-        // Half the rate that is kept, and a tenth below: what lies above would be folded back.
-        let filter = LowPass::new(0.4 / (period * every as f64), period).filter(|_| every > 1);
-        let Some(filter) = filter else { return self };
-        let thin = |x: &Vec<f64>| filter.apply(x).into_iter().step_by(every).collect();
-        Even {
-            run: self.run,
-            t: self.t.into_iter().step_by(every).collect(),
-            signals: self.signals.iter().map(|s| s.iter().map(thin).collect()).collect(),
-            contact: self.contact.chunks(every).map(|part| part.contains(&true)).collect(),
-        }
     }
 }

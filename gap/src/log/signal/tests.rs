@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::log::read::Clock;
+use crate::log::read::{Clock, Run};
 
 /// A log of one joint at these times: a sine of 1 Hz and what accelerates a unit of inertia along it.
 fn log(runs: &[Vec<f64>]) -> Log {
@@ -15,6 +15,7 @@ fn log(runs: &[Vec<f64>]) -> Log {
         ]),
         payload: None,
         contact: vec![false; t.len()],
+        holes: Vec::new(),
         clock: Clock::of(t, 0),
     };
     Log {
@@ -23,6 +24,7 @@ fn log(runs: &[Vec<f64>]) -> Log {
         runs: runs.iter().map(run).collect(),
         side: None,
         damaged: Vec::new(),
+        lacking: Vec::new(),
         unknown: Vec::new(),
     }
 }

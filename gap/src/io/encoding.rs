@@ -1,0 +1,163 @@
+//! How a text is encoded, and the same as a stream of UTF-8: no file is held for it.
+
+use std::io::{self, BufRead, BufReader, Read};
+
+/// How the bytes of a file are a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    /// UTF-8, with a byte order mark or without.
+    Utf8,
+    /// UTF-16 with a byte order mark, the lower byte of a unit first or last.
+    Utf16 { lower_first: bool },
+    /// Windows-1252, in which any bytes are a text.
+    Windows1252,
+}
+
+/// What Windows-1252 has from 0x80 to 0x9f; elsewhere it is ISO 8859-1, whose bytes are code points.
+const WINDOWS: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// Bytes that are looked at, or decoded, at once.
+const CHUNK: usize = 1 << 16;
+
+impl Encoding {
+    /// Of a text as another program wrote it, which is read to its end for that.
+    pub(crate) fn of(source: impl Read) -> io::Result<Encoding> {
+        let mut source = BufReader::with_capacity(CHUNK, source);
+        match source.fill_buf()? {
+            [0xff, 0xfe, ..] => return Ok(Encoding::Utf16 { lower_first: true }),
+            [0xfe, 0xff, ..] => return Ok(Encoding::Utf16 { lower_first: false }),
+            _ => {}
+        }
+        // What a chunk leaves of a character at its end.
+        let mut begun: Vec<u8> = Vec::new();
+        loop {
+            let part = source.fill_buf()?;
+            if part.is_empty() {
+                return Ok(if begun.is_empty() { Encoding::Utf8 } else { Encoding::Windows1252 });
+            }
+            begun.extend_from_slice(part);
+            let count = part.len();
+            source.consume(count);
+            let rest = match core::str::from_utf8(&begun) {
+                Ok(_) => begun.len(),
+                Err(error) if error.error_len().is_none() => error.valid_up_to(),
+                Err(_) => return Ok(Encoding::Windows1252),
+            };
+            begun.drain(..rest);
+        }
+    }
+
+    /// What it is called, where that is not UTF-8.
+    pub(crate) fn name(self) -> Option<&'static str> {
+        match self {
+            Encoding::Utf8 => None,
+            Encoding::Utf16 { .. } => Some("UTF-16"),
+            Encoding::Windows1252 => Some("Windows-1252"),
+        }
+    }
+
+    /// A text in this encoding as UTF-8.
+    pub(crate) fn decoded<'r>(self, source: impl Read + 'r) -> Box<dyn BufRead + 'r> {
+        let source = BufReader::with_capacity(CHUNK, source);
+        match self {
+            Encoding::Utf8 => Box::new(source),
+            encoding => {
+                let decoding = Decoding { source, encoding, high: None, text: Vec::new(), at: 0 };
+                Box::new(BufReader::with_capacity(CHUNK, decoding))
+            }
+        }
+    }
+}
+
+/// A source whose text comes out as UTF-8.
+struct Decoding<R> {
+    source: BufReader<R>,
+    encoding: Encoding,
+    /// The first unit of a pair.
+    high: Option<u16>,
+    /// What is decoded and not yet taken, from `at`.
+    text: Vec<u8>,
+    at: usize,
+}
+
+impl<R: Read> Decoding<R> {
+    /// Decodes the next chunk; whether there was one.
+    fn next(&mut self) -> io::Result<bool> {
+        self.text.clear();
+        self.at = 0;
+        let mut bytes = Vec::with_capacity(CHUNK);
+        // An even number but for the end.
+        if self.source.by_ref().take(CHUNK as u64).read_to_end(&mut bytes)? == 0 {
+            return Ok(false);
+        }
+        let mut text = String::with_capacity(2 * bytes.len());
+        match self.encoding {
+            Encoding::Utf16 { lower_first } => {
+                let unit = |pair: &[u8]| match lower_first {
+                    true => u16::from_le_bytes([pair[0], pair[1]]),
+                    false => u16::from_be_bytes([pair[0], pair[1]]),
+                };
+                let mut units: Vec<u16> = self.high.take().into_iter().collect();
+                units.extend(bytes.chunks_exact(2).map(unit));
+                self.high = units.pop_if(|unit| (0xd800..0xdc00).contains(unit));
+                let read = char::decode_utf16(units);
+                text.extend(read.map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)));
+            }
+            _ => text.extend(bytes.iter().map(|byte| match byte {
+                0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],
+                other => char::from(*other),
+            })),
+        }
+        self.text = text.into_bytes();
+        Ok(true)
+    }
+}
+
+impl<R: Read> Read for Decoding<R> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        while self.at == self.text.len() {
+            if !self.next()? {
+                return Ok(0);
+            }
+        }
+        let count = to.len().min(self.text.len() - self.at);
+        to[..count].copy_from_slice(&self.text[self.at..self.at + count]);
+        self.at += count;
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(bytes: &[u8]) -> (String, Option<&'static str>) {
+        let encoding = Encoding::of(bytes).unwrap();
+        let mut text = String::new();
+        encoding.decoded(bytes).read_to_string(&mut text).unwrap();
+        (text.trim_start_matches('\u{feff}').to_owned(), encoding.name())
+    }
+
+    /// Longer than a chunk, with a character of several bytes or units across its end.
+    #[test]
+    fn texts_of_other_encodings_are_read() {
+        for long in [0, CHUNK - 1, CHUNK / 2 - 2, 2 * CHUNK - 3] {
+            let plain = format!("{}Höhe € 😀", "x".repeat(long));
+            assert_eq!(text(plain.as_bytes()), (plain.clone(), None));
+            let wide = |of: fn(u16) -> [u8; 2]| -> Vec<u8> {
+                "\u{feff}".encode_utf16().chain(plain.encode_utf16()).flat_map(of).collect()
+            };
+            for bytes in [wide(u16::to_le_bytes), wide(u16::to_be_bytes)] {
+                assert_eq!(text(&bytes), (plain.clone(), Some("UTF-16")), "{long}");
+            }
+            let mut windows = "x".repeat(long).into_bytes();
+            windows.extend(b"H\xf6he \x80");
+            let expected = format!("{}Höhe €", "x".repeat(long));
+            assert_eq!(text(&windows), (expected, Some("Windows-1252")));
+        }
+        assert_eq!(text(b"cut off: \xe2\x82"), ("cut off: â‚".to_owned(), Some("Windows-1252")));
+    }
+}
