@@ -425,10 +425,12 @@ fn both(seeds: core::ops::Range<u64>) -> usize {
         let first = case.rng.below(kinds.len());
         let second = (first + 1 + case.rng.below(kinds.len() - 1)) % kinds.len();
         let planted = [first, second].map(|k| (called(kinds[k]), case.spoil(kinds[k])));
+        // Two zeros of one joint are one.
+        let planted = if planted[0] == planted[1] { &planted[..1] } else { &planted[..] };
         let found = case.found();
         let is = found.as_ref().is_some_and(|found| {
-            is_that(&found.mistakes, &planted)
-                || found.same.iter().any(|same| is_that(same, &planted))
+            is_that(&found.mistakes, planted)
+                || found.same.iter().any(|same| is_that(same, planted))
         });
         if !is {
             println!("  {} {seed} {planted:?} → {}", case.file.name, names(&found));

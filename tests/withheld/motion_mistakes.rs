@@ -29,6 +29,8 @@ enum Kind {
     Nothing,
     Sign(Signal, usize),
     Swapped(usize, usize),
+    /// A joint's values so many degrees below the robot file's.
+    Zero(usize, f64),
     /// Rates so many times those of the joints.
     Rates(f64),
     /// Stamps so many times those of the clock.
@@ -53,7 +55,7 @@ enum Kind {
 
 use Kind::{
     Clipped, Delay, Friction, Held, Late, Nothing, Parked, Rates, Repeated, Sign, Silent, Swapped,
-    Time, Viscous, Wrapped,
+    Time, Viscous, Wrapped, Zero,
 };
 
 /// kg, at a tenth of a metre before the tool.
@@ -63,6 +65,7 @@ fn kinds(joints: usize) -> Vec<Kind> {
     let mut all = vec![Nothing, Nothing, Nothing];
     all.extend((0..joints).flat_map(|j| [Sign(Signal::Q, j), Sign(Signal::Torque, j)]));
     all.extend((1..joints).map(|j| Swapped(j - 1, j)));
+    all.extend([Zero(1, 90.0), Zero(1, -60.0), Zero(2, 180.0), Zero(2, -75.0)]);
     all.extend([Rates(180.0 / PI), Rates(-1.0), Time(1e3), Time(1e-3)]);
     all.extend([Clipped(1), Silent(2), Parked(joints - 1), Wrapped]);
     all.extend([0.02, 0.05, 0.1, 0.2, 0.35, 0.5].map(Delay));
@@ -146,6 +149,10 @@ fn misread(kind: Kind, run: &mut Run) {
             rows[joint].iter_mut().for_each(|x| *x = -*x);
         }
         Swapped(a, b) => run.signals.get_mut(&Signal::Torque).expect("torques").swap(a, b),
+        Zero(joint, by) => {
+            let rows = run.signals.get_mut(&Signal::Q).expect("joints");
+            rows[joint].iter_mut().for_each(|q| *q -= by.to_radians());
+        }
         Late(_, a, b) if a == b => misread(Sign(Signal::Torque, a), run),
         Late(_, a, b) => misread(Swapped(a, b), run),
         Rates(factor) => {
@@ -226,6 +233,7 @@ fn phrase(kind: Kind, log: &Log) -> Option<String> {
         Sign(Signal::Q, j) => format!("q{n} has the wrong sign for joint {n}", n = j + 1),
         Sign(_, j) => format!("tau{n} has the wrong sign for joint {n}", n = j + 1),
         Swapped(a, b) => format!("tau{} and tau{} stand in each other's columns", a + 1, b + 1),
+        Zero(j, by) => format!("q{n} is off by {by:.0}.", n = j + 1),
         Late(_, a, b) if a == b => return phrase(Sign(Signal::Torque, a), log),
         Late(_, a, b) => return phrase(Swapped(a, b), log),
         Rates(factor) if factor < 0.0 => "qd1 … have the sign against".to_owned(),
@@ -345,6 +353,7 @@ fn full() {
 fn quick() {
     let few = |kind: Kind| {
         matches!(kind, Sign(Signal::Torque, 3) | Swapped(1, 2) | Held(false, _) | Silent(_))
+            || matches!(kind, Zero(1, by) if by == 90.0)
             || matches!(kind, Delay(delay) if delay == 0.2)
     };
     let [cases, missed, beside] = all(&["ur10"], 401..402, few);

@@ -9,6 +9,7 @@ mod held;
 mod plain;
 mod retold;
 mod sentences;
+mod zeros;
 
 use std::borrow::Cow;
 
@@ -38,6 +39,8 @@ pub enum Misread {
     Clipped { signal: Signal, joint: usize, samples: usize, limits: [f64; 2] },
     /// A column has the wrong sign, or the joint's other one has, as far as these data distinguish them.
     Sign { signal: Signal, joint: usize, or: Option<Signal> },
+    /// A joint's zero is another than the robot file's: what is true is so much more than what is told, rad.
+    Zero { joint: usize, by: f64 },
     /// A joint goes against its command.
     Against { joint: usize },
     /// Two joints' columns stand in each other's place.
@@ -143,6 +146,12 @@ impl Misread {
                     let there = (0..run.t.len()).filter(|k| at(&all[*joint][*k])).map(beside);
                     let hole = |samples| Hole { signal: *signal, joint: *joint, samples };
                     run.holes.extend(there.map(hole));
+                }
+                Misread::Zero { joint, by } => {
+                    for signal in [Signal::Q, Signal::QCmd] {
+                        let all = run.signals.get_mut(&signal).into_iter();
+                        all.for_each(|all| all[*joint].iter_mut().for_each(|x| *x += by));
+                    }
                 }
                 Misread::Against { joint } => {
                     for signal in [Signal::QCmd, Signal::QdCmd] {

@@ -20,7 +20,7 @@ use crate::log::signal::Signals;
 const BAD: f64 = 0.5;
 
 /// A mistake leaves of its joints less than this part of what they leave with it.
-const LEAVES: f64 = 0.5;
+pub(super) const LEAVES: f64 = 0.5;
 
 /// The torque of a joint and the joint itself, turned round, leave the same if the logarithms of what they leave differ by
 /// less, sum over the joints: where neither gravity nor another joint tells its sides apart, as of a last joint about its
@@ -93,6 +93,11 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     if let Some(found) = asked.best(&is, asked.tried(case)) {
         return Some(found);
     }
+    let is_bad = |joint: &usize| is[*joint] >= BAD * spread[*joint];
+    let bad: Vec<usize> = asked.joints.iter().copied().filter(is_bad).collect();
+    if let Some(found) = asked.zero(case, &is, &bad) {
+        return Some(found);
+    }
     // Torques that are late besides hide what is wrong with their columns.
     let late = case.late + DELAYS.iter().fold(0.0_f64, |most, delay| most.max(delay.abs()));
     let moved = DELAYS.map(|delay| {
@@ -114,15 +119,15 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
 type Tried = (Misread, Vec<usize>, Vec<f64>);
 
 /// What is asked of a log.
-struct Asked {
+pub(super) struct Asked {
     drive: Signal,
     /// Those that have rows.
-    joints: Vec<usize>,
+    pub(super) joints: Vec<usize>,
 }
 
 impl Asked {
     /// What is left of every joint with the columns as they are told.
-    fn without(&self, case: &Case<'_>) -> Vec<f64> {
+    pub(super) fn without(&self, case: &Case<'_>) -> Vec<f64> {
         let plain = Plain::of(case, Vec::new(), ENOUGH);
         plain.left(&[], &plain.dict.left(&Links::Free, &[])).0
     }
@@ -179,7 +184,7 @@ impl Asked {
         }
     }
 
-    fn sum(&self, left: &[f64]) -> f64 {
+    pub(super) fn sum(&self, left: &[f64]) -> f64 {
         self.joints.iter().map(|j| left[*j].ln()).sum()
     }
 }
@@ -201,7 +206,7 @@ fn spreads(case: &Case<'_>, joints: &[usize]) -> Vec<f64> {
 }
 
 /// The signals without the mistake.
-fn turn(signals: &mut Signals, misread: &Misread) {
+pub(super) fn turn(signals: &mut Signals, misread: &Misread) {
     match misread {
         Misread::Sign { signal: Signal::Q, joint, .. } => {
             let Signals { q, qd, qdd, .. } = signals;
@@ -212,6 +217,7 @@ fn turn(signals: &mut Signals, misread: &Misread) {
                 ways.iter_mut().for_each(|way| *way = -*way);
             }
         }
+        Misread::Zero { joint, by } => signals.q[*joint].iter_mut().for_each(|x| *x += by),
         Misread::Sign { joint, .. } => signals.drive[*joint].iter_mut().for_each(|x| *x = -*x),
         Misread::Swapped { joints: [a, b], .. } => signals.drive.swap(*a, *b),
         _ => {}

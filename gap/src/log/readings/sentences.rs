@@ -76,6 +76,13 @@ impl Misread {
                 joint + 1,
                 name = named(signal, *joint),
             ),
+            Misread::Zero { joint, by } => format!(
+                "q{n} is off by {by:.1}° from the zero of the robot file: it is read as q{n} {sign} {size:.1}°; give it that                  offset, or add it to theta of joint {n} in the robot file",
+                n = joint + 1,
+                by = by.to_degrees(),
+                sign = if *by < 0.0 { '−' } else { '+' },
+                size = by.to_degrees().abs()
+            ),
             Misread::Against { joint } => format!(
                 "q{n} moves against q_cmd{n}: one of them has the wrong sign; q_cmd{n} is read as −q_cmd{n}; if q{n} is the \
                  wrong one, give it factor = -1 in a map",
