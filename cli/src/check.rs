@@ -9,12 +9,13 @@ use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::{Verdict, robots};
+use crate::host::Host;
 use crate::input::model::Model;
 use crate::input::source;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
 use stiffarm_kernels::parity::{Agreement, Beyond, Comparison, Evaluate, Line, Subject, agreement};
@@ -93,20 +94,20 @@ fn usual(joints: usize) -> usize {
 ///
 /// # Errors
 /// [`Failure`]: the robot, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let checked = match &args.robot {
-        Some(robot) => vec![check(robot.load(quiet)?, args, quiet)?],
+        Some(robot) => vec![check(robot.load(host)?, args, host)?],
         None => {
-            let each = ARMS.iter().map(|arm| check(source::open(arm.id, quiet)?, args, quiet));
+            let each = ARMS.iter().map(|arm| check(source::open(arm.id, host)?, args, host));
             each.collect::<Result<_, _>>()?
         }
     };
     let failed = checked.iter().any(|c| !c.agrees());
     if let Some(target) = &args.json {
-        target.write(&json::text(&written(&checked, args))?)?;
+        host.write(target, &json::text(&written(&checked, args))?)?;
     }
-    if (failed || !quiet) && args.json != Some(Target::Stdout) {
-        print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
+    if (failed || !host.is_quiet()) && args.json != Some(Target::Stdout) {
+        host.print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
     }
     Ok(if failed { Verdict::Failed } else { Verdict::Good })
 }
@@ -118,7 +119,7 @@ struct Checked {
     agreement: Agreement,
 }
 
-fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
+fn check(source: Source, args: &Args, host: &Host) -> Result<Checked, Failure> {
     let robot = source.for_kernels()?;
     let (table, known) = source.as_it_stands()?;
     let outputs = robot.generated();
@@ -138,7 +139,7 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let outputs = &outputs;
     let subject = Subject { outputs, arm: &arm, beyond, generated: &generated, single };
     let count = args.count.map_or_else(|| usual(arm.dof()), |count| count as usize);
-    let progress = Progress::new(&source.given, count, quiet);
+    let progress = Progress::new(&source.given, count, host);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
     if agreement.too_large > 0 {
         let evaluations = thousands(agreement.too_large);

@@ -8,6 +8,7 @@ mod corrected;
 mod log;
 mod predicted;
 mod provenance;
+mod settings;
 mod together;
 
 use std::path::PathBuf;
@@ -29,16 +30,15 @@ pub use corrected::Format;
 pub use log::{Check as LogCheck, Motion};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
+pub use settings::{Settings, takes_value};
 pub use together::{Said, Together};
 
 use super::Verdict;
-use crate::input::data::BenchArgs;
+use crate::host::Host;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::interrupt;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,7 +63,7 @@ the joints' compliances are estimated from both.";
 /// Compares the robot file with measurements, or with a log of joint values and torques, currents or
 /// commands. Reports which unmodelled effects cause the error, and how far it is reduced with them on
 /// held-out poses or time.
-#[derive(Clone, clap::Args)]
+#[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
@@ -72,52 +72,7 @@ pub struct Args {
     #[arg(required = true)]
     data: Vec<PathBuf>,
     #[command(flatten)]
-    bench: BenchArgs,
-    /// Nuisance parameters, co-estimated and never a finding: base_frame, tool_frame, geometry (zeros,
-    /// lengths and twists, within --tolerance)
-    #[arg(long, value_name = "a,b", value_delimiter = ',')]
-    nuisance: Vec<String>,
-    /// Manufacturing tolerance of lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
-    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
-    tolerance: Option<String>,
-    /// Prior scale of an effect's parameters: joint_compliance=2e-6, link_compliance:bending=1e-6; may be
-    /// repeated
-    #[arg(long = "usual", value_name = "EFFECT[:NUMBER]=SIZE")]
-    priors: Vec<String>,
-    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from the residuals]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from the residuals]
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
-    noise_rotation: Option<String>,
-    /// Keep outliers: fit and count rows that do not fit
-    #[arg(long)]
-    keep_all: bool,
-    /// Try only these effects
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
-    effects: Option<Vec<String>>,
-    /// Number of folds [default: one per pose up to 30 poses, else 10]
-    #[arg(long, value_name = "K")]
-    folds: Option<usize>,
-    /// Nested cross-validation: repeat the search without each fold, and report the error on it
-    #[arg(long)]
-    nested: bool,
-    /// Seed of folds, permutations and intervals; the same seed gives the same bytes
-    #[arg(long, default_value_t = 0)]
-    seed: u64,
-    /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
-    #[arg(long = "rival", value_name = "PREFIX")]
-    rivals: Vec<String>,
-    /// Predict another file of the same arm with the findings
-    #[arg(long, value_name = "OTHER.csv")]
-    check: Option<PathBuf>,
-    /// Compare with an earlier diagnosis of the arm (JSON): what was added, removed and changed
-    #[arg(long, value_name = "LAST.json")]
-    compare: Option<PathBuf>,
-    /// Tolerance for the position error of the corrected arm in 95 % of the rows, held out or of --check;
-    /// exit status 1 if the error is larger
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    accept: Option<String>,
+    settings: Settings,
     /// Write the robot file with the findings
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
@@ -136,8 +91,6 @@ pub struct Args {
     /// Print every finding, parameter and reason, however small
     #[arg(long)]
     all: bool,
-    #[command(flatten)]
-    log: log::LogArgs,
 }
 
 /// The effects that are tried: those that stiffarm knows, and one's own.
@@ -163,20 +116,20 @@ pub enum Found {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let found = find(args, Catalogues::default(), quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let found = diagnose(&args.robot, &args.data, &args.settings, Catalogues::default(), host)?;
     if let Some(target) = &args.json {
-        target.write(&found.json()?)?;
+        host.write(target, &found.json()?)?;
     }
-    args.write_arm(&found, quiet)?;
+    args.write_arm(&found, host)?;
     if let Some(target) = &args.report {
-        target.write(&found.page()?)?;
+        host.write(target, &found.page()?)?;
     }
     let written: Vec<_> =
         [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
-    let enough = quiet && !written.is_empty();
+    let enough = host.is_quiet() && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&found.text(args.all))?;
+        host.print(&found.text(args.all))?;
     }
     Ok(match (found.is_unexplained(), found.is_accepted()) {
         (true, _) => Verdict::Unexplained,
@@ -185,28 +138,39 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     })
 }
 
-/// Diagnoses what was given, with the effects of `catalogues`.
+/// Diagnoses the files `data` of a robot as it is chosen, with the effects of `catalogues`.
 ///
 /// # Errors
-/// [`Failure`]: the robot, the data or the options; effects of one's own that are not asked of such data.
-pub fn find(args: &Args, catalogues: Catalogues, quiet: bool) -> Result<Found, Failure> {
-    let source = args.robot.load(quiet)?;
+/// [`Failure`]: the robot, the data or the settings; effects of one's own that are not asked of such data.
+pub fn diagnose(
+    robot: &RobotArgs,
+    data: &[PathBuf],
+    settings: &Settings,
+    catalogues: Catalogues,
+    host: &Host,
+) -> Result<Found, Failure> {
+    let source = robot.load(host)?;
     let Catalogues { at_rest, in_motion } = catalogues;
-    match log::files(args)? {
+    match log::files(data, settings, host)? {
         log::Files::Log(parts) => {
             unasked(at_rest.identifiers(), Catalogue::default().identifiers(), "measurements")?;
-            Motion::new(args, source, parts, in_motion, quiet)
+            if let Some(option) = settings.first_of(false) {
+                let log = data[0].display();
+                let message = format!("{option} is for measurement files, and {log} is a joint log");
+                return Err(Failure::new(message));
+            }
+            Motion::new(settings, source, parts, in_motion, host)
                 .map(|found| Found::Motion(Box::new(found)))
         }
         log::Files::Measurements(files) => {
             unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
-            Campaign::new(args, source, files, &[], at_rest, quiet)
+            Campaign::new(settings, source, files, &[], at_rest, host)
                 .map(|found| Found::Campaign(Box::new(found)))
         }
         log::Files::Both(files, parts) => {
             let catalogues = Catalogues { at_rest, in_motion };
-            let both = args.both(&files, &catalogues)?;
-            Together::new(&both, source, files, parts, catalogues, quiet)
+            let both = settings.both(&catalogues, host)?;
+            Together::new(&both, source, files, parts, catalogues, host)
                 .map(|found| Found::Together(Box::new(found)))
         }
     }
@@ -340,63 +304,33 @@ impl Args {
         [&self.write_robot, &self.write_urdf, &self.write_mjcf]
     }
 
-    fn write_arm(&self, found: &Found, quiet: bool) -> Result<(), Failure> {
+    fn write_arm(&self, found: &Found, host: &Host) -> Result<(), Failure> {
         if let Some(target) = &self.write_robot {
-            target.write(&found.corrected()?)?;
+            host.write(target, &found.corrected()?)?;
         }
         for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
         {
             if let Some(target) = target {
                 let (text, lost) = found.exported(format)?;
-                target.write(&text)?;
-                lost.iter().for_each(|lost| note(lost, quiet));
+                host.write(target, &text)?;
+                lost.iter().for_each(|lost| host.note(lost));
             }
         }
         if self.arms().iter().any(|target| target.is_some()) {
-            found.caveats().iter().for_each(|caveat| note(caveat, quiet));
+            found.caveats().iter().for_each(|caveat| host.note(caveat));
         }
         Ok(())
     }
+}
 
-    /// Without the options that speak of measurement files alone.
-    fn without_measurements(self) -> Args {
-        Args {
-            nuisance: Vec::new(),
-            tolerance: None,
-            noise_position: None,
-            noise_rotation: None,
-            keep_all: false,
-            folds: None,
-            rivals: Vec::new(),
-            accept: None,
-            compare: None,
-            ..self
-        }
-    }
-
-    /// The first option that is given and speaks of measurement files alone.
-    fn of_measurements(&self) -> Option<&'static str> {
-        [
-            (!self.nuisance.is_empty(), "--nuisance"),
-            (self.tolerance.is_some(), "--tolerance"),
-            (self.noise_position.is_some(), "--noise-position"),
-            (self.noise_rotation.is_some(), "--noise-rotation"),
-            (self.keep_all, "--keep-all"),
-            (self.folds.is_some(), "--folds"),
-            (!self.rivals.is_empty(), "--rival"),
-            (self.accept.is_some(), "--accept"),
-            (self.compare.is_some(), "--compare"),
-        ]
-        .into_iter()
-        .find_map(|(given, name)| given.then_some(name))
-    }
-
+impl Settings {
     fn options(
         &self,
         source: &Source,
         arm: &Arm,
         springs: &[Spring],
         catalogue: Catalogue,
+        host: &Host,
     ) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
@@ -423,13 +357,13 @@ impl Args {
             known: source.known.clone(),
             family: family(),
             springs: springs.to_vec(),
-            stop: interrupt::stop(),
+            stop: host.stop(),
             catalogue,
             ..Options::default()
         };
         options.fit_along(&self.nuisance).map_err(plain)?;
         let read = |text: &String| Prior::parse(text, arm, &options.catalogue).map_err(plain);
-        options.priors = self.priors.iter().map(read).collect::<Result<_, _>>()?;
+        options.priors = self.usual.iter().map(read).collect::<Result<_, _>>()?;
         Ok(options)
     }
 }

@@ -16,13 +16,13 @@ use stiffarm_gap::identify::measured::{
 use stiffarm_gap::measurement::Dimension;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
 
 const EXAMPLES: &str = "\
@@ -84,12 +84,12 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let question = args.question()?;
-    let source = args.robot.load(quiet)?;
+    let source = args.robot.load(host)?;
     let question = Question { known: source.known.clone(), ..question };
     let arm = source.arm_at_its_base()?;
-    let data = data::read(&args.data, &args.bench.layout(&source)?, quiet)?;
+    let data = data::read(&args.data, &args.bench.layout(&source, host)?, host)?;
     // Loads are told in the base's axes, and so are springs.
     let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {
         let message = format!("{}: found some components alone", args.data.display());
@@ -99,20 +99,20 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         )
     })?;
     // Only what loads change is used, whatever frame it is in.
-    data::doubted(&arm, &data, &Nuisance::ALL, quiet);
-    let progress = Progress::new(&source.given, PARTS, quiet);
+    data::doubted(&arm, &data, &Nuisance::ALL, host);
+    let progress = Progress::new(&source.given, PARTS, host);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
     let answer = answer.map_err(|error| Failure::new(error.to_string()))?;
     let result = Written::new(&source, &data, &answer, &args.data.display().to_string());
     if data.sim_given.contains(&true) {
-        note("the columns sim_… play no part: springs are compared with the robot file", quiet);
+        host.note("the columns sim_… play no part: springs are compared with the robot file");
     }
     if let Some(target) = &args.json {
-        target.write(&json::text(&result)?)?;
+        host.write(target, &json::text(&result)?)?;
     }
     if let Some(target) = &args.write_robot {
-        target.write(&written::robot(&source, &answer, &data.file)?)?;
+        host.write(target, &written::robot(&source, &answer, &data.file)?)?;
     }
     let identified = document::Identified {
         source: &source,
@@ -123,13 +123,13 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     };
     if let Some(target) = &args.report {
         let document = identified.document(true);
-        target.write(&document.html(&identified.embedded(&json::value(&result)?)?)?)?;
+        host.write(target, &document.html(&identified.embedded(&json::value(&result)?)?)?)?;
     }
     let written: Vec<_> =
         [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
-    let enough = quiet && !written.is_empty();
+    let enough = host.is_quiet() && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        print(&identified.document(false).text(false))?;
+        host.print(&identified.document(false).text(false))?;
     }
     Ok(Verdict::Good)
 }

@@ -6,9 +6,9 @@ use stiffarm_codegen::robot::urdf::{self, Chain, Frame, Refusal, Table, Urdf, ro
 use stiffarm_codegen::robot::{Motion, Robot};
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::source::text;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::note::note;
 use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
@@ -55,13 +55,13 @@ const AGREES: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Failure`]: what is no URDF, or no serial chain; an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let file = args.urdf.display().to_string();
-    let source = text(&args.urdf)?;
+    let source = text(&args.urdf, host)?;
     let chosen = (args.base.as_deref(), args.tip.as_deref());
     let (written, remarks) = imported(&file, &source, chosen, args.as_written)?;
-    remarks.iter().for_each(|remark| note(remark, quiet));
-    args.toml.write(&written)?;
+    remarks.iter().for_each(|remark| host.note(remark));
+    host.write(&args.toml, &written)?;
     Ok(Verdict::Good)
 }
 

@@ -1,5 +1,5 @@
-//! The command line: `stiffarm --help` says what it does. [`main`] runs it; [`run`] and [`diagnose_inside`]
-//! do the same for another program, which hands over files and takes what is told ([`inside`]).
+//! The command line: `stiffarm --help` says what it does. [`main`] runs it; [`run`] and [`diagnose`]
+//! do the same for another program, which hands over files and takes what is told ([`host`]).
 //!
 //! One file per command; what they share lies in rooms: `input` (robots, data, numbers as they are given), `terminal` (text, errors, progress,
 //! files written), `document` (what a command reports, printed to a screen or as a page), `plot`.
@@ -15,10 +15,10 @@ mod documented;
 mod effects;
 mod eval;
 mod generate;
+pub mod host;
 mod identify;
 mod import;
 mod input;
-pub mod inside;
 mod man;
 mod map;
 mod measurements;
@@ -33,17 +33,17 @@ mod terminal;
 mod withhold;
 
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use terminal::{interrupt, output};
 
 pub use diagnose::{
-    Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Together,
+    Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Settings, Together,
+    diagnose,
 };
 pub use input::source::{RobotArgs, Source};
-use inside::{Ended, Host};
+use host::{Ended, Host};
 pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
@@ -115,7 +115,7 @@ enum Verdict {
 pub fn main() -> ExitCode {
     let given = Cli::command().get_matches();
     let Cli { command, quiet } = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
-    let ended = apart(&given).and_then(|()| execute(command, quiet));
+    let ended = apart(&given).and_then(|()| execute(command, &Host::default().quiet(quiet)));
     match ended {
         Ok(_) if interrupt::is_asked() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(Verdict::Good) => ExitCode::SUCCESS,
@@ -132,25 +132,10 @@ pub fn main() -> ExitCode {
 ///
 /// # Errors
 /// [`Failure`] as at a terminal, of wrong words too; [`Ended`] if the host asked for the end.
-pub fn run(host: &Arc<Host>) -> Result<Result<bool, Failure>, Ended> {
+pub fn run(host: &Host) -> Result<Result<bool, Failure>, Ended> {
     host.run(|| {
         let Cli { command, quiet } = read(host)?;
-        execute(command, quiet).map(|verdict| verdict == Verdict::Good)
-    })
-}
-
-/// Diagnoses as the host's words say, `diagnose` being the first, with the effects of `catalogues`; outputs that are
-/// named among them are not written.
-///
-/// # Errors
-/// [`Failure`] as at a terminal, of wrong words too; [`Ended`] if the host asked for the end.
-pub fn diagnose_inside(
-    host: &Arc<Host>,
-    catalogues: Catalogues,
-) -> Result<Result<Found, Failure>, Ended> {
-    host.run(|| match read(host)? {
-        Cli { command: Command::Diagnose(args), quiet } => diagnose::find(&args, catalogues, quiet),
-        _ => Err(Failure::new("found another command, expected diagnose")),
+        execute(command, &host.quiet(quiet)).map(|verdict| verdict == Verdict::Good)
     })
 }
 
@@ -161,7 +146,7 @@ fn read(host: &Host) -> Result<Cli, Failure> {
         let first = text.split("\n\n").next().unwrap_or_default();
         Failure::new(first.trim_start_matches("error: ").trim_end())
     };
-    let words = std::iter::once("stiffarm").chain(host.words.iter().map(String::as_str));
+    let words = std::iter::once("stiffarm".to_owned()).chain(host.words());
     let given = Cli::command().try_get_matches_from(words).map_err(wrong)?;
     apart(&given)?;
     Cli::from_arg_matches(&given).map_err(wrong)
@@ -175,25 +160,25 @@ fn apart(given: &ArgMatches) -> Result<(), Failure> {
     chosen.map_or(Ok(()), |(command, given)| output::apart(command, given))
 }
 
-fn execute(command: Command, quiet: bool) -> Result<Verdict, Failure> {
+fn execute(command: Command, host: &Host) -> Result<Verdict, Failure> {
     match command {
-        Command::Eval(args) => eval::run(&args, quiet),
-        Command::Check(args) => check::run(&args, quiet),
-        Command::Robots(args) => robots::run(&args),
-        Command::Import(args) => import::run(&args, quiet),
-        Command::Generate(args) => generate::run(&args, quiet),
-        Command::Map(args) => map::run(&args, quiet),
-        Command::Measurements(args) => measurements::run(&args, quiet),
-        Command::Poses(args) => poses::run(&args, quiet),
-        Command::Identify(args) => identify::run(&args, quiet),
-        Command::Diagnose(args) => diagnose::run(&args, quiet),
-        Command::Effects(args) => effects::run(&args),
-        Command::Predict(args) => predict::run(&args, quiet),
-        Command::Simulate(args) => simulate::run(&args, quiet),
-        Command::Withhold(args) => withhold::run(&args, quiet),
-        Command::Compensate(args) => compensate::run(&args, quiet),
-        Command::Papers(args) => papers::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
+        Command::Eval(args) => eval::run(&args, host),
+        Command::Check(args) => check::run(&args, host),
+        Command::Robots(args) => robots::run(&args, host),
+        Command::Import(args) => import::run(&args, host),
+        Command::Generate(args) => generate::run(&args, host),
+        Command::Map(args) => map::run(&args, host),
+        Command::Measurements(args) => measurements::run(&args, host),
+        Command::Poses(args) => poses::run(&args, host),
+        Command::Identify(args) => identify::run(&args, host),
+        Command::Diagnose(args) => diagnose::run(&args, host),
+        Command::Effects(args) => effects::run(&args, host),
+        Command::Predict(args) => predict::run(&args, host),
+        Command::Simulate(args) => simulate::run(&args, host),
+        Command::Withhold(args) => withhold::run(&args, host),
+        Command::Compensate(args) => compensate::run(&args, host),
+        Command::Papers(args) => papers::run(&args, host),
+        Command::Completions(args) => completions::run(&args, host),
+        Command::Man(args) => man::run(&args, host),
     }
 }

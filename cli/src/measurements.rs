@@ -6,11 +6,10 @@ use stiffarm_gap::io::{Map, ReadError};
 use stiffarm_gap::readings::{By, Sheet, import};
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::data;
 use crate::input::source::RobotArgs;
-use crate::inside::bytes;
 use crate::terminal::failure::Failure;
-use crate::terminal::note::note;
 use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
@@ -65,31 +64,30 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the table, the map, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let read = |path: &PathBuf| bytes(path).map_err(|error| Failure::io("read", path, &error));
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let plain = |error: ReadError| Failure::new(error.to_string());
     let mut map = match &args.map {
         None => Map::default(),
         Some(path) => {
-            let text = String::from_utf8_lossy(&read(path)?).into_owned();
+            let text = String::from_utf8_lossy(&host.read(path)?).into_owned();
             Map::read(&path.display().to_string(), &text).map_err(plain)?
         }
     };
     map.sheet = args.sheet.clone().or(map.sheet);
-    let sheet = Sheet::new(args.raw.display().to_string(), read(&args.raw)?);
-    let named = |path: &PathBuf| Ok(Sheet::new(path.display().to_string(), read(path)?));
+    let sheet = Sheet::new(args.raw.display().to_string(), host.read(&args.raw)?);
+    let named = |path: &PathBuf| Ok(Sheet::new(path.display().to_string(), host.read(path)?));
     let other = args.join.as_ref().map(named).transpose()?;
     let other = other.as_ref().map(|other| (other, &args.by));
     let imported = import(&sheet, other, &map).map_err(plain)?;
     if let Some(robot) = &args.robot {
-        let source = RobotArgs::named(robot).load(quiet)?;
+        let source = RobotArgs::named(robot).load(host)?;
         let written = PathBuf::from("what was made of it");
         let data = data::from_bytes(&written, imported.csv.as_bytes(), &data::layout(&source)?)?;
-        data::doubted(&source.arm()?, &data, &[], quiet);
+        data::doubted(&source.arm()?, &data, &[], host);
     }
-    args.csv.write(&imported.csv)?;
+    host.write(&args.csv, &imported.csv)?;
     for said in &imported.said {
-        note(said, quiet);
+        host.note(said);
     }
     Ok(Verdict::Good)
 }

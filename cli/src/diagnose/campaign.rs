@@ -13,7 +13,8 @@ use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, Format, made_from};
-use super::{Accepted, Args, Check, Compared, Hashes, Provenance, in_words, plain};
+use super::{Accepted, Check, Compared, Hashes, Provenance, Settings, in_words, plain};
+use crate::host::Host;
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
 use crate::input::source::Source;
@@ -65,34 +66,36 @@ impl Campaign {
     /// # Errors
     /// [`Failure`]: the data or the options.
     pub(super) fn new(
-        args: &Args,
+        settings: &Settings,
         source: Source,
         files: Vec<(PathBuf, Vec<u8>)>,
         springs: &[Spring],
         catalogue: Catalogue,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Campaign, Failure> {
         let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
-        let tolerance = args.accept.as_ref().map(length).transpose()?;
+        let tolerance = settings.accept.as_ref().map(length).transpose()?;
         let arm = source.arm()?;
-        let options = args.options(&source, &arm, springs, catalogue)?;
-        let layout = args.bench.layout(&source)?;
+        let options = settings.options(&source, &arm, springs, catalogue, host)?;
+        let layout = data::layout_beside(settings.bench.as_deref(), &source, host)?;
         let (mut data, mut hash) = (None::<Measurements>, Sha256::new());
-        for (path, bytes) in files {
-            let next = data::read_bytes(&path, &bytes, &layout, quiet)?;
-            hash.update(&bytes);
+        for (path, bytes) in &files {
+            let next = data::read_bytes(path, bytes, &layout, host)?;
+            hash.update(bytes);
             data = Some(match data {
                 Some(data) => data.and(next).map_err(|error| data::refusal(&[], &error))?,
                 None => next,
             });
         }
-        let data = data.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
-        let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
-        let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
+        let read = data.zip(files.first());
+        let (data, (first, _)) =
+            read.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
+        let doubts = data::doubted(&arm, &data, &options.nuisances, host);
+        let other = settings.check.as_ref().map(|path| data::read(path, &layout, host)).transpose()?;
         if let Some(other) = &other {
-            data::doubted(&arm, other, &options.nuisances, quiet);
+            data::doubted(&arm, other, &options.nuisances, host);
         }
-        let stages = Stages::new(quiet);
+        let stages = Stages::new(host);
         let mut diagnosed =
             diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
                 .map_err(plain)?;
@@ -106,8 +109,9 @@ impl Campaign {
         let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
         let check = check.map_err(plain)?;
         let found = &diagnosed.diagnosis;
-        let made = Provenance::of(&args.data[0], hash, &source.text)?;
-        let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
+        let made = Provenance::of(first, hash, &source.text, host)?;
+        let compared = settings.compare.as_ref();
+        let compared = compared.map(|last| Compared::with(last, found, &made.hashes, host));
         let compared = compared.transpose()?;
         let has_positions = data.kind.components()[..3].contains(&true);
         let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
@@ -236,8 +240,8 @@ impl Campaign {
     ///
     /// # Errors
     /// [`Failure`]: the measurements' mistakes, or what was never fitted.
-    pub fn predict(&self, path: &Path) -> Result<Prediction, Failure> {
-        let data = data::read(path, &self.layout, false)?;
+    pub fn predict(&self, path: &Path, host: &Host) -> Result<Prediction, Failure> {
+        let data = data::read(path, &self.layout, host)?;
         self.diagnosed.explanation.predict(&data).map_err(plain)
     }
 }

@@ -12,7 +12,8 @@ use super::campaign::Told as CampaignTold;
 use super::corrected::{exported, file};
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
-use super::{Args, Campaign, Catalogues, Format, Motion};
+use super::{Campaign, Catalogues, Format, Motion, Settings};
+use crate::host::Host;
 use crate::document::{Document, Embedded, figure, together};
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
@@ -56,39 +57,27 @@ struct Written<'a> {
     corrected: Option<String>,
 }
 
-impl Args {
-    /// What is said of the campaign in these files, and of the log.
+impl Settings {
+    /// What is chosen of a campaign, and of a log beside it.
     ///
     /// # Errors
-    /// [`Failure`]: --check with a file that cannot be read.
+    /// [`Failure`]: a file to check that cannot be read.
     pub(super) fn both(
         &self,
-        files: &[(PathBuf, Vec<u8>)],
         catalogues: &Catalogues,
-    ) -> Result<[Args; 2], Failure> {
-        let of_log = self.check.as_deref().map_or(Ok(false), is_log)?;
+        host: &Host,
+    ) -> Result<[Settings; 2], Failure> {
+        let of_log = self.check.as_deref().map_or(Ok(false), |path| is_log(path, host))?;
         let is_of_log = |name: &str| catalogues.in_motion.named(name).is_some();
         let is_at_rest = |name: &str| catalogues.at_rest.named(name).is_some();
         // A name that neither knows is the campaign's to refuse.
-        let named = |keep: &dyn Fn(&str) -> bool| {
-            let names = self.effects.as_ref()?.iter().filter(|name| keep(name));
-            Some(names.cloned().collect())
+        let part = |own: bool, keep: &dyn Fn(&str) -> bool| {
+            let names = self.effects.as_ref().map(|names| names.iter().filter(|name| keep(name)));
+            let effects = names.map(|names| names.cloned().collect());
+            Settings { effects, check: self.check.clone().filter(|_| own), ..self.clone() }
         };
-        let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
-        let logs = self.data.iter().filter(|given| !paths.contains(given)).cloned().collect();
-        let campaign = Args {
-            data: paths,
-            effects: named(&|name| is_at_rest(name) || !is_of_log(name)),
-            check: self.check.clone().filter(|_| !of_log),
-            ..self.clone()
-        };
-        let motion = Args {
-            data: logs,
-            effects: named(&is_of_log),
-            check: self.check.clone().filter(|_| of_log),
-            ..self.clone()
-        };
-        Ok([campaign, motion.without_measurements()])
+        let campaign = part(!of_log, &|name| is_at_rest(name) || !is_of_log(name));
+        Ok([campaign, part(of_log, &is_of_log).in_motion()])
     }
 }
 
@@ -98,18 +87,18 @@ impl Together {
     /// # Errors
     /// [`Failure`]: the data or the options.
     pub(super) fn new(
-        [of_campaign, of_log]: &[Args; 2],
+        [of_campaign, of_log]: &[Settings; 2],
         source: Source,
         files: Vec<(PathBuf, Vec<u8>)>,
         parts: Vec<Part>,
         catalogues: Catalogues,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Together, Failure> {
-        let motion = Motion::new(of_log, source.clone(), parts, catalogues.in_motion, quiet)?;
+        let motion = Motion::new(of_log, source.clone(), parts, catalogues.in_motion, host)?;
         let told = motion.springs();
         let effect = told.effect.identifier();
         let campaign =
-            Campaign::new(of_campaign, source, files, &told.told, catalogues.at_rest, quiet)?;
+            Campaign::new(of_campaign, source, files, &told.told, catalogues.at_rest, host)?;
         let springs = campaign.beside_log().map_or_else(Vec::new, |both| both.springs.clone());
         let known: Vec<Spring> = springs.iter().filter_map(|joined| joined.together).collect();
         let ((_, alone), (model, both)) = (motion.beside(&[])?, motion.beside(&known)?);

@@ -12,9 +12,8 @@ use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
 use super::source::Source;
-use crate::inside::bytes;
+use crate::host::Host;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::note::note;
 use crate::terminal::snippet;
 use crate::terminal::text::listed;
 
@@ -36,16 +35,28 @@ impl BenchArgs {
     /// What the reader of a file must know of the robot and the bench.
     ///
     /// # Errors
-    /// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
-    pub fn layout(&self, source: &Source) -> Result<Layout, Failure> {
-        let layout = layout(source)?;
-        let Some(path) = &self.bench else { return Ok(layout) };
-        let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-        let text = String::from_utf8_lossy(&bytes);
-        let bench = Bench::read(&path.display().to_string(), &text);
-        let bench = bench.map_err(|error| refusal(&bytes, &error))?;
-        Ok(Layout { bench, ..layout })
+    /// As [`layout_beside`].
+    pub fn layout(&self, source: &Source, host: &Host) -> Result<Layout, Failure> {
+        layout_beside(self.bench.as_deref(), source, host)
     }
+}
+
+/// What the reader of a file must know of the robot, and of the bench where there is a file of it.
+///
+/// # Errors
+/// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
+pub fn layout_beside(
+    bench: Option<&Path>,
+    source: &Source,
+    host: &Host,
+) -> Result<Layout, Failure> {
+    let layout = layout(source)?;
+    let Some(path) = bench else { return Ok(layout) };
+    let bytes = host.read(path)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let bench = Bench::read(&path.display().to_string(), &text);
+    let bench = bench.map_err(|error| refusal(&bytes, &error))?;
+    Ok(Layout { bench, ..layout })
 }
 
 /// What the reader of a file must know of the robot.
@@ -61,9 +72,9 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
-pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-    read_bytes(path, &bytes, layout, quiet)
+pub fn read(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
+    let bytes = host.read(path)?;
+    read_bytes(path, &bytes, layout, host)
 }
 
 /// The same of a file whose bytes are there.
@@ -74,12 +85,12 @@ pub fn read_bytes(
     path: &Path,
     bytes: &[u8],
     layout: &Layout,
-    quiet: bool,
+    host: &Host,
 ) -> Result<Measurements, Failure> {
-    told(from_bytes(path, bytes, layout), quiet)
+    told(from_bytes(path, bytes, layout), host)
 }
 
-fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
+fn told(data: Result<Measurements, Failure>, host: &Host) -> Result<Measurements, Failure> {
     let data = data?;
     let mut lines: Vec<u64> = data.skipped.iter().filter_map(|mistake| mistake.line).collect();
     lines.dedup();
@@ -92,7 +103,7 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
             data.file,
             listed(&lines, MOST_MISTAKES)
         );
-        note(&text, quiet);
+        host.note(&text);
     }
     Ok(data)
 }
@@ -101,18 +112,18 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
-pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+pub fn read_plan(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
+    let bytes = host.read(path)?;
     let file = path.display().to_string();
     let data = Measurements::plan_from_bytes(&file, &bytes, layout);
-    told(data.map_err(|error| refusal(&bytes, &error)), quiet)
+    told(data.map_err(|error| refusal(&bytes, &error)), host)
 }
 
 /// Says what is to be doubted of a file unless `quiet`, and returns it; `along` are the frames that
 /// are fitted along.
-pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], quiet: bool) -> Vec<String> {
+pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], host: &Host) -> Vec<String> {
     let doubts = doubts(arm, data, along);
-    doubts.iter().for_each(|doubt| note(doubt, quiet));
+    doubts.iter().for_each(|doubt| host.note(doubt));
     doubts
 }
 

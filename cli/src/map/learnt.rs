@@ -8,6 +8,7 @@ use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::{DiagnoseError, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
@@ -43,7 +44,7 @@ impl Learnt {
         wanted: bool,
         source: &Source,
         arm: &Arm,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Option<Learnt>, Failure> {
         let path = match (&args.data, wanted) {
             (Some(path), true) => path,
@@ -60,9 +61,9 @@ impl Learnt {
         let mut options =
             Options { noise_position: noise.transpose()?, known, ..Options::default() };
         options.fit_along(&args.nuisance).map_err(plain)?;
-        let data = data::read(path, &data::layout(source)?, quiet)?;
-        data::doubted(arm, &data, &options.nuisances, quiet);
-        let stages = Stages::new(quiet);
+        let data = data::read(path, &data::layout(source)?, host)?;
+        data::doubted(arm, &data, &options.nuisances, host);
+        let stages = Stages::new(host);
         stages.say(format!("diagnosing {}", path.display()));
         let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;
         drop(stages);

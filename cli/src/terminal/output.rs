@@ -8,7 +8,6 @@ use clap::{ArgMatches, Command};
 
 use super::failure::{Failure, reason};
 use super::whole::Whole;
-use crate::inside::{host, owner};
 
 /// Where a result goes: a file, or standard output for `-`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,25 +23,6 @@ impl std::str::FromStr for Target {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         Ok(if text == "-" { Target::Stdout } else { Target::File(PathBuf::from(text)) })
-    }
-}
-
-impl Target {
-    /// Writes the whole text there.
-    ///
-    /// # Errors
-    /// [`Failure`] says where and why; a file is then as it was.
-    pub fn write(&self, text: &str) -> Result<(), Failure> {
-        match self {
-            Target::Stdout => print(text),
-            Target::File(path) => {
-                if let Some(owner) = owner(path) {
-                    owner.write(&path.display().to_string(), text);
-                    return Ok(());
-                }
-                file(path, text.as_bytes()).map_err(|error| Failure::io("write", path, &error))
-            }
-        }
     }
 }
 
@@ -99,10 +79,6 @@ fn place(path: &Path) -> PathBuf {
 /// # Errors
 /// [`Failure`] if standard output cannot be written to.
 pub fn print(text: &str) -> Result<(), Failure> {
-    if let Some(host) = host() {
-        host.write("-", text);
-        return Ok(());
-    }
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -112,7 +88,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file, which is as it was where that fails.
+///
+/// # Errors
+/// As writing it.
+pub fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut whole = Whole::new(path)?;
     whole.write_all(bytes)?;
     whole.finish()

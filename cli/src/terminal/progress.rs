@@ -1,12 +1,13 @@
 //! A progress bar on the terminal, for what takes longer than a second; or what a host is told.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Once};
+use std::sync::Once;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::inside::{Host, host};
+use crate::host::Host;
+
 
 /// Work up to this is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -29,17 +30,17 @@ pub struct Progress {
 enum To {
     Nobody,
     Terminal { bar: ProgressBar, begun: Instant, shown: Once },
-    Host(Arc<Host>),
+    Program(Host),
 }
 
 impl Progress {
     /// Of so many steps; `what` stands before the bar.
-    pub fn new(what: &str, steps: usize, quiet: bool) -> Progress {
+    pub fn new(what: &str, steps: usize, host: &Host) -> Progress {
         let steps = steps as u64;
-        let to = match host() {
-            Some(host) => To::Host(host),
-            None if quiet => To::Nobody,
-            None => To::terminal(what, steps),
+        let to = match (host.is_program(), host.is_quiet()) {
+            (true, _) => To::Program(host.clone()),
+            (false, true) => To::Nobody,
+            (false, false) => To::terminal(what, steps),
         };
         Progress { what: what.to_owned(), steps, done: AtomicU64::new(0), to }
     }
@@ -63,7 +64,7 @@ impl Progress {
                 }
                 bar.inc(steps as u64);
             }
-            To::Host(host) => {
+            To::Program(host) => {
                 let part = done as f64 / self.steps.max(1) as f64;
                 host.is_doing(&self.what, Some(part.min(1.0)));
             }
@@ -84,15 +85,14 @@ impl To {
 /// What is being done, where nobody knows how much of it there is.
 pub struct Stages {
     bar: Option<ProgressBar>,
-    host: Option<Arc<Host>>,
+    host: Host,
 }
 
 impl Stages {
     /// Nothing said yet.
-    pub fn new(quiet: bool) -> Stages {
-        let host = host();
-        let at_terminal = !quiet && host.is_none();
-        Stages { bar: at_terminal.then(Stages::terminal), host }
+    pub fn new(host: &Host) -> Stages {
+        let at_terminal = !host.is_quiet() && !host.is_program();
+        Stages { bar: at_terminal.then(Stages::terminal), host: host.clone() }
     }
 
     fn terminal() -> ProgressBar {
@@ -106,9 +106,7 @@ impl Stages {
 
     /// What is being done now.
     pub fn say(&self, what: String) {
-        if let Some(host) = &self.host {
-            host.is_doing(&what, None);
-        }
+        self.host.is_doing(&what, None);
         if let Some(bar) = &self.bar {
             bar.set_message(what);
         }

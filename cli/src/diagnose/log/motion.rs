@@ -13,10 +13,11 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{exported, file, made_from};
-use super::super::{Args, Format, PredictedLog};
+use super::super::{Format, PredictedLog, Settings};
 use super::files::{self, Part};
 use super::written::Written;
-use super::{Check, Rows};
+use super::Check;
+use crate::host::Host;
 use crate::document::log::{Fitted, Log as Reported, left};
 use crate::document::{Document, Embedded};
 use crate::input::data::layout;
@@ -24,7 +25,6 @@ use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::note::note;
 use crate::terminal::progress::Stages;
 
 /// A log, diagnosed.
@@ -65,53 +65,44 @@ impl Motion {
     /// # Errors
     /// [`Failure`]: the log or the options.
     pub(in super::super) fn new(
-        args: &Args,
+        settings: &Settings,
         source: Source,
         parts: Vec<Part>,
         catalogue: Catalogue,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Motion, Failure> {
-        if let Some(option) = args.of_measurements() {
-            return Err(Failure::new(format!(
-                "{option} is for measurement files, and {} is a joint log",
-                args.data[0].display()
-            )));
-        }
         let arm = source.arm()?;
-        let names = args.log.names(&source)?;
+        let names = settings.names(&source, host)?;
         let read = |parts| files::read(parts, &motions(&arm), &names);
         let log = read(parts)?;
-        let other = args.check.as_ref();
+        let other = settings.check.as_ref();
         let other =
-            other.map(|path| read(files::parts(std::slice::from_ref(path))?)).transpose()?;
+            other.map(|path| read(files::parts(std::slice::from_ref(path), host)?)).transpose()?;
         // What stands nearer to the torques comes first.
-        let side = args.log.torque_side.or(log.side);
+        let side = settings.torque_side.or(log.side);
         let options = LogOptions {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             side: side.or_else(|| TorqueSide::named(source.robot.torque_side?)),
-            rows: args.log.rows.map(|rows| match rows {
-                Rows::Torque => Domain::Torque,
-                Rows::Position => Domain::Position,
-            }),
-            band: args.log.band,
-            standstill: args.log.standstill,
+            rows: settings.rows.map(Domain::from),
+            band: settings.band,
+            standstill: settings.standstill,
             catalogue,
-            effects: args.effects.clone(),
+            effects: settings.effects.clone(),
             known: source.motion.clone(),
             payloads: layout(&source)?.payloads.map_or_else(Vec::new, |known| known.bodies),
-            known_links: args.log.known_masses,
-            nested: args.nested,
-            seed: args.seed,
+            known_links: settings.known_masses,
+            nested: settings.nested,
+            seed: settings.seed,
         };
-        let stages = Stages::new(quiet);
+        let stages = Stages::new(host);
         let each = |found| {
             stages
                 .say(format!("looking for effects of motion, {} found", counted(found, "finding")));
         };
         let (found, model) = diagnosed_with(&arm, &log, &options, &each).map_err(plain)?;
         drop(stages);
-        found.remarks.iter().for_each(|remark| note(remark, quiet));
-        let names = (names, args.log.map.is_some());
+        found.remarks.iter().for_each(|remark| host.note(remark));
+        let names = (names, settings.map.is_some());
         let found = Motion { check: None, source, arm, names, log, found, model };
         let check = other.map(|other| found.predicted(&other)).transpose()?;
         Ok(Motion { check: check.map(|predicted| predicted.check), ..found })
@@ -121,8 +112,8 @@ impl Motion {
     ///
     /// # Errors
     /// [`Failure`]: it cannot be read, or has not the rows that were diagnosed.
-    pub fn predict(&self, paths: &[PathBuf]) -> Result<PredictedLog, Failure> {
-        self.predicted(&files::read(files::parts(paths)?, &motions(&self.arm), &self.names.0)?)
+    pub fn predict(&self, paths: &[PathBuf], host: &Host) -> Result<PredictedLog, Failure> {
+        self.predicted(&files::read(files::parts(paths, host)?, &motions(&self.arm), &self.names.0)?)
     }
 
     fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
