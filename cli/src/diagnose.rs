@@ -30,7 +30,7 @@ pub use corrected::Format;
 pub use log::{Check as LogCheck, Motion};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
-pub use settings::{Settings, takes_value};
+pub use settings::{IN_MOTION, Settings};
 pub use together::{Said, Together};
 
 use super::Verdict;
@@ -156,7 +156,8 @@ pub fn diagnose(
             unasked(at_rest.identifiers(), Catalogue::default().identifiers(), "measurements")?;
             if let Some(option) = settings.first_of(false) {
                 let log = data[0].display();
-                let message = format!("{option} is for measurement files, and {log} is a joint log");
+                let message =
+                    format!("{option} is for measurement files, and {log} is a joint log");
                 return Err(Failure::new(message));
             }
             Motion::new(settings, source, parts, in_motion, host)

@@ -5,8 +5,8 @@ use stiffarm_gap::effects::{self, AtRest, Facts, InMotion, Place, Spot};
 use stiffarm_gap::log::Domain;
 use stiffarm_kernels::generic::Arm;
 
-use crate::host::Host;
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::named;
 use crate::input::source::RobotArgs;
 use crate::terminal::failure::Failure;

@@ -338,7 +338,9 @@ impl Args {
         let (line, expected, found) = first_difference(text, &found);
         let head = format!("{} {name} is not what {} gives", bad("✗"), self.robot);
         let (want, have) = (dim("expected"), dim("   found"));
-        host.print(&format!("{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"))?;
+        host.print(&format!(
+            "{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"
+        ))?;
         Ok(Verdict::Failed)
     }
 }

@@ -104,7 +104,9 @@ impl Host {
 
     /// What was told since this was last asked for; nothing is kept at a terminal.
     pub fn take(&self) -> Heard {
-        self.program.as_ref().map_or_else(Heard::default, |program| std::mem::take(&mut program.heard()))
+        self.program
+            .as_ref()
+            .map_or_else(Heard::default, |program| std::mem::take(&mut program.heard()))
     }
 
     /// What a search is told to stop by.

@@ -32,18 +32,21 @@ mod simulate;
 mod terminal;
 mod withhold;
 
+use std::any::TypeId;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use terminal::{interrupt, output};
+use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use terminal::interrupt;
+use terminal::output::{self, Target};
 
 pub use diagnose::{
     Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Settings, Together,
     diagnose,
 };
-pub use input::source::{RobotArgs, Source};
 use host::{Ended, Host};
+pub use input::source::{RobotArgs, Source};
 pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
@@ -137,6 +140,23 @@ pub fn run(host: &Host) -> Result<Result<bool, Failure>, Ended> {
         let Cli { command, quiet } = read(host)?;
         execute(command, &host.quiet(quiet)).map(|verdict| verdict == Verdict::Good)
     })
+}
+
+/// The options of a command that read and write no file and are not of joint logs, and whether a value stands behind
+/// each: what may be asked of a machine that is not one's own.
+pub fn options_without_files(command: &str) -> Vec<(String, bool)> {
+    let all = Cli::command();
+    let options = all.find_subcommand(command).into_iter().flat_map(|c| c.get_arguments());
+    let names_none = |option: &&Arg| {
+        let kind = option.get_value_parser().type_id();
+        kind != TypeId::of::<PathBuf>()
+            && kind != TypeId::of::<Target>()
+            && option.get_help_heading() != Some(diagnose::IN_MOTION)
+    };
+    let described = |option: &Arg| {
+        Some((format!("--{}", option.get_long()?), option.get_action().takes_values()))
+    };
+    options.filter(names_none).filter_map(described).collect()
 }
 
 /// The command of the host's words.

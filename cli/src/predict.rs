@@ -13,8 +13,8 @@ use stiffarm_gap::whole::Whole;
 use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
-use crate::host::Host;
 use crate::document::Unit;
+use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};

@@ -279,7 +279,12 @@ impl ExperimentArgs {
     ///
     /// # Errors
     /// [`Failure`]: numbers that make no design.
-    pub fn other_sessions(&self, source: &Source, arm: &Arm, host: &Host) -> Result<Vec<Measurements>, Failure> {
+    pub fn other_sessions(
+        &self,
+        source: &Source,
+        arm: &Arm,
+        host: &Host,
+    ) -> Result<Vec<Measurements>, Failure> {
         let bench = self.bench.layout(source, host)?.bench;
         (1..=4).map(|more| self.drawn(arm, &bench, more)).collect()
     }

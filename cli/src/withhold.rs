@@ -13,8 +13,8 @@ use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use super::simulate::{ExperimentArgs, plain};
-use crate::host::Host;
 use crate::document::Embedded;
+use crate::host::Host;
 use crate::input::named;
 use crate::input::quantity::counted;
 use crate::input::source::RobotArgs;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
 
 use crate::arms::Arms;
 use crate::sentence::sentence;
@@ -18,24 +18,6 @@ pub enum Question {
     /// `stiffarm identify`.
     Identify,
 }
-
-/// Options that read or write no file, and whether a value stands behind them.
-const OPTIONS: [(&str, bool); 14] = [
-    ("--nuisance", true),
-    ("--tolerance", true),
-    ("--usual", true),
-    ("--noise-position", true),
-    ("--noise-rotation", true),
-    ("--keep-all", false),
-    ("--effects", true),
-    ("--folds", true),
-    ("--nested", false),
-    ("--seed", true),
-    ("--rival", true),
-    ("--set", true),
-    ("--links", false),
-    ("--base", false),
-];
 
 impl Question {
     /// The subcommand.
@@ -54,7 +36,7 @@ impl Question {
     pub fn ask(self, arms: &Arms, robot: &str, text: String) -> Result<String, String> {
         let mut given = robot.split_whitespace();
         let named = arms.named(given.next().unwrap_or_default())?;
-        let options = checked(given)?;
+        let options = self.checked(given)?;
         let begin = [self.name(), &named.given, FILE, "--json", "-", "--quiet"];
         let words = begin.into_iter().chain(options).map(str::to_owned).collect();
         let mut files: HashMap<String, Vec<u8>> = named.files();
@@ -69,24 +51,25 @@ impl Question {
             Err(_) => Err("the work was left".to_owned()),
         }
     }
-}
 
-/// The options, each of which is one that a campaign far from here may be asked with.
-fn checked<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec<&'a str>, String> {
-    let words: Vec<&str> = words.collect();
-    let mut rest = words.iter();
-    while let Some(word) = rest.next() {
-        let (name, value) = word.split_once('=').map_or((*word, None), |(n, v)| (n, Some(v)));
-        let Some((_, takes)) = OPTIONS.iter().find(|(option, _)| *option == name) else {
-            let known: Vec<&str> = OPTIONS.iter().map(|(option, _)| *option).collect();
-            return Err(format!(
-                "found `{word}` behind the robot, expected an option: {}",
-                known.join(", ")
-            ));
-        };
-        if *takes && value.is_none() && rest.next().is_none() {
-            return Err(format!("found {name} without a value, expected one"));
+    /// The options, each of which is one that a campaign far from here may be asked with.
+    fn checked<'a>(self, words: impl Iterator<Item = &'a str>) -> Result<Vec<&'a str>, String> {
+        let words: Vec<&str> = words.collect();
+        let options = stiffarm_cli::options_without_files(self.name());
+        let mut rest = words.iter();
+        while let Some(word) = rest.next() {
+            let (name, value) = word.split_once('=').map_or((*word, None), |(n, v)| (n, Some(v)));
+            let Some((_, takes)) = options.iter().find(|(option, _)| option == name) else {
+                let known: Vec<&str> = options.iter().map(|(option, _)| option.as_str()).collect();
+                return Err(format!(
+                    "found `{word}` behind the robot, expected an option: {}",
+                    known.join(", ")
+                ));
+            };
+            if *takes && value.is_none() && rest.next().is_none() {
+                return Err(format!("found {name} without a value, expected one"));
+            }
         }
+        Ok(words)
     }
-    Ok(words)
 }

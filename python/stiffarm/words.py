@@ -19,6 +19,13 @@ Path = Union[str, "os.PathLike[str]"]
 Hear = Callable[[list, Optional[tuple]], None]  # type: ignore[type-arg]
 
 
+def plain(value: Any) -> Any:
+    """What JSON knows of a path, of a number of NumPy, or of anything in a row."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    return value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else list(value)
+
+
 def option(name: str, value: Any, unit: str = "") -> list[str]:
     """``--name=value``; nothing of None and False, the bare name of True; a number gets its SI unit."""
     name = name.replace("_", "-")

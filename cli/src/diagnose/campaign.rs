@@ -14,9 +14,9 @@ use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, Format, made_from};
 use super::{Accepted, Check, Compared, Hashes, Provenance, Settings, in_words, plain};
-use crate::host::Host;
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
@@ -91,7 +91,8 @@ impl Campaign {
         let (data, (first, _)) =
             read.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
         let doubts = data::doubted(&arm, &data, &options.nuisances, host);
-        let other = settings.check.as_ref().map(|path| data::read(path, &layout, host)).transpose()?;
+        let other =
+            settings.check.as_ref().map(|path| data::read(path, &layout, host)).transpose()?;
         if let Some(other) = &other {
             data::doubted(&arm, other, &options.nuisances, host);
         }

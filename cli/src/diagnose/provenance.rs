@@ -36,12 +36,7 @@ impl Provenance {
     ///
     /// # Errors
     /// [`Failure`]: `SOURCE_DATE_EPOCH` is no number of seconds.
-    pub fn of(
-        path: &Path,
-        data: Sha256,
-        robot: &str,
-        host: &Host,
-    ) -> Result<Provenance, Failure> {
+    pub fn of(path: &Path, data: Sha256, robot: &str, host: &Host) -> Result<Provenance, Failure> {
         let hashes = Hashes {
             data_sha256: hexadecimal(&data.finalize()),
             robot_sha256: hexadecimal(&Sha256::digest(robot)),

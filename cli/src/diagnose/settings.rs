@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::builder::Arg;
-use clap::{ArgAction, ArgGroup, Args as _, Command, ValueEnum};
+use clap::{ArgGroup, Args as _, Command, ValueEnum};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use stiffarm_gap::log::{Domain, TorqueSide};
@@ -131,14 +131,21 @@ impl Settings {
         serde_json::from_str(text).map_err(|error| Failure::new(format!("settings: {error}")))
     }
 
-    /// The options of the command line, in order.
+    /// The options of the command line, in order; the id of each is its key.
     pub fn arguments() -> Vec<Arg> {
         Settings::augment_args(Command::new("diagnose")).get_arguments().cloned().collect()
     }
 
+    /// What an option is where nothing is chosen, in JSON.
+    pub fn usual(option: &Arg) -> String {
+        let usual = serde_json::to_value(Settings::default()).unwrap_or_default();
+        usual[option.get_id().as_str()].to_string()
+    }
+
     /// Those that speak of measurement files alone.
     fn of_measurements() -> Vec<String> {
-        let all = Settings::augment_args(Command::new("diagnose"));
+        let mut all = Settings::augment_args(Command::new("diagnose"));
+        all.build();
         let group = all.get_groups().find(|group| group.get_id() == AT_REST);
         group.into_iter().flat_map(ArgGroup::get_args).map(|id| id.as_str().to_owned()).collect()
     }
@@ -185,7 +192,9 @@ impl Settings {
                 Value::Array(all) if option.get_value_delimiter().is_some() => {
                     vec![format!("{name}={}", all.iter().map(text).collect::<Vec<_>>().join(","))]
                 }
-                Value::Array(all) => all.iter().map(|one| format!("{name}={}", text(one))).collect(),
+                Value::Array(all) => {
+                    all.iter().map(|one| format!("{name}={}", text(one))).collect()
+                }
                 one => vec![format!("{name}={}", text(one))],
             }
         });
@@ -196,11 +205,6 @@ impl Settings {
 /// `--noise-position`.
 fn long(option: &Arg) -> String {
     format!("--{}", option.get_long().unwrap_or_default())
-}
-
-/// Whether a value stands behind an option.
-pub fn takes_value(option: &Arg) -> bool {
-    matches!(option.get_action(), ArgAction::Set | ArgAction::Append)
 }
 
 fn side(word: &str) -> Result<TorqueSide, String> {

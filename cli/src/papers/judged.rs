@@ -6,8 +6,8 @@ use stiffarm_papers::methods::jweeg::figure;
 use stiffarm_papers::{Ledger, Paper, built_in, column, read};
 
 use super::{Args, Figure};
-use crate::host::Host;
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::source;
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::output::Target;

@@ -6,9 +6,9 @@ use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side, Spot};
 use stiffarm_kernels::generic::Arm;
 
 use super::Args;
-use crate::host::Host;
 use crate::Verdict;
 use crate::document::words::words;
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::motion;
 use crate::simulate::plain;

@@ -3,8 +3,8 @@
 use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
 use super::{Args, plain};
-use crate::host::Host;
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::motion::{self, Courses};

@@ -4,7 +4,6 @@ use std::sync::OnceLock;
 
 use stiffarm_gap::diagnose::Stop;
 
-
 /// The exit status of a program that an interrupt has ended, as a shell has it.
 pub const INTERRUPTED: u8 = 130;
 

@@ -1,13 +1,12 @@
 //! A progress bar on the terminal, for what takes longer than a second; or what a host is told.
 
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::Once;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::host::Host;
-
 
 /// Work up to this is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);

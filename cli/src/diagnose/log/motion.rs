@@ -14,12 +14,12 @@ use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{exported, file, made_from};
 use super::super::{Format, PredictedLog, Settings};
+use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
-use super::Check;
-use crate::host::Host;
 use crate::document::log::{Fitted, Log as Reported, left};
 use crate::document::{Document, Embedded};
+use crate::host::Host;
 use crate::input::data::layout;
 use crate::input::quantity::counted;
 use crate::input::source::Source;
@@ -113,7 +113,11 @@ impl Motion {
     /// # Errors
     /// [`Failure`]: it cannot be read, or has not the rows that were diagnosed.
     pub fn predict(&self, paths: &[PathBuf], host: &Host) -> Result<PredictedLog, Failure> {
-        self.predicted(&files::read(files::parts(paths, host)?, &motions(&self.arm), &self.names.0)?)
+        self.predicted(&files::read(
+            files::parts(paths, host)?,
+            &motions(&self.arm),
+            &self.names.0,
+        )?)
     }
 
     fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
