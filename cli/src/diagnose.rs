@@ -27,6 +27,7 @@ pub use campaign::Campaign;
 pub use check::Check;
 pub use compared::{Compared, Reached};
 pub use corrected::Format;
+use corrected::{exported, file};
 pub use log::{Check as LogCheck, Motion};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
@@ -34,6 +35,7 @@ pub use settings::{IN_MOTION, Settings};
 pub use together::{Said, Together};
 
 use super::Verdict;
+use crate::document::{Document, Embedded};
 use crate::host::Host;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
@@ -102,14 +104,72 @@ pub struct Catalogues {
     pub in_motion: LogCatalogue,
 }
 
-/// What was diagnosed.
-pub enum Found {
-    /// Measurements at rest.
-    Campaign(Box<Campaign>),
-    /// A log of the arm in motion.
-    Motion(Box<Motion>),
-    /// Both, of one arm.
-    Together(Box<Together>),
+/// What a diagnosis found, of whatever data.
+pub trait Found: Send + Sync {
+    /// What was measured at rest; `None` of a log alone.
+    fn campaign(&self) -> Option<&Campaign>;
+
+    /// What was logged in motion; `None` of measurements alone.
+    fn motion(&self) -> Option<&Motion>;
+
+    /// The diagnosis in JSON.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be written so.
+    fn json(&self) -> Result<String, Failure>;
+
+    /// The diagnosis as a document; with everything that a page has where that `embeds` something.
+    ///
+    /// # Errors
+    /// [`Failure`] if what the page embeds cannot be made.
+    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure>;
+
+    /// The robot with all that was found, and what its file says at its top.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log of currents, which tell no newton-metres.
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure>;
+
+    /// The diagnosis as it stands on a screen, or `all` of it.
+    ///
+    /// # Errors
+    /// As [`Found::document`].
+    fn text(&self, all: bool) -> Result<String, Failure> {
+        Ok(self.document(None)?.text(all))
+    }
+
+    /// The page in HTML.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be made.
+    fn page(&self) -> Result<String, Failure> {
+        let mut embedded = Embedded::default();
+        self.document(Some(&mut embedded))?.html(&embedded)
+    }
+
+    /// The robot file with all that was found.
+    ///
+    /// # Errors
+    /// As [`Found::robot`].
+    fn corrected(&self) -> Result<String, Failure> {
+        let (lines, robot) = self.robot()?;
+        Ok(file(lines, &robot))
+    }
+
+    /// The same arm as other programs read it, and a sentence on what they have no place for.
+    ///
+    /// # Errors
+    /// [`Failure`]: as above, or the table has cells that are no numbers.
+    fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        exported(&self.robot()?.1, format)
+    }
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    fn caveats(&self) -> Vec<String> {
+        let at_rest = self.campaign().map(|found| found.corrections().caveats());
+        let in_motion = self.motion().map(Motion::caveats);
+        at_rest.into_iter().chain(in_motion).flatten().collect()
+    }
 }
 
 /// Runs the command.
@@ -121,7 +181,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if let Some(target) = &args.json {
         host.write(target, &found.json()?)?;
     }
-    args.write_arm(&found, host)?;
+    args.write_arm(&*found, host)?;
     if let Some(target) = &args.report {
         host.write(target, &found.page()?)?;
     }
@@ -129,12 +189,12 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
     let enough = host.is_quiet() && !written.is_empty();
     if !enough && !written.contains(&&Target::Stdout) {
-        host.print(&found.text(args.all))?;
+        host.print(&found.text(args.all)?)?;
     }
-    Ok(match (found.is_unexplained(), found.is_accepted()) {
-        (true, _) => Verdict::Unexplained,
-        (false, true) => Verdict::Good,
-        (false, false) => Verdict::Failed,
+    Ok(match found.campaign() {
+        Some(found) if found.is_unexplained() => Verdict::Unexplained,
+        Some(found) if !found.is_accepted() => Verdict::Failed,
+        _ => Verdict::Good,
     })
 }
 
@@ -148,7 +208,7 @@ pub fn diagnose(
     settings: &Settings,
     catalogues: Catalogues,
     host: &Host,
-) -> Result<Found, Failure> {
+) -> Result<Box<dyn Found>, Failure> {
     let source = robot.load(host)?;
     let Catalogues { at_rest, in_motion } = catalogues;
     match log::files(data, settings, host)? {
@@ -160,19 +220,16 @@ pub fn diagnose(
                     format!("{option} is for measurement files, and {log} is a joint log");
                 return Err(Failure::new(message));
             }
-            Motion::new(settings, source, parts, in_motion, host)
-                .map(|found| Found::Motion(Box::new(found)))
+            Ok(Box::new(Motion::new(settings, source, parts, in_motion, host)?))
         }
         log::Files::Measurements(files) => {
             unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
-            Campaign::new(settings, source, files, &[], at_rest, host)
-                .map(|found| Found::Campaign(Box::new(found)))
+            Ok(Box::new(Campaign::new(settings, source, files, &[], at_rest, host)?))
         }
         log::Files::Both(files, parts) => {
             let catalogues = Catalogues { at_rest, in_motion };
             let both = settings.both(&catalogues, host)?;
-            Together::new(&both, source, files, parts, catalogues, host)
-                .map(|found| Found::Together(Box::new(found)))
+            Ok(Box::new(Together::new(&both, source, files, parts, catalogues, host)?))
         }
     }
 }
@@ -183,96 +240,6 @@ fn unasked(given: Vec<&str>, known: Vec<&str>, of: &str) -> Result<(), Failure> 
     own.map_or(Ok(()), |own| {
         Err(Failure::new(format!("found the effect `{own}`, which is of {of}, and none are given")))
     })
-}
-
-impl Found {
-    /// Whether the corrected arm is within the tolerance that was asked for; none is always kept.
-    fn is_accepted(&self) -> bool {
-        match self {
-            Found::Campaign(found) => found.is_accepted(),
-            Found::Motion(_) => true,
-            Found::Together(found) => found.campaign.is_accepted(),
-        }
-    }
-
-    /// Whether what was measured is no arm's, and no mistake explains why.
-    fn is_unexplained(&self) -> bool {
-        match self {
-            Found::Campaign(found) => found.is_unexplained(),
-            Found::Motion(_) => false,
-            Found::Together(found) => found.campaign.is_unexplained(),
-        }
-    }
-
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        match self {
-            Found::Campaign(found) => found.json(),
-            Found::Motion(found) => found.json(),
-            Found::Together(found) => found.json(),
-        }
-    }
-
-    /// The diagnosis as it stands on a screen, or `all` of it.
-    pub fn text(&self, all: bool) -> String {
-        let document = match self {
-            Found::Campaign(found) => found.document(),
-            Found::Motion(found) => found.document(),
-            Found::Together(found) => found.document(),
-        };
-        document.text(all)
-    }
-
-    /// The page in HTML.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be made.
-    pub fn page(&self) -> Result<String, Failure> {
-        let (document, embedded) = match self {
-            Found::Campaign(found) => found.paged()?,
-            Found::Motion(found) => found.paged()?,
-            Found::Together(found) => found.paged()?,
-        };
-        document.html(&embedded)
-    }
-
-    /// The robot file with all that was found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        match self {
-            Found::Campaign(found) => Ok(found.corrected()),
-            Found::Motion(found) => found.corrected(),
-            Found::Together(found) => found.corrected(),
-        }
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: as above, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        match self {
-            Found::Campaign(found) => found.exported(format),
-            Found::Motion(found) => found.exported(format),
-            Found::Together(found) => found.exported(format),
-        }
-    }
-
-    /// What has to be known of any file of the corrected arm, a sentence each.
-    pub fn caveats(&self) -> Vec<String> {
-        match self {
-            Found::Campaign(found) => found.corrections().caveats(),
-            Found::Motion(found) => found.caveats(),
-            Found::Together(found) => {
-                [found.campaign.corrections().caveats(), found.motion.caveats()].concat()
-            }
-        }
-    }
 }
 
 fn in_words(stage: Stage) -> String {
@@ -305,7 +272,7 @@ impl Args {
         [&self.write_robot, &self.write_urdf, &self.write_mjcf]
     }
 
-    fn write_arm(&self, found: &Found, host: &Host) -> Result<(), Failure> {
+    fn write_arm(&self, found: &dyn Found, host: &Host) -> Result<(), Failure> {
         if let Some(target) = &self.write_robot {
             host.write(target, &found.corrected()?)?;
         }

@@ -19,7 +19,7 @@ use crate::work::{error, wait};
 /// What a diagnosis found.
 #[pyclass(frozen, module = "stiffarm._native")]
 pub struct Found {
-    found: stiffarm_cli::Found,
+    found: Box<dyn stiffarm_cli::Found>,
     /// Effects of one's own that it was asked for.
     own: Vec<Own>,
 }
@@ -39,8 +39,9 @@ impl Found {
     }
 
     /// As it stands on a screen.
-    fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| self.found.text(false))
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let text = py.detach(|| self.found.text(false));
+        text.map_err(|failure| error(py, &failure))
     }
 
     /// The robot file with what was found; None of a log of currents.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
@@ -12,8 +13,10 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
-use super::corrected::{Corrections, Format, made_from};
-use super::{Accepted, Check, Compared, Hashes, Provenance, Settings, in_words, plain};
+use super::corrected::{Corrections, file, made_from};
+use super::{
+    Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words, plain,
+};
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
 use crate::host::Host;
@@ -143,14 +146,6 @@ impl Campaign {
         mistaken.is_some_and(|mistaken| mistaken.mistakes.is_empty())
     }
 
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        json::text(&self.told())
-    }
-
     pub(super) fn told(&self) -> Told<'_> {
         Told {
             diagnosis: &self.diagnosed.diagnosis,
@@ -160,21 +155,11 @@ impl Campaign {
             compared: self.compared.as_ref(),
             hashes: &self.made.hashes,
             trust: self.diagnosed.explanation.trust(),
-            corrected: self.corrections().text(),
+            corrected: {
+                let corrections = self.corrections();
+                file(corrections.head(), corrections.robot())
+            },
         }
-    }
-
-    /// The robot file with all that was found.
-    pub fn corrected(&self) -> String {
-        self.corrections().text()
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`] if the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        self.corrections().exported(format)
     }
 
     /// What is said together with a log.
@@ -205,24 +190,6 @@ impl Campaign {
         Corrections::new(&self.source, &self.data, &self.diagnosed)
     }
 
-    /// The diagnosis as a document.
-    pub fn document(&self) -> Document {
-        self.reported(None).document()
-    }
-
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let explanation = &self.diagnosed.explanation;
-        let gaps = explanation.predict(&self.data).map_err(plain)?;
-        let placed = explanation.placed();
-        let fitted = Fitted { placed: &placed, gaps: &gaps };
-        let reported = self.reported(Some(fitted));
-        Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
-    }
-
     fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
         Reported {
             found: &self.diagnosed.diagnosis,
@@ -244,5 +211,35 @@ impl Campaign {
     pub fn predict(&self, path: &Path, host: &Host) -> Result<Prediction, Failure> {
         let data = data::read(path, &self.layout, host)?;
         self.diagnosed.explanation.predict(&data).map_err(plain)
+    }
+}
+
+impl Found for Campaign {
+    fn campaign(&self) -> Option<&Campaign> {
+        Some(self)
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        None
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        json::text(&self.told())
+    }
+
+    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
+        let Some(embeds) = embeds else { return Ok(self.reported(None).document()) };
+        let explanation = &self.diagnosed.explanation;
+        let gaps = explanation.predict(&self.data).map_err(plain)?;
+        let placed = explanation.placed();
+        let fitted = Fitted { placed: &placed, gaps: &gaps };
+        let reported = self.reported(Some(fitted));
+        *embeds = reported.embedded(&fitted, &self.diagnosed.diagnosis)?;
+        Ok(reported.document())
+    }
+
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
+        let corrections = self.corrections();
+        Ok((corrections.head(), corrections.robot().clone()))
     }
 }

@@ -43,7 +43,7 @@ impl PredictedLog {
     }
 }
 
-impl Found {
+impl dyn Found {
     /// What the models before and after make of other data of the arm, of a kind that was diagnosed:
     /// one measurement file, or the files of a log.
     ///
@@ -53,11 +53,7 @@ impl Found {
         let [first, rest @ ..] = paths else {
             return Err(Failure::new("found no file to predict, expected one"));
         };
-        let (campaign, motion) = match self {
-            Found::Campaign(campaign) => (Some(&**campaign), None),
-            Found::Motion(motion) => (None, Some(&**motion)),
-            Found::Together(both) => (Some(&both.campaign), Some(&both.motion)),
-        };
+        let (campaign, motion) = (self.campaign(), self.motion());
         let name = first.display();
         // A map says of any file that it is a log.
         if let Some(motion) = motion.filter(|motion| motion.is_mapped()) {

@@ -9,10 +9,9 @@ use stiffarm_gap::log::Model;
 use stiffarm_gap::spring::{Joined, Spring};
 
 use super::campaign::Told as CampaignTold;
-use super::corrected::{exported, file};
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
-use super::{Campaign, Catalogues, Format, Motion, Settings};
+use super::{Campaign, Catalogues, Found, Motion, Settings};
 use crate::document::{Document, Embedded, figure, together};
 use crate::host::Host;
 use crate::input::source::Source;
@@ -106,12 +105,18 @@ impl Together {
         let said = Said { effect, springs, measured_in, campaign: left, log: [alone, both] };
         Ok(Together { campaign, motion, model, said })
     }
+}
 
-    /// Both diagnoses in JSON, and what they say together.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
+impl Found for Together {
+    fn campaign(&self) -> Option<&Campaign> {
+        Some(&self.campaign)
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        Some(&self.motion)
+    }
+
+    fn json(&self) -> Result<String, Failure> {
         json::text(&Written {
             together: &self.said,
             campaign: self.campaign.told(),
@@ -120,47 +125,30 @@ impl Together {
         })
     }
 
-    /// What they show together, and both diagnoses, as a document.
-    pub fn document(&self) -> Document {
-        let parts = [self.campaign.document(), self.motion.document()].map(|part| (part, None));
-        together::document(self.motion.robot(), &self.said, parts)
+    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
+        let is_page = embeds.is_some();
+        let part = |found: &dyn Found| {
+            let mut embedded = Embedded::default();
+            let part = found.document(is_page.then_some(&mut embedded))?;
+            Ok((part, is_page.then_some(embedded)))
+        };
+        let parts = [part(&self.campaign)?, part(&self.motion)?];
+        if let Some(embeds) = embeds {
+            *embeds = Embedded::new((), &self.said, figure::WITHIN)?;
+        }
+        Ok(together::document(&self.said, parts))
     }
 
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let [campaign, log] = [self.campaign.paged()?, self.motion.paged()?];
-        let parts = [campaign, log].map(|(part, embedded)| (part, Some(embedded)));
-        let document = together::document(self.motion.robot(), &self.said, parts);
-        Ok((document, Embedded::new((), &self.said, figure::WITHIN)?))
-    }
-
-    /// The robot file with what both found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        let (mut lines, robot) = self.robot()?;
-        lines.insert(1, together::sentences(&self.said).join(" "));
-        Ok(file(lines, &robot))
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: as above, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.robot()?.1, format)
-    }
-
-    /// The robot with the campaign's findings, then the log's, and what was put in.
+    /// The campaign's findings, then the log's.
     fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
         let at_rest = self.campaign.corrections();
         let in_motion = self.motion.put_into(at_rest.robot(), &self.model)?;
         let mut lines = vec![self.campaign.made_with(&self.motion.files())];
-        lines.extend([String::new(), "At rest:".to_owned()]);
+        lines.extend([
+            together::sentences(&self.said).join(" "),
+            String::new(),
+            "At rest:".to_owned(),
+        ]);
         lines.extend(at_rest.lines());
         lines.extend([String::new(), "In motion:".to_owned()]);
         lines.extend(in_motion.lines);

@@ -12,8 +12,8 @@ use stiffarm_gap::log::{
 use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
-use super::super::corrected::{exported, file, made_from};
-use super::super::{Format, PredictedLog, Settings};
+use super::super::corrected::made_from;
+use super::super::{Campaign, Found, PredictedLog, Settings};
 use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
@@ -131,14 +131,6 @@ impl Motion {
         self.names.1
     }
 
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        json::text(&self.told())
-    }
-
     pub(in super::super) fn told(&self) -> Told<'_> {
         Told {
             diagnosis: &self.found,
@@ -147,52 +139,13 @@ impl Motion {
         }
     }
 
-    /// The name of the robot.
-    pub(in super::super) fn robot(&self) -> &str {
-        &self.found.robot
-    }
-
     /// The files of the log.
     pub(in super::super) fn files(&self) -> String {
         self.found.files.join(", ")
     }
 
-    /// The diagnosis as a document.
-    pub fn document(&self) -> Document {
-        self.reported(None).document()
-    }
-
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(in super::super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
-        let fitted = Fitted { explained: &explained, arm: &self.arm };
-        let reported = self.reported(Some(fitted));
-        Ok((reported.document(), reported.embedded(&fitted, &self.found)?))
-    }
-
     fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
         Reported { found: &self.found, check: self.check.as_ref(), fitted }
-    }
-
-    /// The robot file with all that was found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        let written = self.written()?;
-        let head = vec![made_from(&self.source, &self.found.files.join(", ")), String::new()];
-        Ok(file([head, written.lines].concat(), &written.robot))
-    }
-
-    /// The corrected arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: the log is one of currents, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.written()?.robot, format)
     }
 
     /// What has to be known of any file of the corrected arm, a sentence each.
@@ -228,5 +181,34 @@ impl Motion {
         let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
         let [_, left] = left(&explained.gap(model.rows, &self.found.gap));
         Ok((model, left))
+    }
+}
+
+impl Found for Motion {
+    fn campaign(&self) -> Option<&Campaign> {
+        None
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        Some(self)
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        json::text(&self.told())
+    }
+
+    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
+        let Some(embeds) = embeds else { return Ok(self.reported(None).document()) };
+        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
+        let fitted = Fitted { explained: &explained, arm: &self.arm };
+        let reported = self.reported(Some(fitted));
+        *embeds = reported.embedded(&fitted, &self.found)?;
+        Ok(reported.document())
+    }
+
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
+        let written = self.written()?;
+        let head = vec![made_from(&self.source, &self.files()), String::new()];
+        Ok(([head, written.lines].concat(), written.robot))
     }
 }
