@@ -180,7 +180,7 @@ def diagnose(
     files: dict[str, bytes] = {}
     chosen = {name: value for name, value in settings.items() if value is not None}
     if "effects" in chosen:
-        chosen["effects"] = [*settings["effects"] or (), *(effect.name for effect in own)]
+        chosen["effects"] = [*(settings["effects"] or ()), *(effect.name for effect in own)]
     if check is not None:
         chosen["check"] = held(check, files, "<check>")
     if compare is not None:

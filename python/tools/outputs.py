@@ -98,7 +98,7 @@ def signed(function: Function) -> Function:
     own = inspect.signature(function)
     kind = inspect.Parameter.KEYWORD_ONLY
     named = [parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
-    more = [inspect.Parameter(name, kind, default=USUAL[name], annotation=of) for name, of in Settings.__annotations__.items()]
+    more = [inspect.Parameter(name, kind, default=USUAL[name], annotation=getattr(of, "__forward_arg__", of)) for name, of in Settings.__annotations__.items()]
     signature = own.replace(parameters=[*named, *more])
 
     @functools.wraps(function)

@@ -28,15 +28,14 @@ corners = { c0 = [0, 0, 0], c1 = [\"90 mm\", 0, 0], c2 = [0, \"90 mm\", 0], c3 =
 ";
 
 fn diagnosed(words: &[&str]) -> Value {
-    let told = stiffarm(&[words, &["--json", "-"]].concat()).good();
-    serde_json::from_str(&told).expect("JSON")
+    stiffarm(&[words, &["--json", "-"]].concat()).json()
 }
 
 #[test]
 fn a_plan_at_sockets_is_measured_and_diagnosed() {
     let folder = Folder::new();
     let bench = folder.file("bench.toml", SOCKETS);
-    let [plan, run] = ["plan.csv", "run.csv"].map(|name| text(&folder.path(name)));
+    let [plan, run] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
     let words = [
         "poses", "irb120", "--for", "diagnose", "--count", "24", "--bench", &bench, "--csv", &plan,
     ];
@@ -72,7 +71,7 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
 #[test]
 fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let folder = Folder::new();
-    let (bench, run) = (folder.file("bench.toml", CAMERA), text(&folder.path("run.csv")));
+    let (bench, run) = (folder.file("bench.toml", CAMERA), folder.name("run.csv"));
     let simulate = |more: &[&str]| {
         let words =
             ["simulate", "irb120", "--measure", "camera", "--payload", "3kg", "--csv", &run];

@@ -127,8 +127,7 @@ fn what_the_table_holds_is_taken_into_it() {
     assert!(text.contains("q + 0.002"), "{text}");
     assert_ne!(text, run(&emit, ARM).good());
     let at = |robot: &str, q: &str| -> Vec<f64> {
-        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).good();
-        let out: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).json();
         serde_json::from_value(out["position"].clone()).expect("three numbers")
     };
     let moved = at(ARM, "0.102,0.2,0.3,0.4,0.5,0.6");
@@ -142,8 +141,7 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
     let folder = Folder::new();
     let robot = with(&folder, "slack.toml", SLACK);
     let at = "0.2,1.2,-0.9,0.3,0.8,-0.4";
-    let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).good();
-    let pose: serde_json::Value = serde_json::from_str(&pose).expect("JSON");
+    let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).json();
     let number = |value: &serde_json::Value| value.as_f64().expect("a number");
     let turn = nalgebra::Matrix3::from_fn(|r, c| number(&pose["rotation"][r][c]));
     let turn = nalgebra::Rotation3::from_matrix(&turn).scaled_axis();
@@ -207,8 +205,7 @@ fn a_base_stands_somewhere() {
     let eval = |robot: &str| -> serde_json::Value {
         let wrench = "--wrench=30,0,-100,0,5,0";
         let q = "0.1,-0.8,0.9,0.4,0.5,0.6";
-        let out = stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).good();
-        serde_json::from_str(&out).expect("JSON")
+        stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).json()
     };
     let (own, world) = (eval(ARM), eval(&robot));
     let at =
@@ -285,12 +282,11 @@ fn springs_are_identified_wherever_the_arm_stands() {
     let folder = Folder::new();
     let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
     let springs = |robot: &str| -> Vec<f64> {
-        let run = crate::support::text(&folder.path("run.csv"));
+        let run = crate::support::folder.name("run.csv");
         let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
         let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
         stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();
-        let out = stiffarm(&["identify", robot, &run, "--json", "-"]).good();
-        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let found = stiffarm(&["identify", robot, &run, "--json", "-"]).json();
         let each = found["parameters"].as_array().expect("a list").iter();
         each.map(|p| p["value"].as_f64().expect("a number")).collect()
     };

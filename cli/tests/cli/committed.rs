@@ -27,7 +27,7 @@ fn krate(robot: &str, extra: &[&str]) -> Folder {
 }
 
 fn generate(folder: &Folder, robot: &str, extra: &[&str], to: &str) -> String {
-    let file = text(&folder.path("src/arm.rs"));
+    let file = folder.name("src/arm.rs");
     let form = ["generate", robot, "--emit", "rust", "--kernels", "::stiffarm_kernels", to, &file];
     stiffarm(&[&form, extra].concat()).good()
 }

@@ -37,7 +37,7 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
 #[test]
 fn the_loaded_arm_stands_at_the_targets() {
     let folder = Folder::new();
-    let (file, out) = (folder.file("path.csv", targets("")), text(&folder.path("out.csv")));
+    let (file, out) = (folder.file("path.csv", targets("")), folder.name("out.csv"));
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--wrench", LOAD, "--out"];
     let screen = stiffarm(&[&arguments[..], &[&out]].concat()).good();
     assert!(screen.contains("reached  6 of 6"), "{screen}");
@@ -68,7 +68,7 @@ fn the_loaded_arm_stands_at_the_targets() {
 fn what_is_not_reached_is_marked_and_kept() {
     let folder = Folder::new();
     let file = folder.file("path.csv", targets("far,9000,0,0,0,0,0\n"));
-    let out = text(&folder.path("out.csv"));
+    let out = folder.name("out.csv");
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", &out];
     let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat());
     assert_eq!(run.status, 1, "{}", run.err);

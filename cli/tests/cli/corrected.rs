@@ -23,7 +23,7 @@ const LOADS: [&str; 6] =
 /// What a diagnosis of that arm writes, as a robot file and as JSON.
 fn corrected(folder: &Folder) -> [String; 2] {
     let [run, better, json] =
-        ["run.csv", "better.toml", "found.json"].map(|name| text(&folder.path(name)));
+        ["run.csv", "better.toml", "found.json"].map(|name| folder.name(name));
     let plan = ["simulate", ARM, "--payload", "2kN", "--poses", "30", "--csv", &run];
     stiffarm(&[&plan[..], &TRUTHS].concat()).good();
     let tried = "joint_compliance,base_compliance,transmission_error";
@@ -36,8 +36,7 @@ fn corrected(folder: &Folder) -> [String; 2] {
 }
 
 fn springs(robot: &str, data: &str) -> Vec<[f64; 3]> {
-    let out = stiffarm(&["identify", robot, data, "--json", "-"]).good();
-    let found: Value = serde_json::from_str(&out).expect("JSON");
+    let found = stiffarm(&["identify", robot, data, "--json", "-"]).json();
     let number = |value: &Value| value.as_f64().expect("a number");
     let parameters = found["parameters"].as_array().expect("a list").iter();
     parameters.map(|p| [&p["value"], &p["ci95"][0], &p["ci95"][1]].map(number)).collect()
@@ -50,7 +49,7 @@ fn springs_are_identified_where_the_corrected_arm_was_planned() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
     let [plan, again, filled] =
-        ["plan.csv", "again.csv", "filled.csv"].map(|name| text(&folder.path(name)));
+        ["plan.csv", "again.csv", "filled.csv"].map(|name| folder.name(name));
     for (robot, csv) in [(&better, &plan), (&json, &again)] {
         let count = ["poses", robot, "--count", "15", "--csv", csv, "--quiet"];
         stiffarm(&[&count[..], &LOADS].concat()).good();
@@ -93,8 +92,7 @@ fn a_corrected_arm_raises_no_alarm() {
     for robot in [&better, &json] {
         let tried = ["--effects", "joint_offset,joint_compliance", "--payload", "2kN"];
         let few = ["withhold", robot, "--cases", "8", "--poses", "12", "--json", "-", "--quiet"];
-        let out = stiffarm(&[&few[..], &tried].concat()).good();
-        let report: Value = serde_json::from_str(&out).expect("JSON");
+        let report = stiffarm(&[&few[..], &tried].concat()).json();
         let none = &report["false_alarms"];
         assert_eq!((&none["hits"], &none["of"]), (&0.into(), &2.into()), "{report:#}");
     }
@@ -106,7 +104,7 @@ fn a_corrected_arm_raises_no_alarm() {
 fn a_saved_diagnosis_predicts() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
-    let run = text(&folder.path("run.csv"));
+    let run = folder.name("run.csv");
     let value = |out: &str| -> Value { serde_json::from_str(out).expect("JSON") };
     let said = value(&read(&json));
     let fitted = &said["gap"]["fitted"];
@@ -120,13 +118,13 @@ fn a_saved_diagnosis_predicts() {
             assert!((ratio - 1.0).abs() < 1e-3, "{key}: {found:#} {fitted:#}");
         }
     }
-    let plan = text(&folder.path("plan.csv"));
+    let plan = folder.name("plan.csv");
     let poses = ["poses", &json, "--count", "5", "--csv", &plan, "--quiet"];
     stiffarm(&[&poses[..], &LOADS].concat()).good();
     let err = stiffarm(&["predict", &json, &plan]).refused();
     assert!(err.contains("found nothing measured") && err.contains("--csv OUT"), "{err}");
     // Measured as they were predicted there is no gap.
-    let expected = text(&folder.path("expected.csv"));
+    let expected = folder.name("expected.csv");
     let written = stiffarm(&["predict", &json, &plan, "--csv", &expected]).good();
     assert!(
         written.contains("Nothing is measured") || written.contains("None is judged"),

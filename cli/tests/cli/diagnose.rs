@@ -73,7 +73,7 @@ fn columns_that_are_not_used_are_named() {
 fn the_same_seed_gives_the_same_bytes() {
     let folder = Folder::new();
     let json = |name: &str, seed: &str| {
-        let file = text(&folder.path(name));
+        let file = folder.name(name);
         let screen = lin(&[&RIVALS[..], &["--json", &file, "--seed", seed]].concat());
         assert!(screen.contains("7.41"), "{screen}");
         std::fs::read_to_string(file).expect("written")
@@ -85,7 +85,7 @@ fn the_same_seed_gives_the_same_bytes() {
     assert_eq!(folder.names(), ["a", "b", "c"]);
     let printed = lin(&[&RIVALS[..], &["--json", "-", "--seed", "3"]].concat());
     assert_eq!(printed, first);
-    assert_eq!(lin(&["--json", &text(&folder.path("d")), "--quiet"]), "");
+    assert_eq!(lin(&["--json", &folder.name("d"), "--quiet"]), "");
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn an_interrupt_has_its_own_exit_status() {
     use std::process::{Command, Stdio};
 
     let folder = Folder::new();
-    let data = text(&folder.path("run.csv"));
+    let data = folder.name("run.csv");
     let effects = ["joint_compliance@joint 2=8e-7", "transmission_error@joint 3:cos 2=0.3 mrad"];
     let effects = effects.iter().flat_map(|effect| ["--effect", effect]);
     let run: Vec<&str> = ["simulate", "kuka_kr240", "--poses", "300", "--csv", &data]

@@ -13,8 +13,7 @@ fn the_page_is_the_catalogue() {
 
 #[test]
 fn every_effect_is_printed_with_what_it_says() {
-    let found: Value =
-        serde_json::from_str(&stiffarm(&["effects", "--json"]).good()).expect("JSON");
+    let found = stiffarm(&["effects", "--json"]).json();
     let found = found.as_array().expect("a list");
     let screen = stiffarm(&["effects"]).good();
     let joined = screen.split_whitespace().collect::<Vec<_>>().join(" ");

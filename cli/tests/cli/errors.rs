@@ -17,7 +17,7 @@ fn mistakes_of_a_robot_file_are_shown_where_they_stand() {
     let folder = Folder::new();
     let bad = ROBOT.replace("standard", "standart").replace("a = 0.5", "a = \"350 kg\"");
     let file = folder.file("bad.toml", bad);
-    let out = text(&folder.path("out.json"));
+    let out = folder.name("out.json");
     let expected = [
         "standart",
         "bad.toml:2:14\n",
@@ -57,7 +57,7 @@ fn doubts_are_warnings() {
 fn mistakes_of_a_measurement_file_are_shown_where_they_stand() {
     let folder = Folder::new();
     let robot = folder.file("arm.toml", ROBOT);
-    let out = text(&folder.path("out.json"));
+    let out = folder.name("out.json");
     let cases = [
         ("q1,q2,dx\n0.1,nan,1\n", "line 2, column 2 `q2`: found `nan`", "run.csv:2:5\n"),
         ("q1,q2,dx\n0.1,0.2,-inf\n", "line 2, column 3 `dx`: found `-inf`, infinity", ":2:9\n"),
@@ -178,8 +178,8 @@ fn outputs_that_cannot_be_written() {
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(err.contains(expected), "{err}");
     };
-    to(&text(&folder.path("no/such.json")), "such.json: no such file or folder");
-    to(&text(&folder.path("")), "it is a folder");
+    to(&folder.name("no/such.json"), "such.json: no such file or folder");
+    to(&folder.name(""), "it is a folder");
     if cfg!(target_os = "linux") {
         to("/dev/full", "cannot write /dev/full: no space left");
         let full = std::fs::File::options().write(true).open("/dev/full").expect("there");

@@ -192,7 +192,7 @@ fn results_are_not_written_over_each_other_or_over_what_is_read() {
     let folder = Folder::new();
     let robot = folder.file("arm.toml", read(SPRINGS[1]));
     let data = folder.file("run.csv", read("docs/workbench/check.csv"));
-    let link = text(&folder.path("link.csv"));
+    let link = folder.name("link.csv");
     #[cfg(unix)]
     std::os::unix::fs::symlink(&data, &link).expect("a link");
     #[cfg(windows)]
@@ -224,7 +224,7 @@ fn results_are_not_written_over_each_other_or_over_what_is_read() {
         let err = stiffarm(arguments).refused();
         assert!(err.contains(over), "{arguments:?}: {err}");
     }
-    let out = text(&folder.path("out"));
+    let out = folder.name("out");
     let err = stiffarm(&["diagnose", &robot, &data, "--json", &out, "--report", &out]).refused();
     assert!(err.contains("--report would write over --json"), "{err}");
     assert_eq!(std::fs::read_to_string(&data).expect("there"), there);

@@ -29,7 +29,7 @@ fn the_same_table_gives_the_same_bytes() {
 #[test]
 fn what_is_written_can_be_checked() {
     let folder = Folder::new();
-    let file = text(&folder.path("ur5.rs"));
+    let file = folder.name("ur5.rs");
     let of = |extra: &[&str]| stiffarm(&[&["generate", "ur5", "--emit", "rust"], extra].concat());
     assert_eq!(of(&["--out", &file]).good(), "");
     assert_eq!(std::fs::read_to_string(&file).expect("written"), of(&[]).good());
@@ -47,7 +47,7 @@ fn a_missing_folder_is_made() {
         ("rust", "other/src/ur5.rs", &["ur5.rs"]),
     ] {
         let of = |to: &str| {
-            let path = text(&folder.path(out));
+            let path = folder.name(out);
             stiffarm(&["generate", "ur5", "--emit", emit, to, &path])
         };
         assert_eq!(of("--out").good(), "");
@@ -61,7 +61,7 @@ fn a_missing_folder_is_made() {
         assert_eq!(there, names);
     }
     let file = folder.file("file", "before");
-    let under = text(&folder.path("file/src/ur5.rs"));
+    let under = folder.name("file/src/ur5.rs");
     let err = stiffarm(&["generate", "ur5", "--emit", "rust", "--out", &under]).refused();
     assert!(err.contains("cannot write "), "{err}");
     assert_eq!(std::fs::read_to_string(&file).expect("there"), "before");

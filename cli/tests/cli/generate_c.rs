@@ -11,7 +11,7 @@ fn generate(arguments: &[&str]) -> (i32, String, String) {
 #[test]
 fn both_files_are_written_and_checked() {
     let folder = Folder::new();
-    let place = text(&folder.path(""));
+    let place = folder.name("");
     let place = place.as_str();
     let by_id = ["ur5", "--emit", "c", "--precision", "f32"];
     let by_file = ["robots/arms/ur5.toml", "--emit", "c", "--precision", "f32"];
@@ -37,7 +37,7 @@ fn both_files_are_written_and_checked() {
 #[test]
 fn names_are_the_caller_s() {
     let folder = Folder::new();
-    let place = text(&folder.path(""));
+    let place = folder.name("");
     let place = place.as_str();
     let of = |name| generate(&["ur5", "--emit", "c", "--name", name, "--out", place]);
     assert_eq!(of("left_arm").0, 0);

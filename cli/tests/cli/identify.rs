@@ -61,8 +61,7 @@ fn a_row_with_a_hole_is_left_out_and_said() {
 const LOADS: [[f64; 3]; 3] = [[0.0, 0.0, -2.0], [1.5, -1.0, 0.0], [0.0, 1.5, 0.5]];
 
 fn json(arguments: &[&str]) -> Value {
-    let out = stiffarm(&[&["identify"], arguments, &["--json", "-"]].concat()).good();
-    serde_json::from_str(&out).expect("JSON")
+    stiffarm(&[&["identify"], arguments, &["--json", "-"]].concat()).json()
 }
 
 #[test]
@@ -83,7 +82,7 @@ fn stiffnesses_are_found_and_written() {
     let sizes = |when: &str| found["gap"][when]["position_rms"].as_f64().expect("a size");
     // Rounding to 0.01 mm: 0.0029 mm per coordinate, 0.005 mm over three.
     assert!(sizes("held_out") < 7e-6 && sizes("before") > 2e-5, "{found}");
-    let out = text(&folder.path("stiff.toml"));
+    let out = folder.name("stiff.toml");
     let screen = stiffarm(&["identify", &robot, &data, "--write-robot", &out]).good();
     for expected in ["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"] {
         assert!(screen.contains(expected), "no `{expected}` in\n{screen}");
@@ -104,7 +103,7 @@ fn what_a_hanging_weight_does_not_show_is_said() {
     let held = &json(&[&robot, &data])["parameters"][0];
     assert_eq!(held["status"], "held");
     assert!(held["ci95"].is_null() && held["stiffness_ci95"].is_null(), "{held}");
-    let out = text(&folder.path("stiff.toml"));
+    let out = folder.name("stiff.toml");
     stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
     let toml = std::fs::read_to_string(&out).expect("written");
     assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
@@ -139,17 +138,16 @@ fn the_base_can_be_asked_for() {
 fn the_foundation_is_written() {
     let folder = Folder::new();
     let (robot, plan) = run(&folder, 12, &LOADS);
-    let founded = text(&folder.path("founded.csv"));
+    let founded = folder.name("founded.csv");
     let gives = "base_compliance@base:rock_x=2e-8,rock_y=3e-8,give=4e-9";
     let exact = ["--noise-position", "0um", "--csv", &founded, "--quiet"];
     stiffarm(&[&["simulate", &robot, &plan, "--effect", gives], &exact[..]].concat()).good();
-    let out = text(&folder.path("founded.toml"));
+    let out = folder.name("founded.toml");
     stiffarm(&["identify", &robot, &founded, "--base", "--write-robot", &out, "--quiet"]).good();
     let toml = read(&out);
     assert!(toml.contains("id = \"base_compliance\"") && toml.contains("give = "), "{toml}");
     let gap = |robot: &str| -> f64 {
-        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).good();
-        let said: Value = serde_json::from_str(&said).expect("JSON");
+        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).json();
         said["gap"]["position_max"].as_f64().expect("a number")
     };
     // The file's six digits, of a foundation that is a part of what gives.
@@ -172,6 +170,6 @@ fn what_cannot_be_identified_is_refused() {
     refused(&[&robot, &unloaded], "found no load in any row");
     let broken = folder.file("broken.csv", "q1,q2,q3,q4,q5,q6,fx,dx\n0,0,0,0,0,0,a,1e-3\n");
     refused(&[&robot, &broken], "broken.csv:2:13\n");
-    let missing = text(&folder.path("no/such.toml"));
+    let missing = folder.name("no/such.toml");
     refused(&[&robot, &data, "--write-robot", &missing], "no such file or folder");
 }

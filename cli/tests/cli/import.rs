@@ -5,7 +5,7 @@ use crate::support::{Folder, stiffarm, text};
 #[test]
 fn the_robot_file_can_be_used_at_once() {
     let folder = Folder::new();
-    let out = text(&folder.path("panda.toml"));
+    let out = folder.name("panda.toml");
     let run = stiffarm(&["import", "tests/data/urdf/panda.urdf", "--toml", &out]);
     assert_eq!((run.status, run.out.as_str()), (0, ""));
     assert!(run.err.starts_with("note: forward kinematics as in the URDF to "), "{}", run.err);
@@ -99,7 +99,7 @@ fn mistakes_are_shown_where_they_stand() {
             "arm.urdf:1:",
         ),
     ];
-    let out = text(&folder.path("arm.toml"));
+    let out = folder.name("arm.toml");
     for (content, message, place) in cases {
         let file = folder.file("arm.urdf", content);
         let err = stiffarm(&["import", &file, "--toml", &out]).refused();

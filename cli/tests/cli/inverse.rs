@@ -5,7 +5,7 @@ use crate::support::stiffarm;
 /// Position and rotation of the tool at joint values.
 fn pose(robot: &str, q: &str, more: &[&str]) -> Vec<f64> {
     let arguments = [&["eval", robot, "--q", q, "--json", "-"], more].concat();
-    let at: serde_json::Value = serde_json::from_str(&stiffarm(&arguments).good()).expect("JSON");
+    let at = stiffarm(&arguments).json();
     let rows = at["rotation"].as_array().expect("rows").iter();
     let all = rows.chain([&at["position"]]).flat_map(|row| row.as_array().expect("a row"));
     all.map(|x| x.as_f64().expect("a number")).collect()
@@ -13,8 +13,7 @@ fn pose(robot: &str, q: &str, more: &[&str]) -> Vec<f64> {
 
 fn solutions(robot: &str, at: &str, more: &[&str]) -> Vec<serde_json::Value> {
     let arguments = [&["eval", robot, "--pose", at, "--json", "-"], more].concat();
-    let found: serde_json::Value =
-        serde_json::from_str(&stiffarm(&arguments).good()).expect("JSON");
+    let found = stiffarm(&arguments).json();
     found["solutions"].as_array().expect("branches").clone()
 }
 

@@ -145,15 +145,15 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows(HEADER));
-    let json = text(&folder.path("log.json"));
+    let json = folder.name("log.json");
     let run = ["diagnose", &robot, &log, "--torque-side", "motor", "--nested", "--json", &json];
     let only = ["--effects", "coulomb_friction,viscous_friction,rotor_inertia"];
-    let page = text(&folder.path("log.html"));
+    let page = folder.name("log.html");
     let out = stiffarm(&[&run[..], &only, &["--report", &page]].concat()).good();
     assert!(out.contains("search repeated") && out.contains("With the search repeated"), "{out}");
     let page = read(&page);
     assert!(page.contains("<th scope=\"col\">search repeated</th>"), "{page}");
-    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let found = read_json(&json);
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
     let plain =

@@ -24,7 +24,7 @@ fn the_maps_of_the_page_are_those_of_the_commands() {
             page.contains(&format!("({})", committed.trim_start_matches("docs/"))),
             "{committed}"
         );
-        arguments[at] = text(&folder.path("map.svg"));
+        arguments[at] = folder.name("map.svg");
         let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let screen = stiffarm(&words).good();
         let printed = std::fs::read_to_string(&arguments[at]).expect("written");
@@ -83,7 +83,7 @@ fn numbers_are_those_of_the_textbook() {
 #[test]
 fn shrink_is_that_of_the_corrected_file() {
     let folder = Folder::new();
-    let better = text(&folder.path("better.toml"));
+    let better = folder.name("better.toml");
     let (robot, run) = ("docs/workbench/arm.toml", "docs/workbench/run.csv");
     let out = stiffarm(&["diagnose", robot, run, "--json", "-", "--write-robot", &better]).good();
     let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
@@ -124,7 +124,7 @@ fn sliding_joints_and_free_ones_are_swept() {
 #[test]
 fn unstable_cells_are_empty() {
     let folder = Folder::new();
-    let svg = text(&folder.path("map.svg"));
+    let svg = folder.name("map.svg");
     let robot = folder.file(
         "soft.toml",
         "name = \"soft <arm>\"\nconvention = \"standard\"\n\

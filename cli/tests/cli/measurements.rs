@@ -9,7 +9,7 @@ fn a_foreign_table_becomes_a_measurement_file() {
     let folder = Folder::new();
     let raw = folder.file("raw.txt", RAW);
     let map = folder.file("map.toml", "[columns]\ndy = { column = \"Höhe\", unit = \"mm\" }\n");
-    let out = text(&folder.path("run.csv"));
+    let out = folder.name("run.csv");
     let arguments = ["measurements", &raw, "--map", &map, "--robot", "lin_planar", "--csv", &out];
     let run = stiffarm(&arguments);
     assert_eq!((run.status, run.out.as_str()), (0, ""), "{}", run.err);
@@ -23,7 +23,7 @@ fn a_foreign_table_becomes_a_measurement_file() {
 fn what_could_not_be_diagnosed_is_refused_and_nothing_is_written() {
     let folder = Folder::new();
     let raw = folder.file("raw.txt", RAW);
-    let out = text(&folder.path("run.csv"));
+    let out = folder.name("run.csv");
     let err = stiffarm(&["measurements", &raw, "--robot", "lin_planar", "--csv", &out]).refused();
     assert!(err.contains("found no measured column"), "{err}");
     let err = stiffarm(&["measurements", "no.csv", "--csv", &out]).refused();

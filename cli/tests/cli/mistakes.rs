@@ -6,7 +6,7 @@ use crate::support::{Folder, stiffarm, text};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
-    let path = text(&folder.path("given.csv"));
+    let path = folder.name("given.csv");
     let zeros =
         ["--effect", "joint_offset@joint 2=3 mrad", "--effect", "joint_offset@joint 4=-2 mrad"];
     let given = ["simulate", "ur5", "--poses", "40", "--payload", "0kg", "--measure", "position"];
@@ -50,7 +50,7 @@ fn a_coupling_is_named_and_written() {
         row[three] = (number(three) + number(two)).to_string();
     }
     let data = file(&folder, "coupled.csv", &header, &rows);
-    let [json, robot] = ["found.json", "better.toml"].map(|name| text(&folder.path(name)));
+    let [json, robot] = ["found.json", "better.toml"].map(|name| folder.name(name));
     let outputs = ["--json", &json, "--write-robot", &robot];
     let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..], &outputs[..]].concat());
     assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");

@@ -58,7 +58,7 @@ fn columns(csv: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
 fn a_simulated_log_is_diagnosed() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let log = text(&folder.path("log.csv"));
+    let log = folder.name("log.csv");
     let effect = ["--effect", "coulomb_friction@joint 2=3 N·m"];
     let run = [&["simulate", &robot, "--log", &log], &effect[..]].concat();
     stiffarm(&run).good();
@@ -84,7 +84,7 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let effect = "\n[[effect]]\nid = \"coulomb_friction\"\nplace = \"joint 2\"\ncoulomb = 3.0\n";
     let plain = folder.file("elbow.toml", ELBOW);
     let robot = folder.file("knows.toml", format!("{ELBOW}{effect}"));
-    let log = text(&folder.path("log.csv"));
+    let log = folder.name("log.csv");
     stiffarm(&["simulate", &robot, "--log", &log, "--lost", "0%"]).good();
     let only = ["--effects", "coulomb_friction", "--json", "-"];
     let found = |robot: &str| -> Value {
@@ -106,7 +106,7 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let told = stiffarm(&["simulate", &soft, "--log", "-"]).refused();
     assert!(told.contains("has no law for it"), "{told}");
     let run = ["withhold", &robot, "--motion", "--cases", "2", "--period", "15s", "--json", "-"];
-    let page = text(&folder.path("check.html"));
+    let page = folder.name("check.html");
     let also = ["--effects", "viscous_friction", "--report", &page];
     let json = stiffarm(&[&run[..], &also].concat()).good();
     let page = std::fs::read_to_string(page).expect("written");
@@ -120,7 +120,7 @@ fn effects_of_a_robot_file_act_in_a_motion() {
 fn a_chosen_motion_is_what_simulate_takes() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let commands = text(&folder.path("commands.csv"));
+    let commands = folder.name("commands.csv");
     let limits = ["--max-rate", "1.2", "--max-acceleration", "4"];
     let plan = ["poses", &robot, "--for", "motion", "--period", "8s", "--harmonics", "5"];
     let screen = stiffarm(&[&plan[..], &limits, &["--csv", &commands]].concat()).good();
@@ -155,7 +155,7 @@ fn two_effects_are_told_from_each_other_by_a_motion() {
     let robot = folder.file("elbow.toml", ELBOW);
     let plan = ["poses", &robot, "--for", "motion", "--harmonics", "4", "--csv"];
     let pair = ["viscous_friction@joint 2", "friction_curve@joint 2"];
-    let csv = text(&folder.path("commands.csv"));
+    let csv = folder.name("commands.csv");
     let screen = stiffarm(&[&plan[..], &[csv.as_str()], &pair].concat()).good();
     assert!(screen.contains("friction curve at joint 2: root"), "{screen}");
     let same = ["torque_scale@joint 1", "rotor_inertia@joint 1"];
@@ -169,8 +169,7 @@ fn logs_are_withheld() {
     let robot = folder.file("elbow.toml", ELBOW);
     let effects = ["--effects", "coulomb_friction,viscous_friction"];
     let run = ["withhold", &robot, "--motion", "--cases", "6", "--period", "15s", "--json", "-"];
-    let json: Value =
-        serde_json::from_str(&stiffarm(&[&run[..], &effects].concat()).good()).expect("JSON");
+    let json = stiffarm(&[&run[..], &effects].concat()).json();
     assert_eq!(json["cases"].as_array().expect("cases").len(), 6);
     assert_eq!((&json["runs"], &json["failed"]), (&Value::from(3), &Value::from(0)));
     // How often it is right is the suite's to say: `tests/withheld/logs.rs`.

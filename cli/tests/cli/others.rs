@@ -8,7 +8,7 @@ use crate::support::{Folder, command, stiffarm, text};
 #[test]
 fn every_built_in_robot_is_listed() {
     let out = stiffarm(&["robots"]).good();
-    let found: Value = serde_json::from_str(&stiffarm(&["robots", "--json"]).good()).expect("JSON");
+    let found = stiffarm(&["robots", "--json"]).json();
     let ids = ARMS.iter().map(|arm| arm.id).chain(SYMBOLIC.iter().map(|arm| arm.id));
     for (k, id) in ids.enumerate() {
         assert_eq!(found[k]["id"], id);
@@ -67,7 +67,7 @@ fn manual_pages_are_written() {
     let page = stiffarm(&["man"]).good();
     assert!(page.contains(".TH stiffarm 1") && page.contains("diagnose"), "{page}");
     let folder = Folder::new();
-    let to = text(&folder.path("man1"));
+    let to = folder.name("man1");
     assert_eq!(stiffarm(&["man", "--out", &to]).good(), "");
     let mut names: Vec<String> = std::fs::read_dir(&to)
         .expect("made")

@@ -10,14 +10,14 @@ fn the_built_in_ledger_names_the_misprints() {
     for piece in ["Dumas", "Knapczyk", "Lin", "Jweeg", "Bicchi", "misprint", "reproduced"] {
         assert!(out.contains(piece), "{piece} is missing");
     }
-    let found: Value = serde_json::from_str(&stiffarm(&["papers", "--json"]).good()).expect("JSON");
+    let found = stiffarm(&["papers", "--json"]).json();
     assert!(found.is_object() || found.is_array());
 }
 
 #[test]
 fn a_file_of_ones_own_is_judged_and_written() {
     let folder = Folder::new();
-    let page = text(&folder.path("ledger.html"));
+    let page = folder.name("ledger.html");
     let own = "papers/data/knapczyk/equations.toml";
     assert_eq!(stiffarm(&["papers", own, "--html", &page]).good(), "");
     let html = std::fs::read_to_string(page).expect("written");
@@ -28,7 +28,7 @@ fn a_file_of_ones_own_is_judged_and_written() {
 #[test]
 fn what_cannot_be_read_is_pointed_at() {
     let folder = Folder::new();
-    let missing = text(&folder.path("nothing.toml"));
+    let missing = folder.name("nothing.toml");
     assert!(stiffarm(&["papers", &missing]).refused().contains("nothing.toml"));
     let wrong = folder.path("wrong.toml");
     std::fs::write(&wrong, "id = 3\n").expect("written");
@@ -43,7 +43,7 @@ fn the_growth_of_the_difference_is_a_table_and_a_picture() {
     assert!(table.contains("| 0.01 | 1.00e-5 m | 2.00e-5 m | 5.00e-5 m | 100.00 % |"), "{table}");
     assert!(committed("papers.md").contains(&table));
     let folder = Folder::new();
-    let file = text(&folder.path("growth.svg"));
+    let file = folder.name("growth.svg");
     assert_eq!(stiffarm(&["papers", "--figure", "growth", "--svg", &file]).good(), "");
     let picture = std::fs::read_to_string(file).expect("written");
     assert_eq!(picture, committed("growth.svg"));

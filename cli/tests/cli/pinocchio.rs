@@ -94,7 +94,7 @@ fn imported_robots_agree() {
     for robot in ["ur5", "kr240", "panda", "oblique"] {
         let (file, samples) = data(robot);
         let word = |key: &str| file[key].as_str().expect("text").to_owned();
-        let out = text(&folder.path("arm.toml"));
+        let out = folder.name("arm.toml");
         let (base, tip) = (word("base"), word("tip"));
         stiffarm(&[
             "--quiet",

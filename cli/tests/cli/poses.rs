@@ -12,7 +12,7 @@ fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String
     let mut robot = read("robots/arms/kuka_kr240.toml");
     robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
     let robot = folder.file("arm.toml", robot);
-    let csv = text(&folder.path("plan.csv"));
+    let csv = folder.name("plan.csv");
     let arguments = [&["poses", &robot, "--count", count, "--csv", &csv], &PULLS[..], extra];
     let screen = stiffarm(&arguments.concat()).good();
     (robot, std::fs::read_to_string(csv).expect("written"), screen)
@@ -61,8 +61,7 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
         assert_eq!(empty.len(), rows, "{plan}");
         assert!(empty.iter().all(|row| row.ends_with(",,,")), "{plan}");
         let run = folder.file("run.csv", measured(&plan, &[1, 2, 3, 4, 5, 6]));
-        let out = stiffarm(&["identify", &robot, &run, "--json", "-"]).good();
-        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let found = stiffarm(&["identify", &robot, &run, "--json", "-"]).json();
         for (parameter, file) in found["parameters"]
             .as_array()
             .expect("a list")
@@ -85,8 +84,7 @@ fn a_plan_that_separates_does() {
     assert!(screen.contains("Told from the other") && screen.contains("µrad/(N·m)"), "{screen}");
     assert!(plan.contains(",dx[mm],dy[mm],dz[mm]\n") && !plan.contains("s1"), "{plan}");
     let run = folder.file("run.csv", measured(&plan, &[2]));
-    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).good();
-    let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).json();
     let finding = &found["findings"][0];
     assert_eq!(finding["effect"], "joint_compliance", "{found}");
     assert_eq!(finding["place"], "joint 2", "{found}");

@@ -16,7 +16,7 @@ fn three_commands_lead_from_a_tracker_s_file_to_firmware() {
     let folder = Folder::new();
     for command in commands {
         let words = command.split_whitespace().skip(1).map(|word| match WRITTEN.contains(&word) {
-            true => text(&folder.path(word)),
+            true => folder.name(word),
             false => word.to_owned(),
         });
         let words: Vec<String> = words.collect();
@@ -42,8 +42,7 @@ fn eval_takes_the_sides_of_a_corrected_arm() {
     let err = stiffarm(&at).refused();
     assert!(err.contains("the backlash at joint 1: neither columns s1 … sn nor --sides"), "{err}");
     let position = |sides: &str| -> [f64; 2] {
-        let out = stiffarm(&[&at[..], &["--sides", sides]].concat()).good();
-        let out: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let out = stiffarm(&[&at[..], &["--sides", sides]].concat()).json();
         [0, 1].map(|k| out["position"][k].as_f64().expect("a number"))
     };
     let ([x, y], [behind_x, behind_y]) = (position("-1,0,0,0,0,0"), position("1,0,0,0,0,0"));

@@ -55,7 +55,7 @@ fn plant(folder: &Folder) -> String {
     let measured = plant.measure(&design.rows(&arm), noise, 1).expect("it stands");
     let file = folder.file("arm.toml", ROBOT);
     let run = folder.file("run.csv", csv(&arm, &measured, &[]));
-    let page = text(&folder.path("report.html"));
+    let page = folder.name("report.html");
     stiffarm(&["diagnose", &file, &run, "--report", &page]).good();
     std::fs::read_to_string(page).expect("written")
 }
@@ -70,7 +70,7 @@ fn sentence(page: &str) -> String {
 #[test]
 fn the_page_says_what_the_screen_says() {
     let folder = Folder::new();
-    let path = text(&folder.path("out.html"));
+    let path = folder.name("out.html");
     let screen = stiffarm(&[&LIN[..], &["--report", &path]].concat()).good();
     let page = std::fs::read_to_string(&path).expect("written");
     let said = sentence(&page);
@@ -94,7 +94,7 @@ fn the_page_says_what_the_screen_says() {
 #[test]
 fn a_report_that_cannot_be_written_is_said() {
     let folder = Folder::new();
-    let path = text(&folder.path("no/such/folder.html"));
+    let path = folder.name("no/such/folder.html");
     let said = stiffarm(&[&LIN[..], &["--report", &path]].concat()).refused();
     assert!(said.contains("folder.html"), "{said}");
     assert!(folder.names().is_empty());
@@ -105,7 +105,7 @@ const WORKBENCH: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workb
 #[test]
 fn the_page_of_an_identification_says_what_its_screen_says() {
     let folder = Folder::new();
-    let path = text(&folder.path("out.html"));
+    let path = folder.name("out.html");
     let screen = stiffarm(&[&WORKBENCH[..], &["--report", &path]].concat()).good();
     let page = std::fs::read_to_string(&path).expect("written");
     let said = sentence(&page);

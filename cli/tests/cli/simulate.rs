@@ -98,12 +98,11 @@ fn a_plan_is_simulated_and_withheld_before_it_is_measured() {
 #[test]
 fn the_diagnosis_finds_what_was_put_in() {
     let folder = Folder::new();
-    let run = text(&folder.path("run.csv"));
+    let run = folder.name("run.csv");
     let made = ["simulate", "ur5", "--effect", SPRING, "--poses", "12", "--csv", &run];
     assert_eq!(stiffarm(&made).good(), "");
     let only = ["--effects", "joint_compliance", "--json", "-"];
-    let found = stiffarm(&[&["diagnose", "ur5", &run], &only[..]].concat()).good();
-    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let found = stiffarm(&[&["diagnose", "ur5", &run], &only[..]].concat()).json();
     let first = &found["findings"][0];
     assert_eq!(
         (&first["effect"], &first["place"]),
@@ -117,7 +116,7 @@ fn the_diagnosis_finds_what_was_put_in() {
 #[test]
 fn mistakes_are_named_and_nothing_is_written() {
     let folder = Folder::new();
-    let out = text(&folder.path("out.csv"));
+    let out = folder.name("out.csv");
     let refused = |extra: &[&str]| {
         let error = stiffarm(&[&["simulate", "ur5", "--csv", &out], extra].concat()).refused();
         assert!(!Path::new(&out).exists());
@@ -185,8 +184,7 @@ fn files_of_several_instruments_are_one_campaign() {
         simulated(&["--measure", "point", "--poses", "36", "--seed", "4", "--effect", SPRING]);
     let [a, b] =
         [("a.csv", &tracker), ("b.csv", &sockets)].map(|(name, text)| folder.file(name, text));
-    let found = stiffarm(&["diagnose", "ur5", &a, &b, "--json", "-", "--quiet"]).good();
-    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let found = stiffarm(&["diagnose", "ur5", &a, &b, "--json", "-", "--quiet"]).json();
     assert_eq!(found["measurements"], 3 * (12 + 36));
     assert_eq!(found["findings"][0]["effect"], "joint_compliance");
     assert_eq!(found["bench"].as_array().map(Vec::len), Some(6));

@@ -12,7 +12,7 @@ const GIVES: f64 = 2e-4;
 /// Measurements of an elbow whose joint 2 gives, and a log of its servos that give so much.
 fn data(folder: &Folder, droop: f64) -> [String; 3] {
     let robot = folder.file("elbow.toml", ELBOW);
-    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| text(&folder.path(name)));
+    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| folder.name(name));
     let spring = format!("joint_compliance@joint 2={GIVES}");
     let noise = ["--payload", "5kg", "--noise-position", "0.5mm", "--effect", &spring];
     stiffarm(&[&["simulate", &robot, "--csv", &campaign][..], &noise].concat()).good();
@@ -32,13 +32,13 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let folder = Folder::new();
     let [robot, campaign, log] = data(&folder, GIVES);
     let [better, json, page] =
-        ["better.toml", "both.json", "both.html"].map(|name| text(&folder.path(name)));
+        ["better.toml", "both.json", "both.html"].map(|name| folder.name(name));
     // In whatever order they are given.
     let run = ["diagnose", &robot, &log, &campaign, "--write-robot", &better, "--json", &json];
     let out = stiffarm(&[&run[..], &["--report", &page]].concat()).good();
     assert!(out.contains("The compliance of joint 2 is the same at rest and in motion"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let found = read_json(&json);
     let springs = found["together"]["springs"].as_array().expect("a list");
     let [spring] = &springs[..] else { panic!("{springs:#?}") };
     assert_eq!((&spring["place"], &spring["unit"]), (&"joint 2".into(), &"rad/(N·m)".into()));
@@ -63,8 +63,7 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let Quantity::Si(value) = droop.numbers[0].value else { panic!("{droop:?}") };
     assert!((value / both[0] - 1.0).abs() < 1e-8, "{value}");
     // And is known to both: neither finds it again.
-    let again = stiffarm(&["diagnose", &better, &campaign, &log, "--json", "-"]).good();
-    let again: Value = serde_json::from_str(&again).expect("JSON");
+    let again = stiffarm(&["diagnose", &better, &campaign, &log, "--json", "-"]).json();
     assert_eq!(again["together"]["springs"], Value::Array(Vec::new()), "{again:#}");
     let page = read(&page);
     assert!(page.matches("<iframe").count() == 2 && page.contains("Joint compliance"));
@@ -74,7 +73,7 @@ fn one_spring_is_told_by_both_better_than_by_either() {
 fn springs_that_differ_are_said_to() {
     let folder = Folder::new();
     let [robot, campaign, log] = data(&folder, 2.0 * GIVES);
-    let better = text(&folder.path("better.toml"));
+    let better = folder.name("better.toml");
     let run = ["diagnose", &robot, &campaign, &log, "--write-robot", &better];
     let out = stiffarm(&run).good();
     assert!(out.contains("they differ"), "{out}");
@@ -94,8 +93,7 @@ fn options_go_to_the_data_that_they_are_about() {
     let both = ["diagnose", &robot, &campaign, &log];
     let only = ["--effects", "joint_compliance,servo_droop,latency", "--nuisance", "base_frame"];
     let checked = ["--band", "5Hz", "--check", &log, "--json", "-"];
-    let found = stiffarm(&[&both[..], &only, &checked].concat()).good();
-    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let found = stiffarm(&[&both[..], &only, &checked].concat()).json();
     // The log's options are the log's, and its check too.
     assert_eq!(found["log"]["filter"]["band"], 5.0, "{found:#}");
     assert!(found["log"]["check"].is_object() && found["campaign"]["check"].is_null());

@@ -23,7 +23,7 @@ const SMALL: [&str; 11] = [
 fn the_json_has_every_case_and_the_seed_decides() {
     let folder = Folder::new();
     let run = |name: &str, seed: &str| {
-        let file = text(&folder.path(name));
+        let file = folder.name(name);
         let out = stiffarm(&[&SMALL[..], &["--json", &file, "--seed", seed]].concat()).good();
         assert_eq!(out, "");
         std::fs::read_to_string(file).expect("written")

@@ -92,8 +92,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
         // Neither side of the play.
         let sides = if robot == better { &["--sides", "0,0,0"][..] } else { &[] };
         let at = ["eval", robot, "--q", "0.3,-0.8,1.1", "--json", "-"];
-        let out = stiffarm(&[&at[..], sides].concat()).good();
-        let found: Value = serde_json::from_str(&out).expect("JSON");
+        let found = stiffarm(&[&at[..], sides].concat()).json();
         let three = found["position"].as_array().expect("three").iter();
         three.map(|x| x.as_f64().expect("a number")).collect()
     };

@@ -30,7 +30,7 @@ fn every_command_of_the_guide_runs() {
         folder.file(name, part(&lines[2000 * k..2000 * (k + 1)]));
     }
     folder.file("servo.csv", servo(&all));
-    let [arm, campaign] = ["arm.toml", "campaign.csv"].map(|name| text(&folder.path(name)));
+    let [arm, campaign] = ["arm.toml", "campaign.csv"].map(|name| folder.name(name));
     let spring = "joint_compliance@joint 1=1e-5";
     stiffarm(&["simulate", &arm, "--csv", &campaign, "--payload", "5kg", "--effect", spring])
         .good();

@@ -36,7 +36,7 @@ fn a_written_robot_does_what_is_announced() {
     let robot = folder.file("pendulum.toml", PENDULUM);
     let [log, other] = logs(&folder);
     let [better, first, again] =
-        ["better.toml", "first.json", "again.json"].map(|name| text(&folder.path(name)));
+        ["better.toml", "first.json", "again.json"].map(|name| folder.name(name));
     let found = ["diagnose", &robot, &log, "--write-robot", &better, "--json", &first, "--quiet"];
     stiffarm(&found).good();
     stiffarm(&["diagnose", &better, &log, "--json", &again, "--quiet"]).good();
@@ -51,7 +51,7 @@ fn a_written_robot_does_what_is_announced() {
     let was = 1.92 * 2.0 + 3.0 * 0.8 * 9.80665 * 0.3_f64.cos() + 2.0 + 0.7 * 0.5;
     assert!((is - was).abs() < 0.05, "{is}, not {was}: {}", read(&better));
     // The other half was not seen by any fit.
-    let checked = text(&folder.path("checked.json"));
+    let checked = folder.name("checked.json");
     let check = ["diagnose", &robot, &log, "--check", &other, "--json", &checked];
     let out = stiffarm(&check).good();
     assert!(out.contains("with nothing fitted"), "{out}");
@@ -65,7 +65,7 @@ fn simulators_get_what_they_hold() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let [log, _] = logs(&folder);
-    let [mjcf, urdf] = ["better.xml", "better.urdf"].map(|name| text(&folder.path(name)));
+    let [mjcf, urdf] = ["better.xml", "better.urdf"].map(|name| folder.name(name));
     let only = "coulomb_friction,viscous_friction,torque_offset";
     let found = ["diagnose", &robot, &log, "--effects", only, "--write-mjcf", &mjcf];
     let run = stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat());
@@ -92,7 +92,7 @@ fn an_effect_of_motion_is_part_of_the_model() {
     );
     let knows = folder.file("knows.toml", half);
     let [log, _] = logs(&folder);
-    let [plain, known] = ["plain.json", "known.json"].map(|name| text(&folder.path(name)));
+    let [plain, known] = ["plain.json", "known.json"].map(|name| folder.name(name));
     let only = ["--effects", "coulomb_friction,viscous_friction", "--quiet", "--json"];
     stiffarm(&[&["diagnose", &robot, &log], &only[..], &[&plain]].concat()).good();
     stiffarm(&[&["diagnose", &knows, &log], &only[..], &[&known]].concat()).good();
@@ -134,7 +134,7 @@ fn currents_tell_no_newton_metres() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows("t,q1,i1"));
-    let better = text(&folder.path("better.toml"));
+    let better = folder.name("better.toml");
     let run = stiffarm(&[
         "diagnose",
         &robot,
@@ -168,7 +168,7 @@ fn a_page_holds_everything() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let [log, other] = logs(&folder);
-    let page = text(&folder.path("log.html"));
+    let page = folder.name("log.html");
     stiffarm(&["diagnose", &robot, &log, "--check", &other, "--report", &page, "--quiet"]).good();
     let page = read(&page);
     for part in [
