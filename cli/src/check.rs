@@ -103,9 +103,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         }
     };
     let failed = checked.iter().any(|c| !c.agrees());
-    if let Some(target) = &args.json {
-        host.write(target, &json::text(&written(&checked, args))?)?;
-    }
+    host.put(&args.json, || json::text(&written(&checked, args)))?;
     if (failed || !host.is_quiet()) && args.json != Some(Target::Stdout) {
         host.print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
     }

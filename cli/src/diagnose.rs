@@ -178,17 +178,11 @@ pub trait Found: Send + Sync {
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let found = diagnose(&args.robot, &args.data, &args.settings, Catalogues::default(), host)?;
-    if let Some(target) = &args.json {
-        host.write(target, &found.json()?)?;
-    }
+    host.put(&args.json, || found.json())?;
     args.write_arm(&*found, host)?;
-    if let Some(target) = &args.report {
-        host.write(target, &found.page()?)?;
-    }
-    let written: Vec<_> =
-        [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
-    let enough = host.is_quiet() && !written.is_empty();
-    if !enough && !written.contains(&&Target::Stdout) {
+    host.put(&args.report, || found.page())?;
+    let [robot, urdf, mjcf] = args.arms();
+    if host.shows(&[&args.json, &args.report, robot, urdf, mjcf]) {
         host.print(&found.text(args.all)?)?;
     }
     Ok(match found.campaign() {
@@ -273,9 +267,7 @@ impl Args {
     }
 
     fn write_arm(&self, found: &dyn Found, host: &Host) -> Result<(), Failure> {
-        if let Some(target) = &self.write_robot {
-            host.write(target, &found.corrected()?)?;
-        }
+        host.put(&self.write_robot, || found.corrected())?;
         for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
         {
             if let Some(target) = target {

@@ -192,6 +192,25 @@ impl Host {
         Ok(())
     }
 
+    /// Writes what `text` is to where it was asked for, if it was.
+    ///
+    /// # Errors
+    /// [`Failure`] of the text, or as [`Host::write`].
+    pub(crate) fn put(
+        &self,
+        target: &Option<Target>,
+        text: impl FnOnce() -> Result<String, Failure>,
+    ) -> Result<(), Failure> {
+        target.as_ref().map_or(Ok(()), |target| self.write(target, &text()?))
+    }
+
+    /// Whether a screen is wanted beside what was asked for: not where that goes to standard output itself, nor where
+    /// something is written and all else is to be left out.
+    pub(crate) fn shows(&self, targets: &[&Option<Target>]) -> bool {
+        let mut written = targets.iter().copied().flatten().peekable();
+        !(self.quiet && written.peek().is_some()) && written.all(|to| *to != Target::Stdout)
+    }
+
     /// Whether a program hears how far the work is.
     pub(crate) fn is_program(&self) -> bool {
         self.program.is_some()

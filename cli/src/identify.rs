@@ -108,12 +108,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if data.sim_given.contains(&true) {
         host.note("the columns sim_… play no part: springs are compared with the robot file");
     }
-    if let Some(target) = &args.json {
-        host.write(target, &json::text(&result)?)?;
-    }
-    if let Some(target) = &args.write_robot {
-        host.write(target, &written::robot(&source, &answer, &data.file)?)?;
-    }
+    host.put(&args.json, || json::text(&result))?;
+    host.put(&args.write_robot, || written::robot(&source, &answer, &data.file))?;
     let identified = document::Identified {
         source: &source,
         arm: &arm,
@@ -121,14 +117,10 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         question: &question,
         answer: &answer,
     };
-    if let Some(target) = &args.report {
-        let document = identified.document(true);
-        host.write(target, &document.html(&identified.embedded(&json::value(&result)?)?)?)?;
-    }
-    let written: Vec<_> =
-        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
-    let enough = host.is_quiet() && !written.is_empty();
-    if !enough && !written.contains(&&Target::Stdout) {
+    host.put(&args.report, || {
+        identified.document(true).html(&identified.embedded(&json::value(&result)?)?)
+    })?;
+    if host.shows(&[&args.json, &args.write_robot, &args.report]) {
         host.print(&identified.document(false).text(false))?;
     }
     Ok(Verdict::Good)

@@ -124,12 +124,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             "check the load, its unit and the stiffness",
         ));
     }
-    if let Some(target) = &args.svg {
-        host.write(target, &picture::figure(&source, &sweep, &asked, &map).svg())?;
-    }
-    if let Some(target) = &args.csv {
-        host.write(target, &numbers(&sweep, &asked, &map))?;
-    }
+    host.put(&args.svg, || Ok(picture::figure(&source, &sweep, &asked, &map).svg()))?;
+    host.put(&args.csv, || Ok(numbers(&sweep, &asked, &map)))?;
     let printed = [&args.svg, &args.csv].into_iter().flatten().any(|to| *to == Target::Stdout);
     if !host.is_quiet() && !printed {
         host.print(&screen(&source.robot.name, &sweep, &asked, &map, unstable))?;

@@ -104,16 +104,10 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         inside: gaps.len(),
         gap: (is_measured && !gaps.is_empty()).then(|| Statistics::of(&gaps)),
     };
-    if let Some(target) = &args.csv {
-        let comment = format!("{}, predicted: {}", source.robot.name, data.file);
-        host.write(target, &csv(&arm, &found, &[comment]))?;
-    }
-    if let Some(target) = &args.json {
-        host.write(target, &json::text(&written)?)?;
-    }
-    let outputs: Vec<&Target> = [&args.csv, &args.json].into_iter().flatten().collect();
-    let enough = host.is_quiet() && !outputs.is_empty();
-    if !enough && !outputs.contains(&&Target::Stdout) {
+    let comment = format!("{}, predicted: {}", source.robot.name, data.file);
+    host.put(&args.csv, || Ok(csv(&arm, &found, &[comment])))?;
+    host.put(&args.json, || json::text(&written))?;
+    if host.shows(&[&args.csv, &args.json]) {
         host.print(&screen(&source, &data, &written))?;
     }
     Ok(Verdict::Good)

@@ -97,12 +97,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let (report, position_log) =
         if args.motion { motion::report(args, host)? } else { (report(args, host)?, false) };
     let document = document::document(&report, position_log);
-    if let Some(target) = &args.json {
-        host.write(target, &json::text(&report)?)?;
-    }
-    if let Some(target) = &args.report {
-        host.write(target, &document.html(&Embedded::new((), &report, "")?)?)?;
-    }
+    host.put(&args.json, || json::text(&report))?;
+    host.put(&args.report, || document.html(&Embedded::new((), &report, "")?))?;
     if !args.is_enough(host) {
         host.print(&document.text(false))?;
     }

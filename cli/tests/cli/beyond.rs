@@ -226,56 +226,6 @@ fn a_base_stands_somewhere() {
     stiffarm(&["check", &robot, "--count", "50"]).good();
 }
 
-#[test]
-fn mistakes_of_an_effect_are_shown_at_their_place() {
-    let folder = Folder::new();
-    let line = read(ARM).lines().count() + 2;
-    for (effect, below, message, help) in [
-        (
-            "id = \"backlsh\"\nplace = \"joint 1\"",
-            1,
-            "unknown effect `backlsh`",
-            "did you mean `backlash`?",
-        ),
-        (
-            "id = \"backlash\"\nplace = \"joint 9\"",
-            2,
-            "`joint 9` is no place of backlash",
-            "did you mean",
-        ),
-        (
-            "id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"1 mm\"",
-            3,
-            "`1 mm` is no number",
-            "rad",
-        ),
-        (
-            "id = \"slip\"\nplace = \"base\"\nx = 1e-3",
-            0,
-            "`after` of slip is missing",
-            "write after = 1",
-        ),
-    ] {
-        let robot = with(&folder, "wrong.toml", &format!("\n[[effect]]\n{effect}\n"));
-        for arguments in
-            [&["simulate", &robot, "--csv", "-"][..], &["generate", &robot, "--emit", "rust"]]
-        {
-            let err = stiffarm(arguments).refused();
-            assert!(err.contains(message) && err.contains(help), "{err}");
-            assert!(err.contains(&format!("wrong.toml:{}:", line + below)), "{err}");
-        }
-    }
-}
-
-#[test]
-fn a_name_is_one_line() {
-    let folder = Folder::new();
-    let evil = read(ARM).replacen(NAMED, "name = \"a\\nfn evil() {}\" #", 1);
-    let robot = folder.file("evil.toml", evil);
-    let err = stiffarm(&["generate", &robot, "--emit", "rust"]).refused();
-    assert!(err.contains("the control character '\\n' stands in a text"), "{err}");
-}
-
 /// The same springs of the same arm, wherever it stands.
 #[test]
 fn springs_are_identified_wherever_the_arm_stands() {

@@ -102,30 +102,6 @@ fn rows_may_have_starts_and_loads_of_their_own() {
 }
 
 #[test]
-fn targets_that_cannot_be_used_are_refused() {
-    let folder = Folder::new();
-    let refused = |content: &str, extra: &[&str], expected: &str| {
-        let file = folder.file("path.csv", content);
-        let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", "-"];
-        let err = stiffarm(&[&arguments[..], extra].concat()).refused();
-        assert!(err.contains(expected), "no `{expected}` in\n{err}");
-    };
-    refused("x,y,z\n1,a,0\n", &[], "path.csv:2:3\n");
-    refused("x,y\n1,0\n", &[], "found x, y, expected poses: x, y, z");
-    refused("dx,dy,dz\n1,0,0\n", &[], "found dx, dy, dz, expected poses: x, y, z");
-    refused("q1,x,y,z\n0,1,0,0\n", &[], "found no column q2");
-    refused(
-        "x,y,z\n1,0,0\n0,1e308,0\n",
-        &[],
-        "path.csv: line 3: a coordinate of the target is not a number below 1e50: check its unit",
-    );
-    refused("x,y,z\n1,0,0\n", &["--tolerance", "3"], "expected a positive number and its unit");
-    refused("x,y,z\n1,0,0\n", &["--wrench", "3"], "--wrench: found 1 value");
-    let err = stiffarm(&["compensate", "ur5", "--targets", "no.csv", "--out", "-"]).refused();
-    assert!(err.contains("cannot read no.csv"), "{err}");
-}
-
-#[test]
 fn a_rigid_arm_is_remarked_on() {
     let folder = Folder::new();
     let file = folder.file("path.csv", "x,y,z\n0.4,0.2,0.3\n");

@@ -105,11 +105,11 @@ fn a_saved_diagnosis_predicts() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
     let run = folder.name("run.csv");
-    let value = |out: &str| -> Value { serde_json::from_str(out).expect("JSON") };
-    let said = value(&read(&json));
+    let said = crate::support::json(&read(&json));
     let fitted = &said["gap"]["fitted"];
     for robot in [&better, &json] {
-        let found = value(&stiffarm(&["predict", robot, &run, "--json", "-"]).good());
+        let found =
+            crate::support::json(&stiffarm(&["predict", robot, &run, "--json", "-"]).good());
         assert_eq!((&found["rows"], &found["inside"]), (&90.into(), &90.into()));
         for key in ["position_rms", "position_max", "rotation_rms"] {
             let ratio = found["gap"][key].as_f64().expect("a number")
@@ -130,13 +130,18 @@ fn a_saved_diagnosis_predicts() {
         written.contains("Nothing is measured") || written.contains("None is judged"),
         "{written}"
     );
-    let none = value(&stiffarm(&["predict", &better, &expected, "--json", "-"]).good());
+    let none =
+        crate::support::json(&stiffarm(&["predict", &better, &expected, "--json", "-"]).good());
     assert!(none["gap"]["position_max"].as_f64().expect("a number") < 1e-12, "{none:#}");
     // Beyond the loads of the diagnosis nothing is judged.
     let heavy = read(&expected).replace("-2000,", "-9000,").replace("1500,", "9000,");
     let heavy = folder.file("heavy.csv", heavy);
     let out = stiffarm(&["predict", &json, &heavy, "--json", "-", "--quiet"]).good();
-    assert_eq!((&value(&out)["inside"], &value(&out)["gap"]), (&0.into(), &Value::Null), "{out}");
+    assert_eq!(
+        (&crate::support::json(&out)["inside"], &crate::support::json(&out)["gap"]),
+        (&0.into(), &Value::Null),
+        "{out}"
+    );
 }
 
 /// What goes with the load and gives beyond the table is in a map of the corrected arm.

@@ -9,9 +9,7 @@ const KEYS: [&str; 7] =
     ["position", "rotation", "jacobian", "k_c", "compliance", "deflection", "joint_torque"];
 
 fn json(arguments: &[&str]) -> Value {
-    let out = stiffarm(&[&["eval"], arguments, &["--json", "-"]].concat()).good();
-    assert!(out.ends_with("}\n"), "{out}");
-    serde_json::from_str(&out).expect("JSON")
+    stiffarm(&[&["eval"], arguments, &["--json", "-"]].concat()).json()
 }
 
 /// Row by row, as the format has it, into one column-major block.
@@ -107,10 +105,6 @@ fn symbolic_parameters_take_numbers() {
     all.iter().for_each(|s| arguments.extend(["--set", s]));
     let found = json(&arguments);
     near(&block(&found["position"]), &[1.2192, 0.0, 0.0], "position");
-    let missing =
-        stiffarm(&["eval", "lin_planar_symbolic", "--q", "0,0", "--set", "L1=1"]).refused();
-    assert!(missing.contains("found no number for E1, G1,"), "{missing}");
-    assert!(missing.contains("L2 (m)"), "{missing}");
 }
 
 #[test]

@@ -47,20 +47,3 @@ fn names_are_the_caller_s() {
     assert_eq!(status, 2);
     assert!(error.contains("`Left-Arm`") && error.contains("`left_arm`"), "{error}");
 }
-
-#[test]
-fn what_does_not_go_together_is_refused() {
-    for (arguments, told) in [
-        (&["ur5", "--emit", "c"][..], "--out FOLDER"),
-        (&["ur5", "--emit", "c", "--out", "-"], "--out FOLDER"),
-        (&["ur5", "--emit", "c", "--out", "/", "--flexible"], "rust and latex"),
-        (&["ur5", "--emit", "c", "--out", "/", "--kernels", "k"], "--kernels is for rust"),
-        (&["ur5", "--emit", "rust", "--precision", "f32"], "for c"),
-        (&["ur5", "--emit", "latex", "--sines", "math"], "for c"),
-        (&["jweeg_two_link", "--emit", "c", "--out", "/"], "found no number for"),
-    ] {
-        let (status, out, error) = generate(arguments);
-        assert_eq!((status, out.as_str()), (2, ""), "{arguments:?}");
-        assert!(error.contains(told), "{arguments:?}: {error}");
-    }
-}

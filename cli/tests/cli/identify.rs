@@ -4,7 +4,7 @@ use nalgebra::Vector6;
 use serde_json::Value;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, flat, read, stiffarm, text};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
@@ -119,7 +119,7 @@ fn a_spring_where_the_file_has_none_is_said_as_such() {
     let rigid: Vec<&str> = soft.lines().filter(springs).collect();
     let rigid = folder.file("rigid.toml", rigid.join("\n"));
     let screen = stiffarm(&["identify", &rigid, &data]).good();
-    let said = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = flat(&screen);
     assert!(said.contains("N·m/rad where the robot file has none"), "{screen}");
     assert!(!said.contains("as in the robot file"), "{screen}");
 }
@@ -152,24 +152,4 @@ fn the_foundation_is_written() {
     };
     // The file's six digits, of a foundation that is a part of what gives.
     assert!(gap(&out) < 1e-4 * gap(&robot), "{} {}", gap(&out), gap(&robot));
-}
-
-#[test]
-fn what_cannot_be_identified_is_refused() {
-    let folder = Folder::new();
-    let (robot, data) = run(&folder, 4, &LOADS);
-    let refused = |arguments: &[&str], expected: &str| {
-        let err = stiffarm(&[&["identify"], arguments].concat()).refused();
-        assert!(err.contains(expected), "no `{expected}` in\n{err}");
-    };
-    refused(&[&robot, &data, "--folds", "9"], "found 9 folds, expected 2 to 4");
-    refused(&[&robot, &data, "--noise-position", "3"], "expected a positive number and its unit");
-    refused(&[&robot, "no.csv"], "cannot read no.csv");
-    refused(&[&robot, &data, "--json", "-", "--write-robot", "-"], "cannot both go");
-    let unloaded = folder.file("unloaded.csv", "q1,q2,q3,q4,q5,q6,dx\n0,0,0,0,0,0,1e-3\n");
-    refused(&[&robot, &unloaded], "found no load in any row");
-    let broken = folder.file("broken.csv", "q1,q2,q3,q4,q5,q6,fx,dx\n0,0,0,0,0,0,a,1e-3\n");
-    refused(&[&robot, &broken], "broken.csv:2:13\n");
-    let missing = folder.name("no/such.toml");
-    refused(&[&robot, &data, "--write-robot", &missing], "no such file or folder");
 }

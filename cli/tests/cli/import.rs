@@ -14,10 +14,8 @@ fn the_robot_file_can_be_used_at_once() {
     let printed = stiffarm(&["--quiet", "import", "tests/data/urdf/panda.urdf"]).good();
     assert_eq!(printed, toml);
     let q = "0.1,-0.2,0.3,-1.4,0.5,1.6,0.7";
-    let evaluated = |robot: &str| {
-        let out = stiffarm(&["eval", robot, "--q", q, "--gravity", "--json", "-"]).good();
-        serde_json::from_str::<serde_json::Value>(&out).expect("JSON")
-    };
+    let evaluated =
+        |robot: &str| stiffarm(&["eval", robot, "--q", q, "--gravity", "--json", "-"]).json();
     let (ours, built_in) = (evaluated(&out), evaluated("panda"));
     for key in ["position", "joint_torque"] {
         let list = |v: &serde_json::Value| -> Vec<f64> {

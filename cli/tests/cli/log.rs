@@ -64,8 +64,8 @@ fn friction_is_told_with_its_numbers() {
     assert!(out.contains("viscous friction at joint 1"), "{out}");
     assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let text = std::fs::read_to_string(json).expect("written");
-    let found: Value = serde_json::from_str(&text).expect("JSON");
+    let text = read(json);
+    let found = crate::support::json(&text);
     let value = |effect: &str| {
         let list = found["findings"].as_array().expect("a list");
         let finding = list.iter().find(|f| f["effect"] == effect).expect("found");
@@ -83,7 +83,7 @@ fn friction_is_told_with_its_numbers() {
     assert!((number(&shrink["shrink"]) - part).abs() < 1e-12, "{text}");
     assert!(low < part && part < high && high - low < 0.2, "{text}");
     let [part, low, high] = [part, low, high].map(|x| (100.0 * x).round());
-    let told = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let told = flat(&out);
     assert!(told.contains(&format!("{part} % less [{low} to {high}]")), "{out}");
 }
 
@@ -98,8 +98,6 @@ fn a_side_is_declared_and_never_guessed() {
         err.contains("found torques without a side, expected where they are measured"),
         "{err}"
     );
-    let external = ["diagnose", &robot, &log, "--torque-side", "external"];
-    assert!(stiffarm(&external).refused().contains("found torque_side external"));
     let log = folder.file("said.csv", format!("# torque_side = motor\n{}", rows(HEADER)));
     stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
 }
@@ -120,22 +118,6 @@ fn others_names_and_damaged_rows_are_read() {
     );
     // A column of currents says itself what it is; its friction is in ampere.
     assert!(run.out.contains("torques, current") && run.out.contains("] A\n"), "{}", run.out);
-    let wrong = ["diagnose", &robot, &log, "--map", "excel"];
-    assert!(stiffarm(&wrong).refused().contains("expected a file or one of ros, rtde"));
-}
-
-#[test]
-fn options_go_with_what_the_file_is() {
-    let folder = Folder::new();
-    let robot = folder.file("pendulum.toml", PENDULUM);
-    let log = folder.file("log.csv", rows(HEADER));
-    let nuisance = ["diagnose", &robot, &log, "--nuisance", "base_frame"];
-    assert!(stiffarm(&nuisance).refused().contains("--nuisance is for measurement files"));
-    let data = "robots/data/lin1991_table3.csv";
-    let band = ["diagnose", "lin_planar", data, "--band", "5Hz"];
-    assert!(stiffarm(&band).refused().contains("--band is for joint logs"));
-    let two = ["diagnose", "lin_planar", data, data];
-    assert!(stiffarm(&two).refused().contains("found the same file twice"));
 }
 
 /// The search that has not seen a block leaves at least what the fit of all findings leaves, and of two
@@ -153,7 +135,7 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     assert!(out.contains("search repeated") && out.contains("With the search repeated"), "{out}");
     let page = read(&page);
     assert!(page.contains("<th scope=\"col\">search repeated</th>"), "{page}");
-    let found = read_json(&json);
+    let found = crate::support::json(&read(&json));
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
     let plain =

@@ -26,6 +26,7 @@ mod papers;
 mod pinocchio;
 mod poses;
 mod readme;
+mod refusals;
 mod report;
 mod simulate;
 mod support;

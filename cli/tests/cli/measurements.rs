@@ -20,18 +20,6 @@ fn a_foreign_table_becomes_a_measurement_file() {
 }
 
 #[test]
-fn what_could_not_be_diagnosed_is_refused_and_nothing_is_written() {
-    let folder = Folder::new();
-    let raw = folder.file("raw.txt", RAW);
-    let out = folder.name("run.csv");
-    let err = stiffarm(&["measurements", &raw, "--robot", "lin_planar", "--csv", &out]).refused();
-    assert!(err.contains("found no measured column"), "{err}");
-    let err = stiffarm(&["measurements", "no.csv", "--csv", &out]).refused();
-    assert!(err.contains("cannot read no.csv"), "{err}");
-    assert_eq!(folder.names(), ["raw.txt"]);
-}
-
-#[test]
 fn a_second_table_stands_beside() {
     let folder = Folder::new();
     let tracker = folder.file("tracker.csv", "Time [s];X [mm];Y [mm]\n0,5;1;2\n1,5;3;4\n");
@@ -42,8 +30,4 @@ fn a_second_table_stands_beside() {
         run.out,
         "q1[rad],q2[rad],time[s],x[mm],y[mm]\n0.2,0.30000000000000004,0.5,1,2\n0.3,0.5,1.5,3,4\n"
     );
-    let err = stiffarm(&["measurements", &tracker, "--join", &log]).refused();
-    assert!(err.contains("found 2 rows, expected 3"), "{err}");
-    let err = stiffarm(&["measurements", &tracker, "--by", "time"]).refused();
-    assert!(err.contains("--join"), "{err}");
 }

@@ -1,8 +1,6 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use serde_json::Value;
-
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, flat, read, stiffarm, text};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
@@ -35,7 +33,7 @@ fn good(arguments: &[&str]) -> String {
     let ended = stiffarm(arguments);
     assert_eq!(ended.status, 0, "{}", ended.err);
     // Lines are broken where the screen ends.
-    ended.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    flat(&ended.out)
 }
 
 const FRAMES: [&str; 2] = ["--nuisance", "base_frame,tool_frame"];
@@ -55,8 +53,7 @@ fn a_coupling_is_named_and_written() {
     let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..], &outputs[..]].concat());
     assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
     assert!(shown.contains("instead of"), "{shown}");
-    let told = std::fs::read_to_string(&json).expect("a diagnosis");
-    let told: Value = serde_json::from_str(&told).expect("JSON");
+    let told = crate::support::json(&read(&json));
     let wrong = &told["mistaken"]["mistakes"][0];
     assert_eq!(
         (&wrong["kind"], &wrong["in_robot_file"]),
@@ -91,6 +88,6 @@ fn rows_of_other_poses_are_no_arm() {
     let data = file(&folder, "other.csv", &header, &rows);
     let ended = stiffarm(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
     assert_eq!(ended.status, 3, "{}", ended.err);
-    let out = ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");
 }

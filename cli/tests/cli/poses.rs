@@ -123,26 +123,3 @@ fn sliding_joints_are_in_millimetres() {
     let out = stiffarm(&["poses", "stanford", "--count", "2", "--csv", "-"]).good();
     assert!(out.contains("q2[deg],q3[mm],q4[deg]"), "{out}");
 }
-
-#[test]
-fn plans_that_cannot_be_made_are_refused() {
-    let refused = |extra: &[&str], expected: &str| {
-        let err = stiffarm(&[&["poses", "ur5"], extra].concat()).refused();
-        assert!(err.contains(expected), "no `{expected}` in\n{err}");
-    };
-    refused(&["--count", "3"], "--csv <OUT>");
-    refused(&["--count", "0", "--csv", "-"], "--count");
-    refused(&["--count", "3", "--csv", "-", "--load", "1,2"], "--load: found 2 values");
-    refused(&["--count", "3", "--csv", "-", "--load", "0,0,0,0,0,0"], "number of loads");
-    refused(&["--count", "3", "--csv", "-", "--for", "fun"], "identify, diagnose, separate");
-    let separate = |more: &[&str], expected: &str| {
-        refused(&[&["--count", "3", "--csv", "-", "--for", "separate"], more].concat(), expected);
-    };
-    separate(&["backlash@joint 2"], "--for separate: found 1 effect, expected two");
-    separate(&["backlas@joint 2", "drift"], "did you mean `backlash`?");
-    separate(&["backlash@joint 2", "drift"], "no test of this plan shows drift at base");
-    separate(&["base_frame", "base_frame"], "no test of this plan tells base frame at base from");
-    separate(&["drift", "drift", "--nuisance", "frame"], "unknown nuisance `frame`");
-    refused(&["backlash", "--count", "3", "--csv", "-"], "found `backlash`, expected an option");
-    refused(&["--count", "3", "--csv", "no/such.csv"], "no such file or folder");
-}

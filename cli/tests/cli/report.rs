@@ -91,15 +91,6 @@ fn the_page_says_what_the_screen_says() {
     assert_eq!(folder.names(), ["out.html"]);
 }
 
-#[test]
-fn a_report_that_cannot_be_written_is_said() {
-    let folder = Folder::new();
-    let path = folder.name("no/such/folder.html");
-    let said = stiffarm(&[&LIN[..], &["--report", &path]].concat()).refused();
-    assert!(said.contains("folder.html"), "{said}");
-    assert!(folder.names().is_empty());
-}
-
 const WORKBENCH: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
 
 #[test]
@@ -118,9 +109,6 @@ fn the_page_of_an_identification_says_what_its_screen_says() {
     assert!(screen.join(" ").contains(&said), "{said}");
     assert!(page.contains("<td>3.61e6 N·m/rad</td>"));
     assert!(!page.contains("http"));
-    let both = [&WORKBENCH[..], &["--report", "-", "--json", "-"]].concat();
-    let err = stiffarm(&both).refused();
-    assert!(err.contains("--json and --report cannot both go to standard output"), "{err}");
 }
 
 #[test]

@@ -38,7 +38,7 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let out = stiffarm(&[&run[..], &["--report", &page]].concat()).good();
     assert!(out.contains("The compliance of joint 2 is the same at rest and in motion"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let found = read_json(&json);
+    let found = crate::support::json(&read(&json));
     let springs = found["together"]["springs"].as_array().expect("a list");
     let [spring] = &springs[..] else { panic!("{springs:#?}") };
     assert_eq!((&spring["place"], &spring["unit"]), (&"joint 2".into(), &"rad/(N·m)".into()));

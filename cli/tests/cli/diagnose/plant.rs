@@ -5,8 +5,8 @@ use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 
-use super::{flat, line};
-use crate::support::{Folder, stiffarm, text};
+use super::line;
+use crate::support::{Folder, flat, json, stiffarm, text};
 
 const ROBOT: &str = r#"
 name = "shoulder and elbow"
@@ -96,7 +96,7 @@ impl Bench {
 
     fn json(&self, robot: &str, data: &str, extra: &[&str]) -> Value {
         let out = self.diagnose(robot, data, &[extra, &["--json", "-"]].concat());
-        serde_json::from_str(&out).expect("JSON")
+        json(&out)
     }
 }
 
@@ -318,47 +318,6 @@ fn what_is_usual_may_be_told() {
     // Nobody who knows that joints are a million times stiffer than that believes in a spring.
     let told = named(&["--usual", "joint_compliance=1e-14"]);
     assert!(usual.starts_with("joint_compliance") && !told.starts_with("joint_compliance"));
-    let all = ["diagnose", &bench.robot, &run, "--usual", "joint_compliance=1 mm"];
-    let err = stiffarm(&all).refused();
-    assert!(err.contains("found the prior `joint_compliance=1 mm`"), "{err}");
-}
-
-#[test]
-fn the_same_files_give_the_same_bytes() {
-    let bench = Bench::new();
-    let run = bench.measured("run.csv", &[SPRING, ZERO], 8, true);
-    let frames = ["--nuisance", "tool_frame,base_frame", "--check", &run, "--json", "-"];
-    let first = bench.diagnose(&bench.robot, &run, &frames);
-    assert_eq!(bench.diagnose(&bench.robot, &run, &frames), first);
-    let screen = bench.diagnose(&bench.robot, &run, &frames[..4]);
-    assert_eq!(bench.diagnose(&bench.robot, &run, &frames[..4]), screen);
-}
-
-#[test]
-fn what_cannot_be_is_refused_and_nothing_written() {
-    let bench = Bench::new();
-    let run = bench.measured("run.csv", &[SPRING], 9, false);
-    let out = bench.path("out.toml");
-    let refused = |extra: &[&str], expected: &str| {
-        let all = [&["diagnose", &bench.robot, &run, "--write-robot", &out], extra].concat();
-        let err = stiffarm(&all).refused();
-        assert!(err.contains(expected), "{err}");
-    };
-    refused(
-        &["--nuisance", "base_fram"],
-        "expected base_frame, tool_frame or geometry; did you mean",
-    );
-    refused(&["--effects", "backlosh"], "did you mean `backlash`?");
-    refused(&["--effects", "x"], "expected one of joint_offset, joint_compliance, backlash");
-    refused(&["--check", "no.csv"], "cannot read no.csv: no such file");
-    refused(&["--json", "-", "--report", "-"], "--json and --report cannot both go to");
-    let marked = "q1,q2,q3,marker,x,y,z\n0,0,0,smr,1,0,0\n0,0,1,smr,1,0,0\n";
-    let marked = bench.folder.file("marked.csv", marked);
-    refused(&["--check", &marked], "smr");
-    let arguments = ["diagnose", &bench.robot, &run, "--json", "-", "--write-robot", "-"];
-    let err = stiffarm(&arguments).refused();
-    assert!(err.contains("--write-robot and --json cannot both go to standard output"), "{err}");
-    assert_eq!(bench.folder.names(), ["arm.toml", "marked.csv", "run.csv"]);
 }
 
 #[test]

@@ -40,15 +40,8 @@ fn every_command_of_the_guide_runs() {
     let commands: Vec<&str> = blocks.flat_map(str::lines).collect();
     assert!(commands.len() > 8, "{commands:?}");
     for command in commands {
-        // What stands in quotes is one word.
-        let parts = command.split('\'').enumerate();
-        let words = parts.flat_map(|(k, part)| match k % 2 {
-            0 => part.split_whitespace().collect(),
-            _ => vec![part],
-        });
-        let words = words.skip(1);
         let run = Command::new(env!("CARGO_BIN_EXE_stiffarm"))
-            .args(words)
+            .args(&words(command)[1..])
             .current_dir(folder.path(""))
             .output()
             .expect("the binary runs");

@@ -6,11 +6,7 @@ use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, read, stiffarm, text};
-
-fn json(path: &str) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(path).expect("written")).expect("JSON")
-}
+use crate::support::{Folder, json, read, stiffarm, text};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
@@ -40,7 +36,7 @@ fn a_written_robot_does_what_is_announced() {
     let found = ["diagnose", &robot, &log, "--write-robot", &better, "--json", &first, "--quiet"];
     stiffarm(&found).good();
     stiffarm(&["diagnose", &better, &log, "--json", &again, "--quiet"]).good();
-    let (first, again) = (json(&first), json(&again));
+    let (first, again) = (json(&read(&first)), json(&read(&again)));
     let ratio = number(&again["gap"][0]["before"]) / number(&first["gap"][0]["after"]);
     assert!((0.95..1.05).contains(&ratio), "{ratio}");
     assert_eq!(again["findings"].as_array().map(Vec::len), Some(0), "{again:#}");
@@ -55,7 +51,7 @@ fn a_written_robot_does_what_is_announced() {
     let check = ["diagnose", &robot, &log, "--check", &other, "--json", &checked];
     let out = stiffarm(&check).good();
     assert!(out.contains("with nothing fitted"), "{out}");
-    let check = &json(&checked)["check"]["gap"][0];
+    let check = &json(&read(&checked))["check"]["gap"][0];
     // 0.1 N·m of noise at 100 Hz, of which the band keeps a part.
     assert!(number(&check["after"]) < 0.1 && number(&check["before"]) > 1.0, "{check}");
 }
@@ -97,7 +93,7 @@ fn an_effect_of_motion_is_part_of_the_model() {
     stiffarm(&[&["diagnose", &robot, &log], &only[..], &[&plain]].concat()).good();
     stiffarm(&[&["diagnose", &knows, &log], &only[..], &[&known]].concat()).good();
     let effects = |path: &str| -> Vec<String> {
-        let found = json(path);
+        let found = json(&read(path));
         let list = found["findings"].as_array().expect("a list").clone();
         list.iter().map(|f| f["effect"].as_str().expect("a name").to_owned()).collect()
     };
@@ -187,7 +183,7 @@ fn a_page_holds_everything() {
         .split("type=\"application/json\">")
         .nth(1)
         .and_then(|rest| rest.split("</script>").next());
-    let data: Value = serde_json::from_str(data.expect("data")).expect("JSON");
+    let data = json(data.expect("data"));
     let joint = &data["joints"][0];
     let [points, line] = [0, 1].map(|k| joint["friction"][k].as_array().expect("points").clone());
     assert!(points.len() <= 1200 && line.len() > 20, "{} {}", points.len(), line.len());
