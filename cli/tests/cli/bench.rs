@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]

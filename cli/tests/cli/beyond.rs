@@ -9,8 +9,6 @@ const RATIO: &str = "\n[[effect]]\nid = \"joint_ratio\"\nplace = \"joint 2\"\nra
 /// One that a posture does not decide.
 const SLACK: &str = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 2\"\nwidth = \"3 mrad\"\n";
 
-const NAMED: &str = "name = ";
-
 /// The command with the robot file as ROBOT: with an effect its result is another.
 enum With {
     Honours(&'static [&'static str]),
@@ -232,7 +230,7 @@ fn springs_are_identified_wherever_the_arm_stands() {
     let folder = Folder::new();
     let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
     let springs = |robot: &str| -> Vec<f64> {
-        let run = crate::support::folder.name("run.csv");
+        let run = folder.name("run.csv");
         let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
         let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
         stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::{Folder, REPOSITORY, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, stiffarm};
 
 /// A crate whose module `arm` is what `generate` wrote.
 fn krate(robot: &str, extra: &[&str]) -> Folder {

@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, stiffarm, text};
+use crate::support::{Folder, arm, stiffarm};
 
 const LOAD: &str = "0,0,-2kN,0,0,0";
 

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 

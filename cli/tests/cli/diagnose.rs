@@ -6,7 +6,7 @@ mod sockets;
 
 use serde_json::Value;
 
-use crate::support::{Folder, command, flat, json, read, stiffarm, text};
+use crate::support::{Folder, command, flat, json, read, stiffarm};
 
 const LIN: [&str; 3] =
     ["diagnose", "robots/arms/lin_planar.toml", "robots/data/lin1991_table3.csv"];
@@ -95,31 +95,6 @@ fn the_json_is_the_formats() {
     assert!((mil(&found["gap"]["after"]["position_rms"]) - 0.89).abs() < 5e-3);
     let rivals = json(&lin(&[&RIVALS[..], &["--json", "-"]].concat()));
     assert_eq!(rivals["rivals"][0]["significant"], false);
-}
-
-#[test]
-fn no_finding_is_said_too() {
-    let folder = Folder::new();
-    let robot = folder.file(
-        "arm.toml",
-        "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\na = 1.0\n",
-    );
-    // Without a load no spring shows.
-    let run = folder.file("run.csv", "q1,dx,dy\n0.1,1e-4,0\n0.2,-1e-4,1e-5\n0.3,0,-2e-5\n");
-    let out = stiffarm(&["diagnose", &robot, &run]).good();
-    assert!(!out.contains("Findings"), "{out}");
-    let said = flat(&out);
-    assert!(said.contains("no effect that was tried "), "{out}");
-    assert!(said.contains("With 3 poses nothing can be found: the sign-flip test has 4 outcomes"));
-    assert!(said.contains("joint compliance"), "{out}");
-    assert!(said.contains("at joint 1: no load of this data reaches the joint"), "{out}");
-    // Nor does anything where there is no gap.
-    let run = folder.file("none.csv", "q1,dx,dy\n0.1,0,0\n0.2,0,0\n0.3,0,0\n");
-    let out = stiffarm(&["diagnose", &robot, &run]).good();
-    assert!(
-        out.contains("There is no position error: the model predicts the measurements."),
-        "{out}"
-    );
 }
 
 /// Ctrl-C ends a long search: a shell sees the status of a program that was interrupted.

@@ -1,6 +1,5 @@
 //! `stiffarm effects`, and the page that it writes.
 
-use serde_json::Value;
 use stiffarm_gap::effects::{Entry, Law};
 
 use crate::support::{flat, stiffarm};
@@ -30,19 +29,4 @@ fn every_effect_is_printed_with_what_it_says() {
         }
     }
     assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
-}
-
-#[test]
-fn some_are_printed_alone() {
-    let out = stiffarm(&["effects", "transmission_error", "latency"]).good();
-    assert!(out.starts_with("transmission_error  joint i\n"), "{out}");
-    assert!(out.contains("numbers        order, cos (rad), sin (rad)\n"), "{out}");
-    assert!(out.contains("\n\nlatency  instrument\n") && out.contains("delay (s)"), "{out}");
-    assert!(out.contains("\n\nlatency  the interface; positions of a log\n"), "{out}");
-    // A law by the name that findings in a log have, and the effect whose law it is.
-    let of_log = stiffarm(&["effects", "servo_droop"]).good();
-    assert_eq!(of_log, stiffarm(&["effects", "joint_compliance"]).good());
-    assert!(of_log.contains("\n\nservo_droop  joint i; positions of a log\n"), "{of_log}");
-    let friction = stiffarm(&["effects", "coulomb_friction"]).good();
-    assert!(friction.starts_with("coulomb_friction  joint i; torques of a log\n"), "{friction}");
 }

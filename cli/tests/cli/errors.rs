@@ -1,5 +1,5 @@
 //! What cannot be done is refused: a message with its place, status 2, nothing written.
-use crate::support::{Folder, command, stiffarm, text};
+use crate::support::{Folder, command, stiffarm};
 
 const ROBOT: &str = "name = \"arm\"\nconvention = \"standard\"\n[[joint]]\ntype = \"revolute\"\n\
                      a = 1.0\n[[joint]]\ntype = \"revolute\"\na = 0.5\n";

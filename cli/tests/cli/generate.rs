@@ -4,7 +4,7 @@ use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 
 /// The robots of the collection by id.
 fn collection() -> impl Iterator<Item = (&'static str, Robot)> {
@@ -134,15 +134,6 @@ fn the_command_fuses_rust_alone() {
     let fused = ["generate", "robots/arms/ur10.toml", "--emit", "rust", "--fused"];
     let written = stiffarm(&fused).out;
     assert!(written.strip_prefix(FILE_HEAD) == Some(&text));
-}
-
-/// Of a PUMA 560 motion tells 36 numbers (as many as Pinocchio's regressor has ranks), those of its last link among them.
-#[test]
-fn base_parameters_are_listed() {
-    let out = stiffarm(&["generate", "puma560", "--emit", "base"]).good();
-    assert!(out.contains(": 36 base parameters of 60 moments of mass\n"), "{out}");
-    assert_eq!(out.lines().count(), 2 + 36);
-    assert!(out.contains("\n    55  xx6 - yy6\n"), "{out}");
 }
 
 /// The block of docs/dynamics.md is what its command prints, but for the lines that `…` stands for.

@@ -1,6 +1,6 @@
 //! `stiffarm generate --emit c`: two files, their check, what is refused.
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, stiffarm};
 
 /// The exit status, standard output and standard error of `stiffarm generate`.
 fn generate(arguments: &[&str]) -> (i32, String, String) {

@@ -4,7 +4,7 @@ use nalgebra::Vector6;
 use serde_json::Value;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, flat, read, stiffarm, text};
+use crate::support::{Folder, arm, flat, read, stiffarm};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];

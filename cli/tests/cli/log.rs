@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, flat, read, stiffarm};
 
 const PENDULUM: &str = "\
 name = \"pendulum\"

@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm};
 
 /// The fenced commands of the page, as arguments; what stands in quotes is one.
 fn commands(page: &str) -> Vec<Vec<String>> {

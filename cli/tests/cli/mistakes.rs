@@ -1,6 +1,6 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use crate::support::{Folder, flat, read, stiffarm, text};
+use crate::support::{Folder, flat, read, stiffarm};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, stiffarm};
 
 /// An elbow above an upright axis, with rotors and friction.
 pub const ELBOW: &str = "\

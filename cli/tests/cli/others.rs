@@ -1,6 +1,5 @@
 //! `stiffarm robots`, `completions`, `man`, help, colour.
 
-use serde_json::Value;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use crate::support::{Folder, command, stiffarm, text};

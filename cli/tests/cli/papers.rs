@@ -1,8 +1,6 @@
 //! `stiffarm papers`.
 
-use serde_json::Value;
-
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 
 #[test]
 fn the_built_in_ledger_names_the_misprints() {

@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::{Robot, Value as Cell};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Side};
 
-use crate::support::{Folder, arm, json, read, stiffarm, text};
+use crate::support::{Folder, arm, json, read, stiffarm};
 
 /// One posture, by Pinocchio.
 struct Sample {

@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, read, stiffarm};
 
 const PULLS: [&str; 4] = ["--load", "0,0,-2kN,0,0,0", "--load", "1500,-1000,0,0,0,0"];
 

@@ -1,6 +1,6 @@
 //! README's way from a tracker's file to firmware: its three commands, as they are printed there.
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 use crate::workbench::same;
 
 /// What the commands write, in the folder in which they are called.

@@ -6,7 +6,7 @@ use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, Plant, Truth, csv};
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, stiffarm};
 
 const LIN: [&str; 5] =
     ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv", "--rival", "ycd"];

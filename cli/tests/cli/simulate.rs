@@ -1,10 +1,6 @@
 //! `stiffarm simulate`.
 
-use std::path::Path;
-
-use serde_json::Value;
-
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, stiffarm};
 
 const SPRING: &str = "joint_compliance@joint 2=3e-6 rad/(N·m)";
 

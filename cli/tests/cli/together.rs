@@ -4,7 +4,7 @@ use serde_json::Value;
 use stiffarm_codegen::robot::{Quantity, Robot};
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 
 /// What an elbow's servos give, rad/(N·m).
 const GIVES: f64 = 2e-4;

@@ -1,6 +1,6 @@
 //! `stiffarm withhold`.
 
-use crate::support::{Folder, json, stiffarm, text};
+use crate::support::{Folder, json, stiffarm};
 
 /// One known effect, few cases: quick in any build.
 const SMALL: [&str; 11] = [

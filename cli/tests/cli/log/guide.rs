@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm, words};
 
 /// A servo that comes 50 ms late.
 fn servo(rows: &str) -> String {

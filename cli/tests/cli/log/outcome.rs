@@ -6,7 +6,7 @@ use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, json, read, stiffarm, text};
+use crate::support::{Folder, json, read, stiffarm};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::support::{Folder, text};
+use crate::support::Folder;
 
 /// Stands before everything: what goes wrong is kept.
 const WATCH: &str = r#"<script>
