@@ -1,6 +1,6 @@
 //! What a robot file says beyond its table: every command that reads one honours it.
 
-use crate::support::{Folder, read, stiffarm};
+use crate::support::{Folder, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -9,83 +9,30 @@ const RATIO: &str = "\n[[effect]]\nid = \"joint_ratio\"\nplace = \"joint 2\"\nra
 /// One that a posture does not decide.
 const SLACK: &str = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 2\"\nwidth = \"3 mrad\"\n";
 
-/// The command with the robot file as ROBOT: with an effect its result is another.
-enum With {
-    Honours(&'static [&'static str]),
-    /// It has no robot file.
-    None,
-}
-use With::Honours;
-
-const COMMANDS: [(&str, With); 18] = [
-    ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
-    ("check", Honours(&["check", "ROBOT", "--count", "10"])),
-    ("robots", With::None),
-    ("import", With::None),
-    ("generate", Honours(&["generate", "ROBOT", "--emit", "rust"])),
-    (
-        "map",
-        Honours(&[
-            "map",
-            "ROBOT",
-            "--over",
-            "q2,q3",
-            "--of",
-            "condition",
-            "--steps",
-            "3",
-            "--csv",
-            "-",
-        ]),
-    ),
-    ("poses", Honours(&["poses", "ROBOT", "--count", "2", "--csv", "-"])),
-    ("identify", Honours(&["identify", "ROBOT", "docs/workbench/run.csv", "--json", "-"])),
-    (
-        "diagnose",
-        Honours(&[
-            "diagnose",
-            "ROBOT",
-            "docs/workbench/check.csv",
-            "--effects",
-            "joint_offset",
-            "--json",
-            "-",
-        ]),
-    ),
-    ("predict", Honours(&["predict", "ROBOT", "docs/workbench/check.csv", "--json", "-"])),
-    ("simulate", Honours(&["simulate", "ROBOT", "--poses", "2", "--csv", "-"])),
-    (
-        "withhold",
-        Honours(&["withhold", "ROBOT", "--cases", "2", "--poses", "6", "--json", "-", "--quiet"]),
-    ),
-    (
-        "compensate",
-        Honours(&[
-            "compensate",
-            "ROBOT",
-            "--targets",
-            "docs/workbench/path.csv",
-            "--out",
-            "-",
-            "--quiet",
-        ]),
-    ),
-    ("papers", With::None),
-    ("effects", With::None),
-    ("measurements", With::None),
-    ("completions", With::None),
-    ("man", With::None),
-];
+/// Each command with the robot file as ROBOT, whose result is another with an effect; the others have no robot file.
+const COMMANDS: &str = "\
+eval ROBOT --q 0,0.5,0,0,0,0 --json -
+check ROBOT --count 10
+generate ROBOT --emit rust
+map ROBOT --over q2,q3 --of condition --steps 3 --csv -
+poses ROBOT --count 2 --csv -
+identify ROBOT docs/workbench/run.csv --json -
+diagnose ROBOT docs/workbench/check.csv --effects joint_offset --json -
+predict ROBOT docs/workbench/check.csv --json -
+simulate ROBOT --poses 2 --csv -
+withhold ROBOT --cases 2 --poses 6 --json - --quiet
+compensate ROBOT --targets docs/workbench/path.csv --out - --quiet
+robots
+import
+papers
+effects
+measurements
+completions
+man";
 
 /// The robot file with something behind it.
 fn with(folder: &Folder, name: &str, more: &str) -> String {
     folder.file(name, read(ARM) + more)
-}
-
-fn run(arguments: &[&str], robot: &str) -> crate::support::Run {
-    let arguments: Vec<&str> =
-        arguments.iter().map(|a| if *a == "ROBOT" { robot } else { a }).collect();
-    stiffarm(&arguments)
 }
 
 #[test]
@@ -94,7 +41,8 @@ fn no_command_leaves_an_effect_out_in_silence() {
     let listed = help.split("Commands:").nth(1).and_then(|l| l.split("Options:").next());
     let listed = listed.expect("a list of commands").lines();
     let listed: Vec<&str> = listed.filter_map(|line| line.split_whitespace().next()).collect();
-    let mut known: Vec<&str> = COMMANDS.iter().map(|(name, _)| *name).chain(["help"]).collect();
+    let name = |line: &'static str| line.split(' ').next().unwrap_or_default();
+    let mut known: Vec<&str> = COMMANDS.lines().map(name).chain(["help"]).collect();
     known.sort_unstable();
     let mut sorted = listed.clone();
     sorted.sort_unstable();
@@ -102,15 +50,10 @@ fn no_command_leaves_an_effect_out_in_silence() {
     let folder = Folder::new();
     let plain = with(&folder, "plain.toml", "");
     let beyond = with(&folder, "beyond.toml", RATIO);
-    for (name, does) in COMMANDS {
-        match does {
-            Honours(arguments) => {
-                let (without, with) = (run(arguments, &plain), run(arguments, &beyond));
-                assert!(with.status < 2 && without.status < 2, "{name}: {}", with.err);
-                assert_ne!(with.out, without.out, "{name}");
-            }
-            With::None => {}
-        }
+    for line in COMMANDS.lines().filter(|line| line.contains("ROBOT")) {
+        let [without, with] = [&plain, &beyond].map(|robot| run(&line.replace("ROBOT", robot)));
+        assert!(with.status < 2 && without.status < 2, "{line}: {}", with.err);
+        assert_ne!(with.out, without.out, "{line}");
     }
 }
 
@@ -120,10 +63,10 @@ fn what_the_table_holds_is_taken_into_it() {
     let folder = Folder::new();
     let offset = "\n[[effect]]\nid = \"joint_offset\"\nplace = \"joint 1\"\noffset = \"2 mrad\"\n";
     let robot = with(&folder, "offset.toml", offset);
-    let emit = ["generate", "ROBOT", "--emit", "rust"];
-    let text = run(&emit, &robot).good();
+    let emit = |robot: &str| run(&format!("generate {robot} --emit rust")).good();
+    let text = emit(&robot);
     assert!(text.contains("q + 0.002"), "{text}");
-    assert_ne!(text, run(&emit, ARM).good());
+    assert_ne!(text, emit(ARM));
     let at = |robot: &str, q: &str| -> Vec<f64> {
         let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).json();
         serde_json::from_value(out["position"].clone()).expect("three numbers")

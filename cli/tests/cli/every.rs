@@ -3,7 +3,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::support::{Folder, REPOSITORY, command, read, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, command, read, run, stiffarm, text};
 
 const LIN: [&str; 3] = ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv"];
 const SPRINGS: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
@@ -198,31 +198,28 @@ fn results_are_not_written_over_each_other_or_over_what_is_read() {
     #[cfg(windows)]
     std::os::windows::fs::symlink_file(&data, &link).expect("a link");
     let (there, same) = (read("docs/workbench/check.csv"), read(SPRINGS[1]));
-    for (arguments, over) in [
-        (&["diagnose", &robot, &data, "--report", &data][..], "--report would write over DATA"),
-        (&["diagnose", &robot, &data, "--json", &link], "--json would write over DATA"),
+    for (line, over) in [
+        (format!("diagnose {robot} {data} --report {data}"), "--report would write over DATA"),
+        (format!("diagnose {robot} {data} --json {link}"), "--json would write over DATA"),
         (
-            &["diagnose", &robot, &data, "--write-robot", &robot],
+            format!("diagnose {robot} {data} --write-robot {robot}"),
             "--write-robot would write over ROBOT",
         ),
         (
-            &["diagnose", &robot, &data, "--check", &link, "--json", &link],
+            format!("diagnose {robot} {data} --check {link} --json {link}"),
             "--json would write over",
         ),
-        (&["identify", &robot, "docs/workbench/run.csv", "--write-robot", &robot], "over ROBOT"),
-        (&["simulate", &robot, &data, "--csv", &data], "--csv would write over DATA"),
+        (format!("identify {robot} docs/workbench/run.csv --write-robot {robot}"), "over ROBOT"),
+        (format!("simulate {robot} {data} --csv {data}"), "--csv would write over DATA"),
         (
-            &["compensate", &robot, "--targets", &data, "--out", &data],
+            format!("compensate {robot} --targets {data} --out {data}"),
             "--out would write over --targets",
         ),
-        (&["generate", &robot, "--emit", "rust", "--out", &robot], "--out would write over ROBOT"),
-        (
-            &["eval", &robot, "--q", "0,0,0,0,0,0", "--json", &robot],
-            "--json would write over ROBOT",
-        ),
+        (format!("generate {robot} --emit rust --out {robot}"), "--out would write over ROBOT"),
+        (format!("eval {robot} --q 0,0,0,0,0,0 --json {robot}"), "--json would write over ROBOT"),
     ] {
-        let err = stiffarm(arguments).refused();
-        assert!(err.contains(over), "{arguments:?}: {err}");
+        let err = run(&line).refused();
+        assert!(err.contains(over), "{line}: {err}");
     }
     let out = folder.name("out");
     let err = stiffarm(&["diagnose", &robot, &data, "--json", &out, "--report", &out]).refused();
@@ -231,15 +228,5 @@ fn results_are_not_written_over_each_other_or_over_what_is_read() {
     assert_eq!(std::fs::read_to_string(&robot).expect("there"), same);
     assert_eq!(folder.names(), ["arm.toml", "link.csv", "run.csv"]);
     // What is no file takes whatever comes.
-    stiffarm(&[
-        "diagnose",
-        &robot,
-        &data,
-        "--json",
-        "/dev/null",
-        "--report",
-        "/dev/null",
-        "--quiet",
-    ])
-    .good();
+    run(&format!("diagnose {robot} {data} --json /dev/null --report /dev/null --quiet")).good();
 }

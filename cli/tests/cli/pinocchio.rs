@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::{Robot, Value as Cell};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Side};
 
-use crate::support::{Folder, arm, json, read, stiffarm};
+use crate::support::{Folder, arm, json, read, run};
 
 /// One posture, by Pinocchio.
 struct Sample {
@@ -96,18 +96,8 @@ fn imported_robots_agree() {
         let word = |key: &str| file[key].as_str().expect("text").to_owned();
         let out = folder.name("arm.toml");
         let (base, tip) = (word("base"), word("tip"));
-        stiffarm(&[
-            "--quiet",
-            "import",
-            &word("urdf"),
-            "--base",
-            &base,
-            "--tip",
-            &tip,
-            "--toml",
-            &out,
-        ])
-        .good();
+        let urdf = word("urdf");
+        run(&format!("--quiet import {urdf} --base {base} --tip {tip} --toml {out}")).good();
         let toml = std::fs::read_to_string(&out).expect("written");
         let (parsed, warnings) =
             stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");

@@ -71,6 +71,11 @@ pub fn stiffarm(arguments: &[&str]) -> Run {
     }
 }
 
+/// The same with the words of a line.
+pub fn run(line: &str) -> Run {
+    stiffarm(&words(line).iter().map(String::as_str).collect::<Vec<_>>())
+}
+
 /// A folder of one test, removed with it.
 pub struct Folder(TempDir);
 

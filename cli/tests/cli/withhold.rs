@@ -3,26 +3,15 @@
 use crate::support::{Folder, json, stiffarm};
 
 /// One known effect, few cases: quick in any build.
-const SMALL: [&str; 11] = [
-    "withhold",
-    "bicchi_3r",
-    "--effects",
-    "joint_offset,joint_compliance",
-    "--cases",
-    "4",
-    "--poses",
-    "6",
-    "--payload",
-    "100N",
-    "--quiet",
-];
+const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance --cases 4 --poses 6 --payload 100N \
+                     --quiet";
 
 #[test]
 fn the_json_has_every_case_and_the_seed_decides() {
     let folder = Folder::new();
     let run = |name: &str, seed: &str| {
         let file = folder.name(name);
-        let out = stiffarm(&[&SMALL[..], &["--json", &file, "--seed", seed]].concat()).good();
+        let out = crate::support::run(&format!("{SMALL} --json {file} --seed {seed}")).good();
         assert_eq!(out, "");
         std::fs::read_to_string(file).expect("written")
     };
@@ -45,7 +34,7 @@ fn the_json_has_every_case_and_the_seed_decides() {
 
 #[test]
 fn one_screen_says_what_is_found() {
-    let out = stiffarm(&SMALL).good();
+    let out = crate::support::run(SMALL).good();
     assert!(out.contains("no effect: something is found"), "{out}");
     assert!(out.contains("the payload design: 18 measurements at 6 poses"), "{out}");
     let lines: Vec<&str> = out.lines().collect();

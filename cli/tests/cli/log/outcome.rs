@@ -6,7 +6,7 @@ use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, json, read, stiffarm};
+use crate::support::{Folder, json, read, run, stiffarm};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
@@ -131,15 +131,8 @@ fn currents_tell_no_newton_metres() {
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows("t,q1,i1"));
     let better = folder.name("better.toml");
-    let run = stiffarm(&[
-        "diagnose",
-        &robot,
-        &log,
-        "--write-robot",
-        &better,
-        "--effects",
-        "coulomb_friction",
-    ]);
+    let run =
+        run(&format!("diagnose {robot} {log} --write-robot {better} --effects coulomb_friction"));
     assert!(run.refused().contains("found currents alone, expected torques"));
     assert!(!folder.names().contains(&"better.toml".to_owned()));
 }
