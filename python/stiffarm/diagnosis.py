@@ -12,9 +12,9 @@ from .prediction import Prediction, prediction
 from .record import Record, read
 from .result import framed
 from .run import AnyArm, robot
-from .settings import Settings, signed
+from .settings import USUAL, Settings
 from .table import NAME, Frame, held
-from .words import Path, Progress, log, plain
+from .words import Path, Progress, log, plain, signed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -153,7 +153,7 @@ class Diagnosis:
         return diagnosis(self)
 
 
-@signed
+@signed(Settings, USUAL)
 def diagnose(
     arm: AnyArm,
     data: Union[Frame, Sequence[Frame]],

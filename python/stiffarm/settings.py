@@ -2,31 +2,10 @@
 
 from __future__ import annotations
 
-import functools
-import inspect
 from collections.abc import Sequence
-from typing import Any, Callable, Optional, TypedDict, TypeVar, Union
+from typing import Any, Optional, TypedDict, Union
 
 from .words import Path, Quantity
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-
-
-def signed(function: Function) -> Function:
-    """The function, with each setting in its signature, as help() and notebooks show it; any other keyword is refused."""
-    own = inspect.signature(function)
-    kind = inspect.Parameter.KEYWORD_ONLY
-    named = [parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
-    more = [inspect.Parameter(name, kind, default=USUAL[name], annotation=getattr(of, "__forward_arg__", of)) for name, of in Settings.__annotations__.items()]
-    signature = own.replace(parameters=[*named, *more])
-
-    @functools.wraps(function)
-    def checked(*given: Any, **options: Any) -> Any:
-        signature.bind(*given, **options)
-        return function(*given, **options)
-
-    checked.__signature__ = signature  # type: ignore[attr-defined]
-    return checked  # type: ignore[return-value]
 
 
 class Settings(TypedDict, total=False):

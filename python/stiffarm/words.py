@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import logging
 import os
 from collections.abc import Iterable, Sequence
 from numbers import Integral
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional, TypeVar, Union
 
 log = logging.getLogger("stiffarm")
 
@@ -16,6 +18,8 @@ Quantity = Union[float, str]
 Wrench = Union[str, Sequence[float]]
 #: A path on disk.
 Path = Union[str, "os.PathLike[str]"]
+#: Any function.
+Function = TypeVar("Function", bound=Callable[..., Any])
 #: Remarks, and what is being done with the part that is done.
 Hear = Callable[[list, Optional[tuple]], None]  # type: ignore[type-arg]
 
@@ -25,6 +29,28 @@ def plain(value: Any) -> Any:
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     return value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else list(value)
+
+
+def signed(settings: type, usual: dict[str, Any]) -> Callable[[Function], Function]:
+    """Puts each of some settings into a function's signature, as help() and notebooks show it; any other keyword is refused."""
+
+    def of(function: Function) -> Function:
+        own = inspect.signature(function)
+        named = [parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
+        for name, kind in settings.__annotations__.items():
+            kind = getattr(kind, "__forward_arg__", kind)
+            named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=usual[name], annotation=kind))
+        signature = own.replace(parameters=named)
+
+        @functools.wraps(function)
+        def checked(*given: Any, **options: Any) -> Any:
+            signature.bind(*given, **options)
+            return function(*given, **options)
+
+        checked.__signature__ = signature  # type: ignore[attr-defined]
+        return checked  # type: ignore[return-value]
+
+    return of
 
 
 #: What a number is in, where an option of that name is a quantity.

@@ -97,11 +97,11 @@ impl Identified<'_> {
     }
 
     fn judged(&self, s: &Statistics) -> f64 {
-        if self.units().positions { s.position_rms } else { s.rotation_rms }
+        self.units().judged(s)
     }
 
     fn error(&self) -> &'static str {
-        if self.units().positions { "position error" } else { "rotation error" }
+        self.units().error()
     }
 
     fn experiment(&self) -> Experiment<'_> {

@@ -1,7 +1,7 @@
 //! `stiffarm diagnose`.
 
 mod campaign;
-mod plant;
+pub mod plant;
 mod sockets;
 
 use serde_json::Value;

@@ -2,62 +2,22 @@
 
 mod browser;
 
-use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, Plant, Truth, csv};
-
+use crate::diagnose::plant::{Bench, SPRING};
 use crate::support::{Folder, stiffarm};
 
 const LIN: [&str; 5] =
     ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv", "--rival", "ycd"];
 
-const ROBOT: &str = r#"
-name = "shoulder and elbow"
-convention = "modified"
-[[joint]]
-type = "revolute"
-d = 0.4
-mass = 20.0
-com = [0.0, 0.1, 0.0]
-[[joint]]
-type = "revolute"
-alpha = "pi/2"
-a = 0.1
-mass = 20.0
-com = [0.3, 0.0, 0.0]
-[[joint]]
-type = "revolute"
-a = 0.7
-d = 0.1
-mass = 8.0
-com = [0.3, 0.0, 0.0]
-[tool]
-translation = [0.5, 0.0, 0.1]
-"#;
-
 /// A report of a plant with a spring and a wave that its robot file does not have.
-fn plant(folder: &Folder) -> String {
-    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot");
-    let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
-    let truths =
-        ["joint_compliance@joint 2=6e-6 rad/(N·m)", "transmission_error@joint 3: cos 2 = 0.4 mrad"];
-    let truth = |t: &str| Truth::parse(t, &arm).expect("an effect of this arm");
-    let design = Design {
-        shape: Shape::Payload,
-        poses: 24,
-        repeats: 1,
-        payload: 15.0,
-        kind: Kind::Pose { orientation: true },
-        seed: 1,
-    };
-    let plant = Plant::new(&arm, &truths.map(truth)).expect("a plant");
-    let noise = Noise { position: 2e-5, rotation: 4e-5 };
-    let measured = plant.measure(&design.rows(&arm), noise, 1).expect("it stands");
-    let file = folder.file("arm.toml", ROBOT);
-    let run = folder.file("run.csv", csv(&arm, &measured, &[]));
-    let page = folder.name("report.html");
-    stiffarm(&["diagnose", &file, &run, "--report", &page]).good();
-    std::fs::read_to_string(page).expect("written")
+fn plant() -> String {
+    let bench = Bench::new();
+    let run = bench.measured(
+        "run.csv",
+        &[SPRING, "transmission_error@joint 3: cos 2 = 0.4 mrad"],
+        1,
+        false,
+    );
+    stiffarm(&["diagnose", &bench.robot, &run, "--report", "-"]).good()
 }
 
 /// The sentence that the page opens with, as text.
@@ -117,9 +77,7 @@ fn needs_chromium_a_browser_turns_the_arm_and_follows_the_links() {
     let folder = Folder::new();
     let lin = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
     let springs = stiffarm(&[&WORKBENCH[..], &["--report", "-"]].concat()).good();
-    for (page, list) in
-        [(plant(&folder), "where.csv"), (lin, "where.csv"), (springs, "parameters.csv")]
-    {
+    for (page, list) in [(plant(), "where.csv"), (lin, "where.csv"), (springs, "parameters.csv")] {
         let said = sentence(&page);
         let seen = browser::visit(&folder, &page);
         assert_eq!(seen["problems"], serde_json::json!([]));

@@ -134,7 +134,7 @@ impl Campaign<'_> {
         }
         let nested = [("search repeated", &gap.nested), ("repeated in time", &gap.nested_in_time)];
         for (label, of) in nested {
-            let size = of.as_ref().map(|gap| self.judged(gap.position_rms, gap.rotation_rms));
+            let size = of.as_ref().map(|gap| self.units().judged(gap));
             steps.extend(size.map(|size| plain(label, "left", size)));
         }
         steps.push(plain("noise", "noise", self.noise()));

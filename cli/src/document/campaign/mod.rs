@@ -149,31 +149,21 @@ impl Campaign<'_> {
 
     /// The unit of what is judged: positions, or rotations where no position is measured.
     fn main(&self) -> Unit<'static> {
-        if self.units().positions { self.length() } else { self.angle() }
+        self.units().main(self.rms())
     }
 
     /// What is judged.
     fn error(&self) -> &'static str {
-        match self.units() {
-            Units { positions: true, .. } => "position error",
-            Units { pixels: Some(_), .. } => "error in the picture",
-            _ => "rotation error",
-        }
-    }
-
-    /// The one of two numbers, of positions and of rotations, that is judged.
-    fn judged(&self, position: f64, rotation: f64) -> f64 {
-        if self.units().positions { position } else { rotation }
+        self.units().error()
     }
 
     /// The error before and after, rms, m (rad without positions).
     fn rms(&self) -> [f64; 2] {
-        [&self.found.gap.before, &self.found.gap.after]
-            .map(|s| self.judged(s.position_rms, s.rotation_rms))
+        [&self.found.gap.before, &self.found.gap.after].map(|sizes| self.units().judged(sizes))
     }
 
     fn noise(&self) -> f64 {
         let noise = &self.found.gap.noise;
-        self.judged(noise.position_rms, noise.rotation_rms)
+        if self.units().positions { noise.position_rms } else { noise.rotation_rms }
     }
 }

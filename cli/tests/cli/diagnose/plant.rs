@@ -37,29 +37,29 @@ translation = [0.05, 0.0, 0.15]
 rotation = [0.0, 0.0, "pi/4"]
 "#;
 
-pub(super) const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
-pub(super) const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
-pub(super) const SLACK: &str = "backlash@joint 3=0.5 mrad";
+pub const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
+pub const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
+pub const SLACK: &str = "backlash@joint 3=0.5 mrad";
 
 /// A folder with the robot file, and measurements of it.
-pub(super) struct Bench {
-    pub(super) folder: Folder,
-    pub(super) robot: String,
+pub struct Bench {
+    pub folder: Folder,
+    pub robot: String,
 }
 
 impl Bench {
-    pub(super) fn new() -> Bench {
+    pub fn new() -> Bench {
         let folder = Folder::new();
         let robot = folder.file("arm.toml", ROBOT);
         Bench { folder, robot }
     }
 
-    pub(super) fn path(&self, name: &str) -> String {
+    pub fn path(&self, name: &str) -> String {
         text(&self.folder.path(name))
     }
 
     /// By the command itself.
-    pub(super) fn simulated(&self, name: &str, extra: &[&str]) -> String {
+    pub fn simulated(&self, name: &str, extra: &[&str]) -> String {
         let path = self.path(name);
         let arguments = ["simulate", &self.robot, "--poses", "20", "--csv", &path];
         stiffarm(&[&arguments[..], extra].concat()).good();
@@ -67,7 +67,7 @@ impl Bench {
     }
 
     /// By a plant with these truths.
-    fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
+    pub fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
         let (robot, _) =
             stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
         let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
