@@ -124,7 +124,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             "check the load, its unit and the stiffness",
         ));
     }
-    host.put(&args.svg, || Ok(picture::figure(&source, &sweep, &asked, &map).svg()))?;
+    host.put(&args.svg, || picture::svg(&source, &sweep, &asked, &map))?;
     host.put(&args.csv, || Ok(numbers(&sweep, &asked, &map)))?;
     let printed = [&args.svg, &args.csv].into_iter().flatten().any(|to| *to == Target::Stdout);
     if !host.is_quiet() && !printed {
