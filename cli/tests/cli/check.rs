@@ -66,11 +66,6 @@ fn of_many_joints_fewer_postures_are_checked() {
 }
 
 #[test]
-fn quiet_says_nothing_of_what_is_well() {
-    assert_eq!(stiffarm(&["check", "bicchi_3r", "--count", "4", "--quiet"]).good(), "");
-}
-
-#[test]
 fn odd_arms_agree_too() {
     let folder = Folder::new();
     let robot = r#"

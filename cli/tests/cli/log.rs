@@ -88,21 +88,6 @@ fn friction_is_told_with_its_numbers() {
 }
 
 #[test]
-fn a_side_is_declared_and_never_guessed() {
-    let folder = Folder::new();
-    let robot = folder.file("pendulum.toml", PENDULUM);
-    let log = folder.file("log.csv", rows(HEADER));
-    let err = stiffarm(&["diagnose", &robot, &log]).refused();
-    assert_eq!(err.lines().count(), 1, "{err}");
-    assert!(
-        err.contains("found torques without a side, expected where they are measured"),
-        "{err}"
-    );
-    let log = folder.file("said.csv", format!("# torque_side = motor\n{}", rows(HEADER)));
-    stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
-}
-
-#[test]
 fn others_names_and_damaged_rows_are_read() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);

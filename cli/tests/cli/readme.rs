@@ -39,8 +39,6 @@ fn three_commands_lead_from_a_tracker_s_file_to_firmware() {
 fn eval_takes_the_sides_of_a_corrected_arm() {
     let q = "0.2,1.2,-0.9,0.3,0.8,-0.4";
     let at = ["eval", "examples/compensation/better.toml", "--q", q, "--json", "-"];
-    let err = stiffarm(&at).refused();
-    assert!(err.contains("the backlash at joint 1: neither columns s1 … sn nor --sides"), "{err}");
     let position = |sides: &str| -> [f64; 2] {
         let out = stiffarm(&[&at[..], &["--sides", sides]].concat()).json();
         [0, 1].map(|k| out["position"][k].as_f64().expect("a number"))
@@ -49,6 +47,4 @@ fn eval_takes_the_sides_of_a_corrected_arm() {
     // The dead band of joint 1, which turns about the base's z.
     let turned = y.atan2(x) - behind_y.atan2(behind_x);
     assert!((turned - 0.00039642662174615946).abs() < 1e-14, "{turned}");
-    let err = stiffarm(&[&at[..], &["--sides", "1,1"]].concat()).refused();
-    assert!(err.contains("--sides: found 2 values, expected 6"), "{err}");
 }

@@ -1,7 +1,5 @@
 //! What is made of a log's diagnosis: the robot file, simulators' files, the check of another log, the page.
 
-use std::fmt::Write as _;
-
 use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 
@@ -117,12 +115,6 @@ fn the_robot_file_may_say_the_side() {
     let log = folder.file("log.csv", rows(HEADER));
     let out = stiffarm(&["diagnose", &robot, &log, "--effects", "coulomb_friction"]).good();
     assert!(out.contains("torques, motor"), "{out}");
-    let wrong = folder.file(
-        "wrong.toml",
-        PENDULUM.replace("\n\n[[joint]]", "\ntorque_side = \"gear\"\n\n[[joint]]"),
-    );
-    let err = stiffarm(&["diagnose", &wrong, &log]).refused();
-    assert!(err.contains("motor, link, current, commanded, external"), "{err}");
 }
 
 #[test]
@@ -135,21 +127,6 @@ fn currents_tell_no_newton_metres() {
         run(&format!("diagnose {robot} {log} --write-robot {better} --effects coulomb_friction"));
     assert!(run.refused().contains("found currents alone, expected torques"));
     assert!(!folder.names().contains(&"better.toml".to_owned()));
-}
-
-#[test]
-fn messages_have_no_side() {
-    let folder = Folder::new();
-    let mut robot = PENDULUM.replace("swing", "shoulder");
-    let second = robot[robot.find("[[joint]]").expect("a joint")..].replace("shoulder", "elbow");
-    write!(robot, "\n{second}").expect("text");
-    let robot = folder.file("two.toml", robot);
-    let bag = ["diagnose", &robot, "tests/data/logs/ros2.mcap", "--topic", "/joint_states"];
-    let err = stiffarm(&bag).refused();
-    assert!(err.contains("found torques without a side"), "{err}");
-    assert_eq!(err.lines().count(), 1, "{err}");
-    let all = stiffarm(&["diagnose", &robot, "tests/data/logs/ros2.db3"]).refused();
-    assert!(all.contains("say which with --topic"), "{all}");
 }
 
 #[test]
