@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
-use serde::Serialize;
+use serde_json::{Value, json};
 use stiffarm_codegen::derive::Given;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
@@ -14,7 +14,6 @@ use crate::input::model::Model;
 use crate::input::source;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::json;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
@@ -55,28 +54,6 @@ pub struct Args {
     json: Option<Target>,
 }
 
-/// The result as it is written. Deviations are relative to the output's scale, by what they are from.
-#[derive(Serialize)]
-struct Written<'a> {
-    stiffarm: &'static str,
-    /// Postures of each robot, at least.
-    count: usize,
-    seed: u64,
-    agrees: bool,
-    limits: BTreeMap<&'static str, f64>,
-    robots: Vec<WrittenRobot<'a>>,
-}
-
-#[derive(Serialize)]
-struct WrittenRobot<'a> {
-    robot: &'a str,
-    agrees: bool,
-    postures: usize,
-    /// Evaluations that are left out: the arm is not stable under its load.
-    unstable: usize,
-    outputs: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
-}
-
 /// Postures of an arm of up to so many joints.
 const USUAL: (usize, usize) = (10_000, 8);
 
@@ -103,7 +80,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         }
     };
     let failed = checked.iter().any(|c| !c.agrees());
-    host.put(&args.json, || json::text(&written(&checked, args)))?;
+    host.put(&args.json, || crate::terminal::json::text(&written(&checked, args)))?;
     if (failed || !host.is_quiet()) && args.json != Some(Target::Stdout) {
         host.print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
     }
@@ -166,31 +143,32 @@ fn given(at: &Situation) -> Given {
     Given { sides, warming: at.warming.unwrap_or_default() }
 }
 
-fn written<'a>(checked: &'a [Checked], args: &Args) -> Written<'a> {
-    let by_name = |value: &dyn Fn(usize) -> Option<f64>| {
+/// The result as it is written. Deviations are relative to the output's scale, by what they are from; evaluations in
+/// which the arm is not stable are left out.
+fn written(checked: &[Checked], args: &Args) -> Value {
+    let by_name = |value: &dyn Fn(usize) -> Option<f64>| -> BTreeMap<&str, f64> {
         let each = HEADS.iter().enumerate();
         each.filter_map(|(k, head)| value(k).map(|value| (*head, value))).collect()
     };
-    let robots = checked.iter().map(|one| WrittenRobot {
-        robot: &one.source.given,
-        agrees: one.agrees(),
-        postures: one.postures,
-        unstable: one.agreement.unstable,
-        outputs: one
-            .agreement
-            .lines
-            .iter()
-            .map(|line| (line.output.name(), by_name(&|k| line.worst[k])))
-            .collect(),
-    });
-    Written {
-        stiffarm: env!("CARGO_PKG_VERSION"),
-        count: least(checked),
-        seed: args.seed,
-        agrees: checked.iter().all(Checked::agrees),
-        limits: by_name(&|k| Some(Comparison::EACH[k].limit())),
-        robots: robots.collect(),
-    }
+    let robot = |one: &Checked| {
+        let lines = one.agreement.lines.iter();
+        let outputs = lines.map(|line| (line.output.name(), by_name(&|k| line.worst[k])));
+        json!({
+            "robot": one.source.given,
+            "agrees": one.agrees(),
+            "postures": one.postures,
+            "unstable": one.agreement.unstable,
+            "outputs": outputs.collect::<BTreeMap<_, _>>(),
+        })
+    };
+    json!({
+        "stiffarm": env!("CARGO_PKG_VERSION"),
+        "count": least(checked),
+        "seed": args.seed,
+        "agrees": checked.iter().all(Checked::agrees),
+        "limits": by_name(&|k| Some(Comparison::EACH[k].limit())),
+        "robots": checked.iter().map(robot).collect::<Vec<_>>(),
+    })
 }
 
 /// The postures of the robot with the fewest.

@@ -1,12 +1,12 @@
 //! `stiffarm identify`: stiffnesses from loaded measurements.
 
+mod corrected;
 mod document;
 mod words;
-mod written;
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
@@ -21,7 +21,6 @@ use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::json;
 use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
 
@@ -104,12 +103,12 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
     let answer = answer.map_err(|error| Failure::new(error.to_string()))?;
-    let result = Written::new(&source, &data, &answer, &args.data.display().to_string());
+    let result = written(&source, &data, &answer, &args.data.display().to_string());
     if data.sim_given.contains(&true) {
         host.note("the columns sim_… play no part: springs are compared with the robot file");
     }
-    host.put(&args.json, || json::text(&result))?;
-    host.put(&args.write_robot, || written::robot(&source, &answer, &data.file))?;
+    host.put(&args.json, || crate::terminal::json::text(&result))?;
+    host.put(&args.write_robot, || corrected::robot(&source, &answer, &data.file))?;
     let identified = document::Identified {
         source: &source,
         arm: &arm,
@@ -117,9 +116,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         question: &question,
         answer: &answer,
     };
-    host.put(&args.report, || {
-        identified.document(true).html(&identified.embedded(&json::value(&result)?)?)
-    })?;
+    host.put(&args.report, || identified.document(true).html(&identified.embedded(&result)?))?;
     if host.shows(&[&args.json, &args.write_robot, &args.report]) {
         host.print(&identified.document(false).text(false))?;
     }
@@ -143,87 +140,30 @@ impl Args {
     }
 }
 
-/// The result as it is written.
-#[derive(Serialize)]
-struct Written {
-    stiffarm: &'static str,
-    robot: String,
-    data: String,
-    measurements: usize,
-    poses: usize,
-    folds: usize,
-    gap: Gaps,
-    noise: NoiseIs,
-    freedom: usize,
-    reduced_chi2: Option<f64>,
-    scaled_condition: f64,
-    parameters: Vec<Entry>,
-}
-
-#[derive(Serialize)]
-struct Gaps {
-    before: Sizes,
-    held_out: Sizes,
-}
-
-#[derive(Serialize)]
-struct Sizes {
-    position_rms: f64,
-    position_max: f64,
-    rotation_rms: f64,
-}
-
-#[derive(Serialize)]
-struct NoiseIs {
-    position: Option<f64>,
-    rotation: Option<f64>,
-    from: &'static str,
-}
-
-/// One number, found or held; SI.
-#[derive(Serialize)]
-struct Entry {
-    place: String,
-    name: &'static str,
-    unit: &'static str,
-    status: &'static str,
-    value: f64,
-    /// `None` of one that is held.
-    ci95: Option<[f64; 2]>,
-    /// 1/value where it is a compliance; `None` is rigid, or unbounded.
-    stiffness: Option<f64>,
-    stiffness_ci95: Option<[Option<f64>; 2]>,
-    file: f64,
-    with: Vec<String>,
-    to_show_it: Option<String>,
-}
-
-impl Written {
-    fn new(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Written {
-        let sizes = |s: &Statistics| Sizes {
-            position_rms: s.position_rms,
-            position_max: s.position_max,
-            rotation_rms: s.rotation_rms,
-        };
-        Written {
-            stiffarm: env!("CARGO_PKG_VERSION"),
-            robot: source.robot.name.clone(),
-            data: file.to_owned(),
-            measurements: data.rows.len(),
-            poses: data.poses,
-            folds: answer.gap.folds,
-            gap: Gaps { before: sizes(&answer.gap.before), held_out: sizes(&answer.gap.held_out) },
-            noise: NoiseIs {
-                position: answer.noise.position,
-                rotation: answer.noise.rotation,
-                from: answer.noise.from,
-            },
-            freedom: answer.freedom,
-            reduced_chi2: answer.reduced_chi2,
-            scaled_condition: answer.scaled_condition,
-            parameters: answer.parameters.iter().map(|p| entry(source, p)).collect(),
-        }
-    }
+/// The result as it is written; SI.
+fn written(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Value {
+    let sizes = |s: &Statistics| {
+        json!({
+            "position_rms": s.position_rms,
+            "position_max": s.position_max,
+            "rotation_rms": s.rotation_rms,
+        })
+    };
+    let noise = &answer.noise;
+    json!({
+        "stiffarm": env!("CARGO_PKG_VERSION"),
+        "robot": source.robot.name,
+        "data": file,
+        "measurements": data.rows.len(),
+        "poses": data.poses,
+        "folds": answer.gap.folds,
+        "gap": {"before": sizes(&answer.gap.before), "held_out": sizes(&answer.gap.held_out)},
+        "noise": {"position": noise.position, "rotation": noise.rotation, "from": noise.from},
+        "freedom": answer.freedom,
+        "reduced_chi2": answer.reduced_chi2,
+        "scaled_condition": answer.scaled_condition,
+        "parameters": answer.parameters.iter().map(|p| entry(source, p)).collect::<Vec<_>>(),
+    })
 }
 
 /// Whether a compliance is that of a translation, m/N.
@@ -240,7 +180,9 @@ fn stiffness(compliance: f64) -> Option<f64> {
     (compliance > 0.0).then(|| 1.0 / compliance).filter(|k| k.is_finite())
 }
 
-fn entry(source: &Source, parameter: &Parameter) -> Entry {
+/// One number, found or held: its interval is none of one that is held; its stiffness is none where it is rigid, or
+/// unbounded.
+fn entry(source: &Source, parameter: &Parameter) -> Value {
     let unknown = parameter.unknown;
     let compliance = !matches!(unknown, Unknown::Link(_));
     let unit = match (compliance, is_translation(source, unknown)) {
@@ -255,18 +197,18 @@ fn entry(source: &Source, parameter: &Parameter) -> Entry {
             ("held", with.iter().map(Unknown::to_string).collect(), pull.as_ref())
         }
     };
-    Entry {
-        place: unknown.to_string(),
-        name: if compliance { "compliance" } else { "flexibility" },
-        unit,
-        status,
-        value: parameter.value,
-        ci95: parameter.interval(),
-        stiffness: stiffness(parameter.value).filter(|_| compliance),
-        stiffness_ci95: (parameter.interval().filter(|_| compliance))
-            .map(|[low, high]| [stiffness(high), stiffness(low)]),
-        file: parameter.file,
-        with,
-        to_show_it: pull.map(ToString::to_string),
-    }
+    let interval = parameter.interval();
+    json!({
+        "place": unknown.to_string(),
+        "name": if compliance { "compliance" } else { "flexibility" },
+        "unit": unit,
+        "status": status,
+        "value": parameter.value,
+        "ci95": interval,
+        "stiffness": stiffness(parameter.value).filter(|_| compliance),
+        "stiffness_ci95": interval.filter(|_| compliance).map(|[low, high]| [high, low].map(stiffness)),
+        "file": parameter.file,
+        "with": with,
+        "to_show_it": pull.map(ToString::to_string),
+    })
 }
