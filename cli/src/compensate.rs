@@ -21,7 +21,7 @@ use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{bold, dim, short};
+use crate::terminal::text::{bold, dim, quoted, short};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -196,12 +196,7 @@ fn file(source: &Source, targets: &Measurements, found: &[Reached]) -> String {
     let named = targets.rows.iter().any(|row| row.pose.is_some());
     let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
     let mut heads: Vec<String> = if named { vec!["pose".to_owned()] } else { Vec::new() };
-    heads.extend(
-        revolute
-            .iter()
-            .enumerate()
-            .map(|(j, turns)| format!("q{}[{}]", j + 1, if *turns { "deg" } else { "mm" })),
-    );
+    heads.extend(source.heads());
     heads.extend(["x[mm]", "y[mm]", "z[mm]"].map(str::to_owned));
     if turned {
         heads.extend(["rx[deg]", "ry[deg]", "rz[deg]"].map(str::to_owned));
@@ -259,15 +254,6 @@ fn status(ended: &Ended) -> String {
             let names: Vec<String> = joints.iter().map(|joint| format!("q{joint}")).collect();
             format!("nearest (at limit: {})", names.join(" "))
         }
-    }
-}
-
-/// A cell that may hold commas and quotes.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 

@@ -27,7 +27,7 @@ pub use campaign::Campaign;
 pub use check::Check;
 pub use compared::{Compared, Reached};
 use corrected::exported;
-pub use corrected::{Format, file};
+pub use corrected::{Format, commented};
 pub use log::{Check as LogCheck, Motion};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
@@ -153,7 +153,7 @@ pub trait Found: Send + Sync {
     /// As [`Found::robot`].
     fn corrected(&self) -> Result<String, Failure> {
         let (lines, robot) = self.robot()?;
-        Ok(file(lines, &robot))
+        Ok(commented(lines, &robot))
     }
 
     /// The same arm as other programs read it, and a sentence on what they have no place for.

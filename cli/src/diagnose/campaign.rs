@@ -13,7 +13,7 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
-use super::corrected::{Corrections, file, made_from};
+use super::corrected::{Corrections, commented, made_from};
 use super::{
     Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words, plain,
 };
@@ -157,7 +157,7 @@ impl Campaign {
             trust: self.diagnosed.explanation.trust(),
             corrected: {
                 let corrections = self.corrections();
-                file(corrections.head(), corrections.robot())
+                commented(corrections.head(), corrections.robot())
             },
         }
     }

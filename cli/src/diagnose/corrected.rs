@@ -137,7 +137,7 @@ pub fn made_from(source: &Source, data: &str) -> String {
 }
 
 /// A robot file with comments at its head.
-pub fn file(lines: Vec<String>, robot: &Robot) -> String {
+pub fn commented(lines: Vec<String>, robot: &Robot) -> String {
     let head: String = lines.iter().map(|line| comment(line)).collect();
     format!("{head}\n{}", robot.to_toml())
 }

@@ -5,7 +5,7 @@ use stiffarm_codegen::robot::{Robot, Value};
 use stiffarm_gap::effects::{BaseCompliance, Known, Place, RobotFile, Spot};
 use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
 
-use crate::diagnose::file;
+use crate::diagnose::commented;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 
@@ -54,7 +54,7 @@ pub fn robot(source: &Source, answer: &Answer, data: &str) -> Result<String, Fai
         }
     }
     let robot = on_its_foundation(robot, source, answer)?;
-    Ok(file(remarks, &robot))
+    Ok(commented(remarks, &robot))
 }
 
 /// Where the file has it.

@@ -132,6 +132,13 @@ impl Source {
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 
+    /// Columns of joint values as a controller shows them: `q1[deg]`, `q3[mm]`.
+    pub fn heads(&self) -> impl Iterator<Item = String> {
+        let unit = |reading| if reading == Dimension::Angle { "deg" } else { "mm" };
+        let readings = self.readings().into_iter().enumerate();
+        readings.map(move |(j, reading)| format!("q{}[{}]", j + 1, unit(reading)))
+    }
+
     /// What the joint values are, base to tip.
     pub fn readings(&self) -> Vec<Dimension> {
         let of = |motion| match motion {
