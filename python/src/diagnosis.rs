@@ -149,9 +149,9 @@ pub fn diagnose(
     Ok(Found { found: found?, own })
 }
 
-/// Each setting of a diagnosis: its name, its type in Python, what it is where nothing is chosen, and what it is about.
+/// Each setting of a diagnosis: its name, its type in Python, and what it is about.
 #[pyfunction]
-pub fn settings() -> Vec<(String, String, &'static str, String)> {
+pub fn settings() -> Vec<(String, String, String)> {
     let each = Settings::arguments().into_iter().map(|option| {
         let usual = Settings::usual(&option);
         let value = option.get_value_names().map(|names| names.concat()).unwrap_or_default();
@@ -166,14 +166,9 @@ pub fn settings() -> Vec<(String, String, &'static str, String)> {
             _ if kind == TypeId::of::<PathBuf>() => "Path",
             _ => "str",
         };
-        let (kind, usual) = match &*usual {
-            "null" => (format!("Optional[{kind}]"), "None"),
-            "[]" => (kind.to_owned(), "()"),
-            "false" => (kind.to_owned(), "False"),
-            _ => (kind.to_owned(), "0"),
-        };
+        let kind = if usual == "null" { format!("Optional[{kind}]") } else { kind.to_owned() };
         let about = option.get_help().map(ToString::to_string).unwrap_or_default();
-        (option.get_id().to_string(), kind, usual, about)
+        (option.get_id().to_string(), kind, about)
     });
     each.collect()
 }

@@ -12,7 +12,7 @@ from .prediction import Prediction, prediction
 from .record import Record, read
 from .result import framed
 from .run import AnyArm, robot
-from .settings import USUAL, Settings
+from .settings import Settings
 from .table import NAME, Frame, held
 from .words import Path, Progress, log, plain, signed
 
@@ -153,7 +153,7 @@ class Diagnosis:
         return diagnosis(self)
 
 
-@signed(Settings, USUAL)
+@signed(Settings)
 def diagnose(
     arm: AnyArm,
     data: Union[Frame, Sequence[Frame]],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Optional, TypedDict, Union
+from typing import Optional, TypedDict, Union
 
 from .words import Path, Quantity
 
@@ -51,28 +51,3 @@ class Settings(TypedDict, total=False):
     """Names of the columns: ros, rtde, libfranka, lerobot, sage, pace, or a map (TOML)."""
     topic: Optional[str]
     """Topic of a bag with the arm's joints, if several have any."""
-
-
-#: What each is where nothing is chosen.
-USUAL: dict[str, Any] = {
-    "bench": None,
-    "nuisance": (),
-    "tolerance": None,
-    "usual": (),
-    "noise_position": None,
-    "noise_rotation": None,
-    "keep_all": False,
-    "effects": None,
-    "folds": None,
-    "nested": False,
-    "seed": 0,
-    "rivals": (),
-    "accept": None,
-    "torque_side": None,
-    "rows": None,
-    "band": None,
-    "standstill": None,
-    "known_masses": False,
-    "map": None,
-    "topic": None,
-}

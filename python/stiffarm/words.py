@@ -31,15 +31,19 @@ def plain(value: Any) -> Any:
     return value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else list(value)
 
 
-def signed(settings: type, usual: dict[str, Any]) -> Callable[[Function], Function]:
+#: What a setting of such a type is where nothing is chosen.
+_USUAL = {"Sequence[str]": (), "bool": False, "int": 0}
+
+
+def signed(settings: type) -> Callable[[Function], Function]:
     """Puts each of some settings into a function's signature, as help() and notebooks show it; any other keyword is refused."""
 
     def of(function: Function) -> Function:
         own = inspect.signature(function)
         named = [parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
         for name, kind in settings.__annotations__.items():
-            kind = getattr(kind, "__forward_arg__", kind)
-            named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=usual[name], annotation=kind))
+            kind = str(getattr(kind, "__forward_arg__", kind))
+            named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_USUAL.get(kind), annotation=kind))
         signature = own.replace(parameters=named)
 
         @functools.wraps(function)

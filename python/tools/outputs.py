@@ -85,7 +85,7 @@ SETTINGS = '''"""What may be chosen about a diagnosis. Written by tools/outputs.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Optional, TypedDict, Union
+from typing import Optional, TypedDict, Union
 
 from .words import Path, Quantity
 
@@ -101,9 +101,7 @@ HELD = ("check", "compare")
 
 def settings():
     each = [one for one in _native.settings() if one[0] not in HELD]
-    fields = "".join(f'    {name}: {kind}\n    """{about}."""\n' for name, kind, _, about in each)
-    usual = "".join(f'    "{name}": {value},\n' for name, _, value, _ in each)
-    return f"{SETTINGS}{fields}\n\n#: What each is where nothing is chosen.\nUSUAL: dict[str, Any] = {{\n{usual}}}\n"
+    return SETTINGS + "".join(f'    {name}: {kind}\n    """{about}."""\n' for name, kind, about in each)
 
 
 def main():
