@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -27,19 +27,13 @@ name = \"charuco\"
 corners = { c0 = [0, 0, 0], c1 = [\"90 mm\", 0, 0], c2 = [0, \"90 mm\", 0], c3 = [\"90 mm\", \"90 mm\", 0] }
 ";
 
-fn diagnosed(words: &[&str]) -> Value {
-    stiffarm(&[words, &["--json", "-"]].concat()).json()
-}
-
 #[test]
 fn a_plan_at_sockets_is_measured_and_diagnosed() {
     let folder = Folder::new();
     let bench = folder.file("bench.toml", SOCKETS);
-    let [plan, run] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
-    let words = [
-        "poses", "irb120", "--for", "diagnose", "--count", "24", "--bench", &bench, "--csv", &plan,
-    ];
-    let screen = stiffarm(&words).good();
+    let [plan, data] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
+    let postures = "poses irb120 --for diagnose --count 24";
+    let screen = run(&format!("{postures} --bench {bench} --csv {plan}")).good();
     assert!(screen.contains("24 postures"), "{screen}");
     let written = std::fs::read_to_string(&plan).expect("a plan");
     assert!(
@@ -49,9 +43,9 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
         "{written}"
     );
     let effect = "joint_offset@joint 3=3e-3";
-    let words = ["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &run];
-    stiffarm(&words).good();
-    let found = diagnosed(&["diagnose", "irb120", &run, "--bench", &bench]);
+    stiffarm(&["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &data])
+        .good();
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
     let named = |finding: &Value| {
         let is = |one: &Value| one["effect"] == "joint_offset" && one["place"] == "joint 3";
         is(finding) || finding["alternatives"].as_array().is_some_and(|all| all.iter().any(is))
@@ -62,15 +56,11 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
 #[test]
 fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let folder = Folder::new();
-    let (bench, run) = (folder.file("bench.toml", CAMERA), folder.name("run.csv"));
-    let simulate = |more: &[&str]| {
-        let words =
-            ["simulate", "irb120", "--measure", "camera", "--payload", "3kg", "--csv", &run];
-        stiffarm(&[&words[..], more].concat())
-    };
-    let effect = "joint_compliance@joint 2=8e-5";
-    simulate(&["--bench", &bench, "--noise-rotation", "0.2px", "--effect", effect]).good();
-    let found = diagnosed(&["diagnose", "irb120", &run, "--bench", &bench]);
+    let (bench, data) = (folder.file("bench.toml", CAMERA), folder.name("run.csv"));
+    let shown = "--measure camera --payload 3kg --noise-rotation 0.2px";
+    let effect = "--effect 'joint_compliance@joint 2=8e-5'";
+    run(&format!("simulate irb120 {shown} --csv {data} --bench {bench} {effect}")).good();
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
     let [finding] = &found["findings"].as_array().expect("findings")[..] else { panic!("{found}") };
     assert_eq!(
         (finding["effect"].as_str(), finding["place"].as_str()),
@@ -82,8 +72,8 @@ fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let left = &found["gap"]["after"]["kinds"]["camera"];
     let rms = left["rms"].as_f64().expect("a number");
     assert!(left["unit"] == "px" && (0.25..0.32).contains(&rms), "{left}");
-    let screen = stiffarm(&["diagnose", "irb120", &run, "--bench", &bench]).good();
+    let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
     assert!(screen.contains("px rms") && screen.contains("Error in the picture"), "{screen}");
-    let told = stiffarm(&["diagnose", "irb120", &run]).refused();
+    let told = run(&format!("diagnose irb120 {data}")).refused();
     assert!(told.contains("the unknown marker `c0`"), "{told}");
 }

@@ -11,22 +11,7 @@ use stiffarm_gap::rng::{Rng, Stream};
 
 use crate::support::{Folder, flat, read, stiffarm};
 
-const PENDULUM: &str = "\
-name = \"pendulum\"
-convention = \"standard\"
-gravity = [0.0, -9.80665, 0.0]
-
-[[joint]]
-type = \"revolute\"
-name = \"swing\"
-theta = 0.0
-d = 0.0
-a = 0.8
-alpha = 0.0
-mass = 3.0
-com = [0.0, 0.0, 0.0]
-limits = [-2.5, 2.5]
-";
+const PENDULUM: &str = include_str!("log/pendulum.toml");
 
 /// Torque of a point mass of 3 kg at 0.8 m, with 2 N·m of Coulomb friction and 0.7 N·m·s/rad: rows at
 /// 100 Hz under a header.

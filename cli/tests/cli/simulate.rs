@@ -83,8 +83,8 @@ fn a_plan_is_simulated_and_withheld_before_it_is_measured() {
     assert!(run.contains("15 rows at 15 poses"), "{run}");
     let row = run.lines().filter(|line| !line.starts_with('#')).nth(1).expect("a row");
     assert!(row.split(',').all(|cell| cell.parse::<f64>().is_ok()), "{row}");
-    let few = ["--cases", "2", "--effects", "joint_compliance", "--quiet"];
-    let found = stiffarm(&[&["withhold", arm, plan], &few[..]].concat()).good();
+    let few = ["withhold", arm, plan, "--cases", "2", "--effects", "joint_compliance", "--quiet"];
+    let found = stiffarm(&few).good();
     assert!(found.contains("15 measurements at 15 poses"), "{found}");
 }
 
@@ -95,8 +95,9 @@ fn the_diagnosis_finds_what_was_put_in() {
     let run = folder.name("run.csv");
     let made = ["simulate", "ur5", "--effect", SPRING, "--poses", "12", "--csv", &run];
     assert_eq!(stiffarm(&made).good(), "");
-    let only = ["--effects", "joint_compliance", "--json", "-"];
-    let found = stiffarm(&[&["diagnose", "ur5", &run], &only[..]].concat()).json();
+    let found =
+        crate::support::run(&format!("diagnose ur5 {run} --effects joint_compliance --json -"))
+            .json();
     let first = &found["findings"][0];
     assert_eq!(
         (&first["effect"], &first["place"]),

@@ -8,34 +8,7 @@ use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use super::line;
 use crate::support::{Folder, flat, json, stiffarm, text};
 
-const ROBOT: &str = r#"
-name = "shoulder and elbow"
-convention = "standard"
-[[joint]]
-type = "revolute"
-d = 0.4
-alpha = "pi/2"
-stiffness = 4e5
-mass = 30.0
-com = [0.0, -0.2, 0.0]
-[[joint]]
-type = "revolute"
-theta = "-pi/2"
-a = 0.7
-mass = 20.0
-com = [-0.35, 0.0, 0.0]
-[[joint]]
-type = "revolute"
-a = 0.6
-d = 0.1
-alpha = "-pi/2"
-stiffness = 3e5
-mass = 8.0
-com = [-0.3, 0.0, 0.0]
-[tool]
-translation = [0.05, 0.0, 0.15]
-rotation = [0.0, 0.0, "pi/4"]
-"#;
+const ROBOT: &str = include_str!("shoulder.toml");
 
 pub const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
 pub const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
