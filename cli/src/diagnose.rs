@@ -118,11 +118,11 @@ pub trait Found: Send + Sync {
     /// [`Failure`] if it cannot be written so.
     fn json(&self) -> Result<String, Failure>;
 
-    /// The diagnosis as a document; with everything that a page has where that `embeds` something.
+    /// The diagnosis as a document; of a page with everything that only a page has, and what the page embeds.
     ///
     /// # Errors
     /// [`Failure`] if what the page embeds cannot be made.
-    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure>;
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure>;
 
     /// The robot with all that was found, and what its file says at its top.
     ///
@@ -135,7 +135,7 @@ pub trait Found: Send + Sync {
     /// # Errors
     /// As [`Found::document`].
     fn text(&self, all: bool) -> Result<String, Failure> {
-        Ok(self.document(None)?.text(all))
+        Ok(self.document(false)?.0.text(all))
     }
 
     /// The page in HTML.
@@ -143,8 +143,8 @@ pub trait Found: Send + Sync {
     /// # Errors
     /// [`Failure`] if it cannot be made.
     fn page(&self) -> Result<String, Failure> {
-        let mut embedded = Embedded::default();
-        self.document(Some(&mut embedded))?.html(&embedded)
+        let (document, embedded) = self.document(true)?;
+        document.html(&embedded)
     }
 
     /// The robot file with all that was found.

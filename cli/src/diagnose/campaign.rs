@@ -227,15 +227,16 @@ impl Found for Campaign {
         json::text(&self.told())
     }
 
-    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
-        let Some(embeds) = embeds else { return Ok(self.reported(None).document()) };
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        if !is_page {
+            return Ok((self.reported(None).document(), Embedded::default()));
+        }
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data).map_err(plain)?;
         let placed = explanation.placed();
         let fitted = Fitted { placed: &placed, gaps: &gaps };
         let reported = self.reported(Some(fitted));
-        *embeds = reported.embedded(&fitted, &self.diagnosed.diagnosis)?;
-        Ok(reported.document())
+        Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
     }
 
     fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {

@@ -125,18 +125,10 @@ impl Found for Together {
         })
     }
 
-    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
-        let is_page = embeds.is_some();
-        let part = |found: &dyn Found| {
-            let mut embedded = Embedded::default();
-            let part = found.document(is_page.then_some(&mut embedded))?;
-            Ok((part, is_page.then_some(embedded)))
-        };
-        let parts = [part(&self.campaign)?, part(&self.motion)?];
-        if let Some(embeds) = embeds {
-            *embeds = Embedded::new((), &self.said, figure::WITHIN)?;
-        }
-        Ok(together::document(&self.said, parts))
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        let parts = [self.campaign.document(is_page)?, self.motion.document(is_page)?];
+        let document = together::document(&self.said, parts);
+        Ok((document, Embedded::new((), &self.said, figure::WITHIN)?))
     }
 
     /// The campaign's findings, then the log's.

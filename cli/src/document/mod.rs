@@ -91,7 +91,7 @@ pub enum Block {
     /// What only a page has room for.
     Page(Vec<Block>),
     /// Another document.
-    Document(Document, Option<Embedded>),
+    Document(Document, Embedded),
 }
 
 /// A finding as it is reported.

@@ -8,7 +8,7 @@ use crate::diagnose::Said;
 use crate::terminal::text::{decimals, fixed};
 
 /// The document; `parts` are those of the campaign and of the log, with what their pages embed.
-pub fn document(said: &Said, parts: [(Document, Option<Embedded>); 2]) -> Document {
+pub fn document(said: &Said, parts: [(Document, Embedded); 2]) -> Document {
     let robot = parts[1].0.robot.clone();
     let mut blocks = vec![Block::Sentence(sentences(said).join(" "))];
     if !said.springs.is_empty() {

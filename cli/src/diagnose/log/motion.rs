@@ -197,13 +197,14 @@ impl Found for Motion {
         json::text(&self.told())
     }
 
-    fn document(&self, embeds: Option<&mut Embedded>) -> Result<Document, Failure> {
-        let Some(embeds) = embeds else { return Ok(self.reported(None).document()) };
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        if !is_page {
+            return Ok((self.reported(None).document(), Embedded::default()));
+        }
         let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
         let fitted = Fitted { explained: &explained, arm: &self.arm };
         let reported = self.reported(Some(fitted));
-        *embeds = reported.embedded(&fitted, &self.found)?;
-        Ok(reported.document())
+        Ok((reported.document(), reported.embedded(&fitted, &self.found)?))
     }
 
     fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
