@@ -145,8 +145,10 @@ pub fn run(host: &Host) -> Result<Result<bool, Failure>, Ended> {
 /// The options of a command that read and write no file and are not of joint logs, and whether a value stands behind
 /// each: what may be asked of a machine that is not one's own.
 pub fn options_without_files(command: &str) -> Vec<(String, bool)> {
-    let all = Cli::command();
-    let options = all.find_subcommand(command).into_iter().flat_map(|c| c.get_arguments());
+    let all = match command {
+        "diagnose" => Asked::command(),
+        other => Cli::command().find_subcommand(other).cloned().unwrap_or_default(),
+    };
     let names_none = |option: &&Arg| {
         let kind = option.get_value_parser().type_id();
         kind != TypeId::of::<PathBuf>()
@@ -156,16 +158,36 @@ pub fn options_without_files(command: &str) -> Vec<(String, bool)> {
     let described = |option: &Arg| {
         Some((format!("--{}", option.get_long()?), option.get_action().takes_values()))
     };
-    options.filter(names_none).filter_map(described).collect()
+    all.get_arguments().filter(names_none).filter_map(described).collect()
+}
+
+/// A robot and what is chosen of its diagnosis, in words.
+#[derive(Parser)]
+#[command(no_binary_name = true)]
+struct Asked {
+    #[command(flatten)]
+    robot: RobotArgs,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+/// What a robot and options behind it, as of `stiffarm diagnose`, ask for.
+///
+/// # Errors
+/// [`Failure`]: words that are no such options.
+pub fn asked(words: &[String]) -> Result<(RobotArgs, Settings), Failure> {
+    let Asked { robot, settings } = Asked::try_parse_from(words).map_err(wrong)?;
+    Ok((robot, settings))
+}
+
+fn wrong(error: clap::Error) -> Failure {
+    let text = error.to_string();
+    let first = text.split("\n\n").next().unwrap_or_default();
+    Failure::new(first.trim_start_matches("error: ").trim_end())
 }
 
 /// The command of the host's words.
 fn read(host: &Host) -> Result<Cli, Failure> {
-    let wrong = |error: clap::Error| {
-        let text = error.to_string();
-        let first = text.split("\n\n").next().unwrap_or_default();
-        Failure::new(first.trim_start_matches("error: ").trim_end())
-    };
     let words = std::iter::once("stiffarm".to_owned()).chain(host.words());
     let given = Cli::command().try_get_matches_from(words).map_err(wrong)?;
     apart(&given)?;

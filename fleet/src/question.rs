@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use stiffarm_cli::host::Host;
+use stiffarm_cli::{Catalogues, asked, diagnose};
 
 use crate::arms::Arms;
 use crate::sentence::sentence;
@@ -37,17 +38,27 @@ impl Question {
         let mut given = robot.split_whitespace();
         let named = arms.named(given.next().unwrap_or_default())?;
         let options = self.checked(given)?;
-        let begin = [self.name(), &named.given, FILE, "--json", "-", "--quiet"];
-        let words = begin.into_iter().chain(options).map(str::to_owned).collect();
+        let begin: &[&str] = match self {
+            Question::Diagnose => &[&named.given],
+            Question::Identify => &["identify", &named.given, FILE, "--json", "-", "--quiet"],
+        };
+        let words: Vec<String> = begin.iter().copied().chain(options).map(str::to_owned).collect();
         let mut files: HashMap<String, Vec<u8>> = named.files();
         files.insert(FILE.to_owned(), text.into_bytes());
-        let host = Host::new(words, files);
-        match stiffarm_cli::run(&host) {
-            Ok(Ok(_)) => {
+        let host = Host::new(words.clone(), files).quiet(true);
+        let answered = match self {
+            Question::Diagnose => host.run(|| {
+                let (robot, settings) = asked(&words)?;
+                let all = Catalogues::default();
+                diagnose(&robot, &[FILE.into()], &settings, all, &host)?.json()
+            }),
+            Question::Identify => stiffarm_cli::run(&host).map(|done| {
                 let told = host.take().written.into_iter().filter(|(name, _)| name == "-");
-                Ok(told.map(|(_, text)| text).collect())
-            }
-            Ok(Err(failure)) => Err(sentence(&failure)),
+                done.map(|_| told.map(|(_, text)| text).collect())
+            }),
+        };
+        match answered {
+            Ok(answer) => answer.map_err(|failure| sentence(&failure)),
             Err(_) => Err("the work was left".to_owned()),
         }
     }

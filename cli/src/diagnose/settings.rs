@@ -264,7 +264,7 @@ fn both<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> 
 
 #[cfg(test)]
 mod tests {
-    use clap::{CommandFactory as _, FromArgMatches as _};
+    use clap::CommandFactory as _;
 
     use super::*;
 
@@ -278,16 +278,28 @@ mod tests {
         let settings = Settings::from_json(json).unwrap();
         assert_eq!(settings.tolerance.as_deref(), Some("0.0003m,1mrad"));
         assert_eq!(settings.noise_position.as_deref(), Some("3e-5m"));
-        let words = settings.words();
-        let command = Settings::augment_args(Command::new("x").no_binary_name(true));
-        let again = command.try_get_matches_from(&words).unwrap();
-        assert_eq!(Settings::from_arg_matches(&again).unwrap(), settings, "{words:?}");
+        let words = [vec!["ur5".to_owned()], settings.words()].concat();
+        assert_eq!(crate::asked(&words).unwrap().1, settings, "{words:?}");
         assert_eq!(settings.first_of(true).as_deref(), Some("--torque-side"));
         assert_eq!(settings.first_of(false).as_deref(), Some("--nuisance"));
         assert_eq!(settings.in_motion().first_of(false), None);
         assert_eq!(settings.in_motion().effects, settings.effects);
         assert!(Settings::from_json(r#"{"nothing": 1}"#).is_err());
-        // Every option of a diagnosis that is no output is one of the settings.
         crate::Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn what_is_asked_of_another_machine_names_no_file() {
+        let of = |command| crate::options_without_files(command).into_iter();
+        let names: Vec<String> =
+            of("diagnose").chain(of("identify")).map(|(name, _)| name).collect();
+        assert!(
+            ["--set", "--nuisance", "--seed", "--links"]
+                .iter()
+                .all(|one| names.iter().any(|name| name == one))
+        );
+        let files =
+            ["--bench", "--check", "--compare", "--map", "--json", "--report", "--write-robot"];
+        assert!(!names.iter().any(|name| files.contains(&name.as_str())), "{names:?}");
     }
 }
