@@ -173,11 +173,11 @@ fn springs_are_identified_wherever_the_arm_stands() {
     let folder = Folder::new();
     let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
     let springs = |robot: &str| -> Vec<f64> {
-        let run = folder.name("run.csv");
-        let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
-        let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
-        stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();
-        let found = stiffarm(&["identify", robot, &run, "--json", "-"]).json();
+        let data = folder.name("run.csv");
+        let exact = "--poses 12 --noise-position 0mm --noise-rotation 0deg --design force";
+        let soft = "--effect 'joint_compliance@joint 2=1e-7'";
+        run(&format!("simulate {robot} {exact} {soft} --csv {data}")).good();
+        let found = stiffarm(&["identify", robot, &data, "--json", "-"]).json();
         let each = found["parameters"].as_array().expect("a list").iter();
         each.map(|p| p["value"].as_f64().expect("a number")).collect()
     };

@@ -140,8 +140,11 @@ fn the_foundation_is_written() {
     let (robot, plan) = run(&folder, 12, &LOADS);
     let founded = folder.name("founded.csv");
     let gives = "base_compliance@base:rock_x=2e-8,rock_y=3e-8,give=4e-9";
-    let exact = ["--noise-position", "0um", "--csv", &founded, "--quiet"];
-    stiffarm(&[&["simulate", &robot, &plan, "--effect", gives], &exact[..]].concat()).good();
+    let exact = "--noise-position 0um --quiet";
+    crate::support::run(&format!(
+        "simulate {robot} {plan} --effect {gives} --csv {founded} {exact}"
+    ))
+    .good();
     let out = folder.name("founded.toml");
     stiffarm(&["identify", &robot, &founded, "--base", "--write-robot", &out, "--quiet"]).good();
     let toml = read(&out);

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::support::{Folder, flat, read, stiffarm};
+use crate::support::{Folder, flat, read, run, stiffarm};
 
 const PENDULUM: &str = include_str!("log/pendulum.toml");
 
@@ -41,15 +41,13 @@ fn friction_is_told_with_its_numbers() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows(HEADER));
-    let json = folder.path("log.json");
-    let json = json.to_str().expect("a path");
-    let side = ["--torque-side", "motor", "--json", json];
-    let out = stiffarm(&[&["diagnose", &robot, &log][..], &side].concat()).good();
+    let json = folder.name("log.json");
+    let out = run(&format!("diagnose {robot} {log} --torque-side motor --json {json}")).good();
     assert!(out.contains("coulomb friction at joint 1"), "{out}");
     assert!(out.contains("viscous friction at joint 1"), "{out}");
     assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let text = read(json);
+    let text = read(&json);
     let found = crate::support::json(&text);
     let value = |effect: &str| {
         let list = found["findings"].as_array().expect("a list");
@@ -98,19 +96,17 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows(HEADER));
     let json = folder.name("log.json");
-    let run = ["diagnose", &robot, &log, "--torque-side", "motor", "--nested", "--json", &json];
-    let only = ["--effects", "coulomb_friction,viscous_friction,rotor_inertia"];
+    let only = "--torque-side motor --effects coulomb_friction,viscous_friction,rotor_inertia";
     let page = folder.name("log.html");
-    let out = stiffarm(&[&run[..], &only, &["--report", &page]].concat()).good();
+    let written = format!("--json {json} --report {page}");
+    let out = run(&format!("diagnose {robot} {log} {only} --nested {written}")).good();
     assert!(out.contains("search repeated") && out.contains("With the search repeated"), "{out}");
     let page = read(&page);
     assert!(page.contains("<th scope=\"col\">search repeated</th>"), "{page}");
     let found = crate::support::json(&read(&json));
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
-    let plain =
-        stiffarm(&[&["diagnose", &robot, &log, "--torque-side", "motor"], &only[..]].concat());
-    assert!(!plain.good().contains("search repeated"));
+    assert!(!run(&format!("diagnose {robot} {log} {only}")).good().contains("search repeated"));
 }
 
 #[test]
@@ -126,16 +122,14 @@ fn degrees_and_slow_logs_are_told() {
         let lines: String = all.iter().step_by(every).map(told).collect();
         folder.file(name, format!("# torque_side = motor\n{HEADER}\n{lines}"))
     };
-    let few = ["--effects", "coulomb_friction,latency,presliding"];
-    let degrees = file("degrees.csv", 1, 180.0 / core::f64::consts::PI);
-    let told = stiffarm(&[&["diagnose", &robot, &degrees][..], &few].concat());
+    let few = |log: String, more: &str| {
+        run(&format!("diagnose {robot} {log} --effects coulomb_friction,latency,presliding {more}"))
+    };
+    let told = few(file("degrees.csv", 1, 180.0 / core::f64::consts::PI), "");
     assert!(told.err.contains("are they in degrees? write q1[deg]"), "{}", told.err);
-    let slow = file("slow.csv", 10, 1.0);
-    let out = stiffarm(&[&["diagnose", &robot, &slow][..], &few].concat()).good();
+    let out = few(file("slow.csv", 10, 1.0), "").good();
     assert!(out.contains("latency at the interface: a sample every 100 ms is held"), "{out}");
     assert!(out.contains("presliding at joint 1: its reversals are over in"), "{out}");
-    let fast = file("fast.csv", 1, 1.0);
-    let out =
-        stiffarm(&[&["diagnose", &robot, &fast][..], &few, &["--band", "20Hz"]].concat()).good();
+    let out = few(file("fast.csv", 1, 1.0), "--band 20Hz").good();
     assert!(!out.contains("its reversals are over in"), "{out}");
 }

@@ -1,16 +1,14 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use crate::support::{Folder, flat, read, stiffarm};
+use crate::support::{Folder, flat, read, run};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
     let path = folder.name("given.csv");
-    let zeros =
-        ["--effect", "joint_offset@joint 2=3 mrad", "--effect", "joint_offset@joint 4=-2 mrad"];
-    let given = ["simulate", "ur5", "--poses", "40", "--payload", "0kg", "--measure", "position"];
-    let noise = ["--noise-position", "30um", "--csv", &path];
-    stiffarm(&[&given[..], &zeros[..], &noise[..]].concat()).good();
-    let all = std::fs::read_to_string(&path).expect("measurements");
+    let zeros = "--effect 'joint_offset@joint 2=3 mrad' --effect 'joint_offset@joint 4=-2 mrad'";
+    let given = "--poses 40 --payload 0kg --measure position --noise-position 30um";
+    run(&format!("simulate ur5 {given} {zeros} --csv {path}")).good();
+    let all = read(&path);
     let mut lines = all.lines().filter(|line| !line.starts_with('#'));
     let header = lines.next().expect("a header").to_owned();
     let cells = |line: &str| line.split(',').map(str::to_owned).collect();
@@ -29,14 +27,14 @@ fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> Stri
 }
 
 /// What a run prints that may have doubts beside it.
-fn good(arguments: &[&str]) -> String {
-    let ended = stiffarm(arguments);
+fn good(line: &str) -> String {
+    let ended = run(line);
     assert_eq!(ended.status, 0, "{}", ended.err);
     // Lines are broken where the screen ends.
     flat(&ended.out)
 }
 
-const FRAMES: [&str; 2] = ["--nuisance", "base_frame,tool_frame"];
+const FRAMES: &str = "--nuisance base_frame,tool_frame";
 
 #[test]
 fn a_coupling_is_named_and_written() {
@@ -49,8 +47,8 @@ fn a_coupling_is_named_and_written() {
     }
     let data = file(&folder, "coupled.csv", &header, &rows);
     let [json, robot] = ["found.json", "better.toml"].map(|name| folder.name(name));
-    let outputs = ["--json", &json, "--write-robot", &robot];
-    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..], &outputs[..]].concat());
+    let outputs = format!("--json {json} --write-robot {robot}");
+    let shown = good(&format!("diagnose ur5 {data} {FRAMES} {outputs}"));
     assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
     assert!(shown.contains("instead of"), "{shown}");
     let told = crate::support::json(&read(&json));
@@ -60,7 +58,7 @@ fn a_coupling_is_named_and_written() {
         (&"reading_coupling".into(), &true.into())
     );
     // The written arm has nothing wrong with it.
-    let again = good(&[&["diagnose", &robot, &data], &FRAMES[..]].concat());
+    let again = good(&format!("diagnose {robot} {data} {FRAMES}"));
     assert!(!again.contains("Joint 3's reading"), "{again}");
 }
 
@@ -71,7 +69,7 @@ fn exchanged_coordinates_are_to_be_mended_in_the_measurements() {
     let [x, y] = ["x", "y"].map(|name| column(&header, name));
     rows.iter_mut().for_each(|row| row.swap(x, y));
     let data = file(&folder, "exchanged.csv", &header, &rows);
-    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    let shown = good(&format!("diagnose ur5 {data} {FRAMES}"));
     assert!(shown.contains("exchange the names x and y"), "{shown}");
 }
 
@@ -86,7 +84,7 @@ fn rows_of_other_poses_are_no_arm() {
         measured.iter().for_each(|k| row[*k].clone_from(&was[(number + 7) % was.len()][*k]));
     }
     let data = file(&folder, "other.csv", &header, &rows);
-    let ended = stiffarm(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    let ended = run(&format!("diagnose ur5 {data} {FRAMES}"));
     assert_eq!(ended.status, 3, "{}", ended.err);
     let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");

@@ -3,19 +3,18 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm};
+use crate::support::{Folder, arm, read, run, stiffarm};
 
-const PULLS: [&str; 4] = ["--load", "0,0,-2kN,0,0,0", "--load", "1500,-1000,0,0,0,0"];
+const PULLS: &str = "--load 0,0,-2kN,0,0,0 --load 1500,-1000,0,0,0,0";
 
 /// A robot file whose last joint shows, and its plan.
-fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String) {
+fn plan(folder: &Folder, count: u8, extra: &str) -> (String, String, String) {
     let mut robot = read("robots/arms/kuka_kr240.toml");
     robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
     let robot = folder.file("arm.toml", robot);
     let csv = folder.name("plan.csv");
-    let arguments = [&["poses", &robot, "--count", count, "--csv", &csv], &PULLS[..], extra];
-    let screen = stiffarm(&arguments.concat()).good();
-    (robot, std::fs::read_to_string(csv).expect("written"), screen)
+    let screen = run(&format!("poses {robot} --count {count} --csv {csv} {PULLS} {extra}")).good();
+    (robot, read(&csv), screen)
 }
 
 /// The empty cells filled by simulating an arm with some softer springs, in the units of the header.
@@ -55,7 +54,7 @@ fn measured(plan: &str, softer: &[usize]) -> String {
 fn a_plan_that_is_filled_in_identifies_the_springs() {
     let folder = Folder::new();
     for (purpose, rows) in [("identify", 8), ("diagnose", 16)] {
-        let (robot, plan, screen) = plan(&folder, "8", &["--for", purpose]);
+        let (robot, plan, screen) = plan(&folder, 8, &format!("--for {purpose}"));
         assert!(screen.contains("joint 6") && screen.contains("of the file's"), "{screen}");
         let empty: Vec<&str> = plan.lines().skip(2).collect();
         assert_eq!(empty.len(), rows, "{plan}");
@@ -79,8 +78,8 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
 #[test]
 fn a_plan_that_separates_does() {
     let folder = Folder::new();
-    let pair = ["--for", "separate", "joint_compliance@joint 2", "link_compliance@link2"];
-    let (robot, plan, screen) = plan(&folder, "12", &pair);
+    let pair = "--for separate 'joint_compliance@joint 2' link_compliance@link2";
+    let (robot, plan, screen) = plan(&folder, 12, pair);
     assert!(screen.contains("Told from the other") && screen.contains("µrad/(N·m)"), "{screen}");
     assert!(plan.contains(",dx[mm],dy[mm],dz[mm]\n") && !plan.contains("s1"), "{plan}");
     let run = folder.file("run.csv", measured(&plan, &[2]));
