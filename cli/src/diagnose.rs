@@ -284,7 +284,11 @@ impl Args {
 }
 
 impl Settings {
-    fn options(
+    /// What the diagnosis of measurements is asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] names the option whose value cannot be used.
+    pub fn options(
         &self,
         source: &Source,
         arm: &Arm,

@@ -139,25 +139,24 @@ impl Host {
         self.program.is_some() && path.as_os_str().as_encoded_bytes().first() == Some(&b'<')
     }
 
-    /// Tells a remark, unless quiet; where standard error is closed there is no one to tell.
+    /// Tells a remark, unless quiet.
     pub(crate) fn note(&self, text: &str) {
         let head = style("note").for_stderr().cyan().bold();
-        match &self.program {
-            _ if self.quiet => {}
-            Some(program) => program.remark(text),
-            None => {
-                let _ = std::io::stderr().write_all(format!("{head}: {text}\n").as_bytes());
-            }
-        }
+        self.tell(text, || format!("{head}: {text}\n"));
     }
 
     /// Tells a remark on a place in a file, unless quiet.
     pub(crate) fn warn(&self, remark: &Remark) {
+        self.tell(&remark.text(), || remark.text());
+    }
+
+    /// Tells a text, which a terminal has in its own way; where standard error is closed there is no one to tell.
+    fn tell(&self, text: &str, at_terminal: impl FnOnce() -> String) {
         match &self.program {
             _ if self.quiet => {}
-            Some(program) => program.remark(&remark.text()),
+            Some(program) => program.remark(text),
             None => {
-                let _ = std::io::stderr().write_all(remark.text().as_bytes());
+                let _ = std::io::stderr().write_all(at_terminal().as_bytes());
             }
         }
     }
@@ -167,10 +166,8 @@ impl Host {
     /// # Errors
     /// [`Failure`] if that cannot be written to.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
-        match &self.program {
-            Some(program) => program.write("-", text),
-            None => return output::print(text),
-        }
+        let Some(program) = &self.program else { return output::print(text) };
+        program.write("-", text);
         Ok(())
     }
 
@@ -211,9 +208,9 @@ impl Host {
         !(self.quiet && written.peek().is_some()) && written.all(|to| *to != Target::Stdout)
     }
 
-    /// Whether a program hears how far the work is.
-    pub(crate) fn is_program(&self) -> bool {
-        self.program.is_some()
+    /// Whether somebody at a terminal may look at how far the work is.
+    pub(crate) fn is_watched(&self) -> bool {
+        !self.quiet && self.program.is_none()
     }
 
     /// Says how far the work is; here it is left if its end was asked for.
