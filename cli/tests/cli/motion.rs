@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::support::{Folder, read, run, stiffarm};
 
 /// An elbow above an upright axis, with rotors and friction.
-pub const ELBOW: &str = include_str!("elbow.toml");
+pub const ELBOW: &str = include_str!("../../../tests/data/elbow.toml");
 
 fn columns(csv: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
     let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
