@@ -1,6 +1,6 @@
 //! What a robot file says beyond its table: every command that reads one honours it.
 
-use crate::support::{Folder, read, run, stiffarm};
+use crate::support::{Folder, number, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -83,7 +83,6 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
     let robot = with(&folder, "slack.toml", SLACK);
     let at = "0.2,1.2,-0.9,0.3,0.8,-0.4";
     let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).json();
-    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
     let turn = nalgebra::Matrix3::from_fn(|r, c| number(&pose["rotation"][r][c]));
     let turn = nalgebra::Rotation3::from_matrix(&turn).scaled_axis();
     let place = pose["position"].as_array().expect("three numbers").iter().map(number);

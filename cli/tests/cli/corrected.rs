@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, read, run, stiffarm};
+use crate::support::{Folder, number, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -29,7 +29,6 @@ fn corrected(folder: &Folder) -> [String; 2] {
 
 fn springs(robot: &str, data: &str) -> Vec<[f64; 3]> {
     let found = stiffarm(&["identify", robot, data, "--json", "-"]).json();
-    let number = |value: &Value| value.as_f64().expect("a number");
     let parameters = found["parameters"].as_array().expect("a list").iter();
     parameters.map(|p| [&p["value"], &p["ci95"][0], &p["ci95"][1]].map(number)).collect()
 }

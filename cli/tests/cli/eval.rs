@@ -3,7 +3,7 @@
 use serde_json::Value;
 use stiffarm_kernels::Output;
 
-use crate::support::{Folder, arm, run, stiffarm, text};
+use crate::support::{Folder, arm, number, run, stiffarm, text};
 
 const KEYS: [&str; 7] =
     ["position", "rotation", "jacobian", "k_c", "compliance", "deflection", "joint_torque"];
@@ -14,7 +14,6 @@ fn json(arguments: &[&str]) -> Value {
 
 /// Row by row, as the format has it, into one column-major block.
 fn block(value: &Value) -> Vec<f64> {
-    let number = |v: &Value| v.as_f64().expect("a number");
     let rows: Vec<Vec<f64>> = value
         .as_array()
         .expect("an array")

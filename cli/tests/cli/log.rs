@@ -6,10 +6,9 @@ mod real;
 
 use std::fmt::Write as _;
 
-use serde_json::Value;
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::support::{Folder, flat, read, run, stiffarm};
+use crate::support::{Folder, flat, number, read, run, stiffarm};
 
 const PENDULUM: &str = include_str!("log/pendulum.toml");
 
@@ -60,7 +59,6 @@ fn friction_is_told_with_its_numbers() {
     assert_eq!(found["torque_side"], "motor");
     // Of one joint the whole is its own.
     let (shrink, gap) = (&found["shrink"], &found["gap"][0]);
-    let number = |of: &Value| of.as_f64().expect("a number");
     let part = 1.0 - number(&gap["after"]) / number(&gap["before"]);
     let [low, high] = [0, 1].map(|end| number(&shrink["shrink_ci95"][end]));
     assert!((number(&shrink["shrink"]) - part).abs() < 1e-12, "{text}");

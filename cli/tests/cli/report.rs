@@ -3,7 +3,7 @@
 mod browser;
 
 use crate::diagnose::plant::{Bench, SPRING};
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, flat, read, stiffarm};
 
 const LIN: [&str; 5] =
     ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv", "--rival", "ycd"];
@@ -27,19 +27,24 @@ fn sentence(page: &str) -> String {
     sentence.to_owned()
 }
 
+/// The page that a command writes to `path`, and its sentence, which the screen says, too.
+fn paged(words: &[&str], path: &str) -> (String, String) {
+    let screen = stiffarm(&[words, &["--report", path]].concat()).good();
+    let page = read(path);
+    let said = sentence(&page);
+    assert!(flat(&screen).contains(&said), "{said}");
+    assert!(!page.contains("http"));
+    (page, said)
+}
+
 #[test]
 fn the_page_says_what_the_screen_says() {
     let folder = Folder::new();
     let path = folder.name("out.html");
-    let screen = stiffarm(&[&LIN[..], &["--report", &path]].concat()).good();
-    let page = std::fs::read_to_string(&path).expect("written");
-    let said = sentence(&page);
+    let (page, said) = paged(&LIN, &path);
     assert!(said.starts_with("Joint 1 twists 41.4 µrad/(N·m) more than modelled; "), "{said}");
     assert!(said.contains("7.41 → 0.89 mil rms"), "{said}");
-    let screen: Vec<&str> = screen.split_whitespace().collect();
-    assert!(screen.join(" ").contains(&said), "{said}");
     assert!(page.contains("<dt>seed</dt><dd>0</dd>"));
-    assert!(!page.contains("http"));
     // On standard output, in place of the screen, it is the same but for how it was asked for.
     let printed = stiffarm(&[&LIN[..], &["--report", "-"]].concat()).good();
     let asked = format!("--rival ycd --report {path}</dd>");
@@ -55,20 +60,13 @@ const WORKBENCH: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workb
 
 #[test]
 fn the_page_of_an_identification_says_what_its_screen_says() {
-    let folder = Folder::new();
-    let path = folder.name("out.html");
-    let screen = stiffarm(&[&WORKBENCH[..], &["--report", &path]].concat()).good();
-    let page = std::fs::read_to_string(&path).expect("written");
-    let said = sentence(&page);
+    let (page, said) = paged(&WORKBENCH, &Folder::new().name("out.html"));
     assert!(
         said.starts_with("Joint 2 is 1.83 times as compliant as in the robot file, "),
         "{said}"
     );
     assert!(said.contains("0.797 → 0.034 mm"), "{said}");
-    let screen: Vec<&str> = screen.split_whitespace().collect();
-    assert!(screen.join(" ").contains(&said), "{said}");
     assert!(page.contains("<td>3.61e6 N·m/rad</td>"));
-    assert!(!page.contains("http"));
 }
 
 #[test]

@@ -123,6 +123,12 @@ pub fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
+/// A number of JSON.
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
+}
+
 /// Words as a shell has them: what stands in single quotes is one.
 pub fn words(line: &str) -> Vec<String> {
     let parts = line.split('\'').enumerate();

@@ -1,12 +1,14 @@
 //! Diagnoses of plants: arms with effects that only the test knows.
 
 use serde_json::Value;
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
+use stiffarm_kernels::generic::Arm;
 
 use super::line;
-use crate::support::{Folder, flat, json, stiffarm, text};
+use crate::support::{Folder, flat, json, number, stiffarm, text};
 
 const ROBOT: &str = include_str!("shoulder.toml");
 
@@ -41,9 +43,7 @@ impl Bench {
 
     /// By a plant with these truths.
     pub fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
-        let (robot, _) =
-            stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
+        let arm = arm();
         let truths: Vec<Truth> =
             truths.iter().map(|t| Truth::parse(t, &arm).expect("an effect of this arm")).collect();
         let design = Design {
@@ -73,6 +73,12 @@ impl Bench {
     }
 }
 
+/// The arm of the robot file.
+fn arm() -> Arm {
+    let (robot, _) = Robot::from_toml(ROBOT, "arm").expect("a robot file");
+    stiffarm_gap::robot::arm(&robot).expect("with numbers")
+}
+
 /// `effect at place`, in order.
 fn findings(found: &Value) -> Vec<String> {
     let all = found["findings"].as_array().expect("a list");
@@ -81,10 +87,6 @@ fn findings(found: &Value) -> Vec<String> {
         format!("{} at {}", word("effect"), word("place"))
     };
     all.iter().map(name).collect()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 #[test]
@@ -282,11 +284,7 @@ fn the_rows_that_were_fitted_are_known_again() {
 fn what_is_usual_may_be_told() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SPRING], 6, false);
-    let named = |extra: &[&str]| {
-        let found = bench.json(&bench.robot, &run, extra);
-        let first = &found["findings"][0];
-        format!("{} at {}", first["effect"].as_str().unwrap(), first["place"].as_str().unwrap())
-    };
+    let named = |extra: &[&str]| findings(&bench.json(&bench.robot, &run, extra))[0].clone();
     let usual = named(&[]);
     // Nobody who knows that joints are a million times stiffer than that believes in a spring.
     let told = named(&["--usual", "joint_compliance=1e-14"]);
@@ -297,9 +295,7 @@ fn what_is_usual_may_be_told() {
 fn a_marker_without_a_place_is_fitted() {
     let folder = Folder::new();
     let robot = folder.file("arm.toml", format!("{ROBOT}\n[[marker]]\nname = \"smr\"\n"));
-    let (robot_read, _) =
-        stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
-    let arm = stiffarm_gap::robot::arm(&robot_read).expect("with numbers");
+    let arm = arm();
     // The marker stands at (40, −10, 25) mm of the tool; the arm is as its file says.
     let marker = nalgebra::Point3::new(0.04, -0.01, 0.025);
     let mut rows = "marker,q1,q2,q3,x[mm],y[mm],z[mm]\n".to_owned();

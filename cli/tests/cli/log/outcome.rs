@@ -1,14 +1,9 @@
 //! What is made of a log's diagnosis: the robot file, simulators' files, the check of another log, the page.
 
-use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, json, read, run, stiffarm};
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
-}
+use crate::support::{Folder, json, number, read, run, stiffarm};
 
 /// The pendulum's log, the second half of it apart; both say where torques are measured.
 fn logs(folder: &Folder) -> [String; 2] {
