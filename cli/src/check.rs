@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
-use serde::Serialize;
+use serde_json::{Value, json};
 use stiffarm_codegen::derive::Given;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::{Verdict, robots};
+use crate::host::Host;
 use crate::input::model::Model;
 use crate::input::source;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
 use stiffarm_kernels::parity::{Agreement, Beyond, Comparison, Evaluate, Line, Subject, agreement};
@@ -54,28 +54,6 @@ pub struct Args {
     json: Option<Target>,
 }
 
-/// The result as it is written. Deviations are relative to the output's scale, by what they are from.
-#[derive(Serialize)]
-struct Written<'a> {
-    stiffarm: &'static str,
-    /// Postures of each robot, at least.
-    count: usize,
-    seed: u64,
-    agrees: bool,
-    limits: BTreeMap<&'static str, f64>,
-    robots: Vec<WrittenRobot<'a>>,
-}
-
-#[derive(Serialize)]
-struct WrittenRobot<'a> {
-    robot: &'a str,
-    agrees: bool,
-    postures: usize,
-    /// Evaluations that are left out: the arm is not stable under its load.
-    unstable: usize,
-    outputs: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
-}
-
 /// Postures of an arm of up to so many joints.
 const USUAL: (usize, usize) = (10_000, 8);
 
@@ -93,20 +71,18 @@ fn usual(joints: usize) -> usize {
 ///
 /// # Errors
 /// [`Failure`]: the robot, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let checked = match &args.robot {
-        Some(robot) => vec![check(robot.load(quiet)?, args, quiet)?],
+        Some(robot) => vec![check(robot.load(host)?, args, host)?],
         None => {
-            let each = ARMS.iter().map(|arm| check(source::open(arm.id, quiet)?, args, quiet));
+            let each = ARMS.iter().map(|arm| check(source::open(arm.id, host)?, args, host));
             each.collect::<Result<_, _>>()?
         }
     };
     let failed = checked.iter().any(|c| !c.agrees());
-    if let Some(target) = &args.json {
-        target.write(&json::text(&written(&checked, args))?)?;
-    }
-    if (failed || !quiet) && args.json != Some(Target::Stdout) {
-        print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
+    host.put(&args.json, || crate::terminal::json::text(&written(&checked, args)))?;
+    if (failed || !host.is_quiet()) && args.json != Some(Target::Stdout) {
+        host.print(&if args.all { summary(&checked, args) } else { checked[0].report(args) })?;
     }
     Ok(if failed { Verdict::Failed } else { Verdict::Good })
 }
@@ -118,7 +94,7 @@ struct Checked {
     agreement: Agreement,
 }
 
-fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
+fn check(source: Source, args: &Args, host: &Host) -> Result<Checked, Failure> {
     let robot = source.for_kernels()?;
     let (table, known) = source.as_it_stands()?;
     let outputs = robot.generated();
@@ -138,7 +114,7 @@ fn check(source: Source, args: &Args, quiet: bool) -> Result<Checked, Failure> {
     let outputs = &outputs;
     let subject = Subject { outputs, arm: &arm, beyond, generated: &generated, single };
     let count = args.count.map_or_else(|| usual(arm.dof()), |count| count as usize);
-    let progress = Progress::new(&source.given, count, quiet);
+    let progress = Progress::new(&source.given, count, host);
     let agreement = agreement(&subject, count, args.seed, &|steps| progress.add(steps));
     if agreement.too_large > 0 {
         let evaluations = thousands(agreement.too_large);
@@ -167,31 +143,32 @@ fn given(at: &Situation) -> Given {
     Given { sides, warming: at.warming.unwrap_or_default() }
 }
 
-fn written<'a>(checked: &'a [Checked], args: &Args) -> Written<'a> {
-    let by_name = |value: &dyn Fn(usize) -> Option<f64>| {
+/// The result as it is written. Deviations are relative to the output's scale, by what they are from; evaluations in
+/// which the arm is not stable are left out.
+fn written(checked: &[Checked], args: &Args) -> Value {
+    let by_name = |value: &dyn Fn(usize) -> Option<f64>| -> BTreeMap<&str, f64> {
         let each = HEADS.iter().enumerate();
         each.filter_map(|(k, head)| value(k).map(|value| (*head, value))).collect()
     };
-    let robots = checked.iter().map(|one| WrittenRobot {
-        robot: &one.source.given,
-        agrees: one.agrees(),
-        postures: one.postures,
-        unstable: one.agreement.unstable,
-        outputs: one
-            .agreement
-            .lines
-            .iter()
-            .map(|line| (line.output.name(), by_name(&|k| line.worst[k])))
-            .collect(),
-    });
-    Written {
-        stiffarm: env!("CARGO_PKG_VERSION"),
-        count: least(checked),
-        seed: args.seed,
-        agrees: checked.iter().all(Checked::agrees),
-        limits: by_name(&|k| Some(Comparison::EACH[k].limit())),
-        robots: robots.collect(),
-    }
+    let robot = |one: &Checked| {
+        let lines = one.agreement.lines.iter();
+        let outputs = lines.map(|line| (line.output.name(), by_name(&|k| line.worst[k])));
+        json!({
+            "robot": one.source.given,
+            "agrees": one.agrees(),
+            "postures": one.postures,
+            "unstable": one.agreement.unstable,
+            "outputs": outputs.collect::<BTreeMap<_, _>>(),
+        })
+    };
+    json!({
+        "stiffarm": env!("CARGO_PKG_VERSION"),
+        "count": least(checked),
+        "seed": args.seed,
+        "agrees": checked.iter().all(Checked::agrees),
+        "limits": by_name(&|k| Some(Comparison::EACH[k].limit())),
+        "robots": checked.iter().map(robot).collect::<Vec<_>>(),
+    })
 }
 
 /// The postures of the robot with the fewest.

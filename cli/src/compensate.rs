@@ -13,16 +13,15 @@ use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Joint;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::branches::Branches;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::wrench::wrench;
 use crate::input::{data, quantity};
-use crate::inside::bytes;
 use crate::terminal::failure::Failure;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{bold, dim, short};
+use crate::terminal::text::{bold, dim, quoted, short};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,7 +74,7 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the targets, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let (length, angle) = (Dimension::Length, Dimension::Angle);
     let search = Search {
         translation: quantity::with_unit("--tolerance", &args.tolerance, length)?,
@@ -84,21 +83,21 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         seed: args.seed,
     };
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
-    let source = args.robot.load(quiet)?;
+    let source = args.robot.load(host)?;
     let arm = source.arm()?;
     let whole = Whole { arm: &arm, known: &source.known };
     let inverse = Branches::of(&source);
-    let (targets, starts) = targets(&args.targets, &source)?;
-    doubts::units(&arm, &targets).iter().for_each(|doubt| note(doubt, quiet));
+    let (targets, starts) = targets(&args.targets, &source, host)?;
+    doubts::units(&arm, &targets).iter().for_each(|doubt| host.note(doubt));
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
         let message = format!("--wrench: {} has loads of its own", args.targets.display());
         return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));
     }
     let gives = |joint: &Joint| joint.compliance != 0.0 || joint.beam.is_some();
     if source.known.is_empty() && !arm.joints.iter().any(gives) {
-        note("nothing in the robot file gives way: the set-points are those of a rigid arm", quiet);
+        host.note("nothing in the robot file gives way: the set-points are those of a rigid arm");
     }
-    let progress = Progress::new(&source.given, targets.rows.len(), quiet);
+    let progress = Progress::new(&source.given, targets.rows.len(), host);
     let mut found: Vec<Reached> = Vec::new();
     for (row, now) in targets.rows.iter().zip(moments(&targets)) {
         let at = Situation {
@@ -120,21 +119,21 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         progress.add(1);
     }
     drop(progress);
-    args.out.write(&file(&source, &targets, &found))?;
+    host.write(&args.out, &file(&source, &targets, &found))?;
     let missed = found.iter().filter(|end| end.ended != Ended::Reached).count();
-    if args.out != Target::Stdout && !quiet {
-        print(&screen(&source, &targets, &found))?;
+    if args.out != Target::Stdout && !host.is_quiet() {
+        host.print(&screen(&source, &targets, &found))?;
     }
     if missed > 0 {
-        note(&format!("{} of {} targets are not reached", missed, found.len()), quiet);
+        host.note(&format!("{} of {} targets are not reached", missed, found.len()));
         return Ok(Verdict::Failed);
     }
     Ok(Verdict::Good)
 }
 
 /// The targets, and whether they have joint values to start from.
-fn targets(path: &Path, source: &Source) -> Result<(Measurements, bool), Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+fn targets(path: &Path, source: &Source, host: &Host) -> Result<(Measurements, bool), Failure> {
+    let bytes = host.read(path)?;
     let starts = has_readings(&bytes);
     let layout = Layout { readings: starts, ..data::layout(source)? };
     let targets = data::from_bytes(path, &bytes, &layout)?;
@@ -197,12 +196,7 @@ fn file(source: &Source, targets: &Measurements, found: &[Reached]) -> String {
     let named = targets.rows.iter().any(|row| row.pose.is_some());
     let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
     let mut heads: Vec<String> = if named { vec!["pose".to_owned()] } else { Vec::new() };
-    heads.extend(
-        revolute
-            .iter()
-            .enumerate()
-            .map(|(j, turns)| format!("q{}[{}]", j + 1, if *turns { "deg" } else { "mm" })),
-    );
+    heads.extend(source.heads());
     heads.extend(["x[mm]", "y[mm]", "z[mm]"].map(str::to_owned));
     if turned {
         heads.extend(["rx[deg]", "ry[deg]", "rz[deg]"].map(str::to_owned));
@@ -260,15 +254,6 @@ fn status(ended: &Ended) -> String {
             let names: Vec<String> = joints.iter().map(|joint| format!("q{joint}")).collect();
             format!("nearest (at limit: {})", names.join(" "))
         }
-    }
-}
-
-/// A cell that may hold commas and quotes.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 

@@ -4,8 +4,8 @@ use clap::CommandFactory as _;
 use clap_complete::{Shell, generate};
 
 use super::{Cli, Verdict};
+use crate::host::Host;
 use crate::terminal::failure::Failure;
-use crate::terminal::output::print;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -25,9 +25,9 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`] if standard output cannot be written to.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut text = Vec::new();
     generate(args.shell, &mut Cli::command(), "stiffarm", &mut text);
-    print(&String::from_utf8_lossy(&text))?;
+    host.print(&String::from_utf8_lossy(&text))?;
     Ok(Verdict::Good)
 }

@@ -8,6 +8,7 @@ mod corrected;
 mod log;
 mod predicted;
 mod provenance;
+mod settings;
 mod together;
 
 use std::path::PathBuf;
@@ -25,20 +26,21 @@ pub use accepted::Accepted;
 pub use campaign::Campaign;
 pub use check::Check;
 pub use compared::{Compared, Reached};
-pub use corrected::Format;
+use corrected::exported;
+pub use corrected::{Format, commented};
 pub use log::{Check as LogCheck, Motion};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
+pub use settings::{IN_MOTION, Settings};
 pub use together::{Said, Together};
 
 use super::Verdict;
-use crate::input::data::BenchArgs;
+use crate::document::{Document, Embedded};
+use crate::host::Host;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::interrupt;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,7 +65,7 @@ the joints' compliances are estimated from both.";
 /// Compares the robot file with measurements, or with a log of joint values and torques, currents or
 /// commands. Reports which unmodelled effects cause the error, and how far it is reduced with them on
 /// held-out poses or time.
-#[derive(Clone, clap::Args)]
+#[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
@@ -72,52 +74,7 @@ pub struct Args {
     #[arg(required = true)]
     data: Vec<PathBuf>,
     #[command(flatten)]
-    bench: BenchArgs,
-    /// Nuisance parameters, co-estimated and never a finding: base_frame, tool_frame, geometry (zeros,
-    /// lengths and twists, within --tolerance)
-    #[arg(long, value_name = "a,b", value_delimiter = ',')]
-    nuisance: Vec<String>,
-    /// Manufacturing tolerance of lengths and angles, standard deviations [default: 0.3mm,0.5mrad]
-    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
-    tolerance: Option<String>,
-    /// Prior scale of an effect's parameters: joint_compliance=2e-6, link_compliance:bending=1e-6; may be
-    /// repeated
-    #[arg(long = "usual", value_name = "EFFECT[:NUMBER]=SIZE")]
-    priors: Vec<String>,
-    /// Standard deviation of a measured coordinate: 30um [default: from repeats, else from the residuals]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    noise_position: Option<String>,
-    /// Standard deviation of a measured rotation: 0.02deg [default: from repeats, else from the residuals]
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
-    noise_rotation: Option<String>,
-    /// Keep outliers: fit and count rows that do not fit
-    #[arg(long)]
-    keep_all: bool,
-    /// Try only these effects
-    #[arg(long, value_name = "a,b,c", value_delimiter = ',')]
-    effects: Option<Vec<String>>,
-    /// Number of folds [default: one per pose up to 30 poses, else 10]
-    #[arg(long, value_name = "K")]
-    folds: Option<usize>,
-    /// Nested cross-validation: repeat the search without each fold, and report the error on it
-    #[arg(long)]
-    nested: bool,
-    /// Seed of folds, permutations and intervals; the same seed gives the same bytes
-    #[arg(long, default_value_t = 0)]
-    seed: u64,
-    /// Compare with another model's predictions: the columns PREFIX_x … or PREFIX_dx …
-    #[arg(long = "rival", value_name = "PREFIX")]
-    rivals: Vec<String>,
-    /// Predict another file of the same arm with the findings
-    #[arg(long, value_name = "OTHER.csv")]
-    check: Option<PathBuf>,
-    /// Compare with an earlier diagnosis of the arm (JSON): what was added, removed and changed
-    #[arg(long, value_name = "LAST.json")]
-    compare: Option<PathBuf>,
-    /// Tolerance for the position error of the corrected arm in 95 % of the rows, held out or of --check;
-    /// exit status 1 if the error is larger
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    accept: Option<String>,
+    settings: Settings,
     /// Write the robot file with the findings
     #[arg(long, value_name = "OUT.toml")]
     write_robot: Option<Target>,
@@ -136,8 +93,6 @@ pub struct Args {
     /// Print every finding, parameter and reason, however small
     #[arg(long)]
     all: bool,
-    #[command(flatten)]
-    log: log::LogArgs,
 }
 
 /// The effects that are tried: those that stiffarm knows, and one's own.
@@ -149,65 +104,126 @@ pub struct Catalogues {
     pub in_motion: LogCatalogue,
 }
 
-/// What was diagnosed.
-pub enum Found {
-    /// Measurements at rest.
-    Campaign(Box<Campaign>),
-    /// A log of the arm in motion.
-    Motion(Box<Motion>),
-    /// Both, of one arm.
-    Together(Box<Together>),
+/// What a diagnosis found, of whatever data.
+pub trait Found: Send + Sync {
+    /// What was measured at rest; `None` of a log alone.
+    fn campaign(&self) -> Option<&Campaign>;
+
+    /// What was logged in motion; `None` of measurements alone.
+    fn motion(&self) -> Option<&Motion>;
+
+    /// The diagnosis in JSON.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be written so.
+    fn json(&self) -> Result<String, Failure>;
+
+    /// The diagnosis as a document; of a page with everything that only a page has, and what the page embeds.
+    ///
+    /// # Errors
+    /// [`Failure`] if what the page embeds cannot be made.
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure>;
+
+    /// The robot with all that was found, and what its file says at its top.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log of currents, which tell no newton-metres.
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure>;
+
+    /// The diagnosis as it stands on a screen, or `all` of it.
+    ///
+    /// # Errors
+    /// As [`Found::document`].
+    fn text(&self, all: bool) -> Result<String, Failure> {
+        Ok(self.document(false)?.0.text(all))
+    }
+
+    /// The page in HTML.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be made.
+    fn page(&self) -> Result<String, Failure> {
+        let (document, embedded) = self.document(true)?;
+        document.html(&embedded)
+    }
+
+    /// The robot file with all that was found.
+    ///
+    /// # Errors
+    /// As [`Found::robot`].
+    fn corrected(&self) -> Result<String, Failure> {
+        let (lines, robot) = self.robot()?;
+        Ok(commented(lines, &robot))
+    }
+
+    /// The same arm as other programs read it, and a sentence on what they have no place for.
+    ///
+    /// # Errors
+    /// [`Failure`]: as above, or the table has cells that are no numbers.
+    fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
+        exported(&self.robot()?.1, format)
+    }
+
+    /// What has to be known of any file of the corrected arm, a sentence each.
+    fn caveats(&self) -> Vec<String> {
+        let at_rest = self.campaign().map(|found| found.corrections().caveats());
+        let in_motion = self.motion().map(Motion::caveats);
+        at_rest.into_iter().chain(in_motion).flatten().collect()
+    }
 }
 
 /// Runs the command.
 ///
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let found = find(args, Catalogues::default(), quiet)?;
-    if let Some(target) = &args.json {
-        target.write(&found.json()?)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let found = diagnose(&args.robot, &args.data, &args.settings, Catalogues::default(), host)?;
+    host.put(&args.json, || found.json())?;
+    args.write_arm(&*found, host)?;
+    host.put(&args.report, || found.page())?;
+    let [robot, urdf, mjcf] = args.arms();
+    if host.shows(&[&args.json, &args.report, robot, urdf, mjcf]) {
+        host.print(&found.text(args.all)?)?;
     }
-    args.write_arm(&found, quiet)?;
-    if let Some(target) = &args.report {
-        target.write(&found.page()?)?;
-    }
-    let written: Vec<_> =
-        [&args.json, &args.report].into_iter().chain(args.arms()).flatten().collect();
-    let enough = quiet && !written.is_empty();
-    if !enough && !written.contains(&&Target::Stdout) {
-        print(&found.text(args.all))?;
-    }
-    Ok(match (found.is_unexplained(), found.is_accepted()) {
-        (true, _) => Verdict::Unexplained,
-        (false, true) => Verdict::Good,
-        (false, false) => Verdict::Failed,
+    Ok(match found.campaign() {
+        Some(found) if found.is_unexplained() => Verdict::Unexplained,
+        Some(found) if !found.is_accepted() => Verdict::Failed,
+        _ => Verdict::Good,
     })
 }
 
-/// Diagnoses what was given, with the effects of `catalogues`.
+/// Diagnoses the files `data` of a robot as it is chosen, with the effects of `catalogues`.
 ///
 /// # Errors
-/// [`Failure`]: the robot, the data or the options; effects of one's own that are not asked of such data.
-pub fn find(args: &Args, catalogues: Catalogues, quiet: bool) -> Result<Found, Failure> {
-    let source = args.robot.load(quiet)?;
+/// [`Failure`]: the robot, the data or the settings; effects of one's own that are not asked of such data.
+pub fn diagnose(
+    robot: &RobotArgs,
+    data: &[PathBuf],
+    settings: &Settings,
+    catalogues: Catalogues,
+    host: &Host,
+) -> Result<Box<dyn Found>, Failure> {
+    let source = robot.load(host)?;
     let Catalogues { at_rest, in_motion } = catalogues;
-    match log::files(args)? {
+    match log::files(data, settings, host)? {
         log::Files::Log(parts) => {
             unasked(at_rest.identifiers(), Catalogue::default().identifiers(), "measurements")?;
-            Motion::new(args, source, parts, in_motion, quiet)
-                .map(|found| Found::Motion(Box::new(found)))
+            if let Some(option) = settings.first_of(false) {
+                let log = data[0].display();
+                let message =
+                    format!("{option} is for measurement files, and {log} is a joint log");
+                return Err(Failure::new(message));
+            }
+            Ok(Box::new(Motion::new(settings, source, parts, in_motion, host)?))
         }
         log::Files::Measurements(files) => {
             unasked(in_motion.identifiers(), LogCatalogue::default().identifiers(), "joint logs")?;
-            Campaign::new(args, source, files, &[], at_rest, quiet)
-                .map(|found| Found::Campaign(Box::new(found)))
+            Ok(Box::new(Campaign::new(settings, source, files, &[], at_rest, host)?))
         }
         log::Files::Both(files, parts) => {
             let catalogues = Catalogues { at_rest, in_motion };
-            let both = args.both(&files, &catalogues)?;
-            Together::new(&both, source, files, parts, catalogues, quiet)
-                .map(|found| Found::Together(Box::new(found)))
+            let both = settings.both(&catalogues, host)?;
+            Ok(Box::new(Together::new(&both, source, files, parts, catalogues, host)?))
         }
     }
 }
@@ -218,96 +234,6 @@ fn unasked(given: Vec<&str>, known: Vec<&str>, of: &str) -> Result<(), Failure> 
     own.map_or(Ok(()), |own| {
         Err(Failure::new(format!("found the effect `{own}`, which is of {of}, and none are given")))
     })
-}
-
-impl Found {
-    /// Whether the corrected arm is within the tolerance that was asked for; none is always kept.
-    fn is_accepted(&self) -> bool {
-        match self {
-            Found::Campaign(found) => found.is_accepted(),
-            Found::Motion(_) => true,
-            Found::Together(found) => found.campaign.is_accepted(),
-        }
-    }
-
-    /// Whether what was measured is no arm's, and no mistake explains why.
-    fn is_unexplained(&self) -> bool {
-        match self {
-            Found::Campaign(found) => found.is_unexplained(),
-            Found::Motion(_) => false,
-            Found::Together(found) => found.campaign.is_unexplained(),
-        }
-    }
-
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        match self {
-            Found::Campaign(found) => found.json(),
-            Found::Motion(found) => found.json(),
-            Found::Together(found) => found.json(),
-        }
-    }
-
-    /// The diagnosis as it stands on a screen, or `all` of it.
-    pub fn text(&self, all: bool) -> String {
-        let document = match self {
-            Found::Campaign(found) => found.document(),
-            Found::Motion(found) => found.document(),
-            Found::Together(found) => found.document(),
-        };
-        document.text(all)
-    }
-
-    /// The page in HTML.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be made.
-    pub fn page(&self) -> Result<String, Failure> {
-        let (document, embedded) = match self {
-            Found::Campaign(found) => found.paged()?,
-            Found::Motion(found) => found.paged()?,
-            Found::Together(found) => found.paged()?,
-        };
-        document.html(&embedded)
-    }
-
-    /// The robot file with all that was found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        match self {
-            Found::Campaign(found) => Ok(found.corrected()),
-            Found::Motion(found) => found.corrected(),
-            Found::Together(found) => found.corrected(),
-        }
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: as above, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        match self {
-            Found::Campaign(found) => found.exported(format),
-            Found::Motion(found) => found.exported(format),
-            Found::Together(found) => found.exported(format),
-        }
-    }
-
-    /// What has to be known of any file of the corrected arm, a sentence each.
-    pub fn caveats(&self) -> Vec<String> {
-        match self {
-            Found::Campaign(found) => found.corrections().caveats(),
-            Found::Motion(found) => found.caveats(),
-            Found::Together(found) => {
-                [found.campaign.corrections().caveats(), found.motion.caveats()].concat()
-            }
-        }
-    }
 }
 
 fn in_words(stage: Stage) -> String {
@@ -340,63 +266,35 @@ impl Args {
         [&self.write_robot, &self.write_urdf, &self.write_mjcf]
     }
 
-    fn write_arm(&self, found: &Found, quiet: bool) -> Result<(), Failure> {
-        if let Some(target) = &self.write_robot {
-            target.write(&found.corrected()?)?;
-        }
+    fn write_arm(&self, found: &dyn Found, host: &Host) -> Result<(), Failure> {
+        host.put(&self.write_robot, || found.corrected())?;
         for (target, format) in [(&self.write_urdf, Format::Urdf), (&self.write_mjcf, Format::Mjcf)]
         {
             if let Some(target) = target {
                 let (text, lost) = found.exported(format)?;
-                target.write(&text)?;
-                lost.iter().for_each(|lost| note(lost, quiet));
+                host.write(target, &text)?;
+                lost.iter().for_each(|lost| host.note(lost));
             }
         }
         if self.arms().iter().any(|target| target.is_some()) {
-            found.caveats().iter().for_each(|caveat| note(caveat, quiet));
+            found.caveats().iter().for_each(|caveat| host.note(caveat));
         }
         Ok(())
     }
+}
 
-    /// Without the options that speak of measurement files alone.
-    fn without_measurements(self) -> Args {
-        Args {
-            nuisance: Vec::new(),
-            tolerance: None,
-            noise_position: None,
-            noise_rotation: None,
-            keep_all: false,
-            folds: None,
-            rivals: Vec::new(),
-            accept: None,
-            compare: None,
-            ..self
-        }
-    }
-
-    /// The first option that is given and speaks of measurement files alone.
-    fn of_measurements(&self) -> Option<&'static str> {
-        [
-            (!self.nuisance.is_empty(), "--nuisance"),
-            (self.tolerance.is_some(), "--tolerance"),
-            (self.noise_position.is_some(), "--noise-position"),
-            (self.noise_rotation.is_some(), "--noise-rotation"),
-            (self.keep_all, "--keep-all"),
-            (self.folds.is_some(), "--folds"),
-            (!self.rivals.is_empty(), "--rival"),
-            (self.accept.is_some(), "--accept"),
-            (self.compare.is_some(), "--compare"),
-        ]
-        .into_iter()
-        .find_map(|(given, name)| given.then_some(name))
-    }
-
-    fn options(
+impl Settings {
+    /// What the diagnosis of measurements is asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] names the option whose value cannot be used.
+    pub fn options(
         &self,
         source: &Source,
         arm: &Arm,
         springs: &[Spring],
         catalogue: Catalogue,
+        host: &Host,
     ) -> Result<Options, Failure> {
         let noise = |option, text: &Option<String>, dimension| {
             text.as_ref().map(|t| quantity::with_unit(option, t, dimension)).transpose()
@@ -423,13 +321,13 @@ impl Args {
             known: source.known.clone(),
             family: family(),
             springs: springs.to_vec(),
-            stop: interrupt::stop(),
+            stop: host.stop(),
             catalogue,
             ..Options::default()
         };
         options.fit_along(&self.nuisance).map_err(plain)?;
         let read = |text: &String| Prior::parse(text, arm, &options.catalogue).map_err(plain);
-        options.priors = self.priors.iter().map(read).collect::<Result<_, _>>()?;
+        options.priors = self.usual.iter().map(read).collect::<Result<_, _>>()?;
         Ok(options)
     }
 }

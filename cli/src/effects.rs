@@ -6,11 +6,12 @@ use stiffarm_gap::log::Domain;
 use stiffarm_kernels::generic::Arm;
 
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::named;
 use crate::input::source::RobotArgs;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::text::{bold, dim, wrapped};
 
 const EXAMPLES: &str = "\
@@ -67,8 +68,8 @@ struct Number {
 ///
 /// # Errors
 /// [`Failure`]: an effect that there is not, or an output that cannot be written.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
-    let mut arm = RobotArgs::named(SAMPLE).load(true)?.arm()?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let mut arm = RobotArgs::named(SAMPLE).load(&host.quiet(true))?.arm()?;
     arm.joints.iter_mut().for_each(|joint| joint.drive.gear = GEAR);
     let mut chosen = effects::Entry::all();
     if !args.effects.is_empty() {
@@ -82,9 +83,9 @@ pub fn run(args: &Args) -> Result<Verdict, Failure> {
     }
     let entries: Vec<Entry> = chosen.iter().flat_map(|entry| laws(entry, &arm)).collect();
     match (&args.markdown, &args.json) {
-        (Some(target), _) => target.write(&markdown(&entries))?,
-        (_, Some(target)) => target.write(&json::text(&entries)?)?,
-        _ => print(&screen(&entries))?,
+        (Some(target), _) => host.write(target, &markdown(&entries))?,
+        (_, Some(target)) => host.write(target, &json::text(&entries)?)?,
+        _ => host.print(&screen(&entries))?,
     }
     Ok(Verdict::Good)
 }

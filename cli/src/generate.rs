@@ -12,10 +12,10 @@ use stiffarm_codegen::robot::{Refused, Robot, Wanted};
 use stiffarm_kernels::generic::BaseParameter;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::source::{self, Source};
-use crate::inside::owner;
 use crate::terminal::failure::Failure;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::text::{bad, dim, good};
 
 const EXAMPLES: &str = "\
@@ -148,9 +148,9 @@ fn told(Refused { message, help }: Refused) -> String {
 ///
 /// # Errors
 /// [`Failure`]: the robot, options that do not go together, a file that cannot be read or written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     args.go_together()?;
-    let mut source = source::open(&args.robot, quiet)?;
+    let mut source = source::open(&args.robot, host)?;
     source.robot = source.for_kernels()?;
     args.fits(&source.robot)?;
     if !args.outputs.is_empty() {
@@ -169,19 +169,19 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         // One text is the file that was named, several are in the folder that was named.
         let place = |path: &Path| name.as_ref().map_or(path.to_path_buf(), |n| path.join(n));
         match (&args.check, &args.out) {
-            (Some(path), _) if args.check(&place(path), &text, quiet)? == Verdict::Failed => {
+            (Some(path), _) if args.check(&place(path), &text, host)? == Verdict::Failed => {
                 verdict = Verdict::Failed;
             }
             (Some(_), _) => {}
             (None, Some(Target::File(path))) => {
                 let file = place(path);
-                if let Some(folder) = file.parent().filter(|_| owner(&file).is_none()) {
+                if let Some(folder) = file.parent().filter(|_| !host.owns(&file)) {
                     std::fs::create_dir_all(folder)
                         .map_err(|error| Failure::io("write", &file, &error))?;
                 }
-                Target::File(file).write(&text)?;
+                host.write(&Target::File(file), &text)?;
             }
-            (None, Some(Target::Stdout) | None) => print(&text)?,
+            (None, Some(Target::Stdout) | None) => host.print(&text)?,
         }
     }
     Ok(verdict)
@@ -325,12 +325,12 @@ impl Args {
         })
     }
 
-    fn check(&self, file: &Path, text: &str, quiet: bool) -> Result<Verdict, Failure> {
+    fn check(&self, file: &Path, text: &str, host: &Host) -> Result<Verdict, Failure> {
         let found = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
         let name = file.display();
         if found == text.as_bytes() {
-            if !quiet {
-                print(&format!("{} {name} is what {} gives\n", good("✓"), self.robot))?;
+            if !host.is_quiet() {
+                host.print(&format!("{} {name} is what {} gives\n", good("✓"), self.robot))?;
             }
             return Ok(Verdict::Good);
         }
@@ -338,7 +338,9 @@ impl Args {
         let (line, expected, found) = first_difference(text, &found);
         let head = format!("{} {name} is not what {} gives", bad("✗"), self.robot);
         let (want, have) = (dim("expected"), dim("   found"));
-        print(&format!("{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"))?;
+        host.print(&format!(
+            "{head}, first in line {line}:\n  {want} {expected}\n  {have} {found}\n"
+        ))?;
         Ok(Verdict::Failed)
     }
 }

@@ -1,12 +1,12 @@
 //! `stiffarm identify`: stiffnesses from loaded measurements.
 
+mod corrected;
 mod document;
 mod words;
-mod written;
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
@@ -16,13 +16,12 @@ use stiffarm_gap::identify::measured::{
 use stiffarm_gap::measurement::Dimension;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
-use crate::terminal::json;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
 
 const EXAMPLES: &str = "\
@@ -84,12 +83,12 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let question = args.question()?;
-    let source = args.robot.load(quiet)?;
+    let source = args.robot.load(host)?;
     let question = Question { known: source.known.clone(), ..question };
     let arm = source.arm_at_its_base()?;
-    let data = data::read(&args.data, &args.bench.layout(&source)?, quiet)?;
+    let data = data::read(&args.data, &args.bench.layout(&source, host)?, host)?;
     // Loads are told in the base's axes, and so are springs.
     let data = data.seen_from(&source.arm()?.base).ok_or_else(|| {
         let message = format!("{}: found some components alone", args.data.display());
@@ -99,21 +98,17 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         )
     })?;
     // Only what loads change is used, whatever frame it is in.
-    data::doubted(&arm, &data, &Nuisance::ALL, quiet);
-    let progress = Progress::new(&source.given, PARTS, quiet);
+    data::doubted(&arm, &data, &Nuisance::ALL, host);
+    let progress = Progress::new(&source.given, PARTS, host);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
     let answer = answer.map_err(|error| Failure::new(error.to_string()))?;
-    let result = Written::new(&source, &data, &answer, &args.data.display().to_string());
+    let result = written(&source, &data, &answer, &args.data.display().to_string());
     if data.sim_given.contains(&true) {
-        note("the columns sim_… play no part: springs are compared with the robot file", quiet);
+        host.note("the columns sim_… play no part: springs are compared with the robot file");
     }
-    if let Some(target) = &args.json {
-        target.write(&json::text(&result)?)?;
-    }
-    if let Some(target) = &args.write_robot {
-        target.write(&written::robot(&source, &answer, &data.file)?)?;
-    }
+    host.put(&args.json, || crate::terminal::json::text(&result))?;
+    host.put(&args.write_robot, || corrected::robot(&source, &answer, &data.file))?;
     let identified = document::Identified {
         source: &source,
         arm: &arm,
@@ -121,15 +116,9 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         question: &question,
         answer: &answer,
     };
-    if let Some(target) = &args.report {
-        let document = identified.document(true);
-        target.write(&document.html(&identified.embedded(&json::value(&result)?)?)?)?;
-    }
-    let written: Vec<_> =
-        [&args.json, &args.write_robot, &args.report].into_iter().flatten().collect();
-    let enough = quiet && !written.is_empty();
-    if !enough && !written.contains(&&Target::Stdout) {
-        print(&identified.document(false).text(false))?;
+    host.put(&args.report, || identified.document(true).html(&identified.embedded(&result)?))?;
+    if host.shows(&[&args.json, &args.write_robot, &args.report]) {
+        host.print(&identified.document(false).text(false))?;
     }
     Ok(Verdict::Good)
 }
@@ -151,87 +140,30 @@ impl Args {
     }
 }
 
-/// The result as it is written.
-#[derive(Serialize)]
-struct Written {
-    stiffarm: &'static str,
-    robot: String,
-    data: String,
-    measurements: usize,
-    poses: usize,
-    folds: usize,
-    gap: Gaps,
-    noise: NoiseIs,
-    freedom: usize,
-    reduced_chi2: Option<f64>,
-    scaled_condition: f64,
-    parameters: Vec<Entry>,
-}
-
-#[derive(Serialize)]
-struct Gaps {
-    before: Sizes,
-    held_out: Sizes,
-}
-
-#[derive(Serialize)]
-struct Sizes {
-    position_rms: f64,
-    position_max: f64,
-    rotation_rms: f64,
-}
-
-#[derive(Serialize)]
-struct NoiseIs {
-    position: Option<f64>,
-    rotation: Option<f64>,
-    from: &'static str,
-}
-
-/// One number, found or held; SI.
-#[derive(Serialize)]
-struct Entry {
-    place: String,
-    name: &'static str,
-    unit: &'static str,
-    status: &'static str,
-    value: f64,
-    /// `None` of one that is held.
-    ci95: Option<[f64; 2]>,
-    /// 1/value where it is a compliance; `None` is rigid, or unbounded.
-    stiffness: Option<f64>,
-    stiffness_ci95: Option<[Option<f64>; 2]>,
-    file: f64,
-    with: Vec<String>,
-    to_show_it: Option<String>,
-}
-
-impl Written {
-    fn new(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Written {
-        let sizes = |s: &Statistics| Sizes {
-            position_rms: s.position_rms,
-            position_max: s.position_max,
-            rotation_rms: s.rotation_rms,
-        };
-        Written {
-            stiffarm: env!("CARGO_PKG_VERSION"),
-            robot: source.robot.name.clone(),
-            data: file.to_owned(),
-            measurements: data.rows.len(),
-            poses: data.poses,
-            folds: answer.gap.folds,
-            gap: Gaps { before: sizes(&answer.gap.before), held_out: sizes(&answer.gap.held_out) },
-            noise: NoiseIs {
-                position: answer.noise.position,
-                rotation: answer.noise.rotation,
-                from: answer.noise.from,
-            },
-            freedom: answer.freedom,
-            reduced_chi2: answer.reduced_chi2,
-            scaled_condition: answer.scaled_condition,
-            parameters: answer.parameters.iter().map(|p| entry(source, p)).collect(),
-        }
-    }
+/// The result as it is written; SI.
+fn written(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Value {
+    let sizes = |s: &Statistics| {
+        json!({
+            "position_rms": s.position_rms,
+            "position_max": s.position_max,
+            "rotation_rms": s.rotation_rms,
+        })
+    };
+    let noise = &answer.noise;
+    json!({
+        "stiffarm": env!("CARGO_PKG_VERSION"),
+        "robot": source.robot.name,
+        "data": file,
+        "measurements": data.rows.len(),
+        "poses": data.poses,
+        "folds": answer.gap.folds,
+        "gap": {"before": sizes(&answer.gap.before), "held_out": sizes(&answer.gap.held_out)},
+        "noise": {"position": noise.position, "rotation": noise.rotation, "from": noise.from},
+        "freedom": answer.freedom,
+        "reduced_chi2": answer.reduced_chi2,
+        "scaled_condition": answer.scaled_condition,
+        "parameters": answer.parameters.iter().map(|p| entry(source, p)).collect::<Vec<_>>(),
+    })
 }
 
 /// Whether a compliance is that of a translation, m/N.
@@ -248,7 +180,9 @@ fn stiffness(compliance: f64) -> Option<f64> {
     (compliance > 0.0).then(|| 1.0 / compliance).filter(|k| k.is_finite())
 }
 
-fn entry(source: &Source, parameter: &Parameter) -> Entry {
+/// One number, found or held: its interval is none of one that is held; its stiffness is none where it is rigid, or
+/// unbounded.
+fn entry(source: &Source, parameter: &Parameter) -> Value {
     let unknown = parameter.unknown;
     let compliance = !matches!(unknown, Unknown::Link(_));
     let unit = match (compliance, is_translation(source, unknown)) {
@@ -263,18 +197,18 @@ fn entry(source: &Source, parameter: &Parameter) -> Entry {
             ("held", with.iter().map(Unknown::to_string).collect(), pull.as_ref())
         }
     };
-    Entry {
-        place: unknown.to_string(),
-        name: if compliance { "compliance" } else { "flexibility" },
-        unit,
-        status,
-        value: parameter.value,
-        ci95: parameter.interval(),
-        stiffness: stiffness(parameter.value).filter(|_| compliance),
-        stiffness_ci95: (parameter.interval().filter(|_| compliance))
-            .map(|[low, high]| [stiffness(high), stiffness(low)]),
-        file: parameter.file,
-        with,
-        to_show_it: pull.map(ToString::to_string),
-    }
+    let interval = parameter.interval();
+    json!({
+        "place": unknown.to_string(),
+        "name": if compliance { "compliance" } else { "flexibility" },
+        "unit": unit,
+        "status": status,
+        "value": parameter.value,
+        "ci95": interval,
+        "stiffness": stiffness(parameter.value).filter(|_| compliance),
+        "stiffness_ci95": interval.filter(|_| compliance).map(|[low, high]| [high, low].map(stiffness)),
+        "file": parameter.file,
+        "with": with,
+        "to_show_it": pull.map(ToString::to_string),
+    })
 }

@@ -6,9 +6,10 @@ use stiffarm_codegen::robot::urdf::{self, Chain, Frame, Refusal, Table, Urdf, ro
 use stiffarm_codegen::robot::{Motion, Robot};
 
 use super::Verdict;
+use crate::diagnose::commented;
+use crate::host::Host;
 use crate::input::source::text;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::note::note;
 use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
@@ -55,13 +56,13 @@ const AGREES: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Failure`]: what is no URDF, or no serial chain; an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let file = args.urdf.display().to_string();
-    let source = text(&args.urdf)?;
+    let source = text(&args.urdf, host)?;
     let chosen = (args.base.as_deref(), args.tip.as_deref());
     let (written, remarks) = imported(&file, &source, chosen, args.as_written)?;
-    remarks.iter().for_each(|remark| note(remark, quiet));
-    args.toml.write(&written)?;
+    remarks.iter().for_each(|remark| host.note(remark));
+    host.write(&args.toml, &written)?;
     Ok(Verdict::Good)
 }
 
@@ -82,8 +83,11 @@ pub fn imported(
     let table = Table::new(&chain);
     let robot = robot_file(&chain, &table);
     let mut remarks = remarks(&urdf, &chain, &table);
-    let head: String = head(file, &chain).iter().chain(&remarks).map(|r| comment(r)).collect();
-    let written = format!("{head}\n{}", robot.to_toml());
+    let head = format!(
+        "Imported by stiffarm from {file}: from link `{}` to link `{}`.",
+        chain.base, chain.tip
+    );
+    let written = commented(std::iter::once(head).chain(remarks.iter().cloned()).collect(), &robot);
     let deviation = deviation(&chain, &written)?;
     if deviation.is_nan() || deviation > AGREES {
         let message = format!("{file}: no table in double precision holds this chain");
@@ -99,11 +103,6 @@ fn failure(refusal: &Refusal, file: &str, source: &str) -> Failure {
     let span = urdf::bytes(source, &refusal.place);
     let Refusal { message, help, .. } = refusal;
     Failure::File(vec![Remark::error(message.clone(), help.clone(), file, source, span)])
-}
-
-fn head(file: &str, chain: &Chain) -> Vec<String> {
-    let Chain { base, tip, .. } = chain;
-    vec![format!("Imported by stiffarm from {file}: from link `{base}` to link `{tip}`.")]
 }
 
 /// What the file cannot say in its rows.
@@ -144,12 +143,6 @@ fn multiple(x: f64) -> String {
         k => format!("{k}*"),
     };
     if n == 1.0 { format!("{times}pi") } else { format!("{times}pi/{n}") }
-}
-
-/// One line of a comment; what a name may hold must not end it.
-fn comment(text: &str) -> String {
-    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    format!("# {plain}\n")
 }
 
 /// The largest difference of the tip's pose by the written file and by the URDF, m and rad.

@@ -1,5 +1,5 @@
-//! The command line: `stiffarm --help` says what it does. [`main`] runs it; [`run`] and [`diagnose_inside`]
-//! do the same for another program, which hands over files and takes what is told ([`inside`]).
+//! The command line: `stiffarm --help` says what it does. [`main`] runs it; [`run`] and [`diagnose`]
+//! do the same for another program, which hands over files and takes what is told ([`host`]).
 //!
 //! One file per command; what they share lies in rooms: `input` (robots, data, numbers as they are given), `terminal` (text, errors, progress,
 //! files written), `document` (what a command reports, printed to a screen or as a page), `plot`.
@@ -15,10 +15,10 @@ mod documented;
 mod effects;
 mod eval;
 mod generate;
+pub mod host;
 mod identify;
 mod import;
 mod input;
-pub mod inside;
 mod man;
 mod map;
 mod measurements;
@@ -32,18 +32,21 @@ mod simulate;
 mod terminal;
 mod withhold;
 
+use std::any::TypeId;
+use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use terminal::{interrupt, output};
+use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use terminal::interrupt;
+use terminal::output::{self, Target};
 
 pub use diagnose::{
-    Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Together,
+    Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Settings, Together,
+    diagnose,
 };
+use host::{Ended, Host};
 pub use input::source::{RobotArgs, Source};
-use inside::{Ended, Host};
 pub use map::Axes;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
@@ -115,7 +118,7 @@ enum Verdict {
 pub fn main() -> ExitCode {
     let given = Cli::command().get_matches();
     let Cli { command, quiet } = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
-    let ended = apart(&given).and_then(|()| execute(command, quiet));
+    let ended = apart(&given).and_then(|()| execute(command, &Host::default().quiet(quiet)));
     match ended {
         Ok(_) if interrupt::is_asked() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(Verdict::Good) => ExitCode::SUCCESS,
@@ -132,36 +135,60 @@ pub fn main() -> ExitCode {
 ///
 /// # Errors
 /// [`Failure`] as at a terminal, of wrong words too; [`Ended`] if the host asked for the end.
-pub fn run(host: &Arc<Host>) -> Result<Result<bool, Failure>, Ended> {
+pub fn run(host: &Host) -> Result<Result<bool, Failure>, Ended> {
     host.run(|| {
         let Cli { command, quiet } = read(host)?;
-        execute(command, quiet).map(|verdict| verdict == Verdict::Good)
+        execute(command, &host.quiet(quiet)).map(|verdict| verdict == Verdict::Good)
     })
 }
 
-/// Diagnoses as the host's words say, `diagnose` being the first, with the effects of `catalogues`; outputs that are
-/// named among them are not written.
+/// The options of a command that read and write no file and are not of joint logs, and whether a value stands behind
+/// each: what may be asked of a machine that is not one's own.
+pub fn options_without_files(command: &str) -> Vec<(String, bool)> {
+    let all = match command {
+        "diagnose" => Asked::command(),
+        other => Cli::command().find_subcommand(other).cloned().unwrap_or_default(),
+    };
+    let names_none = |option: &&Arg| {
+        let kind = option.get_value_parser().type_id();
+        kind != TypeId::of::<PathBuf>()
+            && kind != TypeId::of::<Target>()
+            && option.get_help_heading() != Some(diagnose::IN_MOTION)
+    };
+    let described = |option: &Arg| {
+        Some((format!("--{}", option.get_long()?), option.get_action().takes_values()))
+    };
+    all.get_arguments().filter(names_none).filter_map(described).collect()
+}
+
+/// A robot and what is chosen of its diagnosis, in words.
+#[derive(Parser)]
+#[command(no_binary_name = true)]
+struct Asked {
+    #[command(flatten)]
+    robot: RobotArgs,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+/// What a robot and options behind it, as of `stiffarm diagnose`, ask for.
 ///
 /// # Errors
-/// [`Failure`] as at a terminal, of wrong words too; [`Ended`] if the host asked for the end.
-pub fn diagnose_inside(
-    host: &Arc<Host>,
-    catalogues: Catalogues,
-) -> Result<Result<Found, Failure>, Ended> {
-    host.run(|| match read(host)? {
-        Cli { command: Command::Diagnose(args), quiet } => diagnose::find(&args, catalogues, quiet),
-        _ => Err(Failure::new("found another command, expected diagnose")),
-    })
+/// [`Failure`]: words that are no such options.
+pub fn asked(words: &[String]) -> Result<(RobotArgs, Settings), Failure> {
+    let Asked { robot, settings } = Asked::try_parse_from(words).map_err(wrong)?;
+    Ok((robot, settings))
+}
+
+fn wrong(error: clap::Error) -> Failure {
+    let text = error.to_string();
+    let first = text.split("\n\n").next().unwrap_or_default();
+    Failure::new(first.trim_start_matches("error: ").trim_end())
 }
 
 /// The command of the host's words.
 fn read(host: &Host) -> Result<Cli, Failure> {
-    let wrong = |error: clap::Error| {
-        let text = error.to_string();
-        let first = text.split("\n\n").next().unwrap_or_default();
-        Failure::new(first.trim_start_matches("error: ").trim_end())
-    };
-    let words = std::iter::once("stiffarm").chain(host.words.iter().map(String::as_str));
+    let words = std::iter::once("stiffarm".to_owned()).chain(host.words());
     let given = Cli::command().try_get_matches_from(words).map_err(wrong)?;
     apart(&given)?;
     Cli::from_arg_matches(&given).map_err(wrong)
@@ -175,25 +202,25 @@ fn apart(given: &ArgMatches) -> Result<(), Failure> {
     chosen.map_or(Ok(()), |(command, given)| output::apart(command, given))
 }
 
-fn execute(command: Command, quiet: bool) -> Result<Verdict, Failure> {
+fn execute(command: Command, host: &Host) -> Result<Verdict, Failure> {
     match command {
-        Command::Eval(args) => eval::run(&args, quiet),
-        Command::Check(args) => check::run(&args, quiet),
-        Command::Robots(args) => robots::run(&args),
-        Command::Import(args) => import::run(&args, quiet),
-        Command::Generate(args) => generate::run(&args, quiet),
-        Command::Map(args) => map::run(&args, quiet),
-        Command::Measurements(args) => measurements::run(&args, quiet),
-        Command::Poses(args) => poses::run(&args, quiet),
-        Command::Identify(args) => identify::run(&args, quiet),
-        Command::Diagnose(args) => diagnose::run(&args, quiet),
-        Command::Effects(args) => effects::run(&args),
-        Command::Predict(args) => predict::run(&args, quiet),
-        Command::Simulate(args) => simulate::run(&args, quiet),
-        Command::Withhold(args) => withhold::run(&args, quiet),
-        Command::Compensate(args) => compensate::run(&args, quiet),
-        Command::Papers(args) => papers::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
+        Command::Eval(args) => eval::run(&args, host),
+        Command::Check(args) => check::run(&args, host),
+        Command::Robots(args) => robots::run(&args, host),
+        Command::Import(args) => import::run(&args, host),
+        Command::Generate(args) => generate::run(&args, host),
+        Command::Map(args) => map::run(&args, host),
+        Command::Measurements(args) => measurements::run(&args, host),
+        Command::Poses(args) => poses::run(&args, host),
+        Command::Identify(args) => identify::run(&args, host),
+        Command::Diagnose(args) => diagnose::run(&args, host),
+        Command::Effects(args) => effects::run(&args, host),
+        Command::Predict(args) => predict::run(&args, host),
+        Command::Simulate(args) => simulate::run(&args, host),
+        Command::Withhold(args) => withhold::run(&args, host),
+        Command::Compensate(args) => compensate::run(&args, host),
+        Command::Papers(args) => papers::run(&args, host),
+        Command::Completions(args) => completions::run(&args, host),
+        Command::Man(args) => man::run(&args, host),
     }
 }

@@ -6,8 +6,9 @@ use clap::{Command, CommandFactory as _};
 use clap_mangen::Man;
 
 use super::{Cli, Verdict};
+use crate::host::Host;
 use crate::terminal::failure::Failure;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,11 +28,11 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`] if a page cannot be written.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut whole = Cli::command();
     whole.build();
     let Some(folder) = &args.out else {
-        print(&page(whole)?)?;
+        host.print(&page(whole)?)?;
         return Ok(Verdict::Good);
     };
     let make = std::fs::create_dir_all(folder);
@@ -42,7 +43,7 @@ pub fn run(args: &Args) -> Result<Verdict, Failure> {
     for command in pages {
         let name = command.get_display_name().unwrap_or(command.get_name()).replace(' ', "-");
         let file = folder.join(format!("{name}.1"));
-        Target::File(file).write(&page(command)?)?;
+        host.write(&Target::File(file), &page(command)?)?;
     }
     Ok(Verdict::Good)
 }

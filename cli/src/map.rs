@@ -12,12 +12,12 @@ use stiffarm_gap::dexterity::Map;
 use stiffarm_gap::whole::Whole;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::quantity;
 use crate::input::source::RobotArgs;
 use crate::plot::number;
 use crate::terminal::failure::Failure;
-use crate::terminal::note::note;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
 use crate::terminal::text::{bold, dim, short};
 pub use axes::Axes;
@@ -86,20 +86,20 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let source = args.robot.load(host)?;
     let table = source.arm()?;
     let arm = source.arm_at_its_base()?;
     let whole = Whole { arm: &arm, known: &source.known };
     let sweep = Sweep::new(&source, &arm, &args.over, &args.at, usize::from(args.steps))?;
-    let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &table, quiet)?;
+    let learnt = Learnt::new(&args.learnt, args.of == Of::Shrink, &source, &table, host)?;
     let asked =
         Quantity::new(args.of, args.wrench.as_deref(), args.length.as_deref(), &arm, learnt)?;
     if let (Of::Condition, None) = (args.of, &args.length) {
-        note(&format!("characteristic length L = {} m", short(asked.length)), quiet);
+        host.note(&format!("characteristic length L = {} m", short(asked.length)));
     }
     let cells = sweep.plane.first.len() * sweep.plane.second.len();
-    let progress = Progress::new(&source.given, cells, quiet);
+    let progress = Progress::new(&source.given, cells, host);
     let unstable = AtomicUsize::new(0);
     let map = sweep.plane.map(|q| {
         progress.add(1);
@@ -124,15 +124,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             "check the load, its unit and the stiffness",
         ));
     }
-    if let Some(target) = &args.svg {
-        target.write(&picture::figure(&source, &sweep, &asked, &map).svg())?;
-    }
-    if let Some(target) = &args.csv {
-        target.write(&numbers(&sweep, &asked, &map))?;
-    }
+    host.put(&args.svg, || picture::svg(&source, &sweep, &asked, &map))?;
+    host.put(&args.csv, || Ok(numbers(&sweep, &asked, &map)))?;
     let printed = [&args.svg, &args.csv].into_iter().flatten().any(|to| *to == Target::Stdout);
-    if !quiet && !printed {
-        print(&screen(&source.robot.name, &sweep, &asked, &map, unstable))?;
+    if !host.is_quiet() && !printed {
+        host.print(&screen(&source.robot.name, &sweep, &asked, &map, unstable))?;
     }
     Ok(Verdict::Good)
 }

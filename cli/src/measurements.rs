@@ -6,11 +6,10 @@ use stiffarm_gap::io::{Map, ReadError};
 use stiffarm_gap::readings::{By, Stopped, import, import_into};
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::data;
 use crate::input::source::RobotArgs;
-use crate::inside::{bytes, sheet};
 use crate::terminal::failure::Failure;
-use crate::terminal::note::note;
 use crate::terminal::output::Target;
 
 const EXAMPLES: &str = "\
@@ -65,35 +64,33 @@ pub struct Args {
 ///
 /// # Errors
 /// [`Failure`]: the table, the map, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let read = |path: &PathBuf| bytes(path).map_err(|error| Failure::io("read", path, &error));
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let plain = |error: ReadError| Failure::new(error.to_string());
     let mut map = match &args.map {
         None => Map::default(),
         Some(path) => {
-            let text = String::from_utf8_lossy(&read(path)?).into_owned();
+            let text = String::from_utf8_lossy(&host.read(path)?).into_owned();
             Map::read(&path.display().to_string(), &text).map_err(plain)?
         }
     };
     map.sheet = args.sheet.clone().or(map.sheet);
-    let table = |path: &PathBuf| sheet(path).map_err(|error| Failure::io("read", path, &error));
-    let raw = table(&args.raw)?;
-    let other = args.join.as_ref().map(table).transpose()?;
+    let raw = host.sheet(&args.raw)?;
+    let other = args.join.as_deref().map(|path| host.sheet(path)).transpose()?;
     let other = other.as_ref().map(|other| (other, &args.by));
     let said = match &args.robot {
         Some(robot) => {
             let imported = import(&raw, other, &map).map_err(plain)?;
-            let source = RobotArgs::named(robot).load(quiet)?;
+            let source = RobotArgs::named(robot).load(host)?;
             let written = PathBuf::from("what was made of it");
             let layout = data::layout(&source)?;
             let data = data::from_bytes(&written, imported.csv.as_bytes(), &layout)?;
-            data::doubted(&source.arm()?, &data, &[], quiet);
-            args.csv.write(&imported.csv)?;
+            data::doubted(&source.arm()?, &data, &[], host);
+            host.write(&args.csv, &imported.csv)?;
             imported.said
         }
         None => {
             let mut done = Ok(Vec::new());
-            args.csv.stream(&mut |sink| match import_into(&raw, other, &map, sink) {
+            host.stream(&args.csv, &mut |sink| match import_into(&raw, other, &map, sink) {
                 Ok(said) => {
                     done = Ok(said);
                     Ok(true)
@@ -107,6 +104,6 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
             done?
         }
     };
-    said.iter().for_each(|said| note(said, quiet));
+    said.iter().for_each(|said| host.note(said));
     Ok(Verdict::Good)
 }

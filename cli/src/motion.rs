@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use stiffarm_gap::log::{Log, Names, Signal};
-use stiffarm_gap::measurement::bytes;
 use stiffarm_gap::motion::{Course, Fourier, Limits, Sampled};
 use stiffarm_gap::plant::motion::{Logged, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
+use crate::host::Host;
 use crate::input::quantity;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
@@ -157,14 +157,14 @@ impl Courses {
     /// # Errors
     /// [`Failure`]: a file that is no log, or limits between which nothing moves.
     pub fn of(
-        file: Option<&PathBuf>,
+        (file, host): (Option<&PathBuf>, &Host),
         source: &Source,
         arm: &Arm,
         (motion, record): (&MotionArgs, &RecordArgs),
         seed: u64,
     ) -> Result<Courses, Failure> {
         if let Some(path) = file {
-            return Courses::read(path, source, arm);
+            return Courses::read(path, source, arm, host);
         }
         let (period, harmonics) = motion.series();
         if period <= 0.0 {
@@ -179,8 +179,8 @@ impl Courses {
     }
 
     /// Commands of a file where it has some, else where its joints were.
-    fn read(path: &Path, source: &Source, arm: &Arm) -> Result<Courses, Failure> {
-        let told = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+    fn read(path: &Path, source: &Source, arm: &Arm, host: &Host) -> Result<Courses, Failure> {
+        let told = host.read(path)?;
         let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
         let names =
             Names::own(source.robot.joints.iter().map(|j| j.name.clone()).collect()).of_motion();

@@ -10,7 +10,7 @@ pub use judged::run;
 
 use crate::terminal::output::Target;
 #[cfg(not(feature = "papers"))]
-use crate::{Verdict, terminal::failure::Failure};
+use crate::{Verdict, host::Host, terminal::failure::Failure};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -60,7 +60,7 @@ enum Figure {
 /// # Errors
 /// [`Failure`], always: the program was built without the papers.
 #[cfg(not(feature = "papers"))]
-pub fn run(_: &Args) -> Result<Verdict, Failure> {
+pub fn run(_: &Args, _: &Host) -> Result<Verdict, Failure> {
     Err(Failure::new(
         "this build of stiffarm does not judge papers, and one with the feature `papers` does: \
          cargo install --path cli --features papers",

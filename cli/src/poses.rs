@@ -15,13 +15,14 @@ use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::data::BenchArgs;
 use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::wrench::wrench;
 use crate::motion::MotionArgs;
 use crate::terminal::failure::Failure;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
 
 const EXAMPLES: &str = "\
@@ -113,32 +114,32 @@ pub enum For {
 ///
 /// # Errors
 /// [`Failure`]: the robot, the options, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let source = args.robot.load(host)?;
     if args.purpose == For::Motion {
-        return motion::run(args, &source, quiet);
+        return motion::run(args, &source, host);
     }
     if let Some(option) = args.motion.given() {
         return Err(Failure::new(format!("{option} is for --for motion")));
     }
     let arm = source.arm_at_its_base()?;
     let whole = Whole { arm: &arm, known: &source.known };
-    let plan = Plan { bench: args.places(&source)?, ..args.plan(&arm)? };
-    let progress = Progress::new(&source.given, PARTS, quiet);
+    let plan = Plan { bench: args.places(&source, host)?, ..args.plan(&arm)? };
+    let progress = Progress::new(&source.given, PARTS, host);
     let found = design(whole, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
     let found = found.map_err(|error| Failure::new(error.to_string()))?;
-    args.csv.write(&file::file(&source, &plan, &found))?;
-    if args.csv != Target::Stdout && !quiet {
-        print(&screen::screen(&source, &arm, &plan, &found))?;
+    host.write(&args.csv, &file::file(&source, &plan, &found))?;
+    if args.csv != Target::Stdout && !host.is_quiet() {
+        host.print(&screen::screen(&source, &arm, &plan, &found))?;
     }
     Ok(Verdict::Good)
 }
 
 impl Args {
     /// The things of the bench at which postures are planned.
-    fn places(&self, source: &Source) -> Result<Vec<Aim>, Failure> {
-        let places = self.bench.layout(source)?.bench.places();
+    fn places(&self, source: &Source, host: &Host) -> Result<Vec<Aim>, Failure> {
+        let places = self.bench.layout(source, host)?.bench.places();
         if self.bench.is_given() && places.is_empty() {
             let help =
                 "give each [[point]] its `at`, each [[plane]] its `normal` and `offset`, roughly";

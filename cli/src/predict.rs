@@ -14,12 +14,13 @@ use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
 use crate::document::Unit;
+use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::text::{bold, dim};
 
 const EXAMPLES: &str = "\
@@ -68,19 +69,19 @@ struct Written<'a> {
 /// # Errors
 /// [`Failure`]: the robot, the data, a load that the arm does not bear, or an output that cannot be
 /// written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let source = args.robot.load(host)?;
     let arm = source.arm()?;
-    let layout = args.bench.layout(&source)?;
-    let plan = data::read_plan(&args.data, &layout, quiet)?;
+    let layout = args.bench.layout(&source, host)?;
+    let plan = data::read_plan(&args.data, &layout, host)?;
     let is_measured = plan.rows.iter().any(|row| row.measured != Vector6::zeros());
     // A row with a hole is no measurement, and is left out and said.
-    let data = if is_measured { data::read(&args.data, &layout, quiet)? } else { plan };
+    let data = if is_measured { data::read(&args.data, &layout, host)? } else { plan };
     if !is_measured && args.csv.is_none() {
         let message = format!("{}: found nothing measured", args.data.display());
         return Err(Failure::with_help(message, "--csv OUT writes what is predicted"));
     }
-    data::doubted(&arm, &data, &[], quiet);
+    data::doubted(&arm, &data, &[], host);
     let whole = Whole { arm: &arm, known: &source.known };
     let refused = |error: DiagnoseError| Failure::new(error.to_string());
     let found = predicted(whole, &data).map_err(refused)?;
@@ -103,17 +104,11 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         inside: gaps.len(),
         gap: (is_measured && !gaps.is_empty()).then(|| Statistics::of(&gaps)),
     };
-    if let Some(target) = &args.csv {
-        let comment = format!("{}, predicted: {}", source.robot.name, data.file);
-        target.write(&csv(&arm, &found, &[comment]))?;
-    }
-    if let Some(target) = &args.json {
-        target.write(&json::text(&written)?)?;
-    }
-    let outputs: Vec<&Target> = [&args.csv, &args.json].into_iter().flatten().collect();
-    let enough = quiet && !outputs.is_empty();
-    if !enough && !outputs.contains(&&Target::Stdout) {
-        print(&screen(&source, &data, &written))?;
+    let comment = format!("{}, predicted: {}", source.robot.name, data.file);
+    host.put(&args.csv, || Ok(csv(&arm, &found, &[comment])))?;
+    host.put(&args.json, || json::text(&written))?;
+    if host.shows(&[&args.csv, &args.json]) {
+        host.print(&screen(&source, &data, &written))?;
     }
     Ok(Verdict::Good)
 }

@@ -6,10 +6,11 @@ use stiffarm_codegen::robot::{Convention, Motion, Robot};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::text::{Align, bold, dim, indented, table};
 
 /// The built-in robots: their joints, what their files know, and what a Jacobian costs
@@ -42,22 +43,22 @@ struct Entry {
 ///
 /// # Errors
 /// [`Failure`] if the list cannot be written.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if args.schema {
-        print(&Robot::json_schema())?;
+        host.print(&Robot::json_schema())?;
         return Ok(Verdict::Good);
     }
     let ids = ARMS.iter().map(|arm| arm.id).chain(SYMBOLIC.iter().map(|arm| arm.id));
-    let entries: Vec<Entry> = ids.map(entry).collect::<Result<_, _>>()?;
+    let entries: Vec<Entry> = ids.map(|id| entry(id, host)).collect::<Result<_, _>>()?;
     match &args.json {
-        Some(target) => target.write(&json::text(&entries)?)?,
-        None => print(&screen(&entries))?,
+        Some(target) => host.write(target, &json::text(&entries)?)?,
+        None => host.print(&screen(&entries))?,
     }
     Ok(Verdict::Good)
 }
 
-fn entry(id: &'static str) -> Result<Entry, Failure> {
-    let robot = source::open(id, true)?.robot;
+fn entry(id: &'static str, host: &Host) -> Result<Entry, Failure> {
+    let robot = source::open(id, &host.quiet(true))?.robot;
     let beams = || robot.joints.iter().filter_map(|j| j.beam.as_ref());
     Ok(Entry {
         id,

@@ -15,6 +15,7 @@ use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::{data, quantity};
@@ -155,14 +156,14 @@ const MOST_ROWS: usize = 1_000_000;
 /// # Errors
 /// [`Failure`]: the robot, the data, an effect that this arm cannot have, a load that it cannot
 /// carry, or an output that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let source = args.robot.load(host)?;
     if let Some(target) = &args.log {
-        return log::run(args, &source, target);
+        return log::run(args, &source, target, host);
     }
     let arm = args.experiment.placed(source.arm()?);
     let truths = args.truths(&arm)?;
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, host)?;
     let noise = args.experiment.noise(&design)?;
     let seed = args.experiment.seed;
     let known: Vec<Known> =
@@ -179,7 +180,7 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let measured = plant.measure(&design, noise, seed).and_then(|read| plant.seated(&read));
     let measured = measured.map_err(plain)?;
     if let Some(target) = &args.csv {
-        target.write(&csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
+        host.write(target, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
     }
     Ok(Verdict::Good)
 }
@@ -240,14 +241,14 @@ impl ExperimentArgs {
         file: Option<&PathBuf>,
         source: &Source,
         arm: &Arm,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Measurements, Failure> {
-        let layout = self.bench.layout(source)?;
+        let layout = self.bench.layout(source, host)?;
         match file {
             Some(path) => {
-                let design = data::read_plan(path, &layout, quiet)?;
+                let design = data::read_plan(path, &layout, host)?;
                 // What the file measures is replaced, its frames with it.
-                data::doubted(arm, &design, &Nuisance::ALL, quiet);
+                data::doubted(arm, &design, &Nuisance::ALL, host);
                 Ok(placed(arm, &design))
             }
             None => self.drawn(arm, &layout.bench, 0),
@@ -278,8 +279,13 @@ impl ExperimentArgs {
     ///
     /// # Errors
     /// [`Failure`]: numbers that make no design.
-    pub fn other_sessions(&self, source: &Source, arm: &Arm) -> Result<Vec<Measurements>, Failure> {
-        let bench = self.bench.layout(source)?.bench;
+    pub fn other_sessions(
+        &self,
+        source: &Source,
+        arm: &Arm,
+        host: &Host,
+    ) -> Result<Vec<Measurements>, Failure> {
+        let bench = self.bench.layout(source, host)?.bench;
         (1..=4).map(|more| self.drawn(arm, &bench, more)).collect()
     }
 

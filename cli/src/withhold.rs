@@ -14,13 +14,14 @@ use stiffarm_kernels::generic::Arm;
 use super::Verdict;
 use super::simulate::{ExperimentArgs, plain};
 use crate::document::Embedded;
+use crate::host::Host;
 use crate::input::named;
 use crate::input::quantity::counted;
 use crate::input::source::RobotArgs;
 use crate::motion::{MotionArgs, RecordArgs};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
 
 const EXAMPLES: &str = "\
@@ -92,24 +93,20 @@ const THREADS: usize = 2;
 /// # Errors
 /// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
 /// that cannot be written.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let (report, position_log) =
-        if args.motion { motion::report(args, quiet)? } else { (report(args, quiet)?, false) };
+        if args.motion { motion::report(args, host)? } else { (report(args, host)?, false) };
     let document = document::document(&report, position_log);
-    if let Some(target) = &args.json {
-        target.write(&json::text(&report)?)?;
-    }
-    if let Some(target) = &args.report {
-        target.write(&document.html(&Embedded::new((), &report, "")?)?)?;
-    }
-    if !args.is_enough(quiet) {
-        print(&document.text(false))?;
+    host.put(&args.json, || json::text(&report))?;
+    host.put(&args.report, || document.html(&Embedded::new((), &report, "")?))?;
+    if !args.is_enough(host) {
+        host.print(&document.text(false))?;
     }
     Ok(Verdict::Good)
 }
 
 /// Of a campaign.
-fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
+fn report(args: &Args, host: &Host) -> Result<Report, Failure> {
     let effects = match &args.effects {
         Some(names) => {
             let known: Vec<_> = plant::effects().into_iter().map(|e| (e.identifier(), e)).collect();
@@ -118,12 +115,12 @@ fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
         None => plant::effects(),
     };
     let multiple = args.multiple([8.0, 20.0])?;
-    let source = args.robot.load(quiet)?;
+    let source = args.robot.load(host)?;
     let arm = args.experiment.placed(source.arm_at_its_base()?);
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, quiet)?;
+    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, host)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),
-        None => args.experiment.other_sessions(&source, &arm)?,
+        None => args.experiment.other_sessions(&source, &arm, host)?,
     };
     let options = Options {
         known: source.known.clone(),
@@ -141,7 +138,7 @@ fn report(args: &Args, quiet: bool) -> Result<Report, Failure> {
         effects: &effects,
         options: &options,
     };
-    args.tried(&arm, Experiment::Campaign(campaign), multiple, quiet)
+    args.tried(&arm, Experiment::Campaign(campaign), multiple, host)
 }
 
 impl Args {
@@ -151,7 +148,7 @@ impl Args {
         arm: &Arm,
         experiment: Experiment<'_>,
         multiple: [f64; 2],
-        quiet: bool,
+        host: &Host,
     ) -> Result<Report, Failure> {
         let what = match &experiment {
             Experiment::Campaign(_) => "withheld cases",
@@ -160,7 +157,7 @@ impl Args {
         let cases = if self.full { FULL } else { self.cases };
         let seed = self.experiment.seed;
         let plan = Plan { arm, experiment, cases, multiple, seed, threads: THREADS };
-        let progress = Progress::new(what, cases, quiet);
+        let progress = Progress::new(what, cases, host);
         withhold(&plan, &|_, _| progress.add(1)).map_err(plain)
     }
 
@@ -177,8 +174,8 @@ impl Args {
     }
 
     /// Whether the screen is not wanted beside what is written.
-    fn is_enough(&self, quiet: bool) -> bool {
+    fn is_enough(&self, host: &Host) -> bool {
         let piped = [&self.json, &self.report].contains(&&Some(Target::Stdout));
-        piped || quiet && self.json.is_some()
+        piped || host.is_quiet() && self.json.is_some()
     }
 }

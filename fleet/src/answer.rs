@@ -6,98 +6,10 @@ use arrow::array::{ArrayRef, Float64Array, ListArray, StringArray, StructArray};
 use arrow::buffer::OffsetBuffer;
 use arrow::datatypes::{DataType, Field, Fields};
 use datafusion::common::ScalarValue;
-use serde::Deserialize;
+use stiffarm_gap::report::{Diagnosis, Finding, Parameter};
+use stiffarm_gap::shrink::Shrink;
 
 use crate::question::Question;
-
-/// A diagnosis, as far as it has fields of its own.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Diagnosis {
-    /// The gap.
-    pub gap: Gap,
-    /// What was found.
-    pub findings: Vec<Finding>,
-    /// What is left.
-    pub unexplained: Unexplained,
-}
-
-/// The gap before and after, and the noise.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Gap {
-    /// From the one to the other.
-    pub shrink: Shrink,
-    /// Of the measurement.
-    pub noise: Noise,
-}
-
-/// How far the gap shrinks, m (rad where no position is measured).
-#[derive(Clone, Debug, Deserialize)]
-pub struct Shrink {
-    /// Of the robot file as it is.
-    pub before: f64,
-    /// With the findings, held out.
-    pub after: f64,
-    /// 95 % interval of 1 − after/before.
-    pub shrink_ci95: [f64; 2],
-}
-
-/// The noise of the measurement.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Noise {
-    /// m; 0 where no position is measured.
-    pub position_rms: f64,
-    /// rad.
-    pub rotation_rms: f64,
-}
-
-/// An effect at a place.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Finding {
-    /// Which effect.
-    pub effect: String,
-    /// Where.
-    pub place: String,
-    /// Its numbers.
-    pub parameters: Vec<Parameter>,
-    /// Other explanations.
-    pub alternatives: Vec<Alternative>,
-}
-
-/// A number of an effect.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Parameter {
-    /// What it is.
-    pub name: String,
-    /// Its value.
-    pub value: f64,
-    /// Its unit.
-    pub unit: String,
-    /// 95 % interval.
-    pub ci95: [f64; 2],
-}
-
-/// Another explanation.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Alternative {
-    effect: String,
-    place: String,
-    separable: bool,
-}
-
-/// What is left.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Unexplained {
-    /// m; 0 where nothing is.
-    pub position_rms: f64,
-}
-
-impl Finding {
-    /// The explanations that the data do not tell from this one: `soft_zone at joint 1`.
-    pub fn set(&self) -> Vec<String> {
-        let rivals = self.alternatives.iter().filter(|rival| !rival.separable);
-        rivals.map(|rival| format!("{} at {}", rival.effect, rival.place)).collect()
-    }
-}
 
 /// The numbers of a diagnosis that have fields.
 const NUMBERS: [&str; 6] = ["before", "after", "shrink_low", "shrink_high", "noise", "unexplained"];
@@ -160,10 +72,10 @@ pub fn value(question: Question, answer: Result<String, String>) -> Result<Scala
 
 fn numbers(found: Option<&Diagnosis>) -> [Option<f64>; NUMBERS.len()] {
     let Some(Diagnosis { gap, unexplained, .. }) = found else { return Default::default() };
-    let Shrink { before, after, shrink_ci95: [low, high] } = gap.shrink;
-    let noise = match gap.noise {
-        Noise { position_rms, .. } if position_rms > 0.0 => position_rms,
-        Noise { rotation_rms, .. } => rotation_rms,
+    let Shrink { before, after, shrink_ci95: [low, high], .. } = gap.shrink;
+    let noise = match &gap.noise {
+        noise if noise.position_rms > 0.0 => noise.position_rms,
+        noise => noise.rotation_rms,
     };
     [before, after, low, high, noise, unexplained.position_rms].map(Some)
 }
@@ -172,22 +84,27 @@ fn findings(found: Option<&Diagnosis>) -> ListArray {
     let findings = found.map_or(&[][..], |found| &found.findings);
     let each: Vec<(&Finding, &Parameter)> =
         findings.iter().flat_map(|f| f.parameters.iter().map(move |p| (f, p))).collect();
+    // The explanations that the data do not distinguish from it: `soft_zone at joint 1`.
+    let set = |finding: &Finding| -> Vec<String> {
+        let rivals = finding.indistinguishable();
+        rivals.map(|rival| format!("{} at {}", rival.effect, rival.place)).collect()
+    };
     let text = |of: fn(&(&Finding, &Parameter)) -> String| -> ArrayRef {
         Arc::new(each.iter().map(of).map(Some).collect::<StringArray>())
     };
     let number = |of: fn(&(&Finding, &Parameter)) -> f64| -> ArrayRef {
         Arc::new(each.iter().map(of).collect::<Float64Array>())
     };
-    let sets: Vec<Vec<String>> = each.iter().map(|(finding, _)| finding.set()).collect();
+    let sets: Vec<Vec<String>> = each.iter().map(|(finding, _)| set(finding)).collect();
     let rivals: StringArray = sets.iter().flatten().map(Some).collect();
     let set = Arc::new(Field::new_list_field(DataType::Utf8, true));
     let lengths = OffsetBuffer::from_lengths(sets.iter().map(Vec::len));
     let columns: Vec<ArrayRef> = vec![
-        text(|(f, _)| f.effect.clone()),
+        text(|(f, _)| f.effect.to_string()),
         text(|(f, _)| f.place.clone()),
-        text(|(_, p)| p.name.clone()),
+        text(|(_, p)| p.name.to_string()),
         number(|(_, p)| p.value),
-        text(|(_, p)| p.unit.clone()),
+        text(|(_, p)| p.unit.to_string()),
         number(|(_, p)| p.ci95[0]),
         number(|(_, p)| p.ci95[1]),
         Arc::new(ListArray::new(set, lengths, Arc::new(rivals), None)),

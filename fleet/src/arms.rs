@@ -5,7 +5,7 @@ use std::hash::{Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
 use stiffarm_cli::{Axes, Failure, RobotArgs, Source};
 
 use crate::arm::Arm;
@@ -97,7 +97,7 @@ fn load(named: Named) -> Result<Arm, String> {
 /// What is made of a robot as the command line reads it.
 fn with<T>(named: &Named, make: impl FnOnce(&Source) -> Result<T, Failure>) -> Result<T, String> {
     let host = Host::new(Vec::new(), named.files());
-    let made = host.run(|| make(&RobotArgs::named(&named.given).load(true)?));
+    let made = host.run(|| make(&RobotArgs::named(&named.given).load(&host.quiet(true))?));
     match made {
         Ok(made) => made.map_err(|failure| sentence(&failure)),
         Err(_) => Err(format!("reading the robot {} was left", named.given)),

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
+use stiffarm_cli::{Catalogues, asked, diagnose};
 
 use crate::arms::Arms;
 use crate::sentence::sentence;
@@ -18,24 +19,6 @@ pub enum Question {
     /// `stiffarm identify`.
     Identify,
 }
-
-/// Options that read or write no file, and whether a value stands behind them.
-const OPTIONS: [(&str, bool); 14] = [
-    ("--nuisance", true),
-    ("--tolerance", true),
-    ("--usual", true),
-    ("--noise-position", true),
-    ("--noise-rotation", true),
-    ("--keep-all", false),
-    ("--effects", true),
-    ("--folds", true),
-    ("--nested", false),
-    ("--seed", true),
-    ("--rival", true),
-    ("--set", true),
-    ("--links", false),
-    ("--base", false),
-];
 
 impl Question {
     /// The subcommand.
@@ -54,39 +37,50 @@ impl Question {
     pub fn ask(self, arms: &Arms, robot: &str, text: String) -> Result<String, String> {
         let mut given = robot.split_whitespace();
         let named = arms.named(given.next().unwrap_or_default())?;
-        let options = checked(given)?;
-        let begin = [self.name(), &named.given, FILE, "--json", "-", "--quiet"];
-        let words = begin.into_iter().chain(options).map(str::to_owned).collect();
+        let options = self.checked(given)?;
+        let begin: &[&str] = match self {
+            Question::Diagnose => &[&named.given],
+            Question::Identify => &["identify", &named.given, FILE, "--json", "-", "--quiet"],
+        };
+        let words: Vec<String> = begin.iter().copied().chain(options).map(str::to_owned).collect();
         let mut files: HashMap<String, Vec<u8>> = named.files();
         files.insert(FILE.to_owned(), text.into_bytes());
-        let host = Host::new(words, files);
-        match stiffarm_cli::run(&host) {
-            Ok(Ok(_)) => {
+        let host = Host::new(words.clone(), files).quiet(true);
+        let answered = match self {
+            Question::Diagnose => host.run(|| {
+                let (robot, settings) = asked(&words)?;
+                let all = Catalogues::default();
+                diagnose(&robot, &[FILE.into()], &settings, all, &host)?.json()
+            }),
+            Question::Identify => stiffarm_cli::run(&host).map(|done| {
                 let told = host.take().written.into_iter().filter(|(name, _)| name == "-");
-                Ok(told.map(|(_, text)| text).collect())
-            }
-            Ok(Err(failure)) => Err(sentence(&failure)),
+                done.map(|_| told.map(|(_, text)| text).collect())
+            }),
+        };
+        match answered {
+            Ok(answer) => answer.map_err(|failure| sentence(&failure)),
             Err(_) => Err("the work was left".to_owned()),
         }
     }
-}
 
-/// The options, each of which is one that a campaign far from here may be asked with.
-fn checked<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec<&'a str>, String> {
-    let words: Vec<&str> = words.collect();
-    let mut rest = words.iter();
-    while let Some(word) = rest.next() {
-        let (name, value) = word.split_once('=').map_or((*word, None), |(n, v)| (n, Some(v)));
-        let Some((_, takes)) = OPTIONS.iter().find(|(option, _)| *option == name) else {
-            let known: Vec<&str> = OPTIONS.iter().map(|(option, _)| *option).collect();
-            return Err(format!(
-                "found `{word}` behind the robot, expected an option: {}",
-                known.join(", ")
-            ));
-        };
-        if *takes && value.is_none() && rest.next().is_none() {
-            return Err(format!("found {name} without a value, expected one"));
+    /// The options, each of which is one that a campaign far from here may be asked with.
+    fn checked<'a>(self, words: impl Iterator<Item = &'a str>) -> Result<Vec<&'a str>, String> {
+        let words: Vec<&str> = words.collect();
+        let options = stiffarm_cli::options_without_files(self.name());
+        let mut rest = words.iter();
+        while let Some(word) = rest.next() {
+            let (name, value) = word.split_once('=').map_or((*word, None), |(n, v)| (n, Some(v)));
+            let Some((_, takes)) = options.iter().find(|(option, _)| option == name) else {
+                let known: Vec<&str> = options.iter().map(|(option, _)| option.as_str()).collect();
+                return Err(format!(
+                    "found `{word}` behind the robot, expected an option: {}",
+                    known.join(", ")
+                ));
+            };
+            if *takes && value.is_none() && rest.next().is_none() {
+                return Err(format!("found {name} without a value, expected one"));
+            }
         }
+        Ok(words)
     }
-    Ok(words)
 }

@@ -7,7 +7,7 @@ use nalgebra::Vector6;
 use numpy::{PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
 use stiffarm_cli::{RobotArgs, Source};
 use stiffarm_codegen::derive::Given;
 use stiffarm_codegen::robot::{Asked, Motion, Refused};
@@ -88,7 +88,7 @@ impl Arm {
             |_, _| {},
             move |host| {
                 host.run(|| {
-                    let source = RobotArgs::named(&given).set(set).load(false)?;
+                    let source = RobotArgs::named(&given).set(set).load(host)?;
                     let (robot, table) = (source.for_kernels()?, source.arm()?);
                     Ok((source, robot, table))
                 })

@@ -1,15 +1,15 @@
 //! A diagnosis that Python holds.
 
+use std::any::TypeId;
 use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use nalgebra::Vector6;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use stiffarm_cli::inside::Host;
-use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, diagnose_inside};
+use stiffarm_cli::host::Host;
+use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, RobotArgs, Settings};
 use stiffarm_gap::diagnose::Prediction;
 use stiffarm_gap::log::model::{Explained, JointRows};
 
@@ -19,7 +19,7 @@ use crate::work::{error, wait};
 /// What a diagnosis found.
 #[pyclass(frozen, module = "stiffarm._native")]
 pub struct Found {
-    found: stiffarm_cli::Found,
+    found: Box<dyn stiffarm_cli::Found>,
     /// Effects of one's own that it was asked for.
     own: Vec<Own>,
 }
@@ -39,8 +39,9 @@ impl Found {
     }
 
     /// As it stands on a screen.
-    fn text(&self, py: Python<'_>) -> String {
-        py.detach(|| self.found.text(false))
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let text = py.detach(|| self.found.text(false));
+        text.map_err(|failure| error(py, &failure))
     }
 
     /// The robot file with what was found; None of a log of currents.
@@ -71,7 +72,7 @@ impl Found {
     ) -> PyResult<Bound<'py, PyTuple>> {
         let (py, found) = (slf.py(), slf.clone().unbind());
         let host = Host::new(Vec::new(), files);
-        let work = move |host: &Arc<Host>| host.run(|| found.get().found.predict(&paths));
+        let work = move |host: &Host| host.run(|| found.get().found.predict(&paths, host));
         let predicted = wait(py, &host, hear, |_, _| {}, work);
         slf.get().own.iter().try_for_each(Own::raised)?;
         match predicted? {
@@ -114,22 +115,60 @@ fn table<'py>(
     PyArray1::from_vec(py, flat.collect()).reshape([t.len(), joints.len()])
 }
 
-/// Diagnoses as the words say, the first of which is `diagnose`, with effects of one's own.
+/// Diagnoses the files `data` of a robot with numbers for its symbolic parameters, as the `settings` (JSON) choose, with
+/// effects of one's own.
 #[pyfunction]
 pub fn diagnose(
     py: Python<'_>,
-    words: Vec<String>,
+    named: (String, Vec<String>),
+    data: Vec<String>,
+    settings: &str,
     files: HashMap<String, Vec<u8>>,
     own: Vec<Own>,
     hear: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
+    let (robot, set) = named;
+    let settings = Settings::from_json(settings).map_err(|failure| error(py, &failure))?;
+    // As the command line would be told the same.
+    let mut words = vec!["diagnose".to_owned(), robot.clone()];
+    words.extend(data.iter().cloned().chain(settings.words()));
+    words.extend(set.iter().map(|one| format!("--set={one}")));
     let host = Host::new(words, files);
     let mut catalogues = Catalogues::default();
     for effect in &own {
         catalogues = effect.join(py, catalogues)?;
     }
-    let found = wait(py, &host, hear, |_, _| {}, move |host| diagnose_inside(host, catalogues));
+    let robot = RobotArgs::named(&robot).set(set);
+    let data: Vec<PathBuf> = data.into_iter().map(PathBuf::from).collect();
+    let work = move |host: &Host| {
+        host.run(|| stiffarm_cli::diagnose(&robot, &data, &settings, catalogues, host))
+    };
+    let found = wait(py, &host, hear, |_, _| {}, work);
     // What an effect raised is why there is no diagnosis, whatever it looked like from outside.
     own.iter().try_for_each(Own::raised)?;
     Ok(Found { found: found?, own })
+}
+
+/// Each setting of a diagnosis: its name, its type in Python, and what it is about.
+#[pyfunction]
+pub fn settings() -> Vec<(String, String, String)> {
+    let each = Settings::arguments().into_iter().map(|option| {
+        let usual = Settings::usual(&option);
+        let value = option.get_value_names().map(|names| names.concat()).unwrap_or_default();
+        let kind = option.get_value_parser().type_id();
+        let kind = match &*value {
+            _ if usual == "[]" || option.get_value_delimiter().is_some() => "Sequence[str]",
+            "LENGTH" | "ANGLE" | "FREQUENCY" => "Quantity",
+            "LENGTH,ANGLE" => "Union[str, tuple[Quantity, Quantity]]",
+            _ if !option.get_action().takes_values() => "bool",
+            _ if kind == TypeId::of::<usize>() || kind == TypeId::of::<u64>() => "int",
+            _ if kind == TypeId::of::<f64>() => "float",
+            _ if kind == TypeId::of::<PathBuf>() => "Path",
+            _ => "str",
+        };
+        let kind = if usual == "null" { format!("Optional[{kind}]") } else { kind.to_owned() };
+        let about = option.get_help().map(ToString::to_string).unwrap_or_default();
+        (option.get_id().to_string(), kind, about)
+    });
+    each.collect()
 }

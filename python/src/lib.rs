@@ -19,7 +19,7 @@ mod _native {
     #[pymodule_export]
     use super::arm::{Arm, Row, outputs, robots};
     #[pymodule_export]
-    use super::diagnosis::{Found, diagnose};
+    use super::diagnosis::{Found, diagnose, settings};
     #[pymodule_export]
     use super::effect::{Effect, Reading};
     #[pymodule_export]

@@ -3,7 +3,6 @@
 
 use std::collections::HashMap;
 use std::panic::resume_unwind;
-use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
@@ -11,7 +10,7 @@ use std::time::Duration;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use stiffarm_cli::inside::{Ended, Host};
+use stiffarm_cli::host::{Ended, Host};
 use stiffarm_cli::{Failure, Remark};
 
 create_exception!(
@@ -70,13 +69,13 @@ pub fn error(py: Python<'_>, failure: &Failure) -> PyErr {
 /// [`Error`] of the work, what a signal raises, what `hear` raises.
 pub fn wait<T: Send + 'static>(
     py: Python<'_>,
-    host: &Arc<Host>,
+    host: &Host,
     hear: &Bound<'_, PyAny>,
     mut written: impl FnMut(String, String),
-    work: impl FnOnce(&Arc<Host>) -> Result<Result<T, Failure>, Ended> + Send + 'static,
+    work: impl FnOnce(&Host) -> Result<Result<T, Failure>, Ended> + Send + 'static,
 ) -> PyResult<T> {
     let (send, mut receive) = mpsc::sync_channel(1);
-    let inside = Arc::clone(host);
+    let inside = host.clone();
     let body = move || {
         // Where nobody waits any more, nobody is to be told.
         let _ = send.send(work(&inside));

@@ -22,6 +22,7 @@ __all__ = [
     "outputs",
     "robots",
     "run",
+    "settings",
 ]
 
 VERSION: str
@@ -169,8 +170,14 @@ class Found:
     def predict(self, paths: list[str], files: dict[str, bytes], hear: Callable[..., None]) -> tuple[Any, ...]: ...
 
 def diagnose(
-    words: list[str], files: dict[str, bytes], own: list[Union[Effect, LogEffect]], hear: Callable[..., None]
+    named: tuple[str, list[str]],
+    data: list[str],
+    settings: str,
+    files: dict[str, bytes],
+    own: list[Union[Effect, LogEffect]],
+    hear: Callable[..., None],
 ) -> Found: ...
+def settings() -> list[tuple[str, str, str]]: ...
 def run(words: list[str], files: dict[str, bytes], hear: Callable[..., None]) -> tuple[bool, dict[str, str]]: ...
 def outputs() -> list[tuple[str, str, str, list[tuple[str, str]], bool, str]]: ...
 def robots() -> list[str]: ...

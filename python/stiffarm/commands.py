@@ -11,7 +11,7 @@ from .record import Record, read_all
 from .result import Identification, Predicted, Result
 from .run import AnyArm, robot, run, tabled
 from .table import Frame, Map, Table, held
-from .words import Path, Quantity, Wrench, numbers, option
+from .words import Path, Quantity, Wrench, options
 
 
 def eval(
@@ -33,11 +33,7 @@ def eval(
     words = [
         "eval",
         robot(arm, files),
-        *numbers("q", q),
-        *numbers("wrench", wrench),
-        *option("sides", None if sides is None else list(sides)),
-        *numbers("warming", None if warming is None else [warming]),
-        *option("gravity", gravity),
+        *options(q=q, wrench=wrench, sides=sides, warming=warming, gravity=gravity),
     ]
     text = run(words, files)[1]["-"]
     return Result(run([*words, "--json=<json>"], files)[1]["<json>"], text)
@@ -48,7 +44,7 @@ def check(arm: Optional[AnyArm] = None, *, count: int = 10_000, seed: int = 0, p
     dual numbers, at `count` random postures and loads. ``agrees`` of the result says so, ``robots`` how well each output does.
     """
     files: dict[str, bytes] = {}
-    words = ["check", "--all" if arm is None else robot(arm, files), *option("count", count), *option("seed", seed), "--json=<json>"]
+    words = ["check", "--all" if arm is None else robot(arm, files), *options(count=count, seed=seed), "--json=<json>"]
     _, written = run(words, files, progress)
     return Result(written["<json>"], written["-"])
 
@@ -77,15 +73,10 @@ def map(
     words = [
         "map",
         robot(arm, files),
-        *option("over", list(over)),
-        *option("of", of),
-        *option("at", [f"{joint}={value}" for joint, value in (at or {}).items()]),
-        *numbers("wrench", wrench),
-        *option("length", length, "m"),
-        *option("data", None if data is None else held(data, files)),
-        *option("nuisance", list(nuisance)),
-        *option("noise_position", noise_position, "m"),
-        *option("steps", steps),
+        *options(
+            over=over, of=of, at=[f"{joint}={value}" for joint, value in (at or {}).items()], wrench=wrench, length=length,
+            data=None if data is None else held(data, files), nuisance=nuisance, noise_position=noise_position, steps=steps,
+        ),
         "--csv=<csv>",
         "--svg=<svg>",
     ]
@@ -115,12 +106,7 @@ def identify(
         "identify",
         robot(arm, files),
         held(data, files),
-        *option("links", links),
-        *option("base", base),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("folds", folds),
-        *option("seed", seed),
+        *options(links=links, base=base, noise_position=noise_position, noise_rotation=noise_rotation, folds=folds, seed=seed),
         "--json=<json>",
         "--report=<page>",
         "--write-robot=<robot>",
@@ -168,12 +154,10 @@ def compensate(
     words = [
         "compensate",
         robot(arm, files),
-        *option("targets", held(targets, files, "<targets>")),
-        *numbers("wrench", wrench),
-        *option("tolerance", tolerance, "m"),
-        *option("tolerance_rotation", tolerance_rotation, "rad"),
-        *option("starts", starts),
-        *option("seed", seed),
+        *options(
+            targets=held(targets, files, "<targets>"), wrench=wrench, tolerance=tolerance,
+            tolerance_rotation=tolerance_rotation, starts=starts, seed=seed,
+        ),
     ]
     return tabled(words, files, progress, out="out")
 
@@ -205,15 +189,10 @@ def generate(
     words = [
         "generate",
         word,
-        *option("emit", emit),
-        *option("outputs", list(outputs)),
-        *option("precision", precision),
-        *option("sines", sines),
-        *option("name", name),
-        *option("flexible", flexible),
-        *option("kernels", kernels),
-        *option("fused", fused),
-        *option("out", folder),
+        *options(
+            emit=emit, outputs=outputs, precision=precision, sines=sines, name=name, flexible=flexible, kernels=kernels,
+            fused=fused, out=folder,
+        ),
     ]
     written = run(words, files)[1]
     ends = {"rust": "rs", "latex": "tex", "dot": "dot", "urdf": "urdf", "mjcf": "xml"}
@@ -235,7 +214,7 @@ def import_urdf(urdf: Path, *, base: Optional[str] = None, tip: Optional[str] = 
     name, files = os.fspath(urdf), {}
     if name.lstrip().startswith("<"):
         name, files = "<urdf>", {"<urdf>": name.encode()}
-    words = ["import", name, *option("base", base), *option("tip", tip), *option("as_written", as_written), "--toml=<robot>"]
+    words = ["import", name, *options(base=base, tip=tip, as_written=as_written), "--toml=<robot>"]
     text = run(words, files)[1]["<robot>"]
     stem = os.path.splitext(os.path.basename(name.strip("<>")))[0]
     return Arm.from_toml(text, f"<{stem}>")
@@ -260,10 +239,6 @@ def measurements(
     words = [
         "measurements",
         os.fspath(raw),
-        *option("map", map),
-        *option("sheet", sheet),
-        *option("join", join),
-        *option("by", by),
-        *option("robot", None if arm is None else robot(arm, files)),
+        *options(map=map, sheet=sheet, join=join, by=by, robot=None if arm is None else robot(arm, files)),
     ]
     return tabled(words, files)

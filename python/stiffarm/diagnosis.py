@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -11,11 +12,13 @@ from .prediction import Prediction, prediction
 from .record import Record, read
 from .result import framed
 from .run import AnyArm, robot
+from .settings import Settings
 from .table import NAME, Frame, held
-from .words import Path, Progress, Quantity, each, log, numbers, option
+from .words import Path, Progress, log, plain, signed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from typing_extensions import Unpack
 
 #: An effect of one's own, at rest or in motion.
 Own = Union[_native.Effect, _native.LogEffect]
@@ -156,86 +159,41 @@ class Diagnosis:
         return diagnosis(self)
 
 
+@signed(Settings)
 def diagnose(
     arm: AnyArm,
     data: Union[Frame, Sequence[Frame]],
     *,
-    bench: Optional[str] = None,
-    nuisance: Sequence[str] = (),
-    tolerance: Union[None, str, tuple[Quantity, Quantity]] = None,
-    usual: Sequence[str] = (),
-    noise_position: Optional[Quantity] = None,
-    noise_rotation: Optional[Quantity] = None,
-    keep_all: bool = False,
-    effects: Optional[Sequence[str]] = None,
     own: Sequence[Own] = (),
-    folds: Optional[int] = None,
-    nested: bool = False,
-    seed: int = 0,
-    rivals: Sequence[str] = (),
     check: Optional[Frame] = None,
     compare: Union[None, Path, Diagnosis] = None,
-    accept: Optional[Quantity] = None,
-    torque_side: Optional[str] = None,
-    rows: Optional[str] = None,
-    band: Optional[Quantity] = None,
-    standstill: Optional[float] = None,
-    known_masses: bool = False,
-    map: Optional[str] = None,
-    topic: Optional[str] = None,
     set: Sequence[str] = (),
     progress: bool = True,
+    **settings: Unpack[Settings],
 ) -> Diagnosis:
     """Why the real arm is not where the model says, at rest or in motion.
 
     data: measurements or a joint log: a path, a dictionary of arrays, or a table of pandas, polars or pyarrow; or a
         list of these, the runs of one log, with measurements of the same arm among them or not. Columns are those of the command line: readings ``q1 … qn`` (or ``q``, (m, n)), the wrench ``fx … mz``
         (or ``wrench``, (m, 6)), and what was measured, ``x y z rx ry rz`` or ``dx …``; units in brackets, ``x[mm]``.
-    bench: a file of what is known of sockets, planes and wires (docs/instruments.md).
-    nuisance: what is known to be unknown, fitted along and never a finding: ``base_frame``, ``tool_frame``, ``geometry``.
-    tolerance: how well the maker holds lengths and angles, standard deviations, m and rad [default: 0.3 mm, 0.5 mrad].
-    noise_position, noise_rotation: standard deviations of a coordinate, m, and of a rotation, rad; or ``"30um"``.
-    effects: try only these; own: effects of one's own, tried beside them: ``Effect`` of measurements, ``LogEffect`` of logs.
-    rivals: prefixes of columns with other models' predictions; check: another campaign to predict; compare: an earlier
-        diagnosis; accept: the position error, m, that is accepted in 95 % of the rows.
-    torque_side, rows, band (Hz), standstill (rad/s), known_masses, map, topic: of joint logs, as in ``stiffarm diagnose --help``.
+    own: effects of one's own, tried beside the others: ``Effect`` of measurements, ``LogEffect`` of logs.
+    check: another campaign or log to predict; compare: an earlier diagnosis.
+    The other keywords are :class:`stiffarm.settings.Settings`, options of ``stiffarm diagnose``: a length is in m or ``"30um"``,
+        an angle in rad or ``"0.02deg"``, a frequency in Hz or ``"50Hz"``.
 
     Ctrl-C ends it. Raises Error, with the place, of what cannot be used.
     """
     files: dict[str, bytes] = {}
-    last = _last(compare, files)
-    if tolerance is not None and not isinstance(tolerance, str):
-        tolerance = ",".join(x if isinstance(x, str) else f"{x!r}{unit}" for x, unit in zip(tolerance, ("m", "rad")))
-    words = [
-        "diagnose",
-        robot(arm, files),
-        *_named(data, files),
-        *option("bench", bench),
-        *option("nuisance", list(nuisance)),
-        *option("tolerance", tolerance),
-        *each("usual", usual),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("keep_all", keep_all),
-        *option("effects", None if effects is None else [*effects, *(effect.name for effect in own)]),
-        *option("folds", folds),
-        *option("nested", nested),
-        *option("seed", seed),
-        *each("rival", rivals),
-        *option("check", None if check is None else held(check, files, "<check>")),
-        *option("compare", last),
-        *option("accept", accept, "m"),
-        *option("torque_side", torque_side),
-        *option("rows", rows),
-        *option("band", band, "Hz"),
-        *numbers("standstill", None if standstill is None else [standstill]),
-        *option("known_masses", known_masses),
-        *option("map", map),
-        *option("topic", topic),
-        *each("set", set),
-    ]
+    chosen = {name: value for name, value in settings.items() if value is not None}
+    if "effects" in chosen:
+        chosen["effects"] = [*(settings["effects"] or ()), *(effect.name for effect in own)]
+    if check is not None:
+        chosen["check"] = held(check, files, "<check>")
+    if compare is not None:
+        chosen["compare"] = _last(compare, files)
+    named = (robot(arm, files), list(set))
     with Progress(progress) as hear:
-        return Diagnosis(_native.diagnose(words, files, list(own), hear))
+        return Diagnosis(_native.diagnose(named, _named(data, files), json.dumps(chosen, default=plain), files, list(own), hear))
 
 
 def _named(data: Union[Frame, Sequence[Frame]], files: dict[str, bytes]) -> list[str]:
@@ -244,7 +202,7 @@ def _named(data: Union[Frame, Sequence[Frame]], files: dict[str, bytes]) -> list
     return [held(frame, files, f"<data {k + 1}>" if len(frames) > 1 else NAME) for k, frame in enumerate(frames)]
 
 
-def _last(compare: Union[None, Path, Diagnosis], files: dict[str, bytes]) -> Optional[Path]:
+def _last(compare: Union[Path, Diagnosis], files: dict[str, bytes]) -> Path:
     if not isinstance(compare, Diagnosis):
         return compare
     files["<last>"] = compare.to_json().encode()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any, Optional, Union
+from dataclasses import dataclass
+from typing import Optional, Union
 
 from .result import Result
 from .run import AnyArm, robot, run, tabled
 from .table import Frame, Table, held
-from .words import Quantity, Wrench, each, numbers, option
+from .words import Quantity, Wrench, options
 
 #: A number for all joints, or one for each.
 PerJoint = Union[None, float, Sequence[float]]
@@ -30,13 +30,7 @@ class Motion:
 
     def words(self) -> list[str]:
         """Those of the command line."""
-
-        def word(name: str, value: Any) -> list[str]:
-            if name in ("max_rate", "max_acceleration") and value is not None:
-                return numbers(name, value if isinstance(value, Sequence) else [value])
-            return option(name, value, _UNITS.get(name, ""))
-
-        return [each for field in fields(self) for each in word(field.name, getattr(self, field.name))]
+        return options(**vars(self))
 
 
 @dataclass(frozen=True)
@@ -60,9 +54,6 @@ class Log(Motion):
     #: Standard deviation of the clock, s [default: 5e-5], and the part of the samples that is lost [default: 0.001].
     jitter: Optional[Quantity] = None
     lost: Optional[Quantity] = None
-
-
-_UNITS = {"period": "s", "rate": "Hz", "colour": "s", "jitter": "s"}
 
 
 def poses(
@@ -93,14 +84,9 @@ def poses(
         "poses",
         robot(arm, files),
         *effects,
-        *option("count", count),
-        *option("for", purpose if motion is None else "motion"),
-        *option("nuisance", list(nuisance)),
-        *(word for load in loads for word in numbers("load", load)),
-        *option("rotations", rotations),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("seed", seed),
+        *options(count=count, for_=purpose if motion is None else "motion", nuisance=nuisance),
+        *(word for load in loads for word in options(load=load)),
+        *options(rotations=rotations, noise_position=noise_position, noise_rotation=noise_rotation, seed=seed),
         *([] if motion is None else motion.words()),
     ]
     return tabled(words, files, progress)
@@ -137,11 +123,9 @@ def simulate(
         "simulate",
         robot(arm, files),
         *([] if plan is None else [held(plan, files)]),
-        *each("effect", effects),
+        *(word for effect in effects for word in options(effect=effect)),
         *_experiment(design, poses, payload, repeats, measure, noise_position, noise_rotation, seed),
-        *option("frames", frames),
-        *option("first_order_sim", first_order_sim),
-        *option("withhold", withhold),
+        *options(frames=frames, first_order_sim=first_order_sim, withhold=withhold),
         *([] if log is None else log.words()),
     ]
     return tabled(words, files, out="csv" if log is None else "log")
@@ -175,9 +159,7 @@ def withhold(
         "withhold",
         robot(arm, files),
         *([] if plan is None else [held(plan, files)]),
-        *option("effects", None if effects is None else list(effects)),
-        *option("cases", cases),
-        *numbers("sizes", sizes),
+        *options(effects=effects, cases=cases, sizes=sizes),
         *_experiment(design, poses, payload, repeats, measure, noise_position, noise_rotation, seed),
         *(["--report=<page>"] if log is None else ["--motion", *log.words()]),
         "--json=<json>",
@@ -197,12 +179,8 @@ def _experiment(
     seed: int,
 ) -> list[str]:
     return [
-        *option("design", design),
-        *option("poses", poses),
-        *option("payload", payload, "kg"),
-        *option("repeats", repeats),
-        *option("measure", measure),
-        *option("noise_position", noise_position, "m"),
-        *option("noise_rotation", noise_rotation, "rad"),
-        *option("seed", seed),
+        *options(
+            design=design, poses=poses, payload=payload, repeats=repeats, measure=measure, noise_position=noise_position,
+            noise_rotation=noise_rotation, seed=seed,
+        ),
     ]

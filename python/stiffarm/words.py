@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import logging
 import os
 from collections.abc import Iterable, Sequence
-from typing import Any, Callable, Optional, Union
+from numbers import Integral
+from typing import Any, Callable, Optional, TypeVar, Union
 
 log = logging.getLogger("stiffarm")
 
@@ -15,34 +18,76 @@ Quantity = Union[float, str]
 Wrench = Union[str, Sequence[float]]
 #: A path on disk.
 Path = Union[str, "os.PathLike[str]"]
+#: Any function.
+Function = TypeVar("Function", bound=Callable[..., Any])
 #: Remarks, and what is being done with the part that is done.
 Hear = Callable[[list, Optional[tuple]], None]  # type: ignore[type-arg]
 
 
-def option(name: str, value: Any, unit: str = "") -> list[str]:
-    """``--name=value``; nothing of None and False, the bare name of True; a number gets its SI unit."""
-    name = name.replace("_", "-")
+def plain(value: Any) -> Any:
+    """What JSON knows of a path, of a number of NumPy, or of anything in a row."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    return value.item() if hasattr(value, "item") and not getattr(value, "ndim", 0) else list(value)
+
+
+#: What a setting of such a type is where nothing is chosen.
+_USUAL = {"Sequence[str]": (), "bool": False, "int": 0}
+
+
+def signed(settings: type) -> Callable[[Function], Function]:
+    """Puts each of some settings into a function's signature, as help() and notebooks show it; any other keyword is refused."""
+
+    def of(function: Function) -> Function:
+        own = inspect.signature(function)
+        named = [parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
+        for name, kind in settings.__annotations__.items():
+            kind = str(getattr(kind, "__forward_arg__", kind))
+            named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_USUAL.get(kind), annotation=kind))
+        signature = own.replace(parameters=named)
+
+        @functools.wraps(function)
+        def checked(*given: Any, **options: Any) -> Any:
+            signature.bind(*given, **options)
+            return function(*given, **options)
+
+        checked.__signature__ = signature  # type: ignore[attr-defined]
+        return checked  # type: ignore[return-value]
+
+    return of
+
+
+#: What a number is in, where an option of that name is a quantity.
+_UNITS = {
+    **dict.fromkeys(("length", "noise_position", "tolerance"), "m"),
+    **dict.fromkeys(("noise_rotation", "tolerance_rotation"), "rad"),
+    **dict.fromkeys(("colour", "jitter", "period"), "s"),
+    "rate": "Hz",
+    "payload": "kg",
+}
+
+
+def options(**given: Any) -> list[str]:
+    """``--name=value`` of each; nothing of None, False and what is empty, the bare name of True; a number gets its SI unit."""
+    return [word for name, value in given.items() for word in _option(name, value)]
+
+
+def _option(name: str, value: Any) -> list[str]:
+    word = "--" + name.rstrip("_").replace("_", "-")
     if value is None or value is False:
         return []
     if value is True:
-        return [f"--{name}"]
-    if isinstance(value, (list, tuple)):
-        return [f"--{name}={','.join(map(str, value))}"] if value else []
-    if unit and not isinstance(value, str):
-        value = f"{float(value)!r}{unit}"
-    return [f"--{name}={value}"]
+        return [word]
+    unit = _UNITS.get(name, "")
+    if not isinstance(value, str) and isinstance(value, Iterable):
+        text = ",".join(one if isinstance(one, str) else _number(one) for one in value)
+        return [f"{word}={text}"] if text else []
+    return [f"{word}={value if isinstance(value, (str, os.PathLike)) else _number(value) + unit}"]
 
 
-def each(name: str, values: Iterable[Any]) -> list[str]:
-    """The option once for each value."""
-    return [word for value in values for word in option(name, value)]
-
-
-def numbers(name: str, values: Union[None, str, Sequence[float]]) -> list[str]:
-    """Numbers in a row."""
-    if values is None or isinstance(values, str):
-        return option(name, values)
-    return option(name, ",".join(repr(float(x)) for x in values))
+def _number(value: Any) -> str:
+    """With as many digits as it takes to read it back."""
+    return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 
 class Progress:

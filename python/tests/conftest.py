@@ -59,3 +59,28 @@ def interruptible():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def said(monkeypatch):
+    """What a progress bar would say, and that it is closed."""
+    tqdm = pytest.importorskip("tqdm.auto")
+    said = []
+
+    class Bar:
+        n = 0.0
+
+        def __init__(self, **_):
+            pass
+
+        def set_description_str(self, what, refresh):
+            said.append(what)
+
+        def refresh(self):
+            pass
+
+        def close(self):
+            said.append("closed")
+
+    monkeypatch.setattr(tqdm, "tqdm", Bar)
+    return said

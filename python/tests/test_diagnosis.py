@@ -53,24 +53,7 @@ def test_remarks_are_logged(caplog, campaign):
     assert "nothing in the robot file gives way" in caplog.text
 
 
-def test_progress(campaign, monkeypatch):
-    tqdm = pytest.importorskip("tqdm.auto")
-    said = []
-
-    class Bar:
-        def __init__(self, **_):
-            self.n = 0.0
-
-        def set_description_str(self, what, refresh):
-            said.append(what)
-
-        def refresh(self):
-            pass
-
-        def close(self):
-            said.append("closed")
-
-    monkeypatch.setattr(tqdm, "tqdm", Bar)
+def test_progress(said):
     stiffarm.withhold("ur5", cases=6, effects=["joint_compliance"], poses=10)
     assert "withheld cases" in said and said[-1] == "closed"
 

@@ -2,6 +2,7 @@
 
 import _thread
 import json
+import shutil
 import threading
 import time
 
@@ -94,26 +95,7 @@ def test_the_result(found):
     assert len(axes.patches) == 2 * 6
 
 
-def test_progress_is_told(motion, monkeypatch):
-    tqdm = pytest.importorskip("tqdm.auto")
-    said = []
-
-    class Bar:
-        n = 0.0
-
-        def __init__(self, **_):
-            pass
-
-        def set_description_str(self, what, refresh):
-            said.append(what)
-
-        def refresh(self):
-            pass
-
-        def close(self):
-            said.append("closed")
-
-    monkeypatch.setattr(tqdm, "tqdm", Bar)
+def test_progress_is_told(motion, said):
     stiffarm.diagnose("ur10", motion, effects=FRICTION)
     assert said[-1] == "closed" and any("1 finding found" in what for what in said), said
 
@@ -260,52 +242,9 @@ def test_what_it_raises(motion, campaign):
 
 # A campaign and a log.
 
-ELBOW = """\
-name = "elbow"
-convention = "standard"
-
-[[joint]]
-type = "revolute"
-d = 0.4
-alpha = "pi/2"
-mass = 8.0
-com = [0.0, -0.1, 0.0]
-inertia = [0.1, 0.0, 0.0, 0.1, 0.0, 0.1]
-gear = 100.0
-rotor_inertia = 5e-5
-coulomb = 4.0
-viscous = 3.0
-limits = [-2.5, 2.5]
-
-[[joint]]
-type = "revolute"
-a = 0.5
-mass = 6.0
-com = [-0.25, 0.0, 0.0]
-inertia = [0.02, 0.0, 0.0, 0.15, 0.0, 0.15]
-gear = 100.0
-rotor_inertia = 5e-5
-coulomb = 4.0
-viscous = 3.0
-limits = [-1.0, 2.0]
-
-[[joint]]
-type = "revolute"
-a = 0.4
-mass = 3.0
-com = [-0.2, 0.0, 0.0]
-inertia = [0.01, 0.0, 0.0, 0.05, 0.0, 0.05]
-gear = 100.0
-rotor_inertia = 2e-5
-coulomb = 2.0
-viscous = 1.0
-limits = [-2.0, 2.0]
-"""
-
-
-def test_a_campaign_and_a_log(cli, tmp_path, monkeypatch):
+def test_a_campaign_and_a_log(cli, repository, tmp_path, monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
-    (tmp_path / "elbow.toml").write_text(ELBOW, encoding="utf-8")
+    shutil.copy(repository / "tests" / "data" / "elbow.toml", tmp_path)
     arm = stiffarm.Arm.load(tmp_path / "elbow.toml")
     gives = {"effects": ["joint_compliance@joint 2=2e-4"], "payload": 5.0, "noise_position": 5e-4}
     campaign = stiffarm.simulate(arm, **gives)

@@ -1,7 +1,8 @@
-"""Writes stiffarm/outputs.py: a method for each output, from the extension module's own list.
+"""Writes what the extension module lists: stiffarm/outputs.py, a method for each output, and stiffarm/settings.py, a keyword
+for each setting of a diagnosis.
 
-    python tools/outputs.py           writes it
-    python tools/outputs.py --check   exit status 1 if it is another
+    python tools/outputs.py           writes them
+    python tools/outputs.py --check   exit status 1 if one is another
 """
 
 import pathlib
@@ -79,12 +80,37 @@ def method(name, sentence, formula, joints, takes_wrench, result):
 FALLIBLE = ("deflection", "deflection_with_gravity", "deflection_by_joints", "forward_dynamics")
 
 
+SETTINGS = '''"""What may be chosen about a diagnosis. Written by tools/outputs.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Optional, TypedDict, Union
+
+from .words import Path, Quantity
+
+
+class Settings(TypedDict, total=False):
+    """What may be chosen about a diagnosis, as the options of ``stiffarm diagnose``."""
+
+'''
+
+# What a program has no file of.
+HELD = ("check", "compare")
+
+
+def settings():
+    each = [one for one in _native.settings() if one[0] not in HELD]
+    return SETTINGS + "".join(f'    {name}: {kind}\n    """{about}."""\n' for name, kind, about in each)
+
+
 def main():
-    text = HEAD + "".join(method(*output) for output in _native.outputs())
-    path = pathlib.Path(__file__).parent.parent / "stiffarm" / "outputs.py"
+    folder = pathlib.Path(__file__).parent.parent / "stiffarm"
+    texts = {"outputs.py": HEAD + "".join(method(*output) for output in _native.outputs()), "settings.py": settings()}
     if "--check" in sys.argv:
-        sys.exit(path.read_text(encoding="utf-8") != text)
-    path.write_text(text, encoding="utf-8")
+        sys.exit(any((folder / name).read_text(encoding="utf-8") != text for name, text in texts.items()))
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]

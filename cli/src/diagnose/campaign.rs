@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
@@ -12,10 +13,13 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
-use super::corrected::{Corrections, Format, made_from};
-use super::{Accepted, Args, Check, Compared, Hashes, Provenance, in_words, plain};
+use super::corrected::{Corrections, commented, made_from};
+use super::{
+    Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words, plain,
+};
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
@@ -65,34 +69,37 @@ impl Campaign {
     /// # Errors
     /// [`Failure`]: the data or the options.
     pub(super) fn new(
-        args: &Args,
+        settings: &Settings,
         source: Source,
         files: Vec<(PathBuf, Vec<u8>)>,
         springs: &[Spring],
         catalogue: Catalogue,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Campaign, Failure> {
         let length = |text: &String| quantity::with_unit("--accept", text, Dimension::Length);
-        let tolerance = args.accept.as_ref().map(length).transpose()?;
+        let tolerance = settings.accept.as_ref().map(length).transpose()?;
         let arm = source.arm()?;
-        let options = args.options(&source, &arm, springs, catalogue)?;
-        let layout = args.bench.layout(&source)?;
+        let options = settings.options(&source, &arm, springs, catalogue, host)?;
+        let layout = data::layout_beside(settings.bench.as_deref(), &source, host)?;
         let (mut data, mut hash) = (None::<Measurements>, Sha256::new());
-        for (path, bytes) in files {
-            let next = data::read_bytes(&path, &bytes, &layout, quiet)?;
-            hash.update(&bytes);
+        for (path, bytes) in &files {
+            let next = data::read_bytes(path, bytes, &layout, host)?;
+            hash.update(bytes);
             data = Some(match data {
                 Some(data) => data.and(next).map_err(|error| data::refusal(&[], &error))?,
                 None => next,
             });
         }
-        let data = data.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
-        let doubts = data::doubted(&arm, &data, &options.nuisances, quiet);
-        let other = args.check.as_ref().map(|path| data::read(path, &layout, quiet)).transpose()?;
+        let read = data.zip(files.first());
+        let (data, (first, _)) =
+            read.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
+        let doubts = data::doubted(&arm, &data, &options.nuisances, host);
+        let other =
+            settings.check.as_ref().map(|path| data::read(path, &layout, host)).transpose()?;
         if let Some(other) = &other {
-            data::doubted(&arm, other, &options.nuisances, quiet);
+            data::doubted(&arm, other, &options.nuisances, host);
         }
-        let stages = Stages::new(quiet);
+        let stages = Stages::new(host);
         let mut diagnosed =
             diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
                 .map_err(plain)?;
@@ -106,8 +113,9 @@ impl Campaign {
         let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
         let check = check.map_err(plain)?;
         let found = &diagnosed.diagnosis;
-        let made = Provenance::of(&args.data[0], hash, &source.text)?;
-        let compared = args.compare.as_ref().map(|last| Compared::with(last, found, &made.hashes));
+        let made = Provenance::of(first, hash, &source.text, host)?;
+        let compared = settings.compare.as_ref();
+        let compared = compared.map(|last| Compared::with(last, found, &made.hashes, host));
         let compared = compared.transpose()?;
         let has_positions = data.kind.components()[..3].contains(&true);
         let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
@@ -138,14 +146,6 @@ impl Campaign {
         mistaken.is_some_and(|mistaken| mistaken.mistakes.is_empty())
     }
 
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        json::text(&self.told())
-    }
-
     pub(super) fn told(&self) -> Told<'_> {
         Told {
             diagnosis: &self.diagnosed.diagnosis,
@@ -155,21 +155,11 @@ impl Campaign {
             compared: self.compared.as_ref(),
             hashes: &self.made.hashes,
             trust: self.diagnosed.explanation.trust(),
-            corrected: self.corrections().text(),
+            corrected: {
+                let corrections = self.corrections();
+                commented(corrections.head(), corrections.robot())
+            },
         }
-    }
-
-    /// The robot file with all that was found.
-    pub fn corrected(&self) -> String {
-        self.corrections().text()
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`] if the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        self.corrections().exported(format)
     }
 
     /// What is said together with a log.
@@ -200,24 +190,6 @@ impl Campaign {
         Corrections::new(&self.source, &self.data, &self.diagnosed)
     }
 
-    /// The diagnosis as a document.
-    pub fn document(&self) -> Document {
-        self.reported(None).document()
-    }
-
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let explanation = &self.diagnosed.explanation;
-        let gaps = explanation.predict(&self.data).map_err(plain)?;
-        let placed = explanation.placed();
-        let fitted = Fitted { placed: &placed, gaps: &gaps };
-        let reported = self.reported(Some(fitted));
-        Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
-    }
-
     fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
         Reported {
             found: &self.diagnosed.diagnosis,
@@ -236,8 +208,39 @@ impl Campaign {
     ///
     /// # Errors
     /// [`Failure`]: the measurements' mistakes, or what was never fitted.
-    pub fn predict(&self, path: &Path) -> Result<Prediction, Failure> {
-        let data = data::read(path, &self.layout, false)?;
+    pub fn predict(&self, path: &Path, host: &Host) -> Result<Prediction, Failure> {
+        let data = data::read(path, &self.layout, host)?;
         self.diagnosed.explanation.predict(&data).map_err(plain)
+    }
+}
+
+impl Found for Campaign {
+    fn campaign(&self) -> Option<&Campaign> {
+        Some(self)
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        None
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        json::text(&self.told())
+    }
+
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        if !is_page {
+            return Ok((self.reported(None).document(), Embedded::default()));
+        }
+        let explanation = &self.diagnosed.explanation;
+        let gaps = explanation.predict(&self.data).map_err(plain)?;
+        let placed = explanation.placed();
+        let fitted = Fitted { placed: &placed, gaps: &gaps };
+        let reported = self.reported(Some(fitted));
+        Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
+    }
+
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
+        let corrections = self.corrections();
+        Ok((corrections.head(), corrections.robot().clone()))
     }
 }

@@ -7,6 +7,7 @@ use stiffarm_gap::report::{Diagnosis, Finding, Parameter, Word};
 use stiffarm_gap::shrink::Shrink;
 
 use super::provenance::Hashes;
+use crate::host::Host;
 use crate::input::source;
 use crate::terminal::failure::Failure;
 
@@ -74,8 +75,13 @@ impl Compared {
     ///
     /// # Errors
     /// [`Failure`]: it cannot be read, is no diagnosis, or one of another robot.
-    pub fn with(file: &Path, found: &Diagnosis, now: &Hashes) -> Result<Compared, Failure> {
-        let text = source::text(file)?;
+    pub fn with(
+        file: &Path,
+        found: &Diagnosis,
+        now: &Hashes,
+        host: &Host,
+    ) -> Result<Compared, Failure> {
+        let text = source::text(file, host)?;
         let name = file.display().to_string();
         let Last { report: last, data_sha256, robot_sha256 } = serde_json::from_str(&text)
             .map_err(|error| {

@@ -73,21 +73,13 @@ impl<'a> Corrections<'a> {
         caveats
     }
 
-    /// As another program reads it, and a sentence on what it has no place for.
-    ///
-    /// # Errors
-    /// [`Failure`] if the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.found().robot, format)
-    }
-
-    /// The robot file.
-    pub fn text(&self) -> String {
+    /// What the robot file says at its top.
+    pub fn head(&self) -> Vec<String> {
         let mut lines = vec![made_from(self.source, &self.data.file)];
         lines.extend(self.caveats().iter().map(|caveat| capital(caveat) + "."));
         lines.push(String::new());
         lines.extend(self.lines());
-        file(lines, self.robot())
+        lines
     }
 
     /// The robot.
@@ -145,7 +137,7 @@ pub fn made_from(source: &Source, data: &str) -> String {
 }
 
 /// A robot file with comments at its head.
-pub fn file(lines: Vec<String>, robot: &Robot) -> String {
+pub fn commented(lines: Vec<String>, robot: &Robot) -> String {
     let head: String = lines.iter().map(|line| comment(line)).collect();
     format!("{head}\n{}", robot.to_toml())
 }

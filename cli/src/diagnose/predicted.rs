@@ -8,6 +8,7 @@ use stiffarm_gap::log::model::Explained;
 
 use super::log::is_log;
 use super::{Found, LogCheck};
+use crate::host::Host;
 use crate::terminal::failure::Failure;
 
 /// What a diagnosis makes of other data.
@@ -42,32 +43,28 @@ impl PredictedLog {
     }
 }
 
-impl Found {
+impl dyn Found {
     /// What the models before and after make of other data of the arm, of a kind that was diagnosed:
     /// one measurement file, or the files of a log.
     ///
     /// # Errors
     /// [`Failure`]: what cannot be read, data of the other kind, what was never fitted.
-    pub fn predict(&self, paths: &[PathBuf]) -> Result<Predicted, Failure> {
+    pub fn predict(&self, paths: &[PathBuf], host: &Host) -> Result<Predicted, Failure> {
         let [first, rest @ ..] = paths else {
             return Err(Failure::new("found no file to predict, expected one"));
         };
-        let (campaign, motion) = match self {
-            Found::Campaign(campaign) => (Some(&**campaign), None),
-            Found::Motion(motion) => (None, Some(&**motion)),
-            Found::Together(both) => (Some(&both.campaign), Some(&both.motion)),
-        };
+        let (campaign, motion) = (self.campaign(), self.motion());
         let name = first.display();
         // A map says of any file that it is a log.
         if let Some(motion) = motion.filter(|motion| motion.is_mapped()) {
-            return motion.predict(paths).map(|log| Predicted::Log(Box::new(log)));
+            return motion.predict(paths, host).map(|log| Predicted::Log(Box::new(log)));
         }
-        match (is_log(first)?, campaign, motion) {
+        match (is_log(first, host)?, campaign, motion) {
             (true, _, Some(motion)) => {
-                motion.predict(paths).map(|log| Predicted::Log(Box::new(log)))
+                motion.predict(paths, host).map(|log| Predicted::Log(Box::new(log)))
             }
             (false, Some(campaign), _) if rest.is_empty() => {
-                campaign.predict(first).map(Predicted::Rows)
+                campaign.predict(first, host).map(Predicted::Rows)
             }
             (false, Some(_), _) => {
                 Err(Failure::new(format!("found {} measurement files, expected one", paths.len())))

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::inside::words;
+use crate::host::Host;
 use crate::terminal::failure::Failure;
 
 /// Of what and how.
@@ -36,7 +36,7 @@ impl Provenance {
     ///
     /// # Errors
     /// [`Failure`]: `SOURCE_DATE_EPOCH` is no number of seconds.
-    pub fn of(path: &Path, data: Sha256, robot: &str) -> Result<Provenance, Failure> {
+    pub fn of(path: &Path, data: Sha256, robot: &str, host: &Host) -> Result<Provenance, Failure> {
         let hashes = Hashes {
             data_sha256: hexadecimal(&data.finalize()),
             robot_sha256: hexadecimal(&Sha256::digest(robot)),
@@ -44,7 +44,7 @@ impl Provenance {
         // What is no file, such as a pipe, has no date.
         let about = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
         let written = about.and_then(|about| about.modified().ok());
-        let words = words().into_iter().map(|word| quoted(&word));
+        let words = host.words().into_iter().map(|word| quoted(&word));
         let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
         Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
     }

@@ -9,11 +9,11 @@ use stiffarm_gap::log::Model;
 use stiffarm_gap::spring::{Joined, Spring};
 
 use super::campaign::Told as CampaignTold;
-use super::corrected::{exported, file};
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
-use super::{Args, Campaign, Catalogues, Format, Motion};
+use super::{Campaign, Catalogues, Found, Motion, Settings};
 use crate::document::{Document, Embedded, figure, together};
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
@@ -56,39 +56,27 @@ struct Written<'a> {
     corrected: Option<String>,
 }
 
-impl Args {
-    /// What is said of the campaign in these files, and of the log.
+impl Settings {
+    /// What is chosen of a campaign, and of a log beside it.
     ///
     /// # Errors
-    /// [`Failure`]: --check with a file that cannot be read.
+    /// [`Failure`]: a file to check that cannot be read.
     pub(super) fn both(
         &self,
-        files: &[(PathBuf, Vec<u8>)],
         catalogues: &Catalogues,
-    ) -> Result<[Args; 2], Failure> {
-        let of_log = self.check.as_deref().map_or(Ok(false), is_log)?;
+        host: &Host,
+    ) -> Result<[Settings; 2], Failure> {
+        let of_log = self.check.as_deref().map_or(Ok(false), |path| is_log(path, host))?;
         let is_of_log = |name: &str| catalogues.in_motion.named(name).is_some();
         let is_at_rest = |name: &str| catalogues.at_rest.named(name).is_some();
         // A name that neither knows is the campaign's to refuse.
-        let named = |keep: &dyn Fn(&str) -> bool| {
-            let names = self.effects.as_ref()?.iter().filter(|name| keep(name));
-            Some(names.cloned().collect())
+        let part = |own: bool, keep: &dyn Fn(&str) -> bool| {
+            let names = self.effects.as_ref().map(|names| names.iter().filter(|name| keep(name)));
+            let effects = names.map(|names| names.cloned().collect());
+            Settings { effects, check: self.check.clone().filter(|_| own), ..self.clone() }
         };
-        let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
-        let logs = self.data.iter().filter(|given| !paths.contains(given)).cloned().collect();
-        let campaign = Args {
-            data: paths,
-            effects: named(&|name| is_at_rest(name) || !is_of_log(name)),
-            check: self.check.clone().filter(|_| !of_log),
-            ..self.clone()
-        };
-        let motion = Args {
-            data: logs,
-            effects: named(&is_of_log),
-            check: self.check.clone().filter(|_| of_log),
-            ..self.clone()
-        };
-        Ok([campaign, motion.without_measurements()])
+        let campaign = part(!of_log, &|name| is_at_rest(name) || !is_of_log(name));
+        Ok([campaign, part(of_log, &is_of_log).in_motion()])
     }
 }
 
@@ -98,18 +86,18 @@ impl Together {
     /// # Errors
     /// [`Failure`]: the data or the options.
     pub(super) fn new(
-        [of_campaign, of_log]: &[Args; 2],
+        [of_campaign, of_log]: &[Settings; 2],
         source: Source,
         files: Vec<(PathBuf, Vec<u8>)>,
         parts: Vec<Part>,
         catalogues: Catalogues,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Together, Failure> {
-        let motion = Motion::new(of_log, source.clone(), parts, catalogues.in_motion, quiet)?;
+        let motion = Motion::new(of_log, source.clone(), parts, catalogues.in_motion, host)?;
         let told = motion.springs();
         let effect = told.effect.identifier();
         let campaign =
-            Campaign::new(of_campaign, source, files, &told.told, catalogues.at_rest, quiet)?;
+            Campaign::new(of_campaign, source, files, &told.told, catalogues.at_rest, host)?;
         let springs = campaign.beside_log().map_or_else(Vec::new, |both| both.springs.clone());
         let known: Vec<Spring> = springs.iter().filter_map(|joined| joined.together).collect();
         let ((_, alone), (model, both)) = (motion.beside(&[])?, motion.beside(&known)?);
@@ -117,12 +105,18 @@ impl Together {
         let said = Said { effect, springs, measured_in, campaign: left, log: [alone, both] };
         Ok(Together { campaign, motion, model, said })
     }
+}
 
-    /// Both diagnoses in JSON, and what they say together.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
+impl Found for Together {
+    fn campaign(&self) -> Option<&Campaign> {
+        Some(&self.campaign)
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        Some(&self.motion)
+    }
+
+    fn json(&self) -> Result<String, Failure> {
         json::text(&Written {
             together: &self.said,
             campaign: self.campaign.told(),
@@ -131,47 +125,22 @@ impl Together {
         })
     }
 
-    /// What they show together, and both diagnoses, as a document.
-    pub fn document(&self) -> Document {
-        let parts = [self.campaign.document(), self.motion.document()].map(|part| (part, None));
-        together::document(self.motion.robot(), &self.said, parts)
-    }
-
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let [campaign, log] = [self.campaign.paged()?, self.motion.paged()?];
-        let parts = [campaign, log].map(|(part, embedded)| (part, Some(embedded)));
-        let document = together::document(self.motion.robot(), &self.said, parts);
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        let parts = [self.campaign.document(is_page)?, self.motion.document(is_page)?];
+        let document = together::document(&self.said, parts);
         Ok((document, Embedded::new((), &self.said, figure::WITHIN)?))
     }
 
-    /// The robot file with what both found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        let (mut lines, robot) = self.robot()?;
-        lines.insert(1, together::sentences(&self.said).join(" "));
-        Ok(file(lines, &robot))
-    }
-
-    /// The same arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: as above, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.robot()?.1, format)
-    }
-
-    /// The robot with the campaign's findings, then the log's, and what was put in.
+    /// The campaign's findings, then the log's.
     fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
         let at_rest = self.campaign.corrections();
         let in_motion = self.motion.put_into(at_rest.robot(), &self.model)?;
         let mut lines = vec![self.campaign.made_with(&self.motion.files())];
-        lines.extend([String::new(), "At rest:".to_owned()]);
+        lines.extend([
+            together::sentences(&self.said).join(" "),
+            String::new(),
+            "At rest:".to_owned(),
+        ]);
         lines.extend(at_rest.lines());
         lines.extend([String::new(), "In motion:".to_owned()]);
         lines.extend(in_motion.lines);

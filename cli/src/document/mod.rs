@@ -7,6 +7,7 @@ pub mod figure;
 mod findings;
 pub mod log;
 mod page;
+pub mod report;
 mod screen;
 mod table;
 pub mod together;
@@ -90,7 +91,7 @@ pub enum Block {
     /// What only a page has room for.
     Page(Vec<Block>),
     /// Another document.
-    Document(Document, Option<Embedded>),
+    Document(Document, Embedded),
 }
 
 /// A finding as it is reported.
@@ -124,6 +125,11 @@ impl Block {
     /// A section whose heading needs no remark.
     pub fn section(heading: impl Into<String>, blocks: Vec<Block>) -> Block {
         Block::Section { heading: heading.into(), remark: String::new(), blocks }
+    }
+
+    /// Remarks of one kind, the first `most` on a screen; nothing where there are none.
+    pub fn notes(name: &'static str, lines: Vec<String>, most: usize) -> Option<Block> {
+        (!lines.is_empty()).then_some(Block::Note { name, lines, most })
     }
 
     /// A remark; nothing where there is none.

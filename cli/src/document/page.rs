@@ -8,7 +8,7 @@ use super::{Block, Cell, Document, Finding, Table};
 use crate::terminal::failure::Failure;
 
 /// What the scripts of a page read, as JSON, and the scripts that draw with it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Embedded {
     data: String,
     script: String,

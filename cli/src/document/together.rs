@@ -8,7 +8,8 @@ use crate::diagnose::Said;
 use crate::terminal::text::{decimals, fixed};
 
 /// The document; `parts` are those of the campaign and of the log, with what their pages embed.
-pub fn document(robot: &str, said: &Said, parts: [(Document, Option<Embedded>); 2]) -> Document {
+pub fn document(said: &Said, parts: [(Document, Embedded); 2]) -> Document {
+    let robot = parts[1].0.robot.clone();
     let mut blocks = vec![Block::Sentence(sentences(said).join(" "))];
     if !said.springs.is_empty() {
         let mut table = Table::new(["", "at rest", &words(said.effect), "both"]);
@@ -18,7 +19,7 @@ pub fn document(robot: &str, said: &Said, parts: [(Document, Option<Embedded>); 
     }
     blocks.extend(parts.map(|(part, embedded)| Block::Document(part, embedded)));
     Document {
-        robot: robot.to_owned(),
+        robot,
         about: "at rest and in motion",
         facts: "a campaign at rest and a log in motion, diagnosed together".to_owned(),
         blocks,

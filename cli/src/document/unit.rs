@@ -1,6 +1,7 @@
 //! Numbers in the units that people use: inches and pounds where the data have them.
 
 use stiffarm_gap::Measurements;
+use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::Row;
 use stiffarm_gap::observe::View;
 
@@ -141,6 +142,20 @@ impl Units {
     /// What is judged, between two sizes: lengths, or angles where no position is measured.
     pub fn main(self, sizes: [f64; 2]) -> Unit<'static> {
         if self.positions { self.length(sizes) } else { self.angle(sizes) }
+    }
+
+    /// What is judged.
+    pub fn error(self) -> &'static str {
+        match self {
+            Units { positions: true, .. } => "position error",
+            Units { pixels: Some(_), .. } => "error in the picture",
+            _ => "rotation error",
+        }
+    }
+
+    /// Its size, rms, m (rad without positions).
+    pub fn judged(self, sizes: &Statistics) -> f64 {
+        if self.positions { sizes.position_rms } else { sizes.rotation_rms }
     }
 
     /// A parameter in SI, as large as `most`.

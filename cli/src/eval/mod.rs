@@ -11,13 +11,14 @@ use stiffarm_kernels::Output;
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
+use crate::host::Host;
 use crate::input::model::Model;
 use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::wrench::wrench;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::text::{Align, bold, decimals, dim, indented, minus, table};
 
 const EXAMPLES: &str = "\
@@ -91,8 +92,8 @@ const OUTPUTS: [Output; 8] = [
 ///
 /// # Errors
 /// [`Failure`]: the robot, the values, or the arm not stable under the load.
-pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
-    let source = args.robot.load(quiet)?;
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
+    let source = args.robot.load(host)?;
     let arm = source.arm()?;
     let q = args.q.as_ref().map(|q| quantity::list("--q", q, &source.readings(), &joints(&source)));
     let q = q.transpose()?.unwrap_or_default();
@@ -103,8 +104,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
         let at = pose::read(at)?;
         let result = pose::inverse(&source, args, (&at, &q), (&given, &beside))?;
         match &args.json {
-            Some(target) => target.write(&json::text(&result)?)?,
-            None => print(&pose::screen(&source, &result))?,
+            Some(target) => host.write(target, &json::text(&result)?)?,
+            None => host.print(&pose::screen(&source, &result))?,
         }
         return Ok(Verdict::Good);
     }
@@ -118,8 +119,8 @@ pub fn run(args: &Args, quiet: bool) -> Result<Verdict, Failure> {
     let model = Model::new(&robot, &[&OUTPUTS[..7], &[deflection]].concat());
     let result = evaluate(&model, (&q, &given), &wrench, args.gravity, deflection)?;
     match &args.json {
-        Some(target) => target.write(&json::text(&result)?)?,
-        None => print(&screen(&source, &q, &wrench, args.gravity, &result))?,
+        Some(target) => host.write(target, &json::text(&result)?)?,
+        None => host.print(&screen(&source, &q, &wrench, args.gravity, &result))?,
     }
     Ok(Verdict::Good)
 }

@@ -9,8 +9,9 @@ use stiffarm_kernels::generic::Arm;
 use super::words::{Said, advice, said, sentence};
 use crate::document::figure::{
     Drawing, EXPERIMENT, Experiment, Multiple, Shaped, Step, arm, corrected, curve, forest,
-    residuals, shares, waterfall,
+    residuals, shares,
 };
+use crate::document::report::{Errors, Method, Report};
 use crate::document::words::{capital, noise_from, percent};
 use crate::document::{Block, Cell, Document, Embedded, Row, Table, Unit, Units};
 use crate::input::quantity::counted;
@@ -58,22 +59,20 @@ impl Identified<'_> {
         );
         let advice = advice(answer);
         let said = said(self.source, answer);
-        let mut blocks =
-            vec![Block::Sentence(sentence(self.source, answer, self.main(), self.error()))];
-        blocks.push(self.springs(&said));
-        blocks.extend(links(answer, &said));
-        blocks.push(self.errors());
-        if !advice.is_empty() {
-            let most = advice.len();
-            blocks.push(Block::Note { name: "To measure", lines: advice, most });
-        }
-        blocks.extend(is_page.then(|| Block::Page(self.details())));
-        Document {
+        let most = advice.len();
+        let report = Report {
             robot: self.source.robot.name.clone(),
             about: "what its springs are",
             facts,
-            blocks,
-        }
+            sentence: sentence(self.source, answer, self.main(), self.error()),
+            first: [self.springs(&said)].into_iter().chain(links(answer, &said)).collect(),
+            error: self.errors(),
+            rest: Block::notes("To measure", advice, most).into_iter().collect(),
+            page: is_page.then(|| {
+                (self.details(), Method { text: METHOD, facts: self.settings(), lists: &[] })
+            }),
+        };
+        report.document()
     }
 
     /// What its page embeds; `whole` is the result as it is written.
@@ -98,11 +97,11 @@ impl Identified<'_> {
     }
 
     fn judged(&self, s: &Statistics) -> f64 {
-        if self.units().positions { s.position_rms } else { s.rotation_rms }
+        self.units().judged(s)
     }
 
     fn error(&self) -> &'static str {
-        if self.units().positions { "position error" } else { "rotation error" }
+        self.units().error()
     }
 
     fn experiment(&self) -> Experiment<'_> {
@@ -154,7 +153,7 @@ impl Identified<'_> {
         parameters.filter_map(multiple).collect()
     }
 
-    fn errors(&self) -> Block {
+    fn errors(&self) -> Errors {
         let (gap, noise, units) = (&self.answer.gap, &self.answer.noise, self.units());
         let (length, angle) = {
             let drawn = self.experiment();
@@ -190,24 +189,17 @@ impl Identified<'_> {
             last,
         ];
         let table = Table { heads, rows, caption: String::new() };
-        let picture = waterfall(self.steps(), self.main());
-        let picture = Block::Figure(Box::new(picture), "After: on held-out poses.".to_owned());
-        Block::section(
-            capital(self.error()),
-            vec![Block::Table(table), Block::Page(vec![picture, Block::Csv("gap")])],
-        )
+        Errors {
+            heading: capital(self.error()),
+            table,
+            steps: self.steps(),
+            unit: self.main(),
+            caption: "After: on held-out poses.",
+        }
     }
 
     fn steps(&self) -> Vec<Step> {
         let (gap, noise, unit) = (&self.answer.gap, &self.answer.noise, self.main());
-        let step = |label: &str, class, from: f64, to: f64, text: String| Step {
-            label: label.to_owned(),
-            class,
-            from,
-            to,
-            interval: None,
-            text,
-        };
         let (before, after) = (self.judged(&gap.before), self.judged(&gap.held_out));
         let less = if before > 0.0 { 1.0 - after / before } else { 0.0 };
         let positions = self.units().positions;
@@ -217,10 +209,13 @@ impl Identified<'_> {
         let floor = one.unwrap_or(0.0) * (measured as f64).sqrt();
         let removed = format!("{} less", percent(less));
         vec![
-            step("robot file as it is", "whole", 0.0, before, unit.with_unit(before)),
-            step("identified springs", "removed", after.min(before), after.max(before), removed),
-            step("remains, held out", "left", 0.0, after, unit.with_unit(after)),
-            step("noise", "noise", 0.0, floor, unit.with_unit(floor)),
+            Step::of("robot file as it is", "whole", before, unit.with_unit(before)),
+            Step {
+                from: after.min(before),
+                ..Step::of("identified springs", "removed", after.max(before), removed)
+            },
+            Step::of("remains, held out", "left", after, unit.with_unit(after)),
+            Step::of("noise", "noise", floor, unit.with_unit(floor)),
         ]
     }
 
@@ -249,14 +244,6 @@ impl Identified<'_> {
                 remark: format!("every row by a fit that has not seen its pose{poses}"),
                 blocks: vec![residuals(self.data.rows.len(), Vec::new(), CURVES)],
             },
-            Block::section(
-                "How it was computed",
-                vec![
-                    Block::Paragraph(METHOD.to_owned()),
-                    Block::Facts(self.settings()),
-                    Block::Json,
-                ],
-            ),
         ]
     }
 

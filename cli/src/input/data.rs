@@ -14,9 +14,8 @@ use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;
 use super::source::Source;
-use crate::inside::{bytes, owner};
+use crate::host::Host;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::note::note;
 use crate::terminal::snippet;
 use crate::terminal::text::listed;
 
@@ -38,16 +37,28 @@ impl BenchArgs {
     /// What the reader of a file must know of the robot and the bench.
     ///
     /// # Errors
-    /// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
-    pub fn layout(&self, source: &Source) -> Result<Layout, Failure> {
-        let layout = layout(source)?;
-        let Some(path) = &self.bench else { return Ok(layout) };
-        let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
-        let text = String::from_utf8_lossy(&bytes);
-        let bench = Bench::read(&path.display().to_string(), &text);
-        let bench = bench.map_err(|error| refusal(&bytes, &error))?;
-        Ok(Layout { bench, ..layout })
+    /// As [`layout_beside`].
+    pub fn layout(&self, source: &Source, host: &Host) -> Result<Layout, Failure> {
+        layout_beside(self.bench.as_deref(), source, host)
     }
+}
+
+/// What the reader of a file must know of the robot, and of the bench where there is a file of it.
+///
+/// # Errors
+/// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
+pub fn layout_beside(
+    bench: Option<&Path>,
+    source: &Source,
+    host: &Host,
+) -> Result<Layout, Failure> {
+    let layout = layout(source)?;
+    let Some(path) = bench else { return Ok(layout) };
+    let bytes = host.read(path)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let bench = Bench::read(&path.display().to_string(), &text);
+    let bench = bench.map_err(|error| refusal(&bytes, &error))?;
+    Ok(Layout { bench, ..layout })
 }
 
 /// What the reader of a file must know of the robot.
@@ -63,18 +74,18 @@ pub fn layout(source: &Source) -> Result<Layout, Failure> {
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
-pub fn read(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let wrong = |error| Failure::io("read", path, &error);
-    if !path.is_file() || owner(path).is_some() {
-        return read_bytes(path, &bytes(path).map_err(wrong)?, layout, quiet);
+pub fn read(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
+    if !host.is_on_disk(path) {
+        return read_bytes(path, &host.read(path)?, layout, host);
     }
-    let source = BufReader::new(File::open(path).map_err(wrong)?);
-    let data = match Measurements::from_source(&path.display().to_string(), source, layout) {
+    let source = File::open(path).map_err(|error| Failure::io("read", path, &error))?;
+    let name = path.display().to_string();
+    let data = match Measurements::from_source(&name, BufReader::new(source), layout) {
         Ok(data) => Ok(data),
         // Its lines are shown at their mistakes.
-        Err(error) => Err(refusal(&bytes(path).map_err(wrong)?, &error)),
+        Err(error) => Err(refusal(&host.read(path)?, &error)),
     };
-    told(data, quiet)
+    told(data, host)
 }
 
 /// The same of a file whose bytes are there.
@@ -85,12 +96,12 @@ pub fn read_bytes(
     path: &Path,
     bytes: &[u8],
     layout: &Layout,
-    quiet: bool,
+    host: &Host,
 ) -> Result<Measurements, Failure> {
-    told(from_bytes(path, bytes, layout), quiet)
+    told(from_bytes(path, bytes, layout), host)
 }
 
-fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements, Failure> {
+fn told(data: Result<Measurements, Failure>, host: &Host) -> Result<Measurements, Failure> {
     let data = data?;
     let mut lines: Vec<u64> = data.skipped.iter().filter_map(|mistake| mistake.line).collect();
     lines.dedup();
@@ -103,7 +114,7 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
             data.file,
             listed(&lines, MOST_MISTAKES)
         );
-        note(&text, quiet);
+        host.note(&text);
     }
     Ok(data)
 }
@@ -112,18 +123,18 @@ fn told(data: Result<Measurements, Failure>, quiet: bool) -> Result<Measurements
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or its mistakes.
-pub fn read_plan(path: &Path, layout: &Layout, quiet: bool) -> Result<Measurements, Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+pub fn read_plan(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
+    let bytes = host.read(path)?;
     let file = path.display().to_string();
     let data = Measurements::plan_from_bytes(&file, &bytes, layout);
-    told(data.map_err(|error| refusal(&bytes, &error)), quiet)
+    told(data.map_err(|error| refusal(&bytes, &error)), host)
 }
 
 /// Says what is to be doubted of a file unless `quiet`, and returns it; `along` are the frames that
 /// are fitted along.
-pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], quiet: bool) -> Vec<String> {
+pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], host: &Host) -> Vec<String> {
     let doubts = doubts(arm, data, along);
-    doubts.iter().for_each(|doubt| note(doubt, quiet));
+    doubts.iter().for_each(|doubt| host.note(doubt));
     doubts
 }
 

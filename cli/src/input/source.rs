@@ -12,10 +12,9 @@ use stiffarm_kernels::generic::Arm;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::quantity;
+use crate::host::Host;
 use crate::import::imported;
-use crate::inside::{bytes, owner};
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::note::note;
 
 /// Which robot.
 #[derive(Clone, clap::Args)]
@@ -68,8 +67,8 @@ impl RobotArgs {
     ///
     /// # Errors
     /// [`Failure`]: no such robot, the file's mistakes, parameters without numbers.
-    pub fn load(&self, quiet: bool) -> Result<Source, Failure> {
-        let source = read(&self.robot, quiet)?;
+    pub fn load(&self, host: &Host) -> Result<Source, Failure> {
+        let source = read(&self.robot, host)?;
         let symbols = source.robot.symbols();
         let given = self.parameters(&source.robot.name, &symbols)?;
         let value = |name: &str| given.iter().rev().find(|(n, _)| n == name).map(|(_, v)| *v);
@@ -133,6 +132,13 @@ impl Source {
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
     }
 
+    /// Columns of joint values as a controller shows them: `q1[deg]`, `q3[mm]`.
+    pub fn heads(&self) -> impl Iterator<Item = String> {
+        let unit = |reading| if reading == Dimension::Angle { "deg" } else { "mm" };
+        let readings = self.readings().into_iter().enumerate();
+        readings.map(move |(j, reading)| format!("q{}[{}]", j + 1, unit(reading)))
+    }
+
     /// What the joint values are, base to tip.
     pub fn readings(&self) -> Vec<Dimension> {
         let of = |motion| match motion {
@@ -147,41 +153,41 @@ impl Source {
 ///
 /// # Errors
 /// [`Failure`]: no such robot, or the file's mistakes.
-pub fn open(given: &str, quiet: bool) -> Result<Source, Failure> {
-    read(given, quiet)?.understood()
+pub fn open(given: &str, host: &Host) -> Result<Source, Failure> {
+    read(given, host)?.understood()
 }
 
-fn read(given: &str, quiet: bool) -> Result<Source, Failure> {
+fn read(given: &str, host: &Host) -> Result<Source, Failure> {
     let ends = [".toml", ".json", ".urdf"].iter().any(|end| given.ends_with(end));
     let looks_like_a_path = given.contains(['/', '\\']) || ends;
     if !looks_like_a_path {
         if let Some(toml) = stiffarm_robots::toml(given) {
-            let robot = parse(toml, given, true)?;
+            let robot = parse(toml, given, &host.quiet(true))?;
             return Ok(Source::new(given, robot, toml.to_owned(), true));
         }
-        if owner(Path::new(given)).is_none() && !Path::new(given).exists() {
+        if !host.owns(Path::new(given)) && !Path::new(given).exists() {
             return Err(no_such_robot(given));
         }
     }
-    let text = text(Path::new(given))?;
+    let text = text(Path::new(given), host)?;
     if given.ends_with(".json") {
-        return diagnosis(given, &text, quiet);
+        return diagnosis(given, &text, host);
     }
     if text.trim_start_matches('\u{feff}').trim_start().starts_with('<') {
         let imported = imported(given, &text, (None, None), false).inspect_err(|_| {
             let part = "imports a part of a URDF";
-            note(&format!("`stiffarm import {given} --tip LINK --toml arm.toml` {part}"), quiet);
+            host.note(&format!("`stiffarm import {given} --tip LINK --toml arm.toml` {part}"));
         });
         let (toml, remarks) = imported?;
-        remarks.iter().for_each(|remark| note(remark, quiet));
-        return Ok(Source::new(given, parse(&toml, given, quiet)?, toml, false));
+        remarks.iter().for_each(|remark| host.note(remark));
+        return Ok(Source::new(given, parse(&toml, given, host)?, toml, false));
     }
-    let robot = parse(&text, given, quiet)?;
+    let robot = parse(&text, given, host)?;
     Ok(Source::new(given, robot, text, false))
 }
 
 /// The robot file that a diagnosis in JSON holds, and what is known of its data.
-fn diagnosis(given: &str, json: &str, quiet: bool) -> Result<Source, Failure> {
+fn diagnosis(given: &str, json: &str, host: &Host) -> Result<Source, Failure> {
     let read: Result<serde_json::Value, _> = serde_json::from_str(json);
     let read = read.map_err(|error| Failure::new(format!("{given}: this is no JSON: {error}")))?;
     let corrected = read["corrected"].as_str().ok_or_else(|| {
@@ -190,7 +196,7 @@ fn diagnosis(given: &str, json: &str, quiet: bool) -> Result<Source, Failure> {
             "`stiffarm diagnose ROBOT DATA --json OUT.json` writes one",
         )
     })?;
-    let robot = parse(corrected, given, quiet)?;
+    let robot = parse(corrected, given, host)?;
     Ok(Source {
         covers: Cover::deserialize(&read["covers"]).ok(),
         trust: Trust::deserialize(&read["trust"]).ok(),
@@ -198,13 +204,11 @@ fn diagnosis(given: &str, json: &str, quiet: bool) -> Result<Source, Failure> {
     })
 }
 
-fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
+fn parse(text: &str, path: &str, host: &Host) -> Result<Robot, Failure> {
     let remark = |located, doubt| Remark::located(located, text, doubt);
     match Robot::from_toml(text, path) {
         Ok((robot, warnings)) => {
-            for warning in warnings.iter().filter(|_| !quiet) {
-                remark(warning, true).print();
-            }
+            warnings.iter().for_each(|warning| host.warn(&remark(warning, true)));
             Ok(robot)
         }
         Err(error) => {
@@ -218,8 +222,8 @@ fn parse(text: &str, path: &str, quiet: bool) -> Result<Robot, Failure> {
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read, or is not UTF-8.
-pub fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = bytes(path).map_err(|error| Failure::io("read", path, &error))?;
+pub fn text(path: &Path, host: &Host) -> Result<String, Failure> {
+    let bytes = host.read(path)?;
     String::from_utf8(bytes).map_err(|error| {
         let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
         let line = bytes[..valid].iter().filter(|b| **b == b'\n').count() + 1;

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use nalgebra::Vector6;
 use stiffarm_gap::diagnose::{Expected, Explanation};
-use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::{DiagnoseError, Options, diagnose_with};
+use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::{DiagnoseError, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
+use crate::diagnose::Settings;
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
@@ -43,7 +45,7 @@ impl Learnt {
         wanted: bool,
         source: &Source,
         arm: &Arm,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Option<Learnt>, Failure> {
         let path = match (&args.data, wanted) {
             (Some(path), true) => path,
@@ -54,15 +56,15 @@ impl Learnt {
             }
             (Some(_), false) => return Err(Failure::new("--data is for --of shrink")),
         };
-        let noise = args.noise_position.as_ref();
-        let noise = noise.map(|t| quantity::with_unit("--noise-position", t, Dimension::Length));
-        let known = source.known.clone();
-        let mut options =
-            Options { noise_position: noise.transpose()?, known, ..Options::default() };
-        options.fit_along(&args.nuisance).map_err(plain)?;
-        let data = data::read(path, &data::layout(source)?, quiet)?;
-        data::doubted(arm, &data, &options.nuisances, quiet);
-        let stages = Stages::new(quiet);
+        let settings = Settings {
+            nuisance: args.nuisance.clone(),
+            noise_position: args.noise_position.clone(),
+            ..Settings::default()
+        };
+        let options = settings.options(source, arm, &[], Catalogue::default(), host)?;
+        let data = data::read(path, &data::layout(source)?, host)?;
+        data::doubted(arm, &data, &options.nuisances, host);
+        let stages = Stages::new(host);
         stages.say(format!("diagnosing {}", path.display()));
         let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;
         drop(stages);

@@ -7,25 +7,26 @@ use stiffarm_papers::{Ledger, Paper, built_in, column, read};
 
 use super::{Args, Figure};
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::source;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 
 /// Runs the command.
 ///
 /// # Errors
 /// [`Failure`]: a file's mistakes, or an output that cannot be written.
-pub fn run(args: &Args) -> Result<Verdict, Failure> {
+pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if let Some(Figure::Growth) = args.figure {
         match &args.svg {
-            Some(target) => target.write(&figure::svg())?,
-            None => print(&figure::table())?,
+            Some(target) => host.write(target, &figure::svg())?,
+            None => host.print(&figure::table())?,
         }
         return Ok(Verdict::Good);
     }
     let papers = match args.files.as_slice() {
         [] => built_in().map_err(|error| Failure::new(error.to_string()))?,
-        files => from_files(files)?,
+        files => from_files(files, host)?,
     };
     let ledger = Ledger::with(&papers, &column);
     let (target, text) = match (&args.markdown, &args.html, &args.json) {
@@ -34,16 +35,16 @@ pub fn run(args: &Args) -> Result<Verdict, Failure> {
         (_, _, Some(target)) => (target, ledger.to_json()),
         _ => (&Target::Stdout, ledger.to_text()),
     };
-    target.write(&text)?;
+    host.write(target, &text)?;
     Ok(Verdict::Good)
 }
 
 /// Reads every file; the mistakes of all of them are reported together.
-fn from_files(files: &[std::path::PathBuf]) -> Result<Vec<Paper>, Failure> {
+fn from_files(files: &[std::path::PathBuf], host: &Host) -> Result<Vec<Paper>, Failure> {
     let mut papers = Vec::new();
     let mut remarks = Vec::new();
     for file in files {
-        match paper(file)? {
+        match paper(file, host)? {
             Ok(paper) => papers.push(paper),
             Err(mistakes) => remarks.extend(mistakes),
         }
@@ -51,8 +52,8 @@ fn from_files(files: &[std::path::PathBuf]) -> Result<Vec<Paper>, Failure> {
     if remarks.is_empty() { Ok(papers) } else { Err(Failure::File(remarks)) }
 }
 
-fn paper(path: &Path) -> Result<Result<Paper, Vec<Remark>>, Failure> {
-    let text = source::text(path)?;
+fn paper(path: &Path, host: &Host) -> Result<Result<Paper, Vec<Remark>>, Failure> {
+    let text = source::text(path, host)?;
     let remarks =
         |located: &stiffarm_codegen::robot::Located| Remark::located(located, &text, false);
     let read = read(&text, &path.to_string_lossy());

@@ -7,17 +7,13 @@ use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENC
 use stiffarm_gap::observe::{Aim, Seen};
 
 use crate::input::source::Source;
+use crate::terminal::text::quoted;
 
 /// The measurement file, its measured columns empty.
 pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
     let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
     let mut heads = vec!["pose".to_owned()];
-    heads.extend(
-        revolute
-            .iter()
-            .enumerate()
-            .map(|(j, turns)| format!("q{}[{}]", j + 1, if *turns { "deg" } else { "mm" })),
-    );
+    heads.extend(source.heads());
     let loaded: Vec<usize> =
         (0..6).filter(|&k| plan.loads.iter().any(|load| load[k] != 0.0)).collect();
     heads.extend(
@@ -88,12 +84,6 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
         }
     }
     text
-}
-
-/// A name as a cell.
-fn quoted(name: &str) -> String {
-    let is_plain = !name.contains([',', '"', '\n', '#']);
-    if is_plain { name.to_owned() } else { format!("\"{}\"", name.replace('"', "\"\"")) }
 }
 
 /// To a thousandth of a degree or millimetre: finer than a controller is told.

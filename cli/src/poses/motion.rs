@@ -8,11 +8,12 @@ use stiffarm_kernels::generic::Arm;
 use super::Args;
 use crate::Verdict;
 use crate::document::words::words;
+use crate::host::Host;
 use crate::input::source::Source;
 use crate::motion;
 use crate::simulate::plain;
 use crate::terminal::failure::Failure;
-use crate::terminal::output::{Target, print};
+use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
 use crate::terminal::text::{bold, dim, indented, short, table};
 
@@ -36,7 +37,7 @@ const TRIES: usize = 150;
 ///
 /// # Errors
 /// [`Failure`]: the robot, the limits, the effects, or an output that cannot be written.
-pub(super) fn run(args: &Args, source: &Source, quiet: bool) -> Result<Verdict, Failure> {
+pub(super) fn run(args: &Args, source: &Source, host: &Host) -> Result<Verdict, Failure> {
     if args.count.is_some() || !args.loads.is_empty() || !args.nuisance.is_empty() || args.rotations
     {
         return Err(Failure::with_help(
@@ -57,7 +58,7 @@ pub(super) fn run(args: &Args, source: &Source, quiet: bool) -> Result<Verdict, 
         tries: TRIES,
         seed: args.seed,
     };
-    let progress = Progress::new(&source.given, PARTS, quiet);
+    let progress = Progress::new(&source.given, PARTS, host);
     let found = excite(&plan, &|part| progress.reach(part, PARTS));
     drop(progress);
     let found = found.map_err(plain)?;
@@ -66,9 +67,9 @@ pub(super) fn run(args: &Args, source: &Source, quiet: bool) -> Result<Verdict, 
         "it begins and ends at rest, where its first row is; nothing here knows of floor and cell"
             .to_owned(),
     ];
-    args.csv.write(&commands(&arm, &found.course, RATE, &comments))?;
-    if args.csv != Target::Stdout && !quiet {
-        print(&screen(&arm, &found))?;
+    host.write(&args.csv, &commands(&arm, &found.course, RATE, &comments))?;
+    if args.csv != Target::Stdout && !host.is_quiet() {
+        host.print(&screen(&arm, &found))?;
     }
     Ok(Verdict::Good)
 }

@@ -4,6 +4,7 @@ use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
 use super::{Args, plain};
 use crate::Verdict;
+use crate::host::Host;
 use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::motion::{self, Courses};
@@ -16,11 +17,16 @@ use crate::terminal::text::short;
 /// # Errors
 /// [`Failure`]: the robot, the commands, an effect that this arm cannot have, or an output that cannot
 /// be written.
-pub(super) fn run(args: &Args, source: &Source, target: &Target) -> Result<Verdict, Failure> {
+pub(super) fn run(
+    args: &Args,
+    source: &Source,
+    target: &Target,
+    host: &Host,
+) -> Result<Verdict, Failure> {
     let arm = motion::arm(source, "simulate --log")?;
     let seed = args.experiment.seed;
     let how = (&args.motion, &args.record);
-    let courses = Courses::of(args.data.as_ref(), source, &arm, how, seed)?;
+    let courses = Courses::of((args.data.as_ref(), host), source, &arm, how, seed)?;
     let stages = courses.stages();
     let truths = args.effects.iter().map(|text| MotionTruth::parse(text, &arm, stages.len()));
     let truths: Vec<MotionTruth> = truths.collect::<Result<_, _>>().map_err(plain)?;
@@ -43,6 +49,6 @@ pub(super) fn run(args: &Args, source: &Source, target: &Target) -> Result<Verdi
         format!("{noise}, encoders to {}; seed {seed}", short(recording.encoder)),
     ];
     comments.extend(args.told(&truths));
-    target.write(&csv(&arm, logged, &runs, &comments))?;
+    host.write(target, &csv(&arm, logged, &runs, &comments))?;
     Ok(Verdict::Good)
 }

@@ -10,7 +10,6 @@ use console::style;
 use stiffarm_codegen::robot::Located;
 
 use super::text::clipped;
-use crate::inside::host;
 
 /// Why a command could not do its work: exit status 2.
 #[derive(Debug)]
@@ -72,7 +71,7 @@ impl Failure {
                 format!("{head}: {message}\n{advice}")
             }
             Failure::File(remarks) => {
-                remarks.iter().map(Remark::render).collect::<Vec<_>>().join("\n")
+                remarks.iter().map(Remark::text).collect::<Vec<_>>().join("\n")
             }
         }
     }
@@ -131,7 +130,8 @@ impl Remark {
         Some((file, before.matches('\n').count() + 1, line.chars().count() + 1))
     }
 
-    fn render(&self) -> String {
+    /// As it is printed.
+    pub(crate) fn text(&self) -> String {
         let level = if self.doubt { Level::WARNING } else { Level::ERROR };
         let mut group = level.primary_title(&self.message).elements(None::<Element<'_>>);
         if let Some((file, text, span)) = &self.place {
@@ -146,15 +146,5 @@ impl Remark {
             false => Renderer::plain(),
         };
         renderer.render(&[group]) + "\n"
-    }
-
-    /// Prints a warning to standard error.
-    pub fn print(&self) {
-        match host() {
-            Some(host) => host.remark(&self.render()),
-            None => {
-                let _ = std::io::stderr().write_all(self.render().as_bytes());
-            }
-        }
     }
 }

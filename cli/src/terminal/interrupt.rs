@@ -4,20 +4,14 @@ use std::sync::OnceLock;
 
 use stiffarm_gap::diagnose::Stop;
 
-use crate::inside::host;
-
 /// The exit status of a program that an interrupt has ended, as a shell has it.
 pub const INTERRUPTED: u8 = 130;
 
 /// What the search of this program is told to stop by.
 static SEARCH: OnceLock<Stop> = OnceLock::new();
 
-/// What a search is told to stop by. The first Ctrl-C asks for its end, the second ends the program; inside
-/// another program, that program asks.
+/// What a search at a terminal is told to stop by. The first Ctrl-C asks for its end, the second ends the program.
 pub fn stop() -> Stop {
-    if let Some(host) = host() {
-        return host.stop();
-    }
     let begin = || {
         // Where no handler can be set, the first Ctrl-C ends the program, as it always does.
         #[cfg(not(target_family = "wasm"))]

@@ -3,7 +3,6 @@
 pub mod failure;
 pub mod interrupt;
 pub mod json;
-pub mod note;
 pub mod output;
 pub mod progress;
 pub mod snippet;

@@ -8,7 +8,6 @@ use clap::{ArgMatches, Command};
 
 use super::failure::{Failure, reason};
 use super::whole::Whole;
-use crate::inside::{host, owner};
 
 /// Where a result goes: a file, or standard output for `-`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,52 +27,26 @@ impl std::str::FromStr for Target {
 }
 
 impl Target {
-    /// Writes the whole text there.
-    ///
-    /// # Errors
-    /// [`Failure`] says where and why; a file is then as it was.
-    pub fn write(&self, text: &str) -> Result<(), Failure> {
-        match self {
-            Target::Stdout => print(text),
-            Target::File(path) => {
-                if let Some(owner) = owner(path) {
-                    owner.write(&path.display().to_string(), text);
-                    return Ok(());
-                }
-                file(path, text.as_bytes()).map_err(|error| Failure::io("write", path, &error))
-            }
-        }
-    }
-}
-
-impl Target {
     /// Writes there what `write` writes bit by bit; where that says that it is nothing, a file is as it was.
     ///
     /// # Errors
-    /// As [`Target::write`].
-    pub fn stream(
+    /// [`Failure`] says where and why.
+    pub(crate) fn stream(
         &self,
         write: &mut dyn FnMut(&mut dyn Write) -> io::Result<bool>,
     ) -> Result<(), Failure> {
-        let (path, is_held) = match self {
-            Target::Stdout => (Path::new("standard output"), host().is_some()),
-            Target::File(path) => (path.as_path(), owner(path).is_some()),
-        };
-        let failed = |error: io::Error| Failure::io("write", path, &error);
-        if is_held {
-            let mut held = Vec::new();
-            let is_whole = write(&mut held).map_err(failed)?;
-            return if is_whole { self.write(&String::from_utf8_lossy(&held)) } else { Ok(()) };
-        }
         match self {
             Target::Stdout => {
                 let mut out = BufWriter::new(io::stdout().lock());
                 match write(&mut out).and_then(|_| out.flush()) {
-                    Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(failed(error)),
+                    Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                        Err(Failure::io("write", Path::new("standard output"), &error))
+                    }
                     _ => Ok(()),
                 }
             }
             Target::File(path) => {
+                let failed = |error: io::Error| Failure::io("write", path, &error);
                 let mut whole = BufWriter::new(Whole::new(path).map_err(failed)?);
                 if !write(&mut whole).map_err(failed)? {
                     return Ok(());
@@ -138,10 +111,6 @@ fn place(path: &Path) -> PathBuf {
 /// # Errors
 /// [`Failure`] if standard output cannot be written to.
 pub fn print(text: &str) -> Result<(), Failure> {
-    if let Some(host) = host() {
-        host.write("-", text);
-        return Ok(());
-    }
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -151,7 +120,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file, which is as it was where that fails.
+///
+/// # Errors
+/// As writing it.
+pub fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut whole = Whole::new(path)?;
     whole.write_all(bytes)?;
     whole.finish()

@@ -1,12 +1,12 @@
 //! A progress bar on the terminal, for what takes longer than a second; or what a host is told.
 
+use std::sync::Once;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::inside::{Host, host};
+use crate::host::Host;
 
 /// Work up to this is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -22,26 +22,25 @@ pub struct Progress {
     what: String,
     steps: u64,
     done: AtomicU64,
-    to: To,
-}
-
-/// Who is told. Without a terminal no clock is asked: a browser has none for this library.
-enum To {
-    Nobody,
-    Terminal { bar: ProgressBar, begun: Instant, shown: Once },
-    Host(Arc<Host>),
+    host: Host,
+    /// A bar that is shown after a while. Without a terminal no clock is asked: a browser has none for this library.
+    bar: Option<(ProgressBar, Instant, Once)>,
 }
 
 impl Progress {
     /// Of so many steps; `what` stands before the bar.
-    pub fn new(what: &str, steps: usize, quiet: bool) -> Progress {
+    pub fn new(what: &str, steps: usize, host: &Host) -> Progress {
         let steps = steps as u64;
-        let to = match host() {
-            Some(host) => To::Host(host),
-            None if quiet => To::Nobody,
-            None => To::terminal(what, steps),
-        };
-        Progress { what: what.to_owned(), steps, done: AtomicU64::new(0), to }
+        let bar = host.is_watched().then(|| {
+            let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+            let style = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left");
+            let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+            bar.set_style(style.progress_chars("█▌░"));
+            bar.set_message(what.to_owned());
+            (bar, Instant::now(), Once::new())
+        });
+        let (what, done) = (what.to_owned(), AtomicU64::new(0));
+        Progress { what, steps, done, host: host.clone(), bar }
     }
 
     /// A part from 0 to 1 of all steps.
@@ -53,46 +52,29 @@ impl Progress {
 
     /// So many steps more.
     pub fn add(&self, steps: usize) {
-        let done = self.done.fetch_add(steps as u64, Ordering::Relaxed) + steps as u64;
-        match &self.to {
-            To::Nobody => {}
-            To::Terminal { bar, begun, shown } => {
-                if begun.elapsed() > PATIENCE {
-                    // Draws nothing where standard error is no terminal.
-                    shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
-                }
-                bar.inc(steps as u64);
+        let steps = steps as u64;
+        let done = self.done.fetch_add(steps, Ordering::Relaxed) + steps;
+        if let Some((bar, begun, shown)) = &self.bar {
+            if begun.elapsed() > PATIENCE {
+                // Draws nothing where standard error is no terminal.
+                shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
             }
-            To::Host(host) => {
-                let part = done as f64 / self.steps.max(1) as f64;
-                host.is_doing(&self.what, Some(part.min(1.0)));
-            }
+            bar.inc(steps);
         }
-    }
-}
-
-impl To {
-    fn terminal(what: &str, steps: u64) -> To {
-        let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("█▌░"));
-        bar.set_message(what.to_owned());
-        To::Terminal { bar, begun: Instant::now(), shown: Once::new() }
+        self.host.is_doing(&self.what, Some((done as f64 / self.steps.max(1) as f64).min(1.0)));
     }
 }
 
 /// What is being done, where nobody knows how much of it there is.
 pub struct Stages {
     bar: Option<ProgressBar>,
-    host: Option<Arc<Host>>,
+    host: Host,
 }
 
 impl Stages {
     /// Nothing said yet.
-    pub fn new(quiet: bool) -> Stages {
-        let host = host();
-        let at_terminal = !quiet && host.is_none();
-        Stages { bar: at_terminal.then(Stages::terminal), host }
+    pub fn new(host: &Host) -> Stages {
+        Stages { bar: host.is_watched().then(Stages::terminal), host: host.clone() }
     }
 
     fn terminal() -> ProgressBar {
@@ -106,9 +88,7 @@ impl Stages {
 
     /// What is being done now.
     pub fn say(&self, what: String) {
-        if let Some(host) = &self.host {
-            host.is_doing(&what, None);
-        }
+        self.host.is_doing(&what, None);
         if let Some(bar) = &self.bar {
             bar.set_message(what);
         }
@@ -123,8 +103,6 @@ impl Drop for Stages {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let To::Terminal { bar, .. } = &self.to {
-            bar.finish_and_clear();
-        }
+        self.bar.iter().for_each(|(bar, ..)| bar.finish_and_clear());
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use stiffarm_gap::study::withhold::{Case, Confusion, Facts, Rate, Report};
 
+use crate::document::report::Method;
 use crate::document::words::{percent, words};
 use crate::document::{Block, Cell, Document, Row, Table};
 use crate::input::quantity::counted;
@@ -33,12 +34,8 @@ pub fn document(report: &Report, position_log: bool) -> Document {
         let text = format!("{failed}, the first: {}", error.unwrap_or_default());
         blocks.extend(Block::note("Failed", text));
     }
-    let method = vec![Block::Paragraph(METHOD.to_owned()), Block::Json];
-    blocks.push(Block::Page(vec![
-        matrix(report),
-        strays(report),
-        Block::section("How it was computed", method),
-    ]));
+    let method = Method { text: METHOD, facts: Vec::new(), lists: &[] };
+    blocks.push(Block::Page(vec![matrix(report), strays(report), method.section()]));
     Document {
         robot: report.robot.clone(),
         about: "what this experiment can find",

@@ -6,6 +6,7 @@ use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
 use stiffarm_gap::study::withhold::{Experiment, Motion, Report};
 
 use super::Args;
+use crate::host::Host;
 use crate::motion::{self, Courses};
 use crate::terminal::failure::Failure;
 
@@ -13,12 +14,12 @@ use crate::terminal::failure::Failure;
 ///
 /// # Errors
 /// [`Failure`]: the robot, the commands, or the options.
-pub(super) fn report(args: &Args, quiet: bool) -> Result<(Report, bool), Failure> {
-    let source = args.robot.load(quiet)?;
+pub(super) fn report(args: &Args, host: &Host) -> Result<(Report, bool), Failure> {
+    let source = args.robot.load(host)?;
     let arm = motion::arm(&source, "withhold --motion")?;
     let (logged, seed) = (args.record.logged(), args.experiment.seed);
     let how = (&args.moved, &args.record);
-    let courses = Courses::of(args.data.as_ref(), &source, &arm, how, seed)?;
+    let courses = Courses::of((args.data.as_ref(), host), &source, &arm, how, seed)?;
     let experiment = Experiment::Log(Motion {
         stages: &courses.stages(),
         logged,
@@ -30,7 +31,7 @@ pub(super) fn report(args: &Args, quiet: bool) -> Result<(Report, bool), Failure
             ..LogOptions::default()
         },
     });
-    let report = args.tried(&arm, experiment, args.multiple([1.0, 3.0])?, quiet)?;
+    let report = args.tried(&arm, experiment, args.multiple([1.0, 3.0])?, host)?;
     Ok((report, logged == Logged::Position))
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -27,20 +27,13 @@ name = \"charuco\"
 corners = { c0 = [0, 0, 0], c1 = [\"90 mm\", 0, 0], c2 = [0, \"90 mm\", 0], c3 = [\"90 mm\", \"90 mm\", 0] }
 ";
 
-fn diagnosed(words: &[&str]) -> Value {
-    let told = stiffarm(&[words, &["--json", "-"]].concat()).good();
-    serde_json::from_str(&told).expect("JSON")
-}
-
 #[test]
 fn a_plan_at_sockets_is_measured_and_diagnosed() {
     let folder = Folder::new();
     let bench = folder.file("bench.toml", SOCKETS);
-    let [plan, run] = ["plan.csv", "run.csv"].map(|name| text(&folder.path(name)));
-    let words = [
-        "poses", "irb120", "--for", "diagnose", "--count", "24", "--bench", &bench, "--csv", &plan,
-    ];
-    let screen = stiffarm(&words).good();
+    let [plan, data] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
+    let postures = "poses irb120 --for diagnose --count 24";
+    let screen = run(&format!("{postures} --bench {bench} --csv {plan}")).good();
     assert!(screen.contains("24 postures"), "{screen}");
     let written = std::fs::read_to_string(&plan).expect("a plan");
     assert!(
@@ -50,37 +43,24 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
         "{written}"
     );
     let effect = "joint_offset@joint 3=3e-3";
-    let words = ["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &run];
-    stiffarm(&words).good();
-    let found = diagnosed(&["diagnose", "irb120", &run, "--bench", &bench]);
+    stiffarm(&["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &data])
+        .good();
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
     let named = |finding: &Value| {
         let is = |one: &Value| one["effect"] == "joint_offset" && one["place"] == "joint 3";
         is(finding) || finding["alternatives"].as_array().is_some_and(|all| all.iter().any(is))
     };
     assert!(found["findings"].as_array().is_some_and(|all| all.iter().any(named)), "{found}");
-    let told =
-        stiffarm(&["poses", "irb120", "--count", "4", "--bench", &bench, "--csv", &plan]).refused();
-    assert!(told.contains("--bench is for --for diagnose"), "{told}");
-    let unknown = folder.file("unknown.toml", "[[point]]\nname = \"somewhere\"");
-    let words = [
-        "poses", "irb120", "--for", "diagnose", "--count", "4", "--bench", &unknown, "--csv", &plan,
-    ];
-    let told = stiffarm(&words).refused();
-    assert!(told.contains("--bench: found nothing whose place is known"), "{told}");
 }
 
 #[test]
 fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let folder = Folder::new();
-    let (bench, run) = (folder.file("bench.toml", CAMERA), text(&folder.path("run.csv")));
-    let simulate = |more: &[&str]| {
-        let words =
-            ["simulate", "irb120", "--measure", "camera", "--payload", "3kg", "--csv", &run];
-        stiffarm(&[&words[..], more].concat())
-    };
-    let effect = "joint_compliance@joint 2=8e-5";
-    simulate(&["--bench", &bench, "--noise-rotation", "0.2px", "--effect", effect]).good();
-    let found = diagnosed(&["diagnose", "irb120", &run, "--bench", &bench]);
+    let (bench, data) = (folder.file("bench.toml", CAMERA), folder.name("run.csv"));
+    let shown = "--measure camera --payload 3kg --noise-rotation 0.2px";
+    let effect = "--effect 'joint_compliance@joint 2=8e-5'";
+    run(&format!("simulate irb120 {shown} --csv {data} --bench {bench} {effect}")).good();
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
     let [finding] = &found["findings"].as_array().expect("findings")[..] else { panic!("{found}") };
     assert_eq!(
         (finding["effect"].as_str(), finding["place"].as_str()),
@@ -92,10 +72,8 @@ fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let left = &found["gap"]["after"]["kinds"]["camera"];
     let rms = left["rms"].as_f64().expect("a number");
     assert!(left["unit"] == "px" && (0.25..0.32).contains(&rms), "{left}");
-    let screen = stiffarm(&["diagnose", "irb120", &run, "--bench", &bench]).good();
+    let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
     assert!(screen.contains("px rms") && screen.contains("Error in the picture"), "{screen}");
-    let told = simulate(&[]).refused();
-    assert!(told.contains("--measure camera: found no camera and board"), "{told}");
-    let told = stiffarm(&["diagnose", "irb120", &run]).refused();
+    let told = run(&format!("diagnose irb120 {data}")).refused();
     assert!(told.contains("the unknown marker `c0`"), "{told}");
 }

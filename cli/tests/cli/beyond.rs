@@ -1,6 +1,6 @@
 //! What a robot file says beyond its table: every command that reads one honours it.
 
-use crate::support::{Folder, read, stiffarm};
+use crate::support::{Folder, number, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -9,85 +9,30 @@ const RATIO: &str = "\n[[effect]]\nid = \"joint_ratio\"\nplace = \"joint 2\"\nra
 /// One that a posture does not decide.
 const SLACK: &str = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 2\"\nwidth = \"3 mrad\"\n";
 
-const NAMED: &str = "name = ";
-
-/// The command with the robot file as ROBOT: with an effect its result is another.
-enum With {
-    Honours(&'static [&'static str]),
-    /// It has no robot file.
-    None,
-}
-use With::Honours;
-
-const COMMANDS: [(&str, With); 18] = [
-    ("eval", Honours(&["eval", "ROBOT", "--q", "0,0.5,0,0,0,0", "--json", "-"])),
-    ("check", Honours(&["check", "ROBOT", "--count", "10"])),
-    ("robots", With::None),
-    ("import", With::None),
-    ("generate", Honours(&["generate", "ROBOT", "--emit", "rust"])),
-    (
-        "map",
-        Honours(&[
-            "map",
-            "ROBOT",
-            "--over",
-            "q2,q3",
-            "--of",
-            "condition",
-            "--steps",
-            "3",
-            "--csv",
-            "-",
-        ]),
-    ),
-    ("poses", Honours(&["poses", "ROBOT", "--count", "2", "--csv", "-"])),
-    ("identify", Honours(&["identify", "ROBOT", "docs/workbench/run.csv", "--json", "-"])),
-    (
-        "diagnose",
-        Honours(&[
-            "diagnose",
-            "ROBOT",
-            "docs/workbench/check.csv",
-            "--effects",
-            "joint_offset",
-            "--json",
-            "-",
-        ]),
-    ),
-    ("predict", Honours(&["predict", "ROBOT", "docs/workbench/check.csv", "--json", "-"])),
-    ("simulate", Honours(&["simulate", "ROBOT", "--poses", "2", "--csv", "-"])),
-    (
-        "withhold",
-        Honours(&["withhold", "ROBOT", "--cases", "2", "--poses", "6", "--json", "-", "--quiet"]),
-    ),
-    (
-        "compensate",
-        Honours(&[
-            "compensate",
-            "ROBOT",
-            "--targets",
-            "docs/workbench/path.csv",
-            "--out",
-            "-",
-            "--quiet",
-        ]),
-    ),
-    ("papers", With::None),
-    ("effects", With::None),
-    ("measurements", With::None),
-    ("completions", With::None),
-    ("man", With::None),
-];
+/// Each command with the robot file as ROBOT, whose result is another with an effect; the others have no robot file.
+const COMMANDS: &str = "\
+eval ROBOT --q 0,0.5,0,0,0,0 --json -
+check ROBOT --count 10
+generate ROBOT --emit rust
+map ROBOT --over q2,q3 --of condition --steps 3 --csv -
+poses ROBOT --count 2 --csv -
+identify ROBOT docs/workbench/run.csv --json -
+diagnose ROBOT docs/workbench/check.csv --effects joint_offset --json -
+predict ROBOT docs/workbench/check.csv --json -
+simulate ROBOT --poses 2 --csv -
+withhold ROBOT --cases 2 --poses 6 --json - --quiet
+compensate ROBOT --targets docs/workbench/path.csv --out - --quiet
+robots
+import
+papers
+effects
+measurements
+completions
+man";
 
 /// The robot file with something behind it.
 fn with(folder: &Folder, name: &str, more: &str) -> String {
     folder.file(name, read(ARM) + more)
-}
-
-fn run(arguments: &[&str], robot: &str) -> crate::support::Run {
-    let arguments: Vec<&str> =
-        arguments.iter().map(|a| if *a == "ROBOT" { robot } else { a }).collect();
-    stiffarm(&arguments)
 }
 
 #[test]
@@ -96,7 +41,8 @@ fn no_command_leaves_an_effect_out_in_silence() {
     let listed = help.split("Commands:").nth(1).and_then(|l| l.split("Options:").next());
     let listed = listed.expect("a list of commands").lines();
     let listed: Vec<&str> = listed.filter_map(|line| line.split_whitespace().next()).collect();
-    let mut known: Vec<&str> = COMMANDS.iter().map(|(name, _)| *name).chain(["help"]).collect();
+    let name = |line: &'static str| line.split(' ').next().unwrap_or_default();
+    let mut known: Vec<&str> = COMMANDS.lines().map(name).chain(["help"]).collect();
     known.sort_unstable();
     let mut sorted = listed.clone();
     sorted.sort_unstable();
@@ -104,15 +50,10 @@ fn no_command_leaves_an_effect_out_in_silence() {
     let folder = Folder::new();
     let plain = with(&folder, "plain.toml", "");
     let beyond = with(&folder, "beyond.toml", RATIO);
-    for (name, does) in COMMANDS {
-        match does {
-            Honours(arguments) => {
-                let (without, with) = (run(arguments, &plain), run(arguments, &beyond));
-                assert!(with.status < 2 && without.status < 2, "{name}: {}", with.err);
-                assert_ne!(with.out, without.out, "{name}");
-            }
-            With::None => {}
-        }
+    for line in COMMANDS.lines().filter(|line| line.contains("ROBOT")) {
+        let [without, with] = [&plain, &beyond].map(|robot| run(&line.replace("ROBOT", robot)));
+        assert!(with.status < 2 && without.status < 2, "{line}: {}", with.err);
+        assert_ne!(with.out, without.out, "{line}");
     }
 }
 
@@ -122,13 +63,12 @@ fn what_the_table_holds_is_taken_into_it() {
     let folder = Folder::new();
     let offset = "\n[[effect]]\nid = \"joint_offset\"\nplace = \"joint 1\"\noffset = \"2 mrad\"\n";
     let robot = with(&folder, "offset.toml", offset);
-    let emit = ["generate", "ROBOT", "--emit", "rust"];
-    let text = run(&emit, &robot).good();
+    let emit = |robot: &str| run(&format!("generate {robot} --emit rust")).good();
+    let text = emit(&robot);
     assert!(text.contains("q + 0.002"), "{text}");
-    assert_ne!(text, run(&emit, ARM).good());
+    assert_ne!(text, emit(ARM));
     let at = |robot: &str, q: &str| -> Vec<f64> {
-        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).good();
-        let out: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).json();
         serde_json::from_value(out["position"].clone()).expect("three numbers")
     };
     let moved = at(ARM, "0.102,0.2,0.3,0.4,0.5,0.6");
@@ -142,9 +82,7 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
     let folder = Folder::new();
     let robot = with(&folder, "slack.toml", SLACK);
     let at = "0.2,1.2,-0.9,0.3,0.8,-0.4";
-    let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).good();
-    let pose: serde_json::Value = serde_json::from_str(&pose).expect("JSON");
-    let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+    let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).json();
     let turn = nalgebra::Matrix3::from_fn(|r, c| number(&pose["rotation"][r][c]));
     let turn = nalgebra::Rotation3::from_matrix(&turn).scaled_axis();
     let place = pose["position"].as_array().expect("three numbers").iter().map(number);
@@ -207,8 +145,7 @@ fn a_base_stands_somewhere() {
     let eval = |robot: &str| -> serde_json::Value {
         let wrench = "--wrench=30,0,-100,0,5,0";
         let q = "0.1,-0.8,0.9,0.4,0.5,0.6";
-        let out = stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).good();
-        serde_json::from_str(&out).expect("JSON")
+        stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).json()
     };
     let (own, world) = (eval(ARM), eval(&robot));
     let at =
@@ -229,68 +166,17 @@ fn a_base_stands_somewhere() {
     stiffarm(&["check", &robot, "--count", "50"]).good();
 }
 
-#[test]
-fn mistakes_of_an_effect_are_shown_at_their_place() {
-    let folder = Folder::new();
-    let line = read(ARM).lines().count() + 2;
-    for (effect, below, message, help) in [
-        (
-            "id = \"backlsh\"\nplace = \"joint 1\"",
-            1,
-            "unknown effect `backlsh`",
-            "did you mean `backlash`?",
-        ),
-        (
-            "id = \"backlash\"\nplace = \"joint 9\"",
-            2,
-            "`joint 9` is no place of backlash",
-            "did you mean",
-        ),
-        (
-            "id = \"backlash\"\nplace = \"joint 1\"\nwidth = \"1 mm\"",
-            3,
-            "`1 mm` is no number",
-            "rad",
-        ),
-        (
-            "id = \"slip\"\nplace = \"base\"\nx = 1e-3",
-            0,
-            "`after` of slip is missing",
-            "write after = 1",
-        ),
-    ] {
-        let robot = with(&folder, "wrong.toml", &format!("\n[[effect]]\n{effect}\n"));
-        for arguments in
-            [&["simulate", &robot, "--csv", "-"][..], &["generate", &robot, "--emit", "rust"]]
-        {
-            let err = stiffarm(arguments).refused();
-            assert!(err.contains(message) && err.contains(help), "{err}");
-            assert!(err.contains(&format!("wrong.toml:{}:", line + below)), "{err}");
-        }
-    }
-}
-
-#[test]
-fn a_name_is_one_line() {
-    let folder = Folder::new();
-    let evil = read(ARM).replacen(NAMED, "name = \"a\\nfn evil() {}\" #", 1);
-    let robot = folder.file("evil.toml", evil);
-    let err = stiffarm(&["generate", &robot, "--emit", "rust"]).refused();
-    assert!(err.contains("the control character '\\n' stands in a text"), "{err}");
-}
-
 /// The same springs of the same arm, wherever it stands.
 #[test]
 fn springs_are_identified_wherever_the_arm_stands() {
     let folder = Folder::new();
     let base = "\n[base]\ntranslation = [0.5, -0.25, 0.1]\nrotation = [0.3, -0.2, 1.1]\n";
     let springs = |robot: &str| -> Vec<f64> {
-        let run = crate::support::text(&folder.path("run.csv"));
-        let exact = ["--noise-position", "0mm", "--noise-rotation", "0deg", "--design", "force"];
-        let soft = ["--effect", "joint_compliance@joint 2=1e-7", "--csv", &run];
-        stiffarm(&[&["simulate", robot, "--poses", "12"][..], &exact, &soft].concat()).good();
-        let out = stiffarm(&["identify", robot, &run, "--json", "-"]).good();
-        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let data = folder.name("run.csv");
+        let exact = "--poses 12 --noise-position 0mm --noise-rotation 0deg --design force";
+        let soft = "--effect 'joint_compliance@joint 2=1e-7'";
+        run(&format!("simulate {robot} {exact} {soft} --csv {data}")).good();
+        let found = stiffarm(&["identify", robot, &data, "--json", "-"]).json();
         let each = found["parameters"].as_array().expect("a list").iter();
         each.map(|p| p["value"].as_f64().expect("a number")).collect()
     };

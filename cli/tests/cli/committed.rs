@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::{Folder, REPOSITORY, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, stiffarm};
 
 /// A crate whose module `arm` is what `generate` wrote.
 fn krate(robot: &str, extra: &[&str]) -> Folder {
@@ -27,7 +27,7 @@ fn krate(robot: &str, extra: &[&str]) -> Folder {
 }
 
 fn generate(folder: &Folder, robot: &str, extra: &[&str], to: &str) -> String {
-    let file = text(&folder.path("src/arm.rs"));
+    let file = folder.name("src/arm.rs");
     let form = ["generate", robot, "--emit", "rust", "--kernels", "::stiffarm_kernels", to, &file];
     stiffarm(&[&form, extra].concat()).good()
 }

@@ -3,42 +3,32 @@
 use serde_json::Value;
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, number, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
 /// A spring goes into the table; the foundation and the gear's error have no place there.
-const TRUTHS: [&str; 6] = [
-    "--effect",
-    "joint_compliance@joint 2=1.2e-7",
-    "--effect",
-    "base_compliance@base:rock_x=6e-8,rock_y=4e-8",
-    "--effect",
-    "transmission_error@joint 3:cos 2=0.3 mrad",
-];
+const TRUTHS: &str = "--effect 'joint_compliance@joint 2=1.2e-7' \
+                      --effect base_compliance@base:rock_x=6e-8,rock_y=4e-8 \
+                      --effect 'transmission_error@joint 3:cos 2=0.3 mrad'";
 
-const LOADS: [&str; 6] =
-    ["--load", "0,0,-2kN,0,0,0", "--load", "1500,0,-1000,0,0,0", "--load", "0,1500,-1000,0,0,0"];
+const LOADS: &str = "--load 0,0,-2kN,0,0,0 --load 1500,0,-1000,0,0,0 --load 0,1500,-1000,0,0,0";
 
 /// What a diagnosis of that arm writes, as a robot file and as JSON.
 fn corrected(folder: &Folder) -> [String; 2] {
-    let [run, better, json] =
-        ["run.csv", "better.toml", "found.json"].map(|name| text(&folder.path(name)));
-    let plan = ["simulate", ARM, "--payload", "2kN", "--poses", "30", "--csv", &run];
-    stiffarm(&[&plan[..], &TRUTHS].concat()).good();
-    let tried = "joint_compliance,base_compliance,transmission_error";
-    let arguments = ["diagnose", ARM, &run, "--effects", tried];
-    let written = ["--write-robot", &better, "--json", &json, "--quiet"];
-    stiffarm(&[&arguments[..], &written].concat()).good();
+    let [data, better, json] =
+        ["run.csv", "better.toml", "found.json"].map(|name| folder.name(name));
+    run(&format!("simulate {ARM} --payload 2kN --poses 30 --csv {data} {TRUTHS}")).good();
+    let tried = "--effects joint_compliance,base_compliance,transmission_error";
+    let written = format!("--write-robot {better} --json {json} --quiet");
+    run(&format!("diagnose {ARM} {data} {tried} {written}")).good();
     let effects = read(&better).matches("\n[[effect]]\n").count();
     assert_eq!(effects, 2, "{}", read(&better));
     [better, json]
 }
 
 fn springs(robot: &str, data: &str) -> Vec<[f64; 3]> {
-    let out = stiffarm(&["identify", robot, data, "--json", "-"]).good();
-    let found: Value = serde_json::from_str(&out).expect("JSON");
-    let number = |value: &Value| value.as_f64().expect("a number");
+    let found = stiffarm(&["identify", robot, data, "--json", "-"]).json();
     let parameters = found["parameters"].as_array().expect("a list").iter();
     parameters.map(|p| [&p["value"], &p["ci95"][0], &p["ci95"][1]].map(number)).collect()
 }
@@ -50,14 +40,13 @@ fn springs_are_identified_where_the_corrected_arm_was_planned() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
     let [plan, again, filled] =
-        ["plan.csv", "again.csv", "filled.csv"].map(|name| text(&folder.path(name)));
+        ["plan.csv", "again.csv", "filled.csv"].map(|name| folder.name(name));
     for (robot, csv) in [(&better, &plan), (&json, &again)] {
-        let count = ["poses", robot, "--count", "15", "--csv", csv, "--quiet"];
-        stiffarm(&[&count[..], &LOADS].concat()).good();
+        run(&format!("poses {robot} --count 15 --csv {csv} --quiet {LOADS}")).good();
     }
     assert_eq!(read(&plan), read(&again));
-    let measured = ["simulate", ARM, &plan, "--noise-position", "5um", "--csv", &filled];
-    stiffarm(&[&measured[..], &TRUTHS].concat()).good();
+    let noise = "--noise-position 5um";
+    run(&format!("simulate {ARM} {plan} {noise} --csv {filled} {TRUTHS}")).good();
     // As ARM has them, joint 2 softer by what was put in.
     let truths = [3.8e6, 1.0 / (1.0 / 6.6e6 + 1.2e-7), 3.9e6, 5.6e5, 6.6e5, 4.7e5];
     let missed = |robot: &str| {
@@ -91,10 +80,9 @@ fn a_corrected_arm_raises_no_alarm() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
     for robot in [&better, &json] {
-        let tried = ["--effects", "joint_offset,joint_compliance", "--payload", "2kN"];
-        let few = ["withhold", robot, "--cases", "8", "--poses", "12", "--json", "-", "--quiet"];
-        let out = stiffarm(&[&few[..], &tried].concat()).good();
-        let report: Value = serde_json::from_str(&out).expect("JSON");
+        let tried = "--effects joint_offset,joint_compliance --payload 2kN";
+        let few = "--cases 8 --poses 12 --json - --quiet";
+        let report = run(&format!("withhold {robot} {few} {tried}")).json();
         let none = &report["false_alarms"];
         assert_eq!((&none["hits"], &none["of"]), (&0.into(), &2.into()), "{report:#}");
     }
@@ -106,12 +94,11 @@ fn a_corrected_arm_raises_no_alarm() {
 fn a_saved_diagnosis_predicts() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
-    let run = text(&folder.path("run.csv"));
-    let value = |out: &str| -> Value { serde_json::from_str(out).expect("JSON") };
-    let said = value(&read(&json));
+    let data = folder.name("run.csv");
+    let said = crate::support::json(&read(&json));
     let fitted = &said["gap"]["fitted"];
     for robot in [&better, &json] {
-        let found = value(&stiffarm(&["predict", robot, &run, "--json", "-"]).good());
+        let found = stiffarm(&["predict", robot, &data, "--json", "-"]).json();
         assert_eq!((&found["rows"], &found["inside"]), (&90.into(), &90.into()));
         for key in ["position_rms", "position_max", "rotation_rms"] {
             let ratio = found["gap"][key].as_f64().expect("a number")
@@ -120,25 +107,28 @@ fn a_saved_diagnosis_predicts() {
             assert!((ratio - 1.0).abs() < 1e-3, "{key}: {found:#} {fitted:#}");
         }
     }
-    let plan = text(&folder.path("plan.csv"));
-    let poses = ["poses", &json, "--count", "5", "--csv", &plan, "--quiet"];
-    stiffarm(&[&poses[..], &LOADS].concat()).good();
+    let plan = folder.name("plan.csv");
+    run(&format!("poses {json} --count 5 --csv {plan} --quiet {LOADS}")).good();
     let err = stiffarm(&["predict", &json, &plan]).refused();
     assert!(err.contains("found nothing measured") && err.contains("--csv OUT"), "{err}");
     // Measured as they were predicted there is no gap.
-    let expected = text(&folder.path("expected.csv"));
+    let expected = folder.name("expected.csv");
     let written = stiffarm(&["predict", &json, &plan, "--csv", &expected]).good();
     assert!(
         written.contains("Nothing is measured") || written.contains("None is judged"),
         "{written}"
     );
-    let none = value(&stiffarm(&["predict", &better, &expected, "--json", "-"]).good());
+    let none = stiffarm(&["predict", &better, &expected, "--json", "-"]).json();
     assert!(none["gap"]["position_max"].as_f64().expect("a number") < 1e-12, "{none:#}");
     // Beyond the loads of the diagnosis nothing is judged.
     let heavy = read(&expected).replace("-2000,", "-9000,").replace("1500,", "9000,");
     let heavy = folder.file("heavy.csv", heavy);
     let out = stiffarm(&["predict", &json, &heavy, "--json", "-", "--quiet"]).good();
-    assert_eq!((&value(&out)["inside"], &value(&out)["gap"]), (&0.into(), &Value::Null), "{out}");
+    assert_eq!(
+        (&crate::support::json(&out)["inside"], &crate::support::json(&out)["gap"]),
+        (&0.into(), &Value::Null),
+        "{out}"
+    );
 }
 
 /// What goes with the load and gives beyond the table is in a map of the corrected arm.
@@ -147,9 +137,8 @@ fn a_map_is_of_the_corrected_arm() {
     let folder = Folder::new();
     let [better, json] = corrected(&folder);
     let map = |robot: &str| -> Vec<f64> {
-        let of = ["--over", "q2,q3", "--of", "deflection", "--wrench", "0,0,-2000,0,0,0"];
-        let out = ["--steps", "3", "--csv", "-"];
-        let out = stiffarm(&[&["map", robot][..], &of, &out].concat()).good();
+        let of = "--over q2,q3 --of deflection --wrench 0,0,-2000,0,0,0";
+        let out = run(&format!("map {robot} {of} --steps 3 --csv -")).good();
         out.lines()
             .skip(1)
             .map(|l| l.rsplit(',').next().expect("a cell").parse().expect("mm"))

@@ -1,9 +1,8 @@
 //! `stiffarm effects`, and the page that it writes.
 
-use serde_json::Value;
 use stiffarm_gap::effects::{Entry, Law};
 
-use crate::support::stiffarm;
+use crate::support::{flat, stiffarm};
 use crate::workbench::same;
 
 #[test]
@@ -13,11 +12,10 @@ fn the_page_is_the_catalogue() {
 
 #[test]
 fn every_effect_is_printed_with_what_it_says() {
-    let found: Value =
-        serde_json::from_str(&stiffarm(&["effects", "--json"]).good()).expect("JSON");
+    let found = stiffarm(&["effects", "--json"]).json();
     let found = found.as_array().expect("a list");
     let screen = stiffarm(&["effects"]).good();
-    let joined = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+    let joined = flat(&screen);
     let all = Entry::all();
     let laws: Vec<&dyn Law> = all.iter().flat_map(Entry::laws).collect();
     assert_eq!(found.len(), laws.len());
@@ -31,24 +29,4 @@ fn every_effect_is_printed_with_what_it_says() {
         }
     }
     assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
-}
-
-#[test]
-fn some_are_printed_alone() {
-    let out = stiffarm(&["effects", "transmission_error", "latency"]).good();
-    assert!(out.starts_with("transmission_error  joint i\n"), "{out}");
-    assert!(out.contains("numbers        order, cos (rad), sin (rad)\n"), "{out}");
-    assert!(out.contains("\n\nlatency  instrument\n") && out.contains("delay (s)"), "{out}");
-    assert!(out.contains("\n\nlatency  the interface; positions of a log\n"), "{out}");
-    // A law by the name that findings in a log have, and the effect whose law it is.
-    let of_log = stiffarm(&["effects", "servo_droop"]).good();
-    assert_eq!(of_log, stiffarm(&["effects", "joint_compliance"]).good());
-    assert!(of_log.contains("\n\nservo_droop  joint i; positions of a log\n"), "{of_log}");
-    let friction = stiffarm(&["effects", "coulomb_friction"]).good();
-    assert!(friction.starts_with("coulomb_friction  joint i; torques of a log\n"), "{friction}");
-    let err = stiffarm(&["effects", "latncy"]).refused();
-    assert!(
-        err.contains("`latncy`; did you mean `latency`?") && err.contains("backlash,"),
-        "{err}"
-    );
 }

@@ -3,7 +3,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::support::{Folder, REPOSITORY, command, read, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, command, read, run, stiffarm};
 
 const LIN: [&str; 3] = ["diagnose", "lin_planar", "robots/data/lin1991_table3.csv"];
 const SPRINGS: [&str; 3] = ["identify", "docs/workbench/arm.toml", "docs/workbench/run.csv"];
@@ -115,131 +115,22 @@ fn a_closed_pipe_is_no_mistake() {
     }
 }
 
-/// Where in a command a file is read.
-const READS: [(&[&str], usize); 7] = [
-    (&URDF, 1),
-    (&SPRINGS, 1),
-    (&SPRINGS, 2),
-    (&LIN, 2),
-    (&COMPENSATE, 1),
-    (&COMPENSATE, 3),
-    (&PAPER, 1),
-];
-
 #[test]
-fn files_that_cannot_be_read_are_named() {
-    let folder = Folder::new();
-    let garbage = folder.file("garbage", b"\xff\xfe\x00\x9fnot,a\ntext");
-    let empty = folder.file("empty", "");
-    for (arguments, at) in READS {
-        let mut arguments = arguments.to_vec();
-        if arguments[0] == "compensate" {
-            arguments.extend(["--out", "-"]);
-        }
-        if arguments[0] == "import" {
-            arguments.extend(["--toml", "-"]);
-        }
-        for (file, named) in [
-            ("no/such.file", "no/such.file"),
-            ("docs", "docs"),
-            (&garbage, "garbage"),
-            (&empty, "empty"),
-        ] {
-            arguments[at] = file;
-            let err = stiffarm(&arguments).refused();
-            assert!(err.contains(named), "{arguments:?}: {err}");
-            assert!(err.contains("error"), "{arguments:?}: {err}");
-        }
-    }
-}
-
-#[test]
-fn a_missing_column_is_named() {
-    let folder = Folder::new();
-    let without = |file: &str, column: &str| {
-        let whole = read(file);
-        let mut lines = whole.lines().filter(|line| !line.starts_with('#'));
-        let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
-        let gone = header.iter().position(|name| name.starts_with(column)).expect("a column");
-        let kept = |line: &str| {
-            let cells = line.split(',').enumerate().filter(|(k, _)| *k != gone);
-            cells.map(|(_, cell)| cell).collect::<Vec<_>>().join(",")
-        };
-        let rest: Vec<String> =
-            std::iter::once(header.join(",").as_str()).chain(lines).map(kept).collect();
-        folder.file("less.csv", rest.join("\n"))
-    };
-    for (arguments, at, file, column) in [
-        (&SPRINGS[..], 2, "docs/workbench/run.csv", "q3"),
-        (&["diagnose", SPRINGS[1], ""], 2, "docs/workbench/run.csv", "q3"),
-        (&["diagnose", SPRINGS[1], ""], 2, "docs/workbench/check.csv", "y"),
-        (&COMPENSATE[..], 3, "docs/workbench/path.csv", "z"),
-    ] {
-        let less = text(std::path::Path::new(&without(file, column)));
-        let mut arguments = arguments.to_vec();
-        arguments[at] = &less;
-        if arguments[0] == "compensate" {
-            arguments.extend(["--out", "-"]);
-        }
-        let err = stiffarm(&arguments).refused();
-        let named = err.contains(&format!("`{column}`")) || err.contains(&format!(" {column}"));
-        assert!(named && err.contains("less.csv"), "{arguments:?}: {err}");
-    }
-}
-
-#[test]
-fn results_are_not_written_over_each_other_or_over_what_is_read() {
+fn results_are_not_written_over_a_link_to_what_is_read() {
     let folder = Folder::new();
     let robot = folder.file("arm.toml", read(SPRINGS[1]));
     let data = folder.file("run.csv", read("docs/workbench/check.csv"));
-    let link = text(&folder.path("link.csv"));
+    let link = folder.name("link.csv");
     #[cfg(unix)]
     std::os::unix::fs::symlink(&data, &link).expect("a link");
     #[cfg(windows)]
     std::os::windows::fs::symlink_file(&data, &link).expect("a link");
-    let (there, same) = (read("docs/workbench/check.csv"), read(SPRINGS[1]));
-    for (arguments, over) in [
-        (&["diagnose", &robot, &data, "--report", &data][..], "--report would write over DATA"),
-        (&["diagnose", &robot, &data, "--json", &link], "--json would write over DATA"),
-        (
-            &["diagnose", &robot, &data, "--write-robot", &robot],
-            "--write-robot would write over ROBOT",
-        ),
-        (
-            &["diagnose", &robot, &data, "--check", &link, "--json", &link],
-            "--json would write over",
-        ),
-        (&["identify", &robot, "docs/workbench/run.csv", "--write-robot", &robot], "over ROBOT"),
-        (&["simulate", &robot, &data, "--csv", &data], "--csv would write over DATA"),
-        (
-            &["compensate", &robot, "--targets", &data, "--out", &data],
-            "--out would write over --targets",
-        ),
-        (&["generate", &robot, "--emit", "rust", "--out", &robot], "--out would write over ROBOT"),
-        (
-            &["eval", &robot, "--q", "0,0,0,0,0,0", "--json", &robot],
-            "--json would write over ROBOT",
-        ),
-    ] {
-        let err = stiffarm(arguments).refused();
-        assert!(err.contains(over), "{arguments:?}: {err}");
+    let there = read("docs/workbench/check.csv");
+    for outputs in ["--json", "--check docs/workbench/check.csv --json"] {
+        let err = run(&format!("diagnose {robot} {data} {outputs} {link}")).refused();
+        assert!(err.contains("--json would write over DATA"), "{err}");
     }
-    let out = text(&folder.path("out"));
-    let err = stiffarm(&["diagnose", &robot, &data, "--json", &out, "--report", &out]).refused();
-    assert!(err.contains("--report would write over --json"), "{err}");
-    assert_eq!(std::fs::read_to_string(&data).expect("there"), there);
-    assert_eq!(std::fs::read_to_string(&robot).expect("there"), same);
-    assert_eq!(folder.names(), ["arm.toml", "link.csv", "run.csv"]);
+    assert_eq!(read(&data), there);
     // What is no file takes whatever comes.
-    stiffarm(&[
-        "diagnose",
-        &robot,
-        &data,
-        "--json",
-        "/dev/null",
-        "--report",
-        "/dev/null",
-        "--quiet",
-    ])
-    .good();
+    run(&format!("diagnose {robot} {data} --json /dev/null --report /dev/null --quiet")).good();
 }

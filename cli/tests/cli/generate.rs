@@ -4,7 +4,7 @@ use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm};
 
 /// The robots of the collection by id.
 fn collection() -> impl Iterator<Item = (&'static str, Robot)> {
@@ -29,7 +29,7 @@ fn the_same_table_gives_the_same_bytes() {
 #[test]
 fn what_is_written_can_be_checked() {
     let folder = Folder::new();
-    let file = text(&folder.path("ur5.rs"));
+    let file = folder.name("ur5.rs");
     let of = |extra: &[&str]| stiffarm(&[&["generate", "ur5", "--emit", "rust"], extra].concat());
     assert_eq!(of(&["--out", &file]).good(), "");
     assert_eq!(std::fs::read_to_string(&file).expect("written"), of(&[]).good());
@@ -47,7 +47,7 @@ fn a_missing_folder_is_made() {
         ("rust", "other/src/ur5.rs", &["ur5.rs"]),
     ] {
         let of = |to: &str| {
-            let path = text(&folder.path(out));
+            let path = folder.name(out);
             stiffarm(&["generate", "ur5", "--emit", emit, to, &path])
         };
         assert_eq!(of("--out").good(), "");
@@ -61,7 +61,7 @@ fn a_missing_folder_is_made() {
         assert_eq!(there, names);
     }
     let file = folder.file("file", "before");
-    let under = text(&folder.path("file/src/ur5.rs"));
+    let under = folder.name("file/src/ur5.rs");
     let err = stiffarm(&["generate", "ur5", "--emit", "rust", "--out", &under]).refused();
     assert!(err.contains("cannot write "), "{err}");
     assert_eq!(std::fs::read_to_string(&file).expect("there"), "before");
@@ -129,33 +129,11 @@ fn the_command_writes_what_the_library_returns_after_a_head() {
 
 #[test]
 fn the_command_fuses_rust_alone() {
-    let generate = |arguments: &[&str]| {
-        stiffarm(&[&["generate", "robots/arms/ur10.toml"], arguments].concat())
-    };
     let (_, robot) = collection().find(|(id, _)| *id == "ur10").expect("in the collection");
     let text = rust(&robot, &RustOptions { fused: true, ..RustOptions::default() });
-    let written = generate(&["--emit", "rust", "--fused"]).out;
+    let fused = ["generate", "robots/arms/ur10.toml", "--emit", "rust", "--fused"];
+    let written = stiffarm(&fused).out;
     assert!(written.strip_prefix(FILE_HEAD) == Some(&text));
-    for (arguments, message) in [
-        (&["--emit", "c", "--fused", "--out", "nowhere"][..], "--fused is for rust"),
-        (&["--emit", "latex", "--fused"], "--fused is for rust"),
-        (&["--emit", "rust", "--fused", "--flexible"], "cannot be used with"),
-    ] {
-        let said = generate(arguments).refused();
-        assert!(said.contains(message), "{arguments:?}: {said}");
-    }
-}
-
-/// Of a PUMA 560 motion tells 36 numbers (as many as Pinocchio's regressor has ranks), those of its last link among them.
-#[test]
-fn base_parameters_are_listed() {
-    let out = stiffarm(&["generate", "puma560", "--emit", "base"]).good();
-    assert!(out.contains(": 36 base parameters of 60 moments of mass\n"), "{out}");
-    assert_eq!(out.lines().count(), 2 + 36);
-    assert!(out.contains("\n    55  xx6 - yy6\n"), "{out}");
-    let refused =
-        stiffarm(&["generate", "puma560", "--emit", "base", "--outputs", "pose"]).refused();
-    assert!(refused.contains("base, which are of the arm itself"), "{refused}");
 }
 
 /// The block of docs/dynamics.md is what its command prints, but for the lines that `…` stands for.

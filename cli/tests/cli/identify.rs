@@ -4,7 +4,7 @@ use nalgebra::Vector6;
 use serde_json::Value;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, flat, read, stiffarm};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
@@ -61,8 +61,7 @@ fn a_row_with_a_hole_is_left_out_and_said() {
 const LOADS: [[f64; 3]; 3] = [[0.0, 0.0, -2.0], [1.5, -1.0, 0.0], [0.0, 1.5, 0.5]];
 
 fn json(arguments: &[&str]) -> Value {
-    let out = stiffarm(&[&["identify"], arguments, &["--json", "-"]].concat()).good();
-    serde_json::from_str(&out).expect("JSON")
+    stiffarm(&[&["identify"], arguments, &["--json", "-"]].concat()).json()
 }
 
 #[test]
@@ -83,7 +82,7 @@ fn stiffnesses_are_found_and_written() {
     let sizes = |when: &str| found["gap"][when]["position_rms"].as_f64().expect("a size");
     // Rounding to 0.01 mm: 0.0029 mm per coordinate, 0.005 mm over three.
     assert!(sizes("held_out") < 7e-6 && sizes("before") > 2e-5, "{found}");
-    let out = text(&folder.path("stiff.toml"));
+    let out = folder.name("stiff.toml");
     let screen = stiffarm(&["identify", &robot, &data, "--write-robot", &out]).good();
     for expected in ["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"] {
         assert!(screen.contains(expected), "no `{expected}` in\n{screen}");
@@ -104,7 +103,7 @@ fn what_a_hanging_weight_does_not_show_is_said() {
     let held = &json(&[&robot, &data])["parameters"][0];
     assert_eq!(held["status"], "held");
     assert!(held["ci95"].is_null() && held["stiffness_ci95"].is_null(), "{held}");
-    let out = text(&folder.path("stiff.toml"));
+    let out = folder.name("stiff.toml");
     stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
     let toml = std::fs::read_to_string(&out).expect("written");
     assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
@@ -120,7 +119,7 @@ fn a_spring_where_the_file_has_none_is_said_as_such() {
     let rigid: Vec<&str> = soft.lines().filter(springs).collect();
     let rigid = folder.file("rigid.toml", rigid.join("\n"));
     let screen = stiffarm(&["identify", &rigid, &data]).good();
-    let said = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = flat(&screen);
     assert!(said.contains("N·m/rad where the robot file has none"), "{screen}");
     assert!(!said.contains("as in the robot file"), "{screen}");
 }
@@ -139,39 +138,21 @@ fn the_base_can_be_asked_for() {
 fn the_foundation_is_written() {
     let folder = Folder::new();
     let (robot, plan) = run(&folder, 12, &LOADS);
-    let founded = text(&folder.path("founded.csv"));
+    let founded = folder.name("founded.csv");
     let gives = "base_compliance@base:rock_x=2e-8,rock_y=3e-8,give=4e-9";
-    let exact = ["--noise-position", "0um", "--csv", &founded, "--quiet"];
-    stiffarm(&[&["simulate", &robot, &plan, "--effect", gives], &exact[..]].concat()).good();
-    let out = text(&folder.path("founded.toml"));
+    let exact = "--noise-position 0um --quiet";
+    crate::support::run(&format!(
+        "simulate {robot} {plan} --effect {gives} --csv {founded} {exact}"
+    ))
+    .good();
+    let out = folder.name("founded.toml");
     stiffarm(&["identify", &robot, &founded, "--base", "--write-robot", &out, "--quiet"]).good();
     let toml = read(&out);
     assert!(toml.contains("id = \"base_compliance\"") && toml.contains("give = "), "{toml}");
     let gap = |robot: &str| -> f64 {
-        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).good();
-        let said: Value = serde_json::from_str(&said).expect("JSON");
+        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).json();
         said["gap"]["position_max"].as_f64().expect("a number")
     };
     // The file's six digits, of a foundation that is a part of what gives.
     assert!(gap(&out) < 1e-4 * gap(&robot), "{} {}", gap(&out), gap(&robot));
-}
-
-#[test]
-fn what_cannot_be_identified_is_refused() {
-    let folder = Folder::new();
-    let (robot, data) = run(&folder, 4, &LOADS);
-    let refused = |arguments: &[&str], expected: &str| {
-        let err = stiffarm(&[&["identify"], arguments].concat()).refused();
-        assert!(err.contains(expected), "no `{expected}` in\n{err}");
-    };
-    refused(&[&robot, &data, "--folds", "9"], "found 9 folds, expected 2 to 4");
-    refused(&[&robot, &data, "--noise-position", "3"], "expected a positive number and its unit");
-    refused(&[&robot, "no.csv"], "cannot read no.csv");
-    refused(&[&robot, &data, "--json", "-", "--write-robot", "-"], "cannot both go");
-    let unloaded = folder.file("unloaded.csv", "q1,q2,q3,q4,q5,q6,dx\n0,0,0,0,0,0,1e-3\n");
-    refused(&[&robot, &unloaded], "found no load in any row");
-    let broken = folder.file("broken.csv", "q1,q2,q3,q4,q5,q6,fx,dx\n0,0,0,0,0,0,a,1e-3\n");
-    refused(&[&robot, &broken], "broken.csv:2:13\n");
-    let missing = text(&folder.path("no/such.toml"));
-    refused(&[&robot, &data, "--write-robot", &missing], "no such file or folder");
 }

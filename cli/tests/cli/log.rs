@@ -6,27 +6,11 @@ mod real;
 
 use std::fmt::Write as _;
 
-use serde_json::Value;
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, flat, number, read, run, stiffarm};
 
-const PENDULUM: &str = "\
-name = \"pendulum\"
-convention = \"standard\"
-gravity = [0.0, -9.80665, 0.0]
-
-[[joint]]
-type = \"revolute\"
-name = \"swing\"
-theta = 0.0
-d = 0.0
-a = 0.8
-alpha = 0.0
-mass = 3.0
-com = [0.0, 0.0, 0.0]
-limits = [-2.5, 2.5]
-";
+const PENDULUM: &str = include_str!("log/pendulum.toml");
 
 /// Torque of a point mass of 3 kg at 0.8 m, with 2 N·m of Coulomb friction and 0.7 N·m·s/rad: rows at
 /// 100 Hz under a header.
@@ -56,16 +40,14 @@ fn friction_is_told_with_its_numbers() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows(HEADER));
-    let json = folder.path("log.json");
-    let json = json.to_str().expect("a path");
-    let side = ["--torque-side", "motor", "--json", json];
-    let out = stiffarm(&[&["diagnose", &robot, &log][..], &side].concat()).good();
+    let json = folder.name("log.json");
+    let out = run(&format!("diagnose {robot} {log} --torque-side motor --json {json}")).good();
     assert!(out.contains("coulomb friction at joint 1"), "{out}");
     assert!(out.contains("viscous friction at joint 1"), "{out}");
     assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let text = std::fs::read_to_string(json).expect("written");
-    let found: Value = serde_json::from_str(&text).expect("JSON");
+    let text = read(&json);
+    let found = crate::support::json(&text);
     let value = |effect: &str| {
         let list = found["findings"].as_array().expect("a list");
         let finding = list.iter().find(|f| f["effect"] == effect).expect("found");
@@ -77,31 +59,13 @@ fn friction_is_told_with_its_numbers() {
     assert_eq!(found["torque_side"], "motor");
     // Of one joint the whole is its own.
     let (shrink, gap) = (&found["shrink"], &found["gap"][0]);
-    let number = |of: &Value| of.as_f64().expect("a number");
     let part = 1.0 - number(&gap["after"]) / number(&gap["before"]);
     let [low, high] = [0, 1].map(|end| number(&shrink["shrink_ci95"][end]));
     assert!((number(&shrink["shrink"]) - part).abs() < 1e-12, "{text}");
     assert!(low < part && part < high && high - low < 0.2, "{text}");
     let [part, low, high] = [part, low, high].map(|x| (100.0 * x).round());
-    let told = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let told = flat(&out);
     assert!(told.contains(&format!("{part} % less [{low} to {high}]")), "{out}");
-}
-
-#[test]
-fn a_side_is_declared_and_never_guessed() {
-    let folder = Folder::new();
-    let robot = folder.file("pendulum.toml", PENDULUM);
-    let log = folder.file("log.csv", rows(HEADER));
-    let err = stiffarm(&["diagnose", &robot, &log]).refused();
-    assert_eq!(err.lines().count(), 1, "{err}");
-    assert!(
-        err.contains("found torques without a side, expected where they are measured"),
-        "{err}"
-    );
-    let external = ["diagnose", &robot, &log, "--torque-side", "external"];
-    assert!(stiffarm(&external).refused().contains("found torque_side external"));
-    let log = folder.file("said.csv", format!("# torque_side = motor\n{}", rows(HEADER)));
-    stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
 }
 
 #[test]
@@ -120,22 +84,6 @@ fn others_names_and_damaged_rows_are_read() {
     );
     // A column of currents says itself what it is; its friction is in ampere.
     assert!(run.out.contains("torques, current") && run.out.contains("] A\n"), "{}", run.out);
-    let wrong = ["diagnose", &robot, &log, "--map", "excel"];
-    assert!(stiffarm(&wrong).refused().contains("expected a file or one of ros, rtde"));
-}
-
-#[test]
-fn options_go_with_what_the_file_is() {
-    let folder = Folder::new();
-    let robot = folder.file("pendulum.toml", PENDULUM);
-    let log = folder.file("log.csv", rows(HEADER));
-    let nuisance = ["diagnose", &robot, &log, "--nuisance", "base_frame"];
-    assert!(stiffarm(&nuisance).refused().contains("--nuisance is for measurement files"));
-    let data = "robots/data/lin1991_table3.csv";
-    let band = ["diagnose", "lin_planar", data, "--band", "5Hz"];
-    assert!(stiffarm(&band).refused().contains("--band is for joint logs"));
-    let two = ["diagnose", "lin_planar", data, data];
-    assert!(stiffarm(&two).refused().contains("found the same file twice"));
 }
 
 /// The search that has not seen a block leaves at least what the fit of all findings leaves, and of two
@@ -145,20 +93,18 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
     let log = folder.file("log.csv", rows(HEADER));
-    let json = text(&folder.path("log.json"));
-    let run = ["diagnose", &robot, &log, "--torque-side", "motor", "--nested", "--json", &json];
-    let only = ["--effects", "coulomb_friction,viscous_friction,rotor_inertia"];
-    let page = text(&folder.path("log.html"));
-    let out = stiffarm(&[&run[..], &only, &["--report", &page]].concat()).good();
+    let json = folder.name("log.json");
+    let only = "--torque-side motor --effects coulomb_friction,viscous_friction,rotor_inertia";
+    let page = folder.name("log.html");
+    let written = format!("--json {json} --report {page}");
+    let out = run(&format!("diagnose {robot} {log} {only} --nested {written}")).good();
     assert!(out.contains("search repeated") && out.contains("With the search repeated"), "{out}");
     let page = read(&page);
     assert!(page.contains("<th scope=\"col\">search repeated</th>"), "{page}");
-    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let found = crate::support::json(&read(&json));
     let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
-    let plain =
-        stiffarm(&[&["diagnose", &robot, &log, "--torque-side", "motor"], &only[..]].concat());
-    assert!(!plain.good().contains("search repeated"));
+    assert!(!run(&format!("diagnose {robot} {log} {only}")).good().contains("search repeated"));
 }
 
 #[test]
@@ -174,16 +120,14 @@ fn degrees_and_slow_logs_are_told() {
         let lines: String = all.iter().step_by(every).map(told).collect();
         folder.file(name, format!("# torque_side = motor\n{HEADER}\n{lines}"))
     };
-    let few = ["--effects", "coulomb_friction,latency,presliding"];
-    let degrees = file("degrees.csv", 1, 180.0 / core::f64::consts::PI);
-    let told = stiffarm(&[&["diagnose", &robot, &degrees][..], &few].concat());
+    let few = |log: String, more: &str| {
+        run(&format!("diagnose {robot} {log} --effects coulomb_friction,latency,presliding {more}"))
+    };
+    let told = few(file("degrees.csv", 1, 180.0 / core::f64::consts::PI), "");
     assert!(told.err.contains("are they in degrees? write q1[deg]"), "{}", told.err);
-    let slow = file("slow.csv", 10, 1.0);
-    let out = stiffarm(&[&["diagnose", &robot, &slow][..], &few].concat()).good();
+    let out = few(file("slow.csv", 10, 1.0), "").good();
     assert!(out.contains("latency at the interface: a sample every 100 ms is held"), "{out}");
     assert!(out.contains("presliding at joint 1: its reversals are over in"), "{out}");
-    let fast = file("fast.csv", 1, 1.0);
-    let out =
-        stiffarm(&[&["diagnose", &robot, &fast][..], &few, &["--band", "20Hz"]].concat()).good();
+    let out = few(file("fast.csv", 1, 1.0), "--band 20Hz").good();
     assert!(!out.contains("its reversals are over in"), "{out}");
 }

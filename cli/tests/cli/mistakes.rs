@@ -1,18 +1,14 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use serde_json::Value;
-
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, flat, read, run};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
-    let path = text(&folder.path("given.csv"));
-    let zeros =
-        ["--effect", "joint_offset@joint 2=3 mrad", "--effect", "joint_offset@joint 4=-2 mrad"];
-    let given = ["simulate", "ur5", "--poses", "40", "--payload", "0kg", "--measure", "position"];
-    let noise = ["--noise-position", "30um", "--csv", &path];
-    stiffarm(&[&given[..], &zeros[..], &noise[..]].concat()).good();
-    let all = std::fs::read_to_string(&path).expect("measurements");
+    let path = folder.name("given.csv");
+    let zeros = "--effect 'joint_offset@joint 2=3 mrad' --effect 'joint_offset@joint 4=-2 mrad'";
+    let given = "--poses 40 --payload 0kg --measure position --noise-position 30um";
+    run(&format!("simulate ur5 {given} {zeros} --csv {path}")).good();
+    let all = read(&path);
     let mut lines = all.lines().filter(|line| !line.starts_with('#'));
     let header = lines.next().expect("a header").to_owned();
     let cells = |line: &str| line.split(',').map(str::to_owned).collect();
@@ -31,14 +27,14 @@ fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> Stri
 }
 
 /// What a run prints that may have doubts beside it.
-fn good(arguments: &[&str]) -> String {
-    let ended = stiffarm(arguments);
+fn good(line: &str) -> String {
+    let ended = run(line);
     assert_eq!(ended.status, 0, "{}", ended.err);
     // Lines are broken where the screen ends.
-    ended.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    flat(&ended.out)
 }
 
-const FRAMES: [&str; 2] = ["--nuisance", "base_frame,tool_frame"];
+const FRAMES: &str = "--nuisance base_frame,tool_frame";
 
 #[test]
 fn a_coupling_is_named_and_written() {
@@ -50,20 +46,19 @@ fn a_coupling_is_named_and_written() {
         row[three] = (number(three) + number(two)).to_string();
     }
     let data = file(&folder, "coupled.csv", &header, &rows);
-    let [json, robot] = ["found.json", "better.toml"].map(|name| text(&folder.path(name)));
-    let outputs = ["--json", &json, "--write-robot", &robot];
-    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..], &outputs[..]].concat());
+    let [json, robot] = ["found.json", "better.toml"].map(|name| folder.name(name));
+    let outputs = format!("--json {json} --write-robot {robot}");
+    let shown = good(&format!("diagnose ur5 {data} {FRAMES} {outputs}"));
     assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
     assert!(shown.contains("instead of"), "{shown}");
-    let told = std::fs::read_to_string(&json).expect("a diagnosis");
-    let told: Value = serde_json::from_str(&told).expect("JSON");
+    let told = crate::support::json(&read(&json));
     let wrong = &told["mistaken"]["mistakes"][0];
     assert_eq!(
         (&wrong["kind"], &wrong["in_robot_file"]),
         (&"reading_coupling".into(), &true.into())
     );
     // The written arm has nothing wrong with it.
-    let again = good(&[&["diagnose", &robot, &data], &FRAMES[..]].concat());
+    let again = good(&format!("diagnose {robot} {data} {FRAMES}"));
     assert!(!again.contains("Joint 3's reading"), "{again}");
 }
 
@@ -83,11 +78,10 @@ fn amounts_are_measured_and_written() {
     let turned = spoilt("turned.csv", three, &|q| q - 37_f64.to_radians());
     let scaled = spoilt("scaled.csv", three, &|q| q / 0.7);
     for (data, said) in [(&turned, "J3 := J3 + 37.0"), (&scaled, "J3 := 0.700")] {
-        let robot = text(&folder.path("better.toml"));
-        let write = ["--write-robot", &robot];
-        let shown = good(&[&["diagnose", "ur5", data], &FRAMES[..], &write[..]].concat());
+        let robot = folder.name("better.toml");
+        let shown = good(&format!("diagnose ur5 {data} {FRAMES} --write-robot {robot}"));
         assert!(shown.contains(said), "{shown}");
-        let again = good(&[&["diagnose", &robot, data], &FRAMES[..]].concat());
+        let again = good(&format!("diagnose {robot} {data} {FRAMES}"));
         assert!(!again.contains("Mistaken"), "{again}");
     }
 }
@@ -99,7 +93,7 @@ fn exchanged_coordinates_are_to_be_mended_in_the_measurements() {
     let [x, y] = ["x", "y"].map(|name| column(&header, name));
     rows.iter_mut().for_each(|row| row.swap(x, y));
     let data = file(&folder, "exchanged.csv", &header, &rows);
-    let shown = good(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    let shown = good(&format!("diagnose ur5 {data} {FRAMES}"));
     assert!(shown.contains("exchange the names x and y"), "{shown}");
 }
 
@@ -114,8 +108,8 @@ fn rows_of_other_poses_are_no_arm() {
         measured.iter().for_each(|k| row[*k].clone_from(&was[(number + 7) % was.len()][*k]));
     }
     let data = file(&folder, "other.csv", &header, &rows);
-    let ended = stiffarm(&[&["diagnose", "ur5", &data], &FRAMES[..]].concat());
+    let ended = run(&format!("diagnose ur5 {data} {FRAMES}"));
     assert_eq!(ended.status, 3, "{}", ended.err);
-    let out = ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");
 }

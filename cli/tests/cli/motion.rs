@@ -2,50 +2,10 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, read, run, stiffarm};
 
 /// An elbow above an upright axis, with rotors and friction.
-pub const ELBOW: &str = "\
-name = \"elbow\"
-convention = \"standard\"
-
-[[joint]]
-type = \"revolute\"
-d = 0.4
-alpha = \"pi/2\"
-mass = 8.0
-com = [0.0, -0.1, 0.0]
-inertia = [0.1, 0.0, 0.0, 0.1, 0.0, 0.1]
-gear = 100.0
-rotor_inertia = 5e-5
-coulomb = 4.0
-viscous = 3.0
-limits = [-2.5, 2.5]
-
-[[joint]]
-type = \"revolute\"
-a = 0.5
-mass = 6.0
-com = [-0.25, 0.0, 0.0]
-inertia = [0.02, 0.0, 0.0, 0.15, 0.0, 0.15]
-gear = 100.0
-rotor_inertia = 5e-5
-coulomb = 4.0
-viscous = 3.0
-limits = [-1.0, 2.0]
-
-[[joint]]
-type = \"revolute\"
-a = 0.4
-mass = 3.0
-com = [-0.2, 0.0, 0.0]
-inertia = [0.01, 0.0, 0.0, 0.05, 0.0, 0.05]
-gear = 100.0
-rotor_inertia = 2e-5
-coulomb = 2.0
-viscous = 1.0
-limits = [-2.0, 2.0]
-";
+pub const ELBOW: &str = include_str!("../../../tests/data/elbow.toml");
 
 fn columns(csv: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
     let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
@@ -58,22 +18,20 @@ fn columns(csv: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
 fn a_simulated_log_is_diagnosed() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let log = text(&folder.path("log.csv"));
-    let effect = ["--effect", "coulomb_friction@joint 2=3 N·m"];
-    let run = [&["simulate", &robot, "--log", &log], &effect[..]].concat();
-    stiffarm(&run).good();
-    let written = std::fs::read_to_string(&log).expect("written");
+    let log = folder.name("log.csv");
+    let moved = |to: &str| {
+        run(&format!("simulate {robot} --effect 'coulomb_friction@joint 2=3 N·m' --log {to}"))
+            .good()
+    };
+    moved(&log);
+    let written = read(&log);
     assert!(written.contains("# effect coulomb_friction@joint 2:coulomb=3e0 (SI)"), "{written}");
     assert!(written.contains("# torque_side = motor"), "{written}");
     let found = stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
     assert!(found.contains("coulomb friction at joint 2"), "{found}");
     // The same bytes again; without the effect's name where it is withheld.
-    let again = |extra: &[&str]| {
-        let run = [&["simulate", &robot, "--log", "-"], &effect[..], extra].concat();
-        stiffarm(&run).good()
-    };
-    assert_eq!(again(&[]), written);
-    let blind = again(&["--withhold"]);
+    assert_eq!(moved("-"), written);
+    let blind = moved("- --withhold");
     assert!(blind.contains("# effects withheld") && !blind.contains("coulomb"), "{blind}");
 }
 
@@ -84,12 +42,10 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let effect = "\n[[effect]]\nid = \"coulomb_friction\"\nplace = \"joint 2\"\ncoulomb = 3.0\n";
     let plain = folder.file("elbow.toml", ELBOW);
     let robot = folder.file("knows.toml", format!("{ELBOW}{effect}"));
-    let log = text(&folder.path("log.csv"));
+    let log = folder.name("log.csv");
     stiffarm(&["simulate", &robot, "--log", &log, "--lost", "0%"]).good();
-    let only = ["--effects", "coulomb_friction", "--json", "-"];
-    let found = |robot: &str| -> Value {
-        let run = [&["diagnose", robot, &log], &only[..]].concat();
-        serde_json::from_str(&stiffarm(&run).good()).expect("JSON")
+    let found = |robot: &str| {
+        run(&format!("diagnose {robot} {log} --effects coulomb_friction --json -")).json()
     };
     let without = found(&plain);
     assert_eq!(without["findings"][0]["place"], "joint 2", "{without:#}");
@@ -98,20 +54,11 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let known = found(&robot);
     let again = known["findings"].as_array().expect("a list").iter();
     assert!(again.clone().all(|f| f["place"] != "joint 2"), "{known:#}");
-    // No plant of motion has a law for what is at rest alone.
-    let soft = folder.file(
-        "soft.toml",
-        format!("{ELBOW}\n[[effect]]\nid = \"transmission_error\"\nplace = \"joint 2\"\norder = 2\ncos = 1e-4\n"),
-    );
-    let told = stiffarm(&["simulate", &soft, "--log", "-"]).refused();
-    assert!(told.contains("has no law for it"), "{told}");
-    let run = ["withhold", &robot, "--motion", "--cases", "2", "--period", "15s", "--json", "-"];
-    let page = text(&folder.path("check.html"));
-    let also = ["--effects", "viscous_friction", "--report", &page];
-    let json = stiffarm(&[&run[..], &also].concat()).good();
-    let page = std::fs::read_to_string(page).expect("written");
+    let page = folder.name("check.html");
+    let few = "--motion --cases 2 --period 15s --effects viscous_friction";
+    let json = run(&format!("withhold {robot} {few} --json - --report {page}")).json();
+    let page = read(&page);
     assert!(page.contains("3 runs of ") && page.contains("viscous_friction"), "{page}");
-    let json: Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json["failed"], 0, "{json}");
 }
 
@@ -120,13 +67,12 @@ fn effects_of_a_robot_file_act_in_a_motion() {
 fn a_chosen_motion_is_what_simulate_takes() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let commands = text(&folder.path("commands.csv"));
-    let limits = ["--max-rate", "1.2", "--max-acceleration", "4"];
-    let plan = ["poses", &robot, "--for", "motion", "--period", "8s", "--harmonics", "5"];
-    let screen = stiffarm(&[&plan[..], &limits, &["--csv", &commands]].concat()).good();
+    let commands = folder.name("commands.csv");
+    let plan = "--for motion --period 8s --harmonics 5 --max-rate 1.2 --max-acceleration 4";
+    let screen = run(&format!("poses {robot} {plan} --csv {commands}")).good();
     assert!(screen.contains("coulomb friction at joint 3") && screen.contains(" ×"), "{screen}");
     assert!(screen.contains("rotor inertia at joint 1"), "{screen}");
-    let written = std::fs::read_to_string(&commands).expect("written");
+    let written = read(&commands);
     let (names, rows) = columns(&written);
     assert_eq!(names[..4], ["t[s]", "q_cmd1[rad]", "q_cmd2[rad]", "q_cmd3[rad]"]);
     assert_eq!(rows.len(), 801);
@@ -138,9 +84,8 @@ fn a_chosen_motion_is_what_simulate_takes() {
     }
     let still = |row: &[f64]| row[4..].iter().all(|rate| rate.abs() < 1e-6);
     assert!(still(&rows[0]) && still(&rows[800]));
-    let run =
-        ["simulate", &robot, &commands, "--log", "-", "--logged", "position", "--rate", "100Hz"];
-    let log = stiffarm(&[&run[..], &["--lost", "0%", "--jitter", "0s"]].concat()).good();
+    let exact = "--logged position --rate 100Hz --lost 0% --jitter 0s";
+    let log = run(&format!("simulate {robot} {commands} --log - {exact}")).good();
     let (names, followed) = columns(&log);
     assert_eq!(names[1..4], ["q1[rad]", "q2[rad]", "q3[rad]"]);
     for (sent, row) in rows.iter().zip(&followed) {
@@ -153,65 +98,22 @@ fn a_chosen_motion_is_what_simulate_takes() {
 fn two_effects_are_told_from_each_other_by_a_motion() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let plan = ["poses", &robot, "--for", "motion", "--harmonics", "4", "--csv"];
-    let pair = ["viscous_friction@joint 2", "friction_curve@joint 2"];
-    let csv = text(&folder.path("commands.csv"));
-    let screen = stiffarm(&[&plan[..], &[csv.as_str()], &pair].concat()).good();
+    let pair = "'viscous_friction@joint 2' 'friction_curve@joint 2'";
+    let csv = folder.name("commands.csv");
+    let plan = format!("poses {robot} --for motion --harmonics 4 --csv {csv} {pair}");
+    let screen = run(&plan).good();
     assert!(screen.contains("friction curve at joint 2: root"), "{screen}");
-    let same = ["torque_scale@joint 1", "rotor_inertia@joint 1"];
-    let told = stiffarm(&[&plan[..], &["-"], &same].concat()).refused();
-    assert!(told.contains("rotor_inertia at joint 1"), "{told}");
 }
 
 #[test]
 fn logs_are_withheld() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let effects = ["--effects", "coulomb_friction,viscous_friction"];
-    let run = ["withhold", &robot, "--motion", "--cases", "6", "--period", "15s", "--json", "-"];
-    let json: Value =
-        serde_json::from_str(&stiffarm(&[&run[..], &effects].concat()).good()).expect("JSON");
+    let few = "--motion --cases 6 --period 15s --effects coulomb_friction,viscous_friction";
+    let json = run(&format!("withhold {robot} {few} --json -")).json();
     assert_eq!(json["cases"].as_array().expect("cases").len(), 6);
     assert_eq!((&json["runs"], &json["failed"]), (&Value::from(3), &Value::from(0)));
     // How often it is right is the suite's to say: `tests/withheld/logs.rs`.
     assert_eq!(json["single"]["first_named"]["of"], 4, "{json}");
     assert_eq!(json["false_alarms"]["of"], 1, "{json}");
-}
-
-#[test]
-fn mistakes_are_told() {
-    let folder = Folder::new();
-    let robot = folder.file("elbow.toml", ELBOW);
-    let light = folder.file("light.toml", {
-        let kept = |line: &&str| {
-            !["mass", "inertia", "rotor", "com "].iter().any(|name| line.starts_with(name))
-        };
-        ELBOW.lines().filter(kept).collect::<Vec<_>>().join("\n")
-    });
-    let data = folder.file(
-        "few.csv",
-        "t[s],q1[rad],q2[rad],q3[rad],q_cmd1[rad],q_cmd2[rad],q_cmd3[rad]\n0,0,0,0,0,0,0\n",
-    );
-    let cases: [(&[&str], &str); 10] = [
-        (&["simulate", &robot, "--csv", "-", "--log", "x.csv"], "--log"),
-        (&["simulate", &robot], "--csv"),
-        (&["simulate", &robot, "--csv", "-", "--rate", "100Hz"], "--log"),
-        (&["simulate", &robot, "--log", "-", "--poses", "3"], "--poses"),
-        (
-            &["simulate", &robot, "--log", "-", "--effect", "backlash@joint 9=1"],
-            "expected one of joint 1",
-        ),
-        (
-            &["simulate", &robot, "--log", "-", "--max-rate", "1,2"],
-            "found 2 values of the largest rate",
-        ),
-        (&["simulate", &light, "--log", "-"], "move no mass"),
-        (&["simulate", &robot, &data, "--log", "-"], "expected a motion of three steps"),
-        (&["withhold", &robot, "--motion", "--effects", "gremlins"], "found `gremlins`"),
-        (&["poses", &robot, "--for", "motion", "--count", "3", "--csv", "-"], "leave out --count"),
-    ];
-    for (run, part) in cases {
-        let told = stiffarm(run).refused();
-        assert!(told.contains(part), "{run:?}: {told}");
-    }
 }

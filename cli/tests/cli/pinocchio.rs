@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::{Robot, Value as Cell};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Side};
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, json, read, run};
 
 /// One posture, by Pinocchio.
 struct Sample {
@@ -31,7 +31,7 @@ fn columns(value: &Value) -> Vec<f64> {
 
 fn data(robot: &str) -> (Value, Vec<Sample>) {
     let text = read(&format!("tests/data/pinocchio/{robot}.json"));
-    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let file = json(&text);
     let samples = file["samples"].as_array().expect("samples").iter().map(|s| Sample {
         q: numbers(&s["q"]),
         pose: [columns(&s["rotation"]), numbers(&s["position"])].concat(),
@@ -94,20 +94,10 @@ fn imported_robots_agree() {
     for robot in ["ur5", "kr240", "panda", "oblique"] {
         let (file, samples) = data(robot);
         let word = |key: &str| file[key].as_str().expect("text").to_owned();
-        let out = text(&folder.path("arm.toml"));
+        let out = folder.name("arm.toml");
         let (base, tip) = (word("base"), word("tip"));
-        stiffarm(&[
-            "--quiet",
-            "import",
-            &word("urdf"),
-            "--base",
-            &base,
-            "--tip",
-            &tip,
-            "--toml",
-            &out,
-        ])
-        .good();
+        let urdf = word("urdf");
+        run(&format!("--quiet import {urdf} --base {base} --tip {tip} --toml {out}")).good();
         let toml = std::fs::read_to_string(&out).expect("written");
         let (parsed, warnings) =
             stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");
@@ -166,7 +156,7 @@ fn the_equations_of_motion_agree() {
     let mut regressors = 0;
     for arm in ["panda", "ur10", "kuka_kr240", "iiwa14", "stanford", "puma560"] {
         let text = read(&format!("tests/data/pinocchio/dynamics/{arm}.json"));
-        let file: Value = serde_json::from_str(&text).expect("JSON");
+        let file = json(&text);
         let robot = with_links(arm, &file["links"]);
         let textbook: Arm = stiffarm_gap::robot::arm(&robot).expect("numbers");
         let samples = file["samples"].as_array().expect("samples");

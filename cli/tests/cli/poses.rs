@@ -3,19 +3,18 @@
 use nalgebra::Vector6;
 use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm, text};
+use crate::support::{Folder, arm, read, run, stiffarm};
 
-const PULLS: [&str; 4] = ["--load", "0,0,-2kN,0,0,0", "--load", "1500,-1000,0,0,0,0"];
+const PULLS: &str = "--load 0,0,-2kN,0,0,0 --load 1500,-1000,0,0,0,0";
 
 /// A robot file whose last joint shows, and its plan.
-fn plan(folder: &Folder, count: &str, extra: &[&str]) -> (String, String, String) {
+fn plan(folder: &Folder, count: u8, extra: &str) -> (String, String, String) {
     let mut robot = read("robots/arms/kuka_kr240.toml");
     robot.push_str("\n[tool]\ntranslation = [0.1, 0.0, 0.15]\n");
     let robot = folder.file("arm.toml", robot);
-    let csv = text(&folder.path("plan.csv"));
-    let arguments = [&["poses", &robot, "--count", count, "--csv", &csv], &PULLS[..], extra];
-    let screen = stiffarm(&arguments.concat()).good();
-    (robot, std::fs::read_to_string(csv).expect("written"), screen)
+    let csv = folder.name("plan.csv");
+    let screen = run(&format!("poses {robot} --count {count} --csv {csv} {PULLS} {extra}")).good();
+    (robot, read(&csv), screen)
 }
 
 /// The empty cells filled by simulating an arm with some softer springs, in the units of the header.
@@ -55,14 +54,13 @@ fn measured(plan: &str, softer: &[usize]) -> String {
 fn a_plan_that_is_filled_in_identifies_the_springs() {
     let folder = Folder::new();
     for (purpose, rows) in [("identify", 8), ("diagnose", 16)] {
-        let (robot, plan, screen) = plan(&folder, "8", &["--for", purpose]);
+        let (robot, plan, screen) = plan(&folder, 8, &format!("--for {purpose}"));
         assert!(screen.contains("joint 6") && screen.contains("of the file's"), "{screen}");
         let empty: Vec<&str> = plan.lines().skip(2).collect();
         assert_eq!(empty.len(), rows, "{plan}");
         assert!(empty.iter().all(|row| row.ends_with(",,,")), "{plan}");
         let run = folder.file("run.csv", measured(&plan, &[1, 2, 3, 4, 5, 6]));
-        let out = stiffarm(&["identify", &robot, &run, "--json", "-"]).good();
-        let found: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        let found = stiffarm(&["identify", &robot, &run, "--json", "-"]).json();
         for (parameter, file) in found["parameters"]
             .as_array()
             .expect("a list")
@@ -80,13 +78,12 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
 #[test]
 fn a_plan_that_separates_does() {
     let folder = Folder::new();
-    let pair = ["--for", "separate", "joint_compliance@joint 2", "link_compliance@link2"];
-    let (robot, plan, screen) = plan(&folder, "12", &pair);
+    let pair = "--for separate 'joint_compliance@joint 2' link_compliance@link2";
+    let (robot, plan, screen) = plan(&folder, 12, pair);
     assert!(screen.contains("Told from the other") && screen.contains("µrad/(N·m)"), "{screen}");
     assert!(plan.contains(",dx[mm],dy[mm],dz[mm]\n") && !plan.contains("s1"), "{plan}");
     let run = folder.file("run.csv", measured(&plan, &[2]));
-    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).good();
-    let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+    let found = stiffarm(&["diagnose", &robot, &run, "--json", "-"]).json();
     let finding = &found["findings"][0];
     assert_eq!(finding["effect"], "joint_compliance", "{found}");
     assert_eq!(finding["place"], "joint 2", "{found}");
@@ -124,27 +121,4 @@ fn the_same_seed_gives_the_same_bytes() {
 fn sliding_joints_are_in_millimetres() {
     let out = stiffarm(&["poses", "stanford", "--count", "2", "--csv", "-"]).good();
     assert!(out.contains("q2[deg],q3[mm],q4[deg]"), "{out}");
-}
-
-#[test]
-fn plans_that_cannot_be_made_are_refused() {
-    let refused = |extra: &[&str], expected: &str| {
-        let err = stiffarm(&[&["poses", "ur5"], extra].concat()).refused();
-        assert!(err.contains(expected), "no `{expected}` in\n{err}");
-    };
-    refused(&["--count", "3"], "--csv <OUT>");
-    refused(&["--count", "0", "--csv", "-"], "--count");
-    refused(&["--count", "3", "--csv", "-", "--load", "1,2"], "--load: found 2 values");
-    refused(&["--count", "3", "--csv", "-", "--load", "0,0,0,0,0,0"], "number of loads");
-    refused(&["--count", "3", "--csv", "-", "--for", "fun"], "identify, diagnose, separate");
-    let separate = |more: &[&str], expected: &str| {
-        refused(&[&["--count", "3", "--csv", "-", "--for", "separate"], more].concat(), expected);
-    };
-    separate(&["backlash@joint 2"], "--for separate: found 1 effect, expected two");
-    separate(&["backlas@joint 2", "drift"], "did you mean `backlash`?");
-    separate(&["backlash@joint 2", "drift"], "no test of this plan shows drift at base");
-    separate(&["base_frame", "base_frame"], "no test of this plan tells base frame at base from");
-    separate(&["drift", "drift", "--nuisance", "frame"], "unknown nuisance `frame`");
-    refused(&["backlash", "--count", "3", "--csv", "-"], "found `backlash`, expected an option");
-    refused(&["--count", "3", "--csv", "no/such.csv"], "no such file or folder");
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use serde_json::Value;
 use tempfile::TempDir;
 
 /// How a run ended.
@@ -19,6 +20,12 @@ impl Run {
     pub fn good(self) -> String {
         assert_eq!((self.status, self.err.as_str()), (0, ""), "{}", self.out);
         self.out
+    }
+
+    /// The JSON that a run printed which must have gone well.
+    #[track_caller]
+    pub fn json(self) -> Value {
+        json(&self.good())
     }
 
     /// The standard error of a run that must have refused its work and printed nothing.
@@ -64,6 +71,11 @@ pub fn stiffarm(arguments: &[&str]) -> Run {
     }
 }
 
+/// The same with the words of a line.
+pub fn run(line: &str) -> Run {
+    stiffarm(&words(line).iter().map(String::as_str).collect::<Vec<_>>())
+}
+
 /// A folder of one test, removed with it.
 pub struct Folder(TempDir);
 
@@ -74,6 +86,11 @@ impl Folder {
 
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
+    }
+
+    /// The same as an argument.
+    pub fn name(&self, name: &str) -> String {
+        text(&self.path(name))
     }
 
     /// Writes a file and returns its path.
@@ -98,6 +115,33 @@ impl Folder {
 /// A path as an argument.
 pub fn text(path: &Path) -> String {
     path.to_str().expect("a path in UTF-8").to_owned()
+}
+
+/// A text as JSON.
+#[track_caller]
+pub fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// A number of JSON.
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// Words as a shell has them: what stands in single quotes is one.
+pub fn words(line: &str) -> Vec<String> {
+    let parts = line.split('\'').enumerate();
+    let words = parts.flat_map(|(k, part)| match k % 2 {
+        0 => part.split_whitespace().collect(),
+        _ => vec![part],
+    });
+    words.map(str::to_owned).collect()
+}
+
+/// An output with its lines joined.
+pub fn flat(out: &str) -> String {
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The text of a file: of this repository, where its path is relative.

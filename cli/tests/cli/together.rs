@@ -4,7 +4,7 @@ use serde_json::Value;
 use stiffarm_codegen::robot::{Quantity, Robot};
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, run};
 
 /// What an elbow's servos give, rad/(N·m).
 const GIVES: f64 = 2e-4;
@@ -12,13 +12,12 @@ const GIVES: f64 = 2e-4;
 /// Measurements of an elbow whose joint 2 gives, and a log of its servos that give so much.
 fn data(folder: &Folder, droop: f64) -> [String; 3] {
     let robot = folder.file("elbow.toml", ELBOW);
-    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| text(&folder.path(name)));
-    let spring = format!("joint_compliance@joint 2={GIVES}");
-    let noise = ["--payload", "5kg", "--noise-position", "0.5mm", "--effect", &spring];
-    stiffarm(&[&["simulate", &robot, "--csv", &campaign][..], &noise].concat()).good();
-    let droop = format!("servo_droop@joint 2={droop}");
-    let servo = ["--logged", "position", "--lost", "0%", "--effect", &droop];
-    stiffarm(&[&["simulate", &robot, "--log", &log][..], &servo].concat()).good();
+    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| folder.name(name));
+    let spring = format!("--effect 'joint_compliance@joint 2={GIVES}'");
+    let noise = "--payload 5kg --noise-position 0.5mm";
+    run(&format!("simulate {robot} --csv {campaign} {noise} {spring}")).good();
+    let droop = format!("--effect 'servo_droop@joint 2={droop}'");
+    run(&format!("simulate {robot} --log {log} --logged position --lost 0% {droop}")).good();
     [robot, campaign, log]
 }
 
@@ -32,13 +31,13 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let folder = Folder::new();
     let [robot, campaign, log] = data(&folder, GIVES);
     let [better, json, page] =
-        ["better.toml", "both.json", "both.html"].map(|name| text(&folder.path(name)));
+        ["better.toml", "both.json", "both.html"].map(|name| folder.name(name));
     // In whatever order they are given.
-    let run = ["diagnose", &robot, &log, &campaign, "--write-robot", &better, "--json", &json];
-    let out = stiffarm(&[&run[..], &["--report", &page]].concat()).good();
+    let written = format!("--write-robot {better} --json {json} --report {page}");
+    let out = run(&format!("diagnose {robot} {log} {campaign} {written}")).good();
     assert!(out.contains("The compliance of joint 2 is the same at rest and in motion"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
-    let found: Value = serde_json::from_str(&read(&json)).expect("JSON");
+    let found = crate::support::json(&read(&json));
     let springs = found["together"]["springs"].as_array().expect("a list");
     let [spring] = &springs[..] else { panic!("{springs:#?}") };
     assert_eq!((&spring["place"], &spring["unit"]), (&"joint 2".into(), &"rad/(N·m)".into()));
@@ -63,8 +62,7 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let Quantity::Si(value) = droop.numbers[0].value else { panic!("{droop:?}") };
     assert!((value / both[0] - 1.0).abs() < 1e-8, "{value}");
     // And is known to both: neither finds it again.
-    let again = stiffarm(&["diagnose", &better, &campaign, &log, "--json", "-"]).good();
-    let again: Value = serde_json::from_str(&again).expect("JSON");
+    let again = run(&format!("diagnose {better} {campaign} {log} --json -")).json();
     assert_eq!(again["together"]["springs"], Value::Array(Vec::new()), "{again:#}");
     let page = read(&page);
     assert!(page.matches("<iframe").count() == 2 && page.contains("Joint compliance"));
@@ -74,9 +72,8 @@ fn one_spring_is_told_by_both_better_than_by_either() {
 fn springs_that_differ_are_said_to() {
     let folder = Folder::new();
     let [robot, campaign, log] = data(&folder, 2.0 * GIVES);
-    let better = text(&folder.path("better.toml"));
-    let run = ["diagnose", &robot, &campaign, &log, "--write-robot", &better];
-    let out = stiffarm(&run).good();
+    let better = folder.name("better.toml");
+    let out = run(&format!("diagnose {robot} {campaign} {log} --write-robot {better}")).good();
     assert!(out.contains("they differ"), "{out}");
     assert!(out.contains("At joint 2 the log shows more compliance than the campaign"), "{out}");
     let (written, _) = Robot::from_toml(&read(&better), "better.toml").expect("a robot");
@@ -91,17 +88,15 @@ fn springs_that_differ_are_said_to() {
 fn options_go_to_the_data_that_they_are_about() {
     let folder = Folder::new();
     let [robot, campaign, log] = data(&folder, GIVES);
-    let both = ["diagnose", &robot, &campaign, &log];
-    let only = ["--effects", "joint_compliance,servo_droop,latency", "--nuisance", "base_frame"];
-    let checked = ["--band", "5Hz", "--check", &log, "--json", "-"];
-    let found = stiffarm(&[&both[..], &only, &checked].concat()).good();
-    let found: Value = serde_json::from_str(&found).expect("JSON");
+    let both = format!("diagnose {robot} {campaign} {log}");
+    let only = "--effects joint_compliance,servo_droop,latency --nuisance base_frame --band 5Hz";
+    let found = run(&format!("{both} {only} --check {log} --json -")).json();
     // The log's options are the log's, and its check too.
     assert_eq!(found["log"]["filter"]["band"], 5.0, "{found:#}");
     assert!(found["log"]["check"].is_object() && found["campaign"]["check"].is_null());
     assert_eq!(found["campaign"]["findings"][0]["effect"], "joint_compliance", "{found:#}");
-    let wrong = stiffarm(&[&both[..], &["--effects", "gremlins"]].concat()).refused();
+    let wrong = run(&format!("{both} --effects gremlins")).refused();
     assert!(wrong.contains("unknown effect `gremlins`"), "{wrong}");
-    let more = stiffarm(&[&both[..], &[campaign.as_str()]].concat()).refused();
+    let more = run(&format!("{both} {campaign}")).refused();
     assert!(more.contains("found the same file twice"), "{more}");
 }

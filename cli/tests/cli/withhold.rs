@@ -1,37 +1,24 @@
 //! `stiffarm withhold`.
 
-use serde_json::Value;
-
-use crate::support::{Folder, stiffarm, text};
+use crate::support::{Folder, json, stiffarm};
 
 /// One known effect, few cases: quick in any build.
-const SMALL: [&str; 11] = [
-    "withhold",
-    "bicchi_3r",
-    "--effects",
-    "joint_offset,joint_compliance",
-    "--cases",
-    "4",
-    "--poses",
-    "6",
-    "--payload",
-    "100N",
-    "--quiet",
-];
+const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance --cases 4 --poses 6 --payload 100N \
+                     --quiet";
 
 #[test]
 fn the_json_has_every_case_and_the_seed_decides() {
     let folder = Folder::new();
     let run = |name: &str, seed: &str| {
-        let file = text(&folder.path(name));
-        let out = stiffarm(&[&SMALL[..], &["--json", &file, "--seed", seed]].concat()).good();
+        let file = folder.name(name);
+        let out = crate::support::run(&format!("{SMALL} --json {file} --seed {seed}")).good();
         assert_eq!(out, "");
         std::fs::read_to_string(file).expect("written")
     };
     let (one, again) = (run("a", "1"), run("b", "1"));
     assert_eq!(one, again);
     assert_ne!(one, run("c", "2"));
-    let report: Value = serde_json::from_str(&one).expect("JSON");
+    let report = json(&one);
     assert_eq!(report["cases"].as_array().map(Vec::len), Some(4));
     assert_eq!(report["stiffarm"], env!("CARGO_PKG_VERSION"));
     for key in ["false_alarms", "single", "pairs", "removed", "after", "confusion"] {
@@ -47,25 +34,9 @@ fn the_json_has_every_case_and_the_seed_decides() {
 
 #[test]
 fn one_screen_says_what_is_found() {
-    let out = stiffarm(&SMALL).good();
+    let out = crate::support::run(SMALL).good();
     assert!(out.contains("no effect: something is found"), "{out}");
     assert!(out.contains("the payload design: 18 measurements at 6 poses"), "{out}");
     let lines: Vec<&str> = out.lines().collect();
     assert!(lines.len() <= 24 && lines.iter().all(|l| l.chars().count() <= 120), "{out}");
-}
-
-#[test]
-fn mistakes_are_named() {
-    let refused = |extra: &[&str]| stiffarm(&[&["withhold", "ur5"], extra].concat()).refused();
-    let error = refused(&["--effects", "backlsh"]);
-    assert!(
-        error.contains("found the unknown effect `backlsh`; did you mean `backlash`?"),
-        "{error}"
-    );
-    assert!(refused(&["--cases", "0"]).contains("found 0 cases, expected at least 1"));
-    assert!(refused(&["--sizes", "8"]).contains("--sizes: found 1 value, expected two"));
-    let error = refused(&["--sizes", "20,8"]);
-    assert!(error.contains("found sizes from 20 to 8 times the noise"), "{error}");
-    let error = refused(&["--noise-rotation", "0rad", "--cases", "1"]);
-    assert!(error.contains("found no rotation noise, expected some"), "{error}");
 }

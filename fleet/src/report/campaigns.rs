@@ -6,7 +6,7 @@ use arrow::datatypes::DataType;
 use datafusion::common::{Result, exec_datafusion_err, plan_err};
 use datafusion::prelude::SessionContext;
 
-use crate::answer::Diagnosis;
+use stiffarm_gap::report::Diagnosis;
 
 /// A campaign of an arm, and what its diagnosis says, or why there is none.
 #[derive(Clone, Debug)]

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use stiffarm_gap::report::Diagnosis;
+
 use super::campaigns::Campaign;
 use super::numbers::by_arm;
 use super::pooled::{Outlier, Pooled, outliers, pooled};
@@ -83,7 +85,7 @@ impl Fleet {
     }
 }
 
-fn line((arm, diagnosed): (&str, Vec<(&Campaign, &crate::answer::Diagnosis)>)) -> Option<Line> {
+fn line((arm, diagnosed): (&str, Vec<(&Campaign, &Diagnosis)>)) -> Option<Line> {
     let (campaign, found) = diagnosed.last()?;
     let noise = &found.gap.noise;
     let is_length = noise.position_rms > 0.0;

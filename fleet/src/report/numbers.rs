@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use stiffarm_gap::pool::Estimate;
 
 use super::campaigns::Campaign;
-use crate::answer::{Diagnosis, Parameter};
+use stiffarm_gap::report::{Diagnosis, Parameter};
 
 /// What a number is of: of arms of one model those with the same are compared.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,10 +39,10 @@ pub fn of<'a>(robot: &str, found: &'a Diagnosis) -> BTreeMap<What, &'a Parameter
         finding.parameters.iter().map(|parameter| {
             let what = What {
                 robot: robot.to_owned(),
-                effect: finding.effect.clone(),
+                effect: finding.effect.to_string(),
                 place: finding.place.clone(),
-                number: parameter.name.clone(),
-                unit: parameter.unit.clone(),
+                number: parameter.name.to_string(),
+                unit: parameter.unit.to_string(),
             };
             (what, parameter)
         })

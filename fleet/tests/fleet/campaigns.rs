@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use stiffarm_cli::inside::Host;
+use stiffarm_cli::host::Host;
 
 /// How the campaigns are diagnosed.
 pub const OPTIONS: &str = "--noise-position 30um --noise-rotation 0.005deg";

@@ -63,7 +63,7 @@ async fn options_that_touch_files_are_refused() {
         );
         let got = answers(&engine, &[table(folder.path())], &sql).await;
         let (said, _) = got.first_key_value().unwrap();
-        assert!(said.contains("expected an option: --nuisance"), "{said}");
+        assert!(said.contains("expected an option: --set, --nuisance"), "{said}");
     }
 }
 

@@ -94,7 +94,11 @@ async fn every_cell_is_there_once() {
         assert_eq!(numbers(&here(partitions), &sql).await.unwrap(), want, "{partitions}");
     }
     let sql = "SELECT q3 FROM grid('ur10', 'q3', 3) ORDER BY q3";
-    let limits = stiffarm_cli::RobotArgs::named("ur10").load(true).unwrap().arm().unwrap();
+    let limits = stiffarm_cli::RobotArgs::named("ur10")
+        .load(&stiffarm_cli::host::Host::default())
+        .unwrap()
+        .arm()
+        .unwrap();
     let [low, high] =
         limits.joints[2].limits.unwrap_or([-std::f64::consts::PI, std::f64::consts::PI]);
     let want = [low, 0.5 * (low + high), high].map(|q| vec![Some(q)]);

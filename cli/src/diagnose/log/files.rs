@@ -6,8 +6,8 @@ use stiffarm_gap::io::ReadError;
 use stiffarm_gap::log::{self, Format, Log, Names, Opened};
 use stiffarm_kernels::Motion;
 
-use super::super::Args;
-use crate::inside::bytes;
+use super::super::Settings;
+use crate::host::Host;
 use crate::terminal::failure::Failure;
 
 /// What the files are.
@@ -27,19 +27,18 @@ pub struct Part {
 }
 
 impl Part {
-    fn new(path: PathBuf) -> Result<Part, Failure> {
-        let wrong = |error| Failure::io("read", &path, &error);
+    fn new(path: PathBuf, host: &Host) -> Result<Part, Failure> {
         let opened = match path.is_file() {
-            true => Opened::new(&path),
-            false => bytes(&path).map(Opened::from),
+            true => Opened::new(&path).map_err(|error| Failure::io("read", &path, &error))?,
+            false => Opened::from(host.read(&path)?),
         };
-        Ok(Part { opened: opened.map_err(wrong)?, path })
+        Ok(Part { opened, path })
     }
 
     /// All of it.
-    fn bytes(&self) -> Result<Vec<u8>, Failure> {
+    fn bytes(&self, host: &Host) -> Result<Vec<u8>, Failure> {
         match self.path.is_file() {
-            true => bytes(&self.path).map_err(|error| Failure::io("read", &self.path, &error)),
+            true => host.read(&self.path),
             false => Ok(self.opened.head().to_vec()),
         }
     }
@@ -61,7 +60,7 @@ impl Part {
 ///
 /// # Errors
 /// [`Failure`]: a folder that cannot be read, or has none.
-pub fn parts(given: &[PathBuf]) -> Result<Vec<Part>, Failure> {
+pub fn parts(given: &[PathBuf], host: &Host) -> Result<Vec<Part>, Failure> {
     let mut parts = Vec::new();
     for path in given {
         if path.is_dir() {
@@ -75,7 +74,7 @@ pub fn parts(given: &[PathBuf]) -> Result<Vec<Part>, Failure> {
             parts.push(path.clone());
         }
     }
-    parts.into_iter().map(Part::new).collect()
+    parts.into_iter().map(|path| Part::new(path, host)).collect()
 }
 
 fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -94,12 +93,12 @@ fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 ///
 /// # Errors
 /// [`Failure`]: a file that cannot be read, options of a log beside files that are none.
-pub fn files(args: &Args) -> Result<Files, Failure> {
-    let parts = parts(&args.data)?;
-    let is_log = |part: &Part| args.log.map.is_some() || part.is_log();
+pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files, Failure> {
+    let parts = parts(data, host)?;
+    let is_log = |part: &Part| settings.map.is_some() || part.is_log();
     let (of_log, others): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(is_log);
     let measured = |parts: Vec<Part>| -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-        parts.iter().map(|part| Ok((part.path.clone(), part.bytes()?))).collect()
+        parts.iter().map(|part| Ok((part.path.clone(), part.bytes(host)?))).collect()
     };
     if !of_log.is_empty() {
         return Ok(match others.is_empty() {
@@ -108,10 +107,10 @@ pub fn files(args: &Args) -> Result<Files, Failure> {
         });
     }
     let refused = |what: String, help| {
-        let first = &args.data[0].display();
+        let first = data[0].display();
         Err(Failure::with_help(format!("{what}, and {first} is no joint log by its columns"), help))
     };
-    if let Some(option) = args.log.given() {
+    if let Some(option) = settings.first_of(true) {
         let help =
             "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
         return refused(format!("{option} is for joint logs"), help);
@@ -123,8 +122,8 @@ pub fn files(args: &Args) -> Result<Files, Failure> {
 ///
 /// # Errors
 /// [`Failure`]: it cannot be read.
-pub fn is_log(path: &Path) -> Result<bool, Failure> {
-    Ok(parts(&[path.to_owned()])?.iter().any(Part::is_log))
+pub fn is_log(path: &Path, host: &Host) -> Result<bool, Failure> {
+    Ok(parts(&[path.to_owned()], host)?.iter().any(Part::is_log))
 }
 
 /// The log in these files.

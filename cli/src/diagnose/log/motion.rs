@@ -12,19 +12,19 @@ use stiffarm_gap::log::{
 use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
-use super::super::corrected::{exported, file, made_from};
-use super::super::{Args, Format, PredictedLog};
+use super::super::corrected::made_from;
+use super::super::{Campaign, Found, PredictedLog, Settings};
+use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
-use super::{Check, Rows};
 use crate::document::log::{Fitted, Log as Reported, left};
 use crate::document::{Document, Embedded};
+use crate::host::Host;
 use crate::input::data::layout;
 use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
-use crate::terminal::note::note;
 use crate::terminal::progress::Stages;
 
 /// A log, diagnosed.
@@ -65,53 +65,44 @@ impl Motion {
     /// # Errors
     /// [`Failure`]: the log or the options.
     pub(in super::super) fn new(
-        args: &Args,
+        settings: &Settings,
         source: Source,
         parts: Vec<Part>,
         catalogue: Catalogue,
-        quiet: bool,
+        host: &Host,
     ) -> Result<Motion, Failure> {
-        if let Some(option) = args.of_measurements() {
-            return Err(Failure::new(format!(
-                "{option} is for measurement files, and {} is a joint log",
-                args.data[0].display()
-            )));
-        }
         let arm = source.arm()?;
-        let names = args.log.names(&source)?;
+        let names = settings.names(&source, host)?;
         let read = |parts| files::read(parts, &motions(&arm), &names);
         let log = read(parts)?;
-        let other = args.check.as_ref();
+        let other = settings.check.as_ref();
         let other =
-            other.map(|path| read(files::parts(std::slice::from_ref(path))?)).transpose()?;
+            other.map(|path| read(files::parts(std::slice::from_ref(path), host)?)).transpose()?;
         // What stands nearer to the torques comes first.
-        let side = args.log.torque_side.or(log.side);
+        let side = settings.torque_side.or(log.side);
         let options = LogOptions {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             side: side.or_else(|| TorqueSide::named(source.robot.torque_side?)),
-            rows: args.log.rows.map(|rows| match rows {
-                Rows::Torque => Domain::Torque,
-                Rows::Position => Domain::Position,
-            }),
-            band: args.log.band,
-            standstill: args.log.standstill,
+            rows: settings.rows.map(Domain::from),
+            band: settings.band,
+            standstill: settings.standstill,
             catalogue,
-            effects: args.effects.clone(),
+            effects: settings.effects.clone(),
             known: source.motion.clone(),
             payloads: layout(&source)?.payloads.map_or_else(Vec::new, |known| known.bodies),
-            known_links: args.log.known_masses,
-            nested: args.nested,
-            seed: args.seed,
+            known_links: settings.known_masses,
+            nested: settings.nested,
+            seed: settings.seed,
         };
-        let stages = Stages::new(quiet);
+        let stages = Stages::new(host);
         let each = |found| {
             stages
                 .say(format!("looking for effects of motion, {} found", counted(found, "finding")));
         };
         let (found, model) = diagnosed_with(&arm, &log, &options, &each).map_err(plain)?;
         drop(stages);
-        found.remarks.iter().for_each(|remark| note(remark, quiet));
-        let names = (names, args.log.map.is_some());
+        found.remarks.iter().for_each(|remark| host.note(remark));
+        let names = (names, settings.map.is_some());
         let found = Motion { check: None, source, arm, names, log, found, model };
         let check = other.map(|other| found.predicted(&other)).transpose()?;
         Ok(Motion { check: check.map(|predicted| predicted.check), ..found })
@@ -121,8 +112,12 @@ impl Motion {
     ///
     /// # Errors
     /// [`Failure`]: it cannot be read, or has not the rows that were diagnosed.
-    pub fn predict(&self, paths: &[PathBuf]) -> Result<PredictedLog, Failure> {
-        self.predicted(&files::read(files::parts(paths)?, &motions(&self.arm), &self.names.0)?)
+    pub fn predict(&self, paths: &[PathBuf], host: &Host) -> Result<PredictedLog, Failure> {
+        self.predicted(&files::read(
+            files::parts(paths, host)?,
+            &motions(&self.arm),
+            &self.names.0,
+        )?)
     }
 
     fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
@@ -136,14 +131,6 @@ impl Motion {
         self.names.1
     }
 
-    /// The diagnosis in JSON.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be written so.
-    pub fn json(&self) -> Result<String, Failure> {
-        json::text(&self.told())
-    }
-
     pub(in super::super) fn told(&self) -> Told<'_> {
         Told {
             diagnosis: &self.found,
@@ -152,52 +139,13 @@ impl Motion {
         }
     }
 
-    /// The name of the robot.
-    pub(in super::super) fn robot(&self) -> &str {
-        &self.found.robot
-    }
-
     /// The files of the log.
     pub(in super::super) fn files(&self) -> String {
         self.found.files.join(", ")
     }
 
-    /// The diagnosis as a document.
-    pub fn document(&self) -> Document {
-        self.reported(None).document()
-    }
-
-    /// The same with everything that a page has, and what the page embeds.
-    ///
-    /// # Errors
-    /// [`Failure`] if the page cannot be made.
-    pub(in super::super) fn paged(&self) -> Result<(Document, Embedded), Failure> {
-        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
-        let fitted = Fitted { explained: &explained, arm: &self.arm };
-        let reported = self.reported(Some(fitted));
-        Ok((reported.document(), reported.embedded(&fitted, &self.found)?))
-    }
-
     fn reported<'a>(&'a self, fitted: Option<Fitted<'a>>) -> Reported<'a> {
         Reported { found: &self.found, check: self.check.as_ref(), fitted }
-    }
-
-    /// The robot file with all that was found.
-    ///
-    /// # Errors
-    /// [`Failure`]: a log of currents, which tell no newton-metres.
-    pub fn corrected(&self) -> Result<String, Failure> {
-        let written = self.written()?;
-        let head = vec![made_from(&self.source, &self.found.files.join(", ")), String::new()];
-        Ok(file([head, written.lines].concat(), &written.robot))
-    }
-
-    /// The corrected arm as other programs read it, and a sentence on what they have no place for.
-    ///
-    /// # Errors
-    /// [`Failure`]: the log is one of currents, or the table has cells that are no numbers.
-    pub fn exported(&self, format: Format) -> Result<(String, Option<String>), Failure> {
-        exported(&self.written()?.robot, format)
     }
 
     /// What has to be known of any file of the corrected arm, a sentence each.
@@ -233,5 +181,35 @@ impl Motion {
         let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
         let [_, left] = left(&explained.gap(model.rows, &self.found.gap));
         Ok((model, left))
+    }
+}
+
+impl Found for Motion {
+    fn campaign(&self) -> Option<&Campaign> {
+        None
+    }
+
+    fn motion(&self) -> Option<&Motion> {
+        Some(self)
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        json::text(&self.told())
+    }
+
+    fn document(&self, is_page: bool) -> Result<(Document, Embedded), Failure> {
+        if !is_page {
+            return Ok((self.reported(None).document(), Embedded::default()));
+        }
+        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
+        let fitted = Fitted { explained: &explained, arm: &self.arm };
+        let reported = self.reported(Some(fitted));
+        Ok((reported.document(), reported.embedded(&fitted, &self.found)?))
+    }
+
+    fn robot(&self) -> Result<(Vec<String>, Robot), Failure> {
+        let written = self.written()?;
+        let head = vec![made_from(&self.source, &self.files()), String::new()];
+        Ok(([head, written.lines].concat(), written.robot))
     }
 }

@@ -1,7 +1,7 @@
-//! What only a page has room for: the arm, the worst poses, residuals, correlations, and how it was computed.
+//! What only a page has room for: the arm, the worst poses, residuals, correlations.
 
 use super::known::known;
-use super::{Campaign, Fitted, method};
+use super::{Campaign, Fitted};
 use crate::document::figure::{arm, residuals};
 use crate::document::{Block, Cell, Table};
 
@@ -24,16 +24,6 @@ impl Campaign<'_> {
         ];
         sections.extend(known(self));
         sections.push(Block::section("Range of the data", self.covers()));
-        sections.push(Block::section(
-            "How it was computed",
-            vec![
-                Block::Paragraph(method::METHOD.to_owned()),
-                Block::Facts(method::facts(self)),
-                Block::Csv("nuisances"),
-                Block::Csv("cannot_see"),
-                Block::Json,
-            ],
-        ));
         sections
     }
 

@@ -6,8 +6,9 @@ use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::shrink::Shrink;
 
 use super::Campaign;
-use crate::document::figure::{Step, waterfall};
+use crate::document::figure::Step;
 use crate::document::findings;
+use crate::document::report::Errors;
 use crate::document::words::{capital, less, named, noise_from, percent};
 use crate::document::{Block, Cell, Row, Table, Unit};
 use crate::input::quantity::counted;
@@ -18,14 +19,15 @@ type Sizes = [Option<f64>; 4];
 
 impl Campaign<'_> {
     /// The error before and after, and the noise.
-    pub(super) fn errors(&self) -> Block {
-        let steps = waterfall(self.steps(), self.main());
-        let caption = "Each bar is what a finding removes, in order of addition; the line across its end is the 95 % \
-                       interval of what remains, by resampling poses. All on held-out poses.";
-        let table = Block::Table(self.sizes());
-        let picture = Block::Figure(Box::new(steps), caption.to_owned());
-        let heading = capital(self.error());
-        Block::section(heading, vec![table, Block::Page(vec![picture, Block::Csv("gap")])])
+    pub(super) fn errors(&self) -> Errors {
+        Errors {
+            heading: capital(self.error()),
+            table: self.sizes(),
+            steps: self.steps(),
+            unit: self.main(),
+            caption: "Each bar is what a finding removes, in order of addition; the line across its end is the 95 % \
+                      interval of what remains, by resampling poses. All on held-out poses.",
+        }
     }
 
     /// Of what a position's error is the size.
@@ -111,14 +113,8 @@ impl Campaign<'_> {
     /// From the whole error, finding by finding, to the noise; small ones are one step.
     fn steps(&self) -> Vec<Step> {
         let (gap, unit, [before, after]) = (&self.found.gap, self.main(), self.rms());
-        let plain = |label: &str, class, size: f64| Step {
-            label: label.to_owned(),
-            class,
-            from: 0.0,
-            to: size,
-            interval: None,
-            text: unit.with_unit(size),
-        };
+        let plain =
+            |label: &str, class, size: f64| Step::of(label, class, size, unit.with_unit(size));
         let taken = |finding: &Finding| {
             let held = &finding.held_out;
             let less = held.shrink().map_or_else(String::new, |s| format!(", {}", less(s)));
@@ -138,7 +134,7 @@ impl Campaign<'_> {
         }
         let nested = [("search repeated", &gap.nested), ("repeated in time", &gap.nested_in_time)];
         for (label, of) in nested {
-            let size = of.as_ref().map(|gap| self.judged(gap.position_rms, gap.rotation_rms));
+            let size = of.as_ref().map(|gap| self.units().judged(gap));
             steps.extend(size.map(|size| plain(label, "left", size)));
         }
         steps.push(plain("noise", "noise", self.noise()));

@@ -5,7 +5,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Joint;
 
 use super::Campaign;
-use crate::document::findings::block;
+use crate::document::report::explained;
 use crate::document::unit::imperial;
 use crate::document::words::{less, percent};
 use crate::document::{self, Block, Unit};
@@ -16,9 +16,6 @@ const MOST_PARAMETERS: usize = 8;
 impl Campaign<'_> {
     /// The findings; `None` where there are none.
     pub(super) fn findings(&self) -> Option<Block> {
-        if self.found.findings.is_empty() {
-            return None;
-        }
         let (shown, [whole, _]) = (self.main(), self.rms());
         let leaves = |a: &stiffarm_gap::report::Alternative| {
             format!("leaves {}", shown.with_unit(a.left.size()))
@@ -38,18 +35,11 @@ impl Campaign<'_> {
                 ..plain
             }
         };
-        let findings = block(&self.found.findings, one, |size| shown.with_unit(size));
-        let mut links = vec![Block::Csv("findings.parameters")];
-        links.extend(self.has_rivals().then_some(Block::Csv("findings.alternatives")));
-        Some(Block::Section {
-            heading: "Findings".to_owned(),
-            remark: "in order of addition; rms without → with the finding, held out".to_owned(),
-            blocks: vec![findings, Block::Page(links)],
-        })
-    }
-
-    fn has_rivals(&self) -> bool {
-        self.found.findings.iter().any(|f| !f.alternatives.is_empty())
+        let remark = "in order of addition; rms without → with the finding, held out".to_owned();
+        let has_rivals = self.found.findings.iter().any(|f| !f.alternatives.is_empty());
+        let lists =
+            &["findings.parameters", "findings.alternatives"][..1 + usize::from(has_rivals)];
+        explained(&self.found.findings, remark, one, |size| shown.with_unit(size), lists)
     }
 
     /// The parameters with their intervals, the joint's whole spring behind them.

@@ -3,10 +3,11 @@
 use stiffarm_gap::diagnose::Nuisance;
 
 use super::Campaign;
+use crate::document::report::Method;
 use crate::document::words::noise_from;
 
 /// What every diagnosis does.
-pub const METHOD: &str = "\
+const METHOD: &str = "\
 The error is what was measured minus what the robot file's model predicts at static equilibrium under \
 the row's load and the links' weight. Unknown frames are co-estimated with everything. Each effect of the \
 dictionary, at each place, is linearized; the candidate with the most evidence is added if it is significant \
@@ -17,8 +18,13 @@ squares and Student’s t, or from the jackknife over visits where that is wider
 place of each finding; those that resampling the poses does not separate from it are named. The residuals are \
 tested for structure with free-form displacements at every place.";
 
+/// How this one was made.
+pub fn method(report: &Campaign<'_>) -> Method {
+    Method { text: METHOD, facts: facts(report), lists: &["nuisances", "cannot_see"] }
+}
+
 /// Names and values of what the diagnosis was given.
-pub fn facts(report: &Campaign<'_>) -> Vec<(&'static str, String)> {
+fn facts(report: &Campaign<'_>) -> Vec<(&'static str, String)> {
     let (found, data, options) = (report.found, report.data, report.options);
     let folds = if found.held_out.folds == data.poses {
         format!("{}: each {} in turn", found.held_out.folds, found.held_out.grouped_by)

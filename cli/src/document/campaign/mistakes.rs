@@ -57,13 +57,9 @@ impl Campaign<'_> {
             each.join(", and ")
         };
         let same: Vec<String> = wrong.same.iter().map(set).collect();
-        let note = |name, lines: Vec<String>, most| {
-            (!lines.is_empty()).then_some(Block::Note { name, lines, most })
-        };
         let most = lines.len();
-        [note("Mistaken", lines, most), note("Or else", same, MOST_SAME)]
-            .into_iter()
-            .flatten()
-            .collect()
+        let notes =
+            [Block::notes("Mistaken", lines, most), Block::notes("Or else", same, MOST_SAME)];
+        notes.into_iter().flatten().collect()
     }
 }

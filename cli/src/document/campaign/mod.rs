@@ -21,7 +21,8 @@ use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
 use super::figure::{Drawing, EXPERIMENT, Experiment, Share, curves};
-use super::{Block, Document, Embedded, Unit, Units};
+use super::report::Report;
+use super::{Document, Embedded, Unit, Units};
 use crate::diagnose::{Accepted, Check, Compared, Provenance};
 use crate::input::quantity::counted;
 use crate::terminal::failure::Failure;
@@ -60,21 +61,18 @@ pub struct Fitted<'a> {
 impl Campaign<'_> {
     /// The document.
     pub fn document(&self) -> Document {
-        let mut blocks = vec![Block::Sentence(self.sentence())];
-        blocks.extend(self.mistakes());
-        blocks.extend(self.acceptance());
-        blocks.push(self.errors());
-        blocks.extend(self.findings());
-        blocks.extend(self.rivals());
-        blocks.extend(self.changes());
-        blocks.extend(self.notes());
-        blocks.extend(self.fitted.map(|fitted| Block::Page(self.details(&fitted))));
-        Document {
+        let behind = [self.findings(), self.rivals(), self.changes()];
+        let report = Report {
             robot: self.found.robot.clone(),
             about: "where its error comes from",
             facts: self.facts(),
-            blocks,
-        }
+            sentence: self.sentence(),
+            first: self.mistakes().into_iter().chain(self.acceptance()).collect(),
+            error: self.errors(),
+            rest: behind.into_iter().flatten().chain(self.notes()).collect(),
+            page: self.fitted.map(|fitted| (self.details(&fitted), method::method(self))),
+        };
+        report.document()
     }
 
     /// What its page embeds; `whole` is the diagnosis as it is written.
@@ -151,31 +149,21 @@ impl Campaign<'_> {
 
     /// The unit of what is judged: positions, or rotations where no position is measured.
     fn main(&self) -> Unit<'static> {
-        if self.units().positions { self.length() } else { self.angle() }
+        self.units().main(self.rms())
     }
 
     /// What is judged.
     fn error(&self) -> &'static str {
-        match self.units() {
-            Units { positions: true, .. } => "position error",
-            Units { pixels: Some(_), .. } => "error in the picture",
-            _ => "rotation error",
-        }
-    }
-
-    /// The one of two numbers, of positions and of rotations, that is judged.
-    fn judged(&self, position: f64, rotation: f64) -> f64 {
-        if self.units().positions { position } else { rotation }
+        self.units().error()
     }
 
     /// The error before and after, rms, m (rad without positions).
     fn rms(&self) -> [f64; 2] {
-        [&self.found.gap.before, &self.found.gap.after]
-            .map(|s| self.judged(s.position_rms, s.rotation_rms))
+        [&self.found.gap.before, &self.found.gap.after].map(|sizes| self.units().judged(sizes))
     }
 
     fn noise(&self) -> f64 {
         let noise = &self.found.gap.noise;
-        self.judged(noise.position_rms, noise.rotation_rms)
+        if self.units().positions { noise.position_rms } else { noise.rotation_rms }
     }
 }

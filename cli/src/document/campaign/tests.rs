@@ -13,30 +13,7 @@ use stiffarm_kernels::generic::Arm;
 use super::{Campaign, Fitted};
 use crate::diagnose::{Accepted, Compared, Hashes, Provenance};
 
-const ROBOT: &str = r#"
-name = "shoulder <& elbow>"
-convention = "standard"
-[[joint]]
-type = "revolute"
-d = 0.4
-alpha = "pi/2"
-mass = 30.0
-com = [0.0, -0.2, 0.0]
-[[joint]]
-type = "revolute"
-a = 0.7
-mass = 20.0
-com = [-0.35, 0.0, 0.0]
-[[joint]]
-type = "revolute"
-a = 0.6
-d = 0.1
-alpha = "-pi/2"
-mass = 8.0
-com = [-0.3, 0.0, 0.0]
-[tool]
-translation = [0.05, 0.0, 0.15]
-"#;
+const ROBOT: &str = include_str!("../../../tests/cli/diagnose/shoulder.toml");
 
 /// Everything that a document borrows.
 struct Bench {
@@ -51,7 +28,9 @@ struct Bench {
 
 impl Bench {
     fn new(kind: Kind, poses: usize, truths: &[&str], effects: &[&str], free: bool) -> Bench {
-        let (robot, _) = Robot::from_toml(ROBOT, "arm").expect("a robot file");
+        let (robot, _) =
+            Robot::from_toml(&ROBOT.replacen("shoulder and elbow", "shoulder <& elbow>", 1), "arm")
+                .expect("a robot file");
         let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
         let truth = |t: &&str| Truth::parse(t, &arm).expect("an effect of this arm");
         let truths: Vec<Truth> = truths.iter().map(truth).collect();

@@ -71,6 +71,13 @@ pub struct Step {
     pub text: String,
 }
 
+impl Step {
+    /// From nothing to a size.
+    pub fn of(label: impl Into<String>, class: &'static str, to: f64, text: String) -> Step {
+        Step { label: label.into(), class, from: 0.0, to, interval: None, text }
+    }
+}
+
 /// Steps as a picture.
 pub fn waterfall(steps: Vec<Step>, unit: Unit<'_>) -> Waterfall {
     let largest = steps.iter().map(|s| s.to.max(s.interval.map_or(0.0, |i| i[1])));

@@ -10,9 +10,10 @@ use stiffarm_gap::log::{Domain, LogDiagnosis};
 use stiffarm_gap::report::{Alternative, Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
-use super::figure::{self, LOG, Step, waterfall};
-use super::findings::{block, steps, told};
-use super::words::{less, named, percent};
+use super::figure::{self, LOG, Step};
+use super::findings::{steps, told};
+use super::report::{Errors, Method, Report, explained};
+use super::words::{capital, less, named, percent};
 use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
 use crate::diagnose::LogCheck;
 use crate::input::quantity::counted;
@@ -51,18 +52,20 @@ impl Log<'_> {
     /// The document.
     pub fn document(&self) -> Document {
         let found = self.found;
-        let mut blocks = vec![Block::Sentence(self.sentence())];
-        blocks.extend(self.check.map(|check| Block::Verdict(None, self.checked(check))));
-        blocks.push(self.errors());
-        blocks.extend(self.findings());
-        blocks.extend(self.notes());
-        blocks.extend(self.fitted.map(|_| Block::Page(self.details())));
-        Document {
+        let check = self.check.map(|check| Block::Verdict(None, self.checked(check)));
+        let joints = || Block::section("Each joint", vec![figure::joints(self.is_torque())]);
+        let method = || Method { text: METHOD, facts: self.settings(), lists: &[] };
+        let report = Report {
             robot: found.robot.clone(),
             about: "what its drives do",
             facts: format!("{}: {}", found.files.join(", "), self.facts()),
-            blocks,
-        }
+            sentence: self.sentence(),
+            first: check.into_iter().collect(),
+            error: self.errors(),
+            rest: self.findings().into_iter().chain(self.notes()).collect(),
+            page: self.fitted.map(|_| (vec![joints()], method())),
+        };
+        report.document()
     }
 
     /// What its page embeds; `whole` is the diagnosis as it is written.
@@ -162,7 +165,7 @@ impl Log<'_> {
     }
 
     /// The error of each joint, before and after.
-    fn errors(&self) -> Block {
+    fn errors(&self) -> Errors {
         let found = self.found;
         let (size, before) = match found.rows {
             Domain::Torque => ("standard deviation", "rigid links alone"),
@@ -187,34 +190,29 @@ impl Log<'_> {
             rows: found.gap.iter().enumerate().map(row).collect(),
             caption: String::new(),
         };
-        let caption = "In order of addition; mean over the joints of rms errors as parts of their own size, held out.";
-        let unit = Unit { name: "% of the joints’ own, mean", si: 0.01, decimals: Some(1) };
-        let picture = Block::Figure(Box::new(waterfall(self.steps(), unit)), caption.to_owned());
-        let heading = if self.is_torque() { "Torque error, rms" } else { "Position error, rms" };
-        let page = Block::Page(vec![picture, Block::Csv("gap")]);
-        Block::section(heading, vec![Block::Table(table), page])
+        Errors {
+            heading: format!("{}, rms", capital(self.error())),
+            table,
+            steps: self.steps(),
+            unit: Unit { name: "% of the joints’ own, mean", si: 0.01, decimals: Some(1) },
+            caption: "In order of addition; mean over the joints of rms errors as parts of their own size, held out.",
+        }
     }
 
     fn steps(&self) -> Vec<Step> {
         let found = self.found;
         let [before, after] = left(&found.gap);
-        let step = |label: String, class, from, to, text| Step {
-            label,
-            class,
-            from,
-            to,
-            interval: None,
-            text,
-        };
         let first = if self.is_torque() { "rigid links alone" } else { "as logged" };
-        let mut all = vec![step(first.to_owned(), "whole", 0.0, before, part(before))];
+        let mut all = vec![Step::of(first, "whole", before, part(before))];
         let one = |f: &Finding| {
-            let (from, to) = (f.held_out.after().min(f.held_out.before()), f.held_out.before());
             let text = format!("→ {}", part(f.held_out.after()));
-            step(named(&f.effect, &f.place), "removed", from, to, text)
+            Step {
+                from: f.held_out.after().min(f.held_out.before()),
+                ..Step::of(named(&f.effect, &f.place), "removed", f.held_out.before(), text)
+            }
         };
         all.extend(steps(&found.findings, one, part));
-        let mut last = step("remains, held out".to_owned(), "left", 0.0, after, part(after));
+        let mut last = Step::of("remains, held out", "left", after, part(after));
         if !found.findings.is_empty() {
             last.interval = Some(found.shrink.after_ci95());
             last.text = format!("{}, {}", last.text, less(&found.shrink));
@@ -225,9 +223,6 @@ impl Log<'_> {
 
     fn findings(&self) -> Option<Block> {
         let found = self.found;
-        if found.findings.is_empty() {
-            return None;
-        }
         let more = |a: &Alternative| format!("leaves {} more", percent(a.left.size() - 1.0));
         let [whole, _] = left(&found.gap);
         let one = |number, f: &Finding| super::Finding {
@@ -239,29 +234,8 @@ impl Log<'_> {
             parameters: f.parameters.iter().map(parameter).collect(),
             ..super::Finding::of(number, f, whole, more)
         };
-        Some(Block::Section {
-            heading: "Findings".to_owned(),
-            remark: format!("in order of addition; mean {} of the joints, held out", self.error()),
-            blocks: vec![
-                block(&found.findings, one, part),
-                Block::Page(vec![Block::Csv("findings.parameters")]),
-            ],
-        })
-    }
-
-    /// What only a page has room for.
-    fn details(&self) -> Vec<Block> {
-        vec![
-            Block::section("Each joint", vec![figure::joints(self.is_torque())]),
-            Block::section(
-                "How it was computed",
-                vec![
-                    Block::Paragraph(METHOD.to_owned()),
-                    Block::Facts(self.settings()),
-                    Block::Json,
-                ],
-            ),
-        ]
+        let remark = format!("in order of addition; mean {} of the joints, held out", self.error());
+        explained(&found.findings, remark, one, part, &["findings.parameters"])
     }
 
     fn settings(&self) -> Vec<(&'static str, String)> {

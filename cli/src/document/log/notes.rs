@@ -28,18 +28,16 @@ impl Log<'_> {
                 short(longest)
             ),
         };
-        let note = |name, lines: Vec<String>, most| {
-            (!lines.is_empty()).then_some(Block::Note { name, lines, most })
-        };
         let hidden = self.hidden();
         let most = hidden.len();
-        let remarks = note("Rows", found.remarks.clone(), 0).map(|note| Block::Page(vec![note]));
+        let remarks =
+            Block::notes("Rows", found.remarks.clone(), 0).map(|note| Block::Page(vec![note]));
         let notes = [
             Block::note("Co-estimated", rigid),
             Block::note("Too short", short),
             Block::note("Commands", self.by_command().unwrap_or_default()),
-            note("Unexplained", self.unexplained(), MOST),
-            note("Unobservable", hidden, most),
+            Block::notes("Unexplained", self.unexplained(), MOST),
+            Block::notes("Unobservable", hidden, most),
             remarks,
         ];
         notes.into_iter().flatten().collect()

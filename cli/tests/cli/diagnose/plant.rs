@@ -1,65 +1,40 @@
 //! Diagnoses of plants: arms with effects that only the test knows.
 
 use serde_json::Value;
+use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
+use stiffarm_kernels::generic::Arm;
 
-use super::{flat, line};
-use crate::support::{Folder, stiffarm, text};
+use super::line;
+use crate::support::{Folder, flat, json, number, stiffarm, text};
 
-const ROBOT: &str = r#"
-name = "shoulder and elbow"
-convention = "standard"
-[[joint]]
-type = "revolute"
-d = 0.4
-alpha = "pi/2"
-stiffness = 4e5
-mass = 30.0
-com = [0.0, -0.2, 0.0]
-[[joint]]
-type = "revolute"
-theta = "-pi/2"
-a = 0.7
-mass = 20.0
-com = [-0.35, 0.0, 0.0]
-[[joint]]
-type = "revolute"
-a = 0.6
-d = 0.1
-alpha = "-pi/2"
-stiffness = 3e5
-mass = 8.0
-com = [-0.3, 0.0, 0.0]
-[tool]
-translation = [0.05, 0.0, 0.15]
-rotation = [0.0, 0.0, "pi/4"]
-"#;
+const ROBOT: &str = include_str!("shoulder.toml");
 
-pub(super) const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
-pub(super) const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
-pub(super) const SLACK: &str = "backlash@joint 3=0.5 mrad";
+pub const SPRING: &str = "joint_compliance@joint 2=6e-6 rad/(N·m)";
+pub const ZERO: &str = "joint_offset@joint 3=0.8 mrad";
+pub const SLACK: &str = "backlash@joint 3=0.5 mrad";
 
 /// A folder with the robot file, and measurements of it.
-pub(super) struct Bench {
-    pub(super) folder: Folder,
-    pub(super) robot: String,
+pub struct Bench {
+    pub folder: Folder,
+    pub robot: String,
 }
 
 impl Bench {
-    pub(super) fn new() -> Bench {
+    pub fn new() -> Bench {
         let folder = Folder::new();
         let robot = folder.file("arm.toml", ROBOT);
         Bench { folder, robot }
     }
 
-    pub(super) fn path(&self, name: &str) -> String {
+    pub fn path(&self, name: &str) -> String {
         text(&self.folder.path(name))
     }
 
     /// By the command itself.
-    pub(super) fn simulated(&self, name: &str, extra: &[&str]) -> String {
+    pub fn simulated(&self, name: &str, extra: &[&str]) -> String {
         let path = self.path(name);
         let arguments = ["simulate", &self.robot, "--poses", "20", "--csv", &path];
         stiffarm(&[&arguments[..], extra].concat()).good();
@@ -67,10 +42,8 @@ impl Bench {
     }
 
     /// By a plant with these truths.
-    fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
-        let (robot, _) =
-            stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
+    pub fn measured(&self, name: &str, truths: &[&str], seed: u64, unknown_frames: bool) -> String {
+        let arm = arm();
         let truths: Vec<Truth> =
             truths.iter().map(|t| Truth::parse(t, &arm).expect("an effect of this arm")).collect();
         let design = Design {
@@ -96,8 +69,14 @@ impl Bench {
 
     fn json(&self, robot: &str, data: &str, extra: &[&str]) -> Value {
         let out = self.diagnose(robot, data, &[extra, &["--json", "-"]].concat());
-        serde_json::from_str(&out).expect("JSON")
+        json(&out)
     }
+}
+
+/// The arm of the robot file.
+fn arm() -> Arm {
+    let (robot, _) = Robot::from_toml(ROBOT, "arm").expect("a robot file");
+    stiffarm_gap::robot::arm(&robot).expect("with numbers")
 }
 
 /// `effect at place`, in order.
@@ -108,10 +87,6 @@ fn findings(found: &Value) -> Vec<String> {
         format!("{} at {}", word("effect"), word("place"))
     };
     all.iter().map(name).collect()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 #[test]
@@ -309,65 +284,18 @@ fn the_rows_that_were_fitted_are_known_again() {
 fn what_is_usual_may_be_told() {
     let bench = Bench::new();
     let run = bench.measured("run.csv", &[SPRING], 6, false);
-    let named = |extra: &[&str]| {
-        let found = bench.json(&bench.robot, &run, extra);
-        let first = &found["findings"][0];
-        format!("{} at {}", first["effect"].as_str().unwrap(), first["place"].as_str().unwrap())
-    };
+    let named = |extra: &[&str]| findings(&bench.json(&bench.robot, &run, extra))[0].clone();
     let usual = named(&[]);
     // Nobody who knows that joints are a million times stiffer than that believes in a spring.
     let told = named(&["--usual", "joint_compliance=1e-14"]);
     assert!(usual.starts_with("joint_compliance") && !told.starts_with("joint_compliance"));
-    let all = ["diagnose", &bench.robot, &run, "--usual", "joint_compliance=1 mm"];
-    let err = stiffarm(&all).refused();
-    assert!(err.contains("found the prior `joint_compliance=1 mm`"), "{err}");
-}
-
-#[test]
-fn the_same_files_give_the_same_bytes() {
-    let bench = Bench::new();
-    let run = bench.measured("run.csv", &[SPRING, ZERO], 8, true);
-    let frames = ["--nuisance", "tool_frame,base_frame", "--check", &run, "--json", "-"];
-    let first = bench.diagnose(&bench.robot, &run, &frames);
-    assert_eq!(bench.diagnose(&bench.robot, &run, &frames), first);
-    let screen = bench.diagnose(&bench.robot, &run, &frames[..4]);
-    assert_eq!(bench.diagnose(&bench.robot, &run, &frames[..4]), screen);
-}
-
-#[test]
-fn what_cannot_be_is_refused_and_nothing_written() {
-    let bench = Bench::new();
-    let run = bench.measured("run.csv", &[SPRING], 9, false);
-    let out = bench.path("out.toml");
-    let refused = |extra: &[&str], expected: &str| {
-        let all = [&["diagnose", &bench.robot, &run, "--write-robot", &out], extra].concat();
-        let err = stiffarm(&all).refused();
-        assert!(err.contains(expected), "{err}");
-    };
-    refused(
-        &["--nuisance", "base_fram"],
-        "expected base_frame, tool_frame or geometry; did you mean",
-    );
-    refused(&["--effects", "backlosh"], "did you mean `backlash`?");
-    refused(&["--effects", "x"], "expected one of joint_offset, joint_compliance, backlash");
-    refused(&["--check", "no.csv"], "cannot read no.csv: no such file");
-    refused(&["--json", "-", "--report", "-"], "--json and --report cannot both go to");
-    let marked = "q1,q2,q3,marker,x,y,z\n0,0,0,smr,1,0,0\n0,0,1,smr,1,0,0\n";
-    let marked = bench.folder.file("marked.csv", marked);
-    refused(&["--check", &marked], "smr");
-    let arguments = ["diagnose", &bench.robot, &run, "--json", "-", "--write-robot", "-"];
-    let err = stiffarm(&arguments).refused();
-    assert!(err.contains("--write-robot and --json cannot both go to standard output"), "{err}");
-    assert_eq!(bench.folder.names(), ["arm.toml", "marked.csv", "run.csv"]);
 }
 
 #[test]
 fn a_marker_without_a_place_is_fitted() {
     let folder = Folder::new();
     let robot = folder.file("arm.toml", format!("{ROBOT}\n[[marker]]\nname = \"smr\"\n"));
-    let (robot_read, _) =
-        stiffarm_codegen::robot::Robot::from_toml(ROBOT, "arm").expect("a robot file");
-    let arm = stiffarm_gap::robot::arm(&robot_read).expect("with numbers");
+    let arm = arm();
     // The marker stands at (40, −10, 25) mm of the tool; the arm is as its file says.
     let marker = nalgebra::Point3::new(0.04, -0.01, 0.025);
     let mut rows = "marker,q1,q2,q3,x[mm],y[mm],z[mm]\n".to_owned();

@@ -25,8 +25,7 @@ fn a_panda_is_calibrated_by_sockets() {
                     .map(|name| file(&name));
             let sockets = ["--bench", &bench, "--nuisance", "tool_frame", "--check", &check];
             let run = [&["diagnose", "panda", &data], &sockets[..], &["--quiet", "--json", "-"]];
-            let run = stiffarm(&run.concat()).good();
-            let found: Value = serde_json::from_str(&run).expect("JSON");
+            let found = stiffarm(&run.concat()).json();
             let held_out = &found["gap"]["after"];
             let gap = if at == other { held_out } else { &found["check"]["all"][1] };
             let rms = 1e3 * gap["position_rms"].as_f64().expect("a number");

@@ -3,7 +3,7 @@
 use std::process::Command;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, read, stiffarm, text};
+use crate::support::{Folder, read, stiffarm, words};
 
 /// A servo that comes 50 ms late.
 fn servo(rows: &str) -> String {
@@ -30,7 +30,7 @@ fn every_command_of_the_guide_runs() {
         folder.file(name, part(&lines[2000 * k..2000 * (k + 1)]));
     }
     folder.file("servo.csv", servo(&all));
-    let [arm, campaign] = ["arm.toml", "campaign.csv"].map(|name| text(&folder.path(name)));
+    let [arm, campaign] = ["arm.toml", "campaign.csv"].map(|name| folder.name(name));
     let spring = "joint_compliance@joint 1=1e-5";
     stiffarm(&["simulate", &arm, "--csv", &campaign, "--payload", "5kg", "--effect", spring])
         .good();
@@ -40,15 +40,8 @@ fn every_command_of_the_guide_runs() {
     let commands: Vec<&str> = blocks.flat_map(str::lines).collect();
     assert!(commands.len() > 8, "{commands:?}");
     for command in commands {
-        // What stands in quotes is one word.
-        let parts = command.split('\'').enumerate();
-        let words = parts.flat_map(|(k, part)| match k % 2 {
-            0 => part.split_whitespace().collect(),
-            _ => vec![part],
-        });
-        let words = words.skip(1);
         let run = Command::new(env!("CARGO_BIN_EXE_stiffarm"))
-            .args(words)
+            .args(&words(command)[1..])
             .current_dir(folder.path(""))
             .output()
             .expect("the binary runs");

@@ -13,9 +13,7 @@ fn data(name: &str) -> String {
 }
 
 fn diagnosed(arguments: &[&str]) -> Value {
-    let run = stiffarm(&[&["diagnose"], arguments, &["--quiet", "--json", "-"]].concat());
-    assert_eq!(run.status, 0, "{}", run.err);
-    serde_json::from_str(&run.out).expect("JSON")
+    stiffarm(&[&["diagnose"], arguments, &["--quiet", "--json", "-"]].concat()).json()
 }
 
 /// The numbers of an effect at a place.

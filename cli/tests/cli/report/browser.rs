@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::support::{Folder, text};
+use crate::support::Folder;
 
 /// Stands before everything: what goes wrong is kept.
 const WATCH: &str = r#"<script>
@@ -113,7 +113,7 @@ fn visited(folder: &Folder, page: &str, script: &str) -> Value {
     let page = page.replacen("<head>", &format!("<head>{WATCH}"), 1);
     let page = page.replacen("</body>", &format!("{script}</body>"), 1);
     let file = folder.file("visited.html", page);
-    let profile = text(&folder.path("profile"));
+    let profile = folder.name("profile");
     let output = ["chromium", "chromium-browser"].into_iter().find_map(|name| {
         let mut chromium = Command::new(name);
         chromium.args([

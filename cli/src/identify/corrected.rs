@@ -5,6 +5,7 @@ use stiffarm_codegen::robot::{Robot, Value};
 use stiffarm_gap::effects::{BaseCompliance, Known, Place, RobotFile, Spot};
 use stiffarm_gap::identify::measured::{Answer, Parameter, Unknown};
 
+use crate::diagnose::commented;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 
@@ -53,12 +54,7 @@ pub fn robot(source: &Source, answer: &Answer, data: &str) -> Result<String, Fai
         }
     }
     let robot = on_its_foundation(robot, source, answer)?;
-    let plain = |remark: &String| {
-        let line: String = remark.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        format!("# {line}\n")
-    };
-    let head: String = remarks.iter().map(plain).collect();
-    Ok(format!("{head}\n{}", robot.to_toml()))
+    Ok(commented(remarks, &robot))
 }
 
 /// Where the file has it.
